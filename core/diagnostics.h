@@ -1,0 +1,72 @@
+// Diagnostics: what is wrong with a user's text, as values.
+//
+// Stages of the front end add to a Diagnostics and go on; nothing is printed by them. One file,
+// render_diagnostics.cpp, knows what a message looks like.
+#pragma once
+
+#include "core/source.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+enum class Severity { error, warning };
+
+/// A second place, or a remark without a place, that explains a diagnostic.
+struct Note {
+    std::optional<Span> span;
+    std::string message;
+};
+
+/// One fault. `message` is a clause without a full stop; `hint` says what to write instead (may be
+/// empty) and is drawn behind the underlined words.
+struct Diagnostic {
+    Severity severity = Severity::error;
+    Span span;
+    std::string message;
+    std::string hint;
+    std::vector<Note> notes;
+};
+
+/// Collects the diagnostics of one program. The same message at the same place is kept once.
+class Diagnostics {
+public:
+    void error(Span span, std::string message, std::string hint = "");
+    void warning(Span span, std::string message, std::string hint = "");
+    void add(Diagnostic diagnostic);
+
+    bool has_errors() const { return error_count_ > 0; }
+    bool empty() const { return list_.empty(); }
+    std::size_t error_count() const { return error_count_; }
+
+    /// In order of source and position, as a reader meets them.
+    std::vector<Diagnostic> sorted() const;
+
+private:
+    std::vector<Diagnostic> list_;
+    std::size_t error_count_ = 0;
+};
+
+struct RenderStyle {
+    bool colour = false;         ///< ANSI colours, for a terminal.
+    std::size_t most = 50;       ///< So many diagnostics are drawn; the rest is counted in a line.
+};
+
+/// Draws one diagnostic:
+///
+///     leopard.cascade:17:13: error: 'betta' is not a parameter of turing_spots
+///        17 |       beta: betta
+///           |             ^~~~~ did you mean 'beta'?
+///     note: bare names read the previous stage 'large' (turing_spots: a, b, beta)
+///
+/// Long lines are cut around the span, control characters are replaced, tabs keep their width.
+std::string render(const Diagnostic& diagnostic, const Sources& sources, const RenderStyle& style);
+
+/// Draws all of them in order, each ending in a line end.
+std::string render(const Diagnostics& diagnostics, const Sources& sources,
+                   const RenderStyle& style);
+
+}  // namespace cascade

@@ -1,0 +1,27 @@
+// Files: whole reads and atomic writes with clear reasons for failure.
+#pragma once
+
+#include "core/result.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace cascade {
+
+/// The whole file. Fails on a directory, a missing or unreadable file, one above `largest` bytes
+/// (the size is looked at before reading).
+Result<std::string> read_file(const std::filesystem::path& path, std::uint64_t largest);
+
+/// Writes beside the target and renames over it, so that no half-written file is ever seen; the
+/// temporary file is removed on failure. A full disk is a Failure.
+Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Can a file of this path be written? Looks without leaving anything behind: the folder exists and
+/// is writable, the path is no directory.
+Result<void> check_writable(const std::filesystem::path& path);
+
+}  // namespace cascade

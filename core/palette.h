@@ -1,0 +1,29 @@
+// Named colour maps: greys, perceptual maps, and coats of animals.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+namespace cascade {
+
+/// Red, green, blue as stored in a picture (sRGB), each 0 … 1.
+using Colour = std::array<float, 3>;
+
+/// Colours at equal distances from 0 to 1; between them colour is linear in sRGB.
+struct Palette {
+    std::string_view name;
+    std::string_view description;  ///< For `--help` and the spec.
+    std::span<const Colour> stops; ///< At least two.
+};
+
+/// All palettes, "grey" first.
+std::span<const Palette> palettes();
+
+/// By name; nullptr where there is none.
+const Palette* find_palette(std::string_view name);
+
+/// The colour at `position`, clamped to 0 … 1; NaN gives magenta.
+Colour colour_at(const Palette& palette, double position);
+
+}  // namespace cascade

@@ -1,0 +1,69 @@
+// A plane of values, one per cell of a grid, with a halo.
+#pragma once
+
+#include "core/grid.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <new>
+
+namespace cascade {
+
+/// Owns one value per cell in the layout of PlaneLayout, aligned to 64 bytes and zero at first.
+/// Movable; a copy is made only when asked for by clone().
+template <typename T>
+class Plane {
+public:
+    Plane() = default;
+    explicit Plane(const PlaneLayout& layout)
+        : layout_(layout),
+          data_(static_cast<T*>(::operator new(bytes(layout), std::align_val_t{64}))) {
+        std::memset(data_.get(), 0, bytes(layout));
+    }
+
+    bool empty() const { return !data_; }
+    const PlaneLayout& layout() const { return layout_; }
+
+    /// Address of cell (0, 0); cell (i, j) is at `origin() + j * layout().stride + i`.
+    T* origin() { return data_.get() + layout_.offset(0, 0); }
+    const T* origin() const { return data_.get() + layout_.offset(0, 0); }
+    T* row(std::int64_t j) { return origin() + j * layout_.stride; }
+    const T* row(std::int64_t j) const { return origin() + j * layout_.stride; }
+    T& at(std::int64_t i, std::int64_t j) { return row(j)[i]; }
+    T at(std::int64_t i, std::int64_t j) const { return row(j)[i]; }
+
+    Plane clone() const {
+        Plane copy(layout_);
+        if (data_) std::memcpy(copy.data_.get(), data_.get(), bytes(layout_));
+        return copy;
+    }
+
+    static std::size_t bytes(const PlaneLayout& layout) {
+        return static_cast<std::size_t>(layout.size()) * sizeof(T);
+    }
+
+private:
+    struct Free {
+        void operator()(T* data) const { ::operator delete(data, std::align_val_t{64}); }
+    };
+    PlaneLayout layout_;
+    std::unique_ptr<T[], Free> data_;
+};
+
+using Field = Plane<float>;         ///< A species, or a parameter that varies over the surface.
+using Mask = Plane<std::uint8_t>;   ///< 1 where a cell is frozen, else 0.
+
+/// Fills the halo of a field: rows −1 and height, columns −1 and width, by the grid's boundary.
+/// Corners are left alone: no stencil reads them.
+void fill_halo(float* origin, const PlaneLayout& layout, Boundary boundary);
+
+/// The same for the columns of rows [begin, end) only, so that threads can share the work.
+void fill_halo_columns(float* origin, const PlaneLayout& layout, Boundary boundary,
+                       std::int64_t begin, std::int64_t end);
+
+/// The same for rows −1 and height only (cells 0 … width − 1 of them).
+void fill_halo_rows(float* origin, const PlaneLayout& layout, Boundary boundary);
+
+}  // namespace cascade

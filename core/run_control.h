@@ -1,0 +1,32 @@
+// What a run tells its caller while it goes on, and how the caller stops it.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace cascade {
+
+/// How far a stage is. Sent now and then (some ten times a second), and at a stage's end.
+struct Progress {
+    std::string stage;           ///< The stage's name.
+    int stage_number = 1;        ///< From 1.
+    int stage_count = 1;
+    std::int64_t step = 0;       ///< Complete steps of this stage.
+    std::int64_t steps = 0;      ///< Steps this stage will take.
+    double steps_per_second = 0; ///< Recent rate; 0 while unknown.
+    double seconds_left = -1;    ///< Of this stage at that rate; negative while unknown.
+    bool stage_done = false;
+};
+
+/// Shared between a run and whoever watches it. `cancel` may be set from a signal handler or from
+/// another thread: the run ends at the next complete step.
+struct RunControl {
+    std::atomic<bool> cancel{false};
+    std::function<void(const Progress&)> report;
+    /// Remarks that do not stop the run (the chequerboard warning, a kernel that is interpreted).
+    std::function<void(const std::string& message)> warn;
+};
+
+}  // namespace cascade

@@ -1,0 +1,49 @@
+// The contract between kernels and what executes them.
+//
+// Backends: ir/interpreter.h (blocks of cells; the oracle), jit/jit.h (native code by LLVM). Both give the
+// same bits for the same kernel and arguments.
+#pragma once
+
+#include "core/grid.h"
+#include "core/parallel.h"
+#include "core/result.h"
+#include "ir/cell_kernel.h"
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+namespace cascade {
+
+/// Where a kernel finds and puts its values. Pointers are to cell (0, 0) of planes of one layout;
+/// a field read by `laplacian` has its halo filled. Outputs overlap nothing else. A kernel may
+/// write any values into an output row beyond its last cell, up to the next multiple of
+/// PlaneLayout::row_pad (so halo column `width` may hold garbage afterwards); cells of
+/// other rows and columns < 0 never.
+struct KernelArguments {
+    std::span<const float* const> fields;         ///< One per field slot.
+    std::span<const std::uint8_t* const> masks;   ///< One per mask slot.
+    std::span<const float> uniforms;              ///< One per uniform slot.
+    std::span<float* const> results;              ///< One per result.
+    PlaneLayout layout;
+};
+
+/// A kernel ready to run. Immutable and safe to run on several threads at once, each on its own
+/// rows, inside a FlushDenormals.
+class Kernel {
+public:
+    virtual ~Kernel() = default;
+    virtual void run(const KernelArguments& arguments, RowRange rows) const = 0;
+};
+
+using KernelPointer = std::shared_ptr<const Kernel>;
+
+/// Makes kernels runnable. Keeps what it made: compiling an equal kernel again costs a look-up.
+class Backend {
+public:
+    virtual ~Backend() = default;
+    virtual std::string_view name() const = 0;  ///< "interp" or "jit".
+    virtual Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) = 0;
+};
+
+}  // namespace cascade

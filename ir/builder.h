@@ -1,0 +1,86 @@
+// Builds cell kernels. Every method returns the value of an instruction that is new or was there
+// already: the builder folds constants (in the spec's environment, with the interpreter's own
+// evaluation of an operation) and value-numbers, so an unsimplified kernel never exists.
+//
+// Only identities that hold for every word are used (select of equal branches or of a constant
+// condition; x * 1 and x + 0 are NOT among them: they flush denormals and lose −0).
+//
+// Elementary functions are expanded here into table operations, so that every executor computes
+// the same bits (ir/elementary.cpp; their accuracy is stated there and in spec/numerics.md).
+#pragma once
+
+#include "ir/cell_kernel.h"
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+
+namespace cascade {
+
+class KernelBuilder {
+public:
+    // Sources. A slot is made at its first use; the same name gives the same slot.
+    ValueId number(float value);             ///< Denormals become zero.
+    ValueId word(std::uint32_t bits);
+    std::uint32_t field_slot(const std::string& name);
+    std::uint32_t mask_slot(const std::string& name);
+    std::uint32_t uniform_slot(const std::string& name);
+    ValueId field(std::uint32_t slot);
+    ValueId laplacian(std::uint32_t slot);
+    ValueId mask(std::uint32_t slot);
+    ValueId uniform(std::uint32_t slot);
+    ValueId cell_column();
+    ValueId cell_row();
+
+    /// Any operation of the table without payload, by its operands.
+    ValueId apply(Op op, ValueId a);
+    ValueId apply(Op op, ValueId a, ValueId b);
+    ValueId select(ValueId condition, ValueId then, ValueId otherwise);
+
+    ValueId add(ValueId a, ValueId b) { return apply(Op::add, a, b); }
+    ValueId subtract(ValueId a, ValueId b) { return apply(Op::subtract, a, b); }
+    ValueId multiply(ValueId a, ValueId b) { return apply(Op::multiply, a, b); }
+    ValueId divide(ValueId a, ValueId b) { return apply(Op::divide, a, b); }
+
+    // Composed operations. `minimum` and `maximum` pass NaN on: a if a is NaN, else b if b is NaN,
+    // else the smaller (larger), b when equal. `clamp_below(x, bound)` is bound where x < bound,
+    // else x (so NaN stays NaN): an invariant x >= bound. `clamp_above` likewise.
+    ValueId minimum(ValueId a, ValueId b);
+    ValueId maximum(ValueId a, ValueId b);
+    ValueId clamp_below(ValueId x, ValueId bound);
+    ValueId clamp_above(ValueId x, ValueId bound);
+
+    // Elementary functions (ir/elementary.cpp).
+    ValueId exponential(ValueId x);
+    ValueId logarithm(ValueId x);
+    ValueId sine(ValueId x);
+    ValueId cosine(ValueId x);
+    ValueId hyperbolic_tangent(ValueId x);
+    /// x^y. A constant integer y of at most 64 in magnitude becomes multiplications by repeated
+    /// squaring (the order is in the spec), 1/x^n for negative ones; others go through log and exp.
+    ValueId power(ValueId x, ValueId y);
+
+    // Random numbers (ir/random_numbers.cpp).
+    /// Uniform in (−1, 1), symmetric, 2^24 different values: a pure function of the cell, the
+    /// `draw` word (which step, or 0) and the 64-bit `key` (seed, stage, parameter, occurrence).
+    ValueId random_symmetric(ValueId draw, std::uint64_t key);
+
+    /// Appends an output.
+    void result(const std::string& name, ValueId value);
+
+    /// The finished kernel: instructions that no result needs are dropped, slots are kept.
+    CellKernel finish() &&;
+
+    std::size_t size() const { return kernel_.code.size(); }
+    const Instruction& operator[](ValueId id) const { return kernel_.code[id]; }
+    bool is_constant(ValueId id) const { return kernel_.code[id].op == Op::constant; }
+
+private:
+    ValueId emit(Instruction instruction);
+
+    CellKernel kernel_;
+    std::unordered_map<std::uint64_t, std::vector<ValueId>> numbering_;
+    std::unordered_map<std::string, std::uint32_t> field_slots_, mask_slots_, uniform_slots_;
+};
+
+}  // namespace cascade

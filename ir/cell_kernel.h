@@ -1,0 +1,79 @@
+// Cell kernels: what a stage computes per cell, as one small flat program.
+//
+// A kernel is a list of instructions in static single assignment: an instruction's position is the
+// name of its value, and it reads only values before it. There is no control flow; `select` chooses.
+// Nothing in it knows what a cell's neighbours are (the executor's stencil does) nor where fields
+// lie (KernelArguments does). It cannot fail: users' errors end in lang/.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade {
+
+/// The operations of operations.def.
+enum class Op : std::uint8_t {
+#define CASCADE_OPERATION(name, arity, payload, meaning) name,
+#include "ir/operations.def"
+#undef CASCADE_OPERATION
+};
+
+enum class PayloadKind : std::uint8_t { none, bits, field, mask, uniform };
+
+/// A row of the table.
+struct OpInfo {
+    std::string_view name;
+    int arity;
+    PayloadKind payload;
+    std::string_view meaning;
+};
+const OpInfo& info(Op op);
+inline constexpr int op_count = 0
+#define CASCADE_OPERATION(name, arity, payload, meaning) +1
+#include "ir/operations.def"
+#undef CASCADE_OPERATION
+    ;
+
+/// Position of the instruction that computes a value.
+using ValueId = std::uint32_t;
+
+struct Instruction {
+    Op op = Op::constant;
+    std::array<ValueId, 3> operands{};  ///< The first `info(op).arity` count; others are 0.
+    std::uint32_t payload = 0;          ///< Bits of a word, or a slot; 0 where there is none.
+
+    friend bool operator==(const Instruction&, const Instruction&) = default;
+};
+
+/// The program of one cell. `results[k]` is the value that is stored in output field k.
+/// The slot names serve dumps and messages; slot numbers are their positions.
+struct CellKernel {
+    std::vector<Instruction> code;
+    std::vector<ValueId> results;
+    std::vector<std::string> field_names;
+    std::vector<std::string> mask_names;
+    std::vector<std::string> uniform_names;
+    std::vector<std::string> result_names;
+
+    /// True if some instruction is a laplacian of this field slot (its halo must be filled).
+    bool reads_neighbours(std::uint32_t field_slot) const;
+};
+
+/// A hash of everything that decides the generated code (not of the names).
+std::uint64_t hash(const CellKernel& kernel);
+
+/// The kernel as text, a value a line: `%7 = multiply %3, %5`. Stable; read by tests and people.
+std::string print(const CellKernel& kernel);
+
+/// Checks that operands come before their users, slots exist, results exist. Returns an empty text
+/// or what is wrong. Tests and debug builds run it behind every stage that makes a kernel.
+std::string verify(const CellKernel& kernel);
+
+/// A number as a word and back.
+std::uint32_t to_bits(float number);
+float to_number(std::uint32_t bits);
+
+}  // namespace cascade

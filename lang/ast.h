@@ -1,0 +1,105 @@
+// The syntax tree: what a script says, before anyone has asked whether it makes sense.
+//
+// Expressions live in one flat list, operands before their operator, so that nothing here is ever
+// walked or destroyed by recursion: a loop over a stretch of the list visits an expression bottom
+// up, however deep or long it is.
+#pragma once
+
+#include "core/source.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace cascade::ast {
+
+/// Position in Script::expressions.
+using ExprId = std::uint32_t;
+
+/// A word of the script, with its place. The view points into the Sources.
+struct Word {
+    Span span;
+    std::string_view text;
+    bool empty() const { return text.empty(); }
+};
+
+struct Number { double value; };
+struct Text { std::string value; };                    ///< "leopard.npy"
+struct Name { std::string_view name; };                ///< p
+struct Bracketed { Word name; };                       ///< [p]
+struct Qualified { Word stage, name; };                ///< large.p
+struct RateOf { Word name; };                          ///< p'
+enum class UnaryOp : std::uint8_t { negate, logical_not };
+struct Unary { UnaryOp op; ExprId operand; };
+enum class BinaryOp : std::uint8_t {
+    logical_or, logical_and,
+    less, less_equal, greater, greater_equal, equal, not_equal,
+    add, subtract, multiply, divide, power,
+};
+struct Binary { BinaryOp op; ExprId left, right; };
+/// Arguments are Script::arguments[first_argument …], in order.
+struct Call { Word function; std::uint32_t first_argument, argument_count; };
+/// What could not be read. A message has been given already; later stages stay silent about it.
+struct Garbage {};
+
+struct Expr {
+    Span span;
+    std::variant<Number, Text, Name, Bracketed, Qualified, RateOf, Unary, Binary, Call, Garbage>
+        node;
+};
+
+/// The stretch [first, root] of Script::expressions: all parts of one expression, `root` last.
+struct Expression {
+    ExprId first = 0;
+    ExprId root = 0;
+};
+
+enum class SentenceKind : std::uint8_t {
+    value,       ///< name: e      (or  name: e, e  in a domain)
+    definition,  ///< name = e
+    rate,        ///< name' = e
+    rate_term,   ///< name' += e
+    at_least,    ///< name >= e
+    at_most,     ///< name <= e
+};
+
+struct Sentence {
+    SentenceKind kind = SentenceKind::value;
+    Word name;
+    std::vector<Expression> values;  ///< At least one.
+    Span span;                       ///< From the name to the end of the last value.
+};
+
+enum class BlockKind : std::uint8_t {
+    system,         ///< system NAME { … }
+    stage,          ///< stage NAME: SYSTEM { … }
+    classic_stage,  ///< system_name: SYSTEM and the sentences behind it
+    domain,         ///< domain { … }
+    picture,        ///< picture { … }
+};
+
+struct Block {
+    BlockKind kind = BlockKind::system;
+    Word keyword;  ///< `system`, `stage`, `system_name`, …: the block's place in messages.
+    Word name;     ///< Of a system or stage; empty for others.
+    Word base;     ///< The stage's system; empty for others.
+    std::vector<Sentence> sentences;
+};
+
+/// A value from outside the script (`--set large.ka=1/400`): it replaces the sentence of that name
+/// in one stage, or, where `stage` is empty, in every stage that has such a name.
+struct Override {
+    Word stage;
+    Sentence sentence;
+};
+
+struct Script {
+    std::vector<Block> blocks;
+    std::vector<Override> overrides;
+    std::vector<Expr> expressions;
+    std::vector<ExprId> arguments;
+};
+
+}  // namespace cascade::ast

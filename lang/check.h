@@ -1,0 +1,39 @@
+// The checker: syntax tree to checked program.
+#pragma once
+
+#include "core/diagnostics.h"
+#include "lang/ast.h"
+#include "lang/program.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace cascade {
+
+/// The systems that come with Cascade, as (file name, text): lang/systems/*.cascade, embedded in
+/// the binary at build time. check() adds them to `sources` and to every program.
+std::span<const std::pair<std::string_view, std::string_view>> built_in_system_texts();
+
+/// Resolves and checks everything. On errors the result is empty and `diagnostics` says why; there
+/// may be warnings beside a result. Does not touch files: the paths in `field("a.npy")` are only
+/// collected. A script without stages is fine here (`systems`, the prompt); run refuses it.
+std::optional<Program> check(const ast::Script& script, Sources& sources,
+                             Diagnostics& diagnostics);
+
+/// Checks an expression for a picture (`--show`, `picture { color: … }`): bare names are items of
+/// `stage`, `[p]` too, `other.p` any stage up to `last_stage`. Texts are added to `program`.
+std::optional<Formula> check_view(const ast::Script& script, ast::Expression expression,
+                                  std::uint32_t stage, std::uint32_t last_stage, Program& program,
+                                  const Sources& sources, Diagnostics& diagnostics);
+
+/// The `color:` sentence of the script's picture block, if it has one.
+std::optional<ast::Expression> picture_expression(const ast::Script& script);
+
+/// All names a user can type at the top of an expression or sentence, for completion.
+std::vector<std::string> known_names(const Program& program);
+
+}  // namespace cascade

@@ -1,0 +1,149 @@
+// The checked program: every name resolved, every argument counted, every order found. What is
+// here makes sense; no user's error is left, later stages only CHECK.
+#pragma once
+
+#include "core/grid.h"
+#include "core/source.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade {
+
+/// The functions and operators of functions.def.
+enum class Function : std::uint8_t {
+#define CASCADE_FUNCTION(id, spelling, arity, places, meaning) id,
+#include "lang/functions.def"
+#undef CASCADE_FUNCTION
+};
+
+enum class Places : std::uint8_t { any, rates, values, noisy, picture };
+
+struct FunctionInfo {
+    std::string_view spelling;
+    int arity;
+    Places places;
+    std::string_view meaning;
+    bool is_operator;   ///< Spelled between or before its operands.
+};
+const FunctionInfo& info(Function function);
+
+/// Values that every expression may read. `pi` is folded into a number.
+enum class Builtin : std::uint8_t { x, y, sx, sy, t, step };
+
+enum class NodeKind : std::uint8_t {
+    number,      ///< `number`
+    text,        ///< Program::texts[index]
+    own,         ///< item `index` of this stage
+    earlier,     ///< item `index` of stage `stage`
+    builtin,     ///< Builtin `index`
+    definition,  ///< definition `index` of the stage's system
+    rate,        ///< rate of species item `index`
+    call,        ///< `function` of `operands`
+};
+
+enum class ValueType : std::uint8_t { number, colour, text };
+
+/// A part of a formula. Operands are positions in the same formula, before this one.
+struct Node {
+    NodeKind kind = NodeKind::number;
+    Function function = Function::add;
+    ValueType type = ValueType::number;
+    Span span;
+    double number = 0;
+    std::uint32_t index = 0;
+    std::uint32_t stage = 0;
+    std::array<std::uint32_t, 4> operands{};
+};
+
+/// A checked expression: parts in order, the whole last. Never empty.
+struct Formula {
+    std::vector<Node> nodes;
+};
+
+/// A species or a parameter of a system.
+struct Quantity {
+    std::string name;
+    Span span;              ///< Where it was declared.
+    bool is_species = false;
+    Formula start;          ///< Default value; its `own` nodes are items of whichever stage.
+};
+
+struct Definition {
+    std::string name;
+    Span span;
+    Formula formula;
+};
+
+struct Invariant {
+    std::uint32_t species = 0;  ///< Item of the species.
+    bool at_least = true;       ///< species >= bound, else species <= bound.
+    Formula bound;              ///< Of numbers and parameters.
+};
+
+/// Settings that a system may give as defaults and a stage may replace.
+struct Settings {
+    std::optional<std::int64_t> iterations;
+    std::optional<std::int64_t> interval;
+    std::optional<Formula> frozen;
+    std::optional<Formula> speed;
+    std::optional<Formula> show;   ///< What a picture of a stage shows by default.
+};
+
+struct System {
+    std::string name;
+    Span span;
+    bool built_in = false;
+    std::vector<Quantity> quantities;      ///< In order of writing.
+    std::vector<Definition> definitions;   ///< Each after those it reads.
+    std::vector<Formula> rates;            ///< One per quantity; empty nodes for parameters.
+    std::vector<std::uint32_t> rate_order; ///< Species items, each after those whose rate it reads.
+    std::vector<Invariant> invariants;
+    Settings settings;
+
+    // A stage's items are its quantities, then `frozen`, then `speed`.
+    std::uint32_t frozen_item() const { return static_cast<std::uint32_t>(quantities.size()); }
+    std::uint32_t speed_item() const { return frozen_item() + 1; }
+    std::uint32_t item_count() const { return frozen_item() + 2; }
+    std::string_view item_name(std::uint32_t item) const;
+    bool is_species(std::uint32_t item) const {
+        return item < quantities.size() && quantities[item].is_species;
+    }
+};
+
+struct Stage {
+    std::string name;       ///< As written, or stage1, stage2, … by position.
+    Span span;
+    std::uint32_t system = 0;
+    std::vector<Formula> items;        ///< Starting value of every item.
+    std::vector<std::uint32_t> order;  ///< Items in an order in which each can be evaluated.
+    std::vector<bool> uniform;         ///< Per item: the same in all cells. Species never are.
+    std::int64_t iterations = 0;
+    std::int64_t interval = 1;
+    Formula show;
+};
+
+struct DomainSettings {
+    Grid grid;                   ///< 64 × 64, periodic, unless said otherwise.
+    std::uint32_t seed = 1;
+    Span grid_span;              ///< For messages about its size; empty when it is the default.
+};
+
+struct Program {
+    std::vector<System> systems;   ///< Built-in ones first.
+    std::vector<Stage> stages;
+    DomainSettings domain;
+    std::vector<std::string> texts;  ///< Texts in quotes: palette names, paths.
+
+    const System& system_of(std::uint32_t stage) const { return systems[stages[stage].system]; }
+};
+
+/// The program as text, for `--dump program`: systems in use, stages, resolved formulas, orders,
+/// what varies.
+std::string print_program(const Program& program);
+
+}  // namespace cascade

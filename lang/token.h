@@ -1,0 +1,71 @@
+// Tokens and the lexer: text to words.
+#pragma once
+
+#include "core/diagnostics.h"
+#include "core/source.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade {
+
+/// CASCADE_TOKEN(name, spelling): the spelling is what messages and `--dump tokens` call it.
+#define CASCADE_TOKENS(CASCADE_TOKEN)                                                     \
+    CASCADE_TOKEN(end_of_text, "end of text")                                             \
+    CASCADE_TOKEN(newline, "line end")                                                    \
+    CASCADE_TOKEN(name, "name")                                                           \
+    CASCADE_TOKEN(number, "number")                                                       \
+    CASCADE_TOKEN(text, "text in quotes")                                                 \
+    CASCADE_TOKEN(garbage, "unreadable characters")                                       \
+    CASCADE_TOKEN(keyword_and, "and")                                                     \
+    CASCADE_TOKEN(keyword_or, "or")                                                       \
+    CASCADE_TOKEN(keyword_not, "not")                                                     \
+    CASCADE_TOKEN(colon, ":")                                                             \
+    CASCADE_TOKEN(semicolon, ";")                                                         \
+    CASCADE_TOKEN(comma, ",")                                                             \
+    CASCADE_TOKEN(dot, ".")                                                               \
+    CASCADE_TOKEN(prime, "'")                                                             \
+    CASCADE_TOKEN(open_round, "(")                                                        \
+    CASCADE_TOKEN(close_round, ")")                                                       \
+    CASCADE_TOKEN(open_square, "[")                                                       \
+    CASCADE_TOKEN(close_square, "]")                                                      \
+    CASCADE_TOKEN(open_curly, "{")                                                        \
+    CASCADE_TOKEN(close_curly, "}")                                                       \
+    CASCADE_TOKEN(assign, "=")                                                            \
+    CASCADE_TOKEN(plus_assign, "+=")                                                      \
+    CASCADE_TOKEN(equal, "==")                                                            \
+    CASCADE_TOKEN(not_equal, "!=")                                                        \
+    CASCADE_TOKEN(less, "<")                                                              \
+    CASCADE_TOKEN(less_equal, "<=")                                                       \
+    CASCADE_TOKEN(greater, ">")                                                           \
+    CASCADE_TOKEN(greater_equal, ">=")                                                    \
+    CASCADE_TOKEN(plus, "+")                                                              \
+    CASCADE_TOKEN(minus, "-")                                                             \
+    CASCADE_TOKEN(star, "*")                                                              \
+    CASCADE_TOKEN(slash, "/")                                                             \
+    CASCADE_TOKEN(caret, "^")
+
+enum class TokenKind : std::uint8_t {
+#define CASCADE_TOKEN(name, spelling) name,
+    CASCADE_TOKENS(CASCADE_TOKEN)
+#undef CASCADE_TOKEN
+};
+
+std::string_view spelling(TokenKind kind);
+
+struct Token {
+    TokenKind kind = TokenKind::end_of_text;
+    Span span;
+};
+
+/// Splits a source into tokens; the last is end_of_text. Every line end is a token (several in a
+/// row are one); comments and blanks are none. Bad input (a stray character, invalid UTF-8, NUL, an
+/// unclosed text, a look-alike such as ’ − × ·) is reported once per run of characters and yields
+/// `garbage`, or for a look-alike the token that was meant, so that one mistake is one message.
+std::vector<Token> lex(SourceId source, const Sources& sources, Diagnostics& diagnostics);
+
+/// The tokens, one a line: `3:5 name "ka"`.
+std::string print_tokens(const std::vector<Token>& tokens, const Sources& sources);
+
+}  // namespace cascade

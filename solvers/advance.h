@@ -1,0 +1,76 @@
+// The time loop of one stage: applies a step kernel again and again.
+//
+// Simultaneous update: a step reads the old fields and writes new ones, then the two change places.
+// Between steps the halo of every species that is read at neighbours is filled. Rows are shared by
+// a team of threads; results do not depend on how many.
+#pragma once
+
+#include "core/parallel.h"
+#include "core/plane.h"
+#include "core/result.h"
+#include "core/run_control.h"
+#include "ir/backend.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// A step kernel with everything its slots need except the species themselves.
+struct StepProblem {
+    /// What a field slot reads: species `species` of the old step, or, where that is −1, a plane
+    /// that does not change (`fixed`, its cell (0, 0)).
+    struct FieldSlot {
+        int species = -1;
+        const float* fixed = nullptr;
+    };
+
+    KernelPointer step;                        ///< Result k is the new value of species k.
+    Grid grid;
+    std::vector<FieldSlot> fields;
+    std::vector<bool> species_needs_halo;      ///< Per species: some slot reads its neighbours.
+    std::vector<const std::uint8_t*> masks;
+    std::vector<float> uniforms;
+    int step_uniform = -1;                     ///< This uniform is the number of complete steps.
+};
+
+/// Which steps to take and how closely to watch them.
+struct Schedule {
+    std::int64_t first_step = 0;      ///< Complete steps so far (more than 0 after a resume).
+    std::int64_t last_step = 0;       ///< Stop when so many are complete.
+    std::int64_t interval = 0;        ///< `observe` is called at multiples of this; 0 for never.
+    std::int64_t check_every = 64;    ///< Steps between two looks for values that are not finite.
+    int threads = 1;
+};
+
+/// The first value that was not finite.
+struct NotFinite {
+    std::size_t species = 0;
+    std::int64_t column = 0, row = 0;
+    std::int64_t step = 0;            ///< It appeared in this step (the first step is 1): exact.
+};
+
+struct StageOutcome {
+    std::int64_t steps = 0;           ///< Complete steps when the loop ended.
+    bool cancelled = false;
+    std::optional<NotFinite> not_finite;
+};
+
+/// Called on the caller's thread with the number of complete steps; the species are as that step
+/// left them. Returns false to end the stage there.
+using Observer = std::function<bool(std::int64_t step, std::span<const Field> species)>;
+
+/// Advances `species` (start values in, last complete step out). Before a step that would leave a
+/// value that is not finite is found, up to `check_every` steps are replayed from a kept copy to
+/// name step and cell; then `species` hold the last step at which all were finite.
+/// `progress` carries the stage's name and numbers; the loop fills in the rest and reports through
+/// `control`. If `control.cancel` is set it ends at the next complete step.
+StageOutcome advance(const StepProblem& problem, const Schedule& schedule,
+                     std::vector<Field>& species, RunControl& control, Progress progress,
+                     const Observer& observe);
+
+}  // namespace cascade
