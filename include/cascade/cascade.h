@@ -1,0 +1,95 @@
+// Cascade as a library: a script becomes a running pattern inside your own program.
+//
+//     cascade::Pattern pattern("system_name: turing_spots\niterations: 6000\nka: 1/80\n");
+//     if (!pattern.ok()) { std::cerr << pattern.messages(); return 2; }
+//     while (!pattern.finished()) pattern.step(100);
+//     std::vector<float> b = pattern.values("b");      // height() rows of width() numbers
+//
+// Link with the CMake target Cascade::cascade. Nothing here throws; nothing prints. A Pattern may
+// be used by one thread at a time, but cancel() may be called from any, or from a signal handler.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#if defined(__GNUC__)
+#define CASCADE_API __attribute__((visibility("default")))
+#else
+#define CASCADE_API
+#endif
+
+namespace cascade {
+
+/// One fault of a script. Lines and columns count from 1.
+struct Message {
+    bool is_error = true;
+    std::string file;
+    int line = 0;
+    int column = 0;
+    std::string text;
+    std::string hint;   ///< What to write instead; may be empty.
+};
+
+/// How a pattern is computed. Results do not depend on any of it.
+struct PatternOptions {
+    bool native_code = true;    ///< Compile the equations; false interprets them.
+    int threads = 0;            ///< 0 uses all the machine has.
+    std::string name = "<script>";  ///< What messages call the script.
+    std::string folder = ".";   ///< Paths in the script are relative to it.
+};
+
+/// A checked script and the state of its run.
+class CASCADE_API Pattern {
+public:
+    /// Parses and checks a script and computes the starting values of its first stage.
+    explicit Pattern(const std::string& script, const PatternOptions& options = {});
+    ~Pattern();
+    Pattern(Pattern&&) noexcept;
+    Pattern& operator=(Pattern&&) noexcept;
+
+    /// False if the script is wrong or the run has failed: see diagnostics(), messages(), error().
+    bool ok() const;
+    /// Faults and warnings of the script, in order of place.
+    std::vector<Message> diagnostics() const;
+    /// The same as text, drawn as the command line draws them.
+    std::string messages() const;
+    /// Why a run failed (values that are not finite, no memory); empty while it has not.
+    std::string error() const;
+
+    std::int64_t width() const;    ///< Columns of the grid; 0 if the script is wrong.
+    std::int64_t height() const;   ///< Rows.
+
+    /// Names of the stages, in order.
+    std::vector<std::string> stages() const;
+    /// Names of the species of a stage; empty for an unknown stage.
+    std::vector<std::string> species(const std::string& stage) const;
+
+    /// Takes up to `count` steps, going on to the next stage where one ends. Returns how many were
+    /// taken: fewer at the end of the last stage, after cancel(), or on failure.
+    std::int64_t step(std::int64_t count);
+    /// True when every stage has taken all its steps.
+    bool finished() const;
+    /// Name of the stage that steps are taken in now (the last one when finished).
+    std::string current_stage() const;
+    /// Complete steps of that stage.
+    std::int64_t steps() const;
+
+    /// The values of an expression over the present state, row by row: a species or parameter of
+    /// the current stage ("b"), of an earlier one ("stage1.b"), or arithmetic ("b - stage1.b").
+    /// Empty if the expression is wrong; error() says why, and the pattern stays ok.
+    std::vector<float> values(const std::string& expression);
+
+    /// Makes a step() that is going on return after the present step. The next step() goes on.
+    void cancel();
+
+private:
+    struct Implementation;
+    std::unique_ptr<Implementation> self_;
+};
+
+/// The library's version, such as "0.1.0".
+CASCADE_API const char* library_version();
+
+}  // namespace cascade

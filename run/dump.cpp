@@ -1,0 +1,73 @@
+#include "run/dump.h"
+
+#include "ir/cell_kernel.h"
+#include "lang/lower.h"
+#include "lang/parse.h"
+#include "lang/token.h"
+#if CASCADE_HAS_JIT
+#include "jit/jit.h"
+#endif
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> kinds = {"tokens", "ast", "program",
+                                                   "ir",     "llvm", "asm"};
+
+std::string dump_tokens(const Script& script) {
+    Diagnostics already_reported;
+    return print_tokens(lex(0, script.sources, already_reported), script.sources);
+}
+
+std::string dump_ir(const Program& program) {
+    std::string text;
+    const auto section = [&](const Stage& stage, std::string_view what, const BoundKernel& bound) {
+        if (bound.kernel.results.empty()) return;
+        text += fmt::format("# stage '{}': {}\n{}\n", stage.name, what, print(bound.kernel));
+    };
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        const Stage& stage = program.stages[k];
+        section(stage, "values that are the same everywhere", lower_uniform_start(program, k));
+        section(stage, "values that vary", lower_cell_start(program, k));
+        section(stage, "one step", lower_step(program, k));
+    }
+    return text;
+}
+
+Result<std::string> dump_code([[maybe_unused]] const Program& program,
+                              [[maybe_unused]] bool assembly) {
+#if CASCADE_HAS_JIT
+    std::string text;
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        const CellKernel kernel = lower_step(program, k).kernel;
+        const Stencil stencil = program.domain.grid.stencil();
+        auto code = assembly ? dump_assembly(kernel, stencil, {}) : dump_llvm(kernel, stencil, {});
+        if (!code) return code;
+        text += fmt::format("{} stage '{}': one step\n{}\n", assembly ? '#' : ';',
+                            program.stages[k].name, *code);
+    }
+    return text;
+#else
+    return failure("this build has no native compiler", "tokens, ast, program and ir can be shown");
+#endif
+}
+
+}  // namespace
+
+std::span<const std::string_view> dump_kinds() { return kinds; }
+
+Result<std::string> dump(const Script& script, std::string_view kind) {
+    if (kind == "tokens") return dump_tokens(script);
+    if (kind == "ast") return print_ast(script.tree, script.sources);
+    if (!script.program) return failure("a wrong script has no program to show");
+    if (kind == "program") return print_program(*script.program);
+    if (kind == "ir") return dump_ir(*script.program);
+    return dump_code(*script.program, kind == "asm");
+}
+
+}  // namespace cascade

@@ -1,0 +1,30 @@
+// Files that a script reads: the arrays of `field("a.npy")`.
+#pragma once
+
+#include "core/plane.h"
+#include "core/result.h"
+#include "run/script.h"
+
+#include <cstdint>
+#include <map>
+
+namespace cascade {
+
+/// Planes by the number of their path in Program::texts.
+class InputFiles {
+public:
+    void add(std::uint32_t text, Field plane) { planes_[text] = std::move(plane); }
+    const Field& plane(std::uint32_t text) const { return planes_.at(text); }
+
+private:
+    std::map<std::uint32_t, Field> planes_;
+};
+
+/// Reads every file that a starting value names, relative to the script's folder. A missing file,
+/// a wrong type or a shape other than the grid's is a diagnostic at the path in the script.
+Result<InputFiles> read_input_files(Script& script);
+
+/// Fails if the fields of all stages would not fit into the machine's free memory.
+Result<void> check_memory(const Program& program);
+
+}  // namespace cascade

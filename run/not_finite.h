@@ -1,0 +1,27 @@
+// Words for runs that blow up, or are about to.
+#pragma once
+
+#include "core/result.h"
+#include "solvers/advance.h"
+#include "solvers/stability.h"
+
+#include <string>
+
+namespace cascade {
+
+struct NotFiniteReport {
+    std::string stage, system, species;
+    NotFinite found;
+    double speed = 0;                      ///< NaN where it varies by cell.
+    StabilityEstimate estimate_before;     ///< At the last finite state.
+    StabilityEstimate estimate_at_start;   ///< At the stage's starting values.
+};
+
+/// Which stage, species, cell and step, and the largest stable speed where the step is to blame.
+Failure describe(const NotFiniteReport& report);
+
+/// The warning about neighbours that alternate.
+std::string describe_chequerboard(const std::string& stage, const std::string& species,
+                                  const StabilityEstimate& estimate, double speed);
+
+}  // namespace cascade

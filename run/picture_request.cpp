@@ -1,0 +1,130 @@
+#include "run/picture_request.h"
+
+#include "core/near_name.h"
+#include "lang/check.h"
+#include "lang/parse.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace cascade {
+
+std::string to_json(const PictureRequest& request) {
+    nlohmann::json json = {{"palette", request.palette},
+                           {"scale", request.scale},
+                           {"depth", request.depth},
+                           {"space_time", request.space_time}};
+    if (!request.show.empty()) json["show"] = request.show;
+    if (request.range) json["range"] = {request.range->low, request.range->high};
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+Result<PictureRequest> picture_request_from_json(const std::string& text) {
+    // The library reports by exception; none leaves this function.
+    try {
+        const auto json = nlohmann::json::parse(text);
+        PictureRequest request;
+        request.palette = json.value("palette", request.palette);
+        request.scale = json.value("scale", request.scale);
+        request.depth = json.value("depth", request.depth);
+        request.space_time = json.value("space_time", request.space_time);
+        request.show = json.value("show", request.show);
+        if (json.contains("range")) {
+            request.range = ValueRange{json.at("range").at(0).get<float>(),
+                                       json.at("range").at(1).get<float>()};
+        }
+        if (request.scale < 1 || request.scale > 64 || (request.depth != 8 && request.depth != 16)) {
+            return failure("the stored picture options make no sense");
+        }
+        return request;
+    } catch (const nlohmann::json::exception& error) {
+        return failure(fmt::format("the stored picture options cannot be read ({})", error.what()));
+    }
+}
+
+Result<Painter> Painter::create(Script& script, const PictureRequest& request) {
+    Painter painter;
+    painter.script_ = &script;
+    painter.request_ = request;
+    painter.palette_ = find_palette(request.palette);
+    if (!painter.palette_) {
+        std::vector<std::string> names;
+        for (const Palette& palette : palettes()) names.emplace_back(palette.name);
+        const std::string near = nearest_name(request.palette, names);
+        return failure(fmt::format("there is no palette '{}'", request.palette),
+                       near.empty() ? fmt::format("the palettes are {}", fmt::join(names, ", "))
+                                    : fmt::format("did you mean '{}'?", near));
+    }
+    if (request.show.empty()) return painter;
+
+    const SourceId source = script.sources.add("<--show>", request.show);
+    painter.show_ =
+        parse_expression(source, script.sources, script.tree, script.diagnostics);
+    if (painter.show_) {
+        check_view(script.tree, *painter.show_, script.final_stage(), script.stage_count() - 1,
+                   *script.program, script.sources, script.diagnostics);
+    }
+    if (script.diagnostics.has_errors()) return failure("the expression of --show is wrong");
+    return painter;
+}
+
+std::optional<Formula> Painter::formula_for(std::uint32_t stage, std::uint32_t last_stage) {
+    const auto expression = show_ ? show_ : picture_expression(script_->tree);
+    if (!expression) return std::nullopt;
+    // Faults were reported when the script was loaded; here a name may just not have a value yet.
+    Diagnostics unspoken;
+    return check_view(script_->tree, *expression, stage, last_stage, *script_->program,
+                      script_->sources, unspoken);
+}
+
+Canvas Painter::canvas(const Simulation& simulation) {
+    const std::uint32_t stage = simulation.shown_stage().value_or(0);
+    std::uint32_t last_stage = stage;
+    while (last_stage + 1 < simulation.program().stages.size() &&
+           simulation.state(last_stage + 1).started) {
+        ++last_stage;
+    }
+    const bool asked = show_ || picture_expression(script_->tree);
+    if (const auto formula = formula_for(stage, last_stage)) {
+        return {simulation.evaluate(*formula, stage)};
+    }
+    fell_back_ = fell_back_ || asked;
+    return {simulation.evaluate(simulation.program().stages[stage].show, stage)};
+}
+
+Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) const {
+    if (canvas.is_colour()) {
+        return enlarge(paint(canvas.fields[0], canvas.fields[1], canvas.fields[2]),
+                       request_.scale);
+    }
+    const ValueRange used =
+        request_.range ? *request_.range : range ? *range : value_range(canvas.fields[0]);
+    return enlarge(paint(canvas.fields[0], used, *palette_), request_.scale);
+}
+
+Image draw_sheet(const Simulation& simulation, const PictureRequest& request) {
+    const Program& program = simulation.program();
+    const Palette& palette = *find_palette(request.palette);
+    std::vector<Panel> panels;
+    std::size_t columns = 1;
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        if (!simulation.state(k).started) continue;
+        const System& system = program.system_of(k);
+        std::size_t in_stage = 0;
+        for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+            if (!system.is_species(item)) continue;
+            const Field& field = simulation.state(k).field(item);
+            const ValueRange range = request.range.value_or(value_range(field));
+            panels.push_back({fmt::format("{}.{} {:.4g}..{:.4g}", program.stages[k].name,
+                                          system.item_name(item), range.low, range.high),
+                              enlarge(paint(field, range, palette), request.scale)});
+            ++in_stage;
+        }
+        columns = std::max(columns, in_stage);
+    }
+    return make_sheet(panels, static_cast<int>(columns));
+}
+
+}  // namespace cascade

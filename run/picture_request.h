@@ -1,0 +1,61 @@
+// What a picture shows and how it is drawn.
+#pragma once
+
+#include "core/result.h"
+#include "picture/image.h"
+#include "run/simulation.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// Options of `cascade run` that decide a picture's looks. They travel inside the picture.
+struct PictureRequest {
+    std::string show;                  ///< An expression; "" is the picture block or the default.
+    std::string palette = "grey";
+    std::optional<ValueRange> range;   ///< Empty: from the values.
+    int scale = 1;                     ///< Pixels per cell.
+    int depth = 8;                     ///< Bits: 8 or 16.
+    bool space_time = false;           ///< 1-D grids: a row of pixels per interval.
+};
+
+std::string to_json(const PictureRequest& request);
+Result<PictureRequest> picture_request_from_json(const std::string& json);
+
+/// Values to be painted: one field through the palette, or red, green and blue.
+struct Canvas {
+    std::vector<Field> fields;
+    bool is_colour() const { return fields.size() == 3; }
+};
+
+/// Computes what the request shows, for whatever stage the simulation has reached.
+class Painter {
+public:
+    /// Checks `show` and the palette; faults of `show` go to `script.diagnostics`.
+    static Result<Painter> create(Script& script, const PictureRequest& request);
+
+    /// The values to show now. Where the picture block names a stage that has not run, the default
+    /// is computed, and `fell_back()` is true from then on.
+    Canvas canvas(const Simulation& simulation);
+    bool fell_back() const { return fell_back_; }
+
+    /// The canvas as an image, enlarged. `range` overrides the automatic one.
+    Image image(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
+    const PictureRequest& request() const { return request_; }
+
+private:
+    std::optional<Formula> formula_for(std::uint32_t stage, std::uint32_t last_stage);
+
+    Script* script_ = nullptr;
+    PictureRequest request_;
+    std::optional<ast::Expression> show_;
+    const Palette* palette_ = nullptr;
+    bool fell_back_ = false;
+};
+
+/// One labelled picture of all species of all stages that have started.
+Image draw_sheet(const Simulation& simulation, const PictureRequest& request);
+
+}  // namespace cascade

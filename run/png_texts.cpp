@@ -1,0 +1,92 @@
+#include "run/png_texts.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace cascade {
+
+namespace {
+
+constexpr const char* key_name = "Cascade name";
+constexpr const char* key_script = "Cascade script";
+constexpr const char* key_overrides = "Cascade overrides";
+constexpr const char* key_seed = "Cascade seed";
+constexpr const char* key_picture = "Cascade picture";
+
+}  // namespace
+
+std::string_view version() { return CASCADE_VERSION; }
+
+std::string overrides_to_json(const Overrides& overrides) {
+    nlohmann::json json = nlohmann::json::object();
+    if (!overrides.sets.empty()) json["set"] = overrides.sets;
+    if (overrides.grid) json["grid"] = {overrides.grid->first, overrides.grid->second};
+    if (overrides.seed) json["seed"] = *overrides.seed;
+    if (overrides.steps) json["steps"] = *overrides.steps;
+    if (overrides.until_stage) json["until_stage"] = *overrides.until_stage;
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+Result<Overrides> overrides_from_json(const std::string& text) {
+    // The library reports by exception; none leaves this function.
+    try {
+        const auto json = nlohmann::json::parse(text);
+        Overrides overrides;
+        if (json.contains("set")) json.at("set").get_to(overrides.sets);
+        if (json.contains("grid")) {
+            overrides.grid = {json.at("grid").at(0).get<std::int64_t>(),
+                              json.at("grid").at(1).get<std::int64_t>()};
+        }
+        if (json.contains("seed")) overrides.seed = json.at("seed").get<std::uint32_t>();
+        if (json.contains("steps")) overrides.steps = json.at("steps").get<std::int64_t>();
+        if (json.contains("until_stage")) {
+            overrides.until_stage = json.at("until_stage").get<std::string>();
+        }
+        return overrides;
+    } catch (const nlohmann::json::exception& error) {
+        return failure(fmt::format("the stored overrides cannot be read ({})", error.what()));
+    }
+}
+
+Overrides merge(Overrides base, const Overrides& changes) {
+    base.sets.insert(base.sets.end(), changes.sets.begin(), changes.sets.end());
+    if (changes.grid) base.grid = changes.grid;
+    if (changes.seed) base.seed = changes.seed;
+    if (changes.steps) base.steps = changes.steps;
+    if (changes.until_stage) base.until_stage = changes.until_stage;
+    return base;
+}
+
+PngTexts embed_script(const Script& script, const PictureRequest& picture) {
+    return {
+        {"Software", fmt::format("Cascade {}", version())},
+        {key_name, script.name},
+        {key_script, script.text},
+        {key_overrides, overrides_to_json(script.overrides)},
+        {key_seed, fmt::format("{}", script.program->domain.seed)},
+        {key_picture, to_json(picture)},
+    };
+}
+
+Result<EmbeddedScript> read_embedded_script(const std::filesystem::path& path) {
+    auto texts = read_png_texts(path);
+    if (!texts) return tl::unexpected(texts.error());
+    const auto script = texts->find(key_script);
+    if (script == texts->end()) {
+        return failure(fmt::format("{}: this picture carries no Cascade script", path.string()),
+                       "only pictures that 'cascade run' wrote can be run again");
+    }
+    auto overrides = overrides_from_json(
+        texts->contains(key_overrides) ? texts->at(key_overrides) : std::string("{}"));
+    if (!overrides) {
+        return failure(fmt::format("{}: {}", path.string(), overrides.error().message));
+    }
+    EmbeddedScript embedded;
+    embedded.name = texts->contains(key_name) ? texts->at(key_name) : path.string();
+    embedded.text = script->second;
+    embedded.overrides = std::move(*overrides);
+    if (texts->contains(key_picture)) embedded.picture_options = texts->at(key_picture);
+    return embedded;
+}
+
+}  // namespace cascade

@@ -1,0 +1,40 @@
+// What a picture carries in its text chunks, so that `cascade run picture.png` draws it again; the
+// same facts describe a saved run.
+#pragma once
+
+#include "core/result.h"
+#include "picture/image.h"
+#include "run/picture_request.h"
+#include "run/script.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace cascade {
+
+/// The version that is written into pictures and printed by `--version`: "0.1.0".
+std::string_view version();
+
+/// A script found inside a picture or a saved run.
+struct EmbeddedScript {
+    std::string name;
+    std::string text;
+    Overrides overrides;
+    std::string picture_options;  ///< JSON of a PictureRequest.
+};
+
+/// Chunks: Software, Cascade name, Cascade script, Cascade overrides, Cascade seed, Cascade picture.
+PngTexts embed_script(const Script& script, const PictureRequest& picture);
+
+/// Reads them back. Fails if the file is no PNG of Cascade's.
+Result<EmbeddedScript> read_embedded_script(const std::filesystem::path& path);
+
+/// `base` with the members that `changes` has put over it; sets are appended, so that they win.
+Overrides merge(Overrides base, const Overrides& changes);
+
+std::string overrides_to_json(const Overrides& overrides);
+Result<Overrides> overrides_from_json(const std::string& json);
+
+}  // namespace cascade

@@ -1,0 +1,211 @@
+#include "run/run.h"
+
+#include "core/file.h"
+#include "run/frames.h"
+#include "run/png_texts.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+namespace cascade {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::filesystem::path default_output(const Script& script) {
+    auto stem = std::filesystem::path(script.name).stem();
+    if (stem.empty()) stem = "cascade";
+    return stem.replace_extension(".png");
+}
+
+/// Everything that could fail at the end of a long run is tried at its beginning.
+Result<void> check_outputs(const RunRequest& request, const std::filesystem::path& output) {
+    if (auto good = check_writable(output); !good) return good;
+    if (!request.sheet.empty()) {
+        if (auto good = check_writable(request.sheet); !good) return good;
+    }
+    for (const auto& folder : {request.frames, request.save}) {
+        if (folder.empty()) continue;
+        std::error_code error;
+        std::filesystem::create_directories(folder, error);
+        if (error) {
+            return failure(fmt::format("the folder {} cannot be made: {}", folder.string(),
+                                       error.message()));
+        }
+        if (auto good = check_writable(folder / "run.json"); !good) return good;
+    }
+    return {};
+}
+
+Result<void> check_request(const Script& script, const RunRequest& request) {
+    const Program& program = *script.program;
+    if (request.picture.space_time && program.domain.grid.height != 1) {
+        return failure("--space-time draws grids of one row",
+                       "for a plane, --frames writes a picture each interval");
+    }
+    if (request.stop_at) {
+        for (const Stage& stage : program.stages) {
+            if (stage.name == request.stop_at->stage) return {};
+        }
+        return failure(fmt::format("--stop-at: no stage is called '{}'", request.stop_at->stage));
+    }
+    return {};
+}
+
+PngDepth depth_of(const PictureRequest& request) {
+    return request.depth == 16 ? PngDepth::sixteen : PngDepth::eight;
+}
+
+/// One run from its first stage to its files.
+class Runner {
+public:
+    Runner(Script& script, const RunRequest& request, RunControl& control)
+        : script_(script), request_(request), control_(control) {}
+
+    Result<RunReport> run();
+
+private:
+    Result<void> prepare();
+    Result<void> run_stages();
+    Result<StageEnd> run_stage(std::uint32_t stage);
+    void look();
+    Result<void> write_results();
+    Result<void> write_picture(const std::filesystem::path& path, const Image& image);
+    std::string place() const;
+
+    Script& script_;
+    const RunRequest& request_;
+    RunControl& control_;
+    RunReport report_;
+    std::filesystem::path output_;
+    std::unique_ptr<Simulation> simulation_;
+    std::optional<Painter> painter_;
+    std::optional<FrameRecorder> frames_;
+};
+
+Result<void> Runner::prepare() {
+    if (script_.program->stages.empty()) {
+        const SourceId whole = 0;
+        script_.diagnostics.error({whole, 0, 0}, "this script has no stage to run",
+                                  "add one, as in 'stage spots: turing_spots { }'");
+        return failure("nothing to run");
+    }
+    output_ = request_.output.empty() ? default_output(script_) : request_.output;
+    if (auto good = check_request(script_, request_); !good) return good;
+    auto painter = Painter::create(script_, request_.picture);
+    if (!painter) return tl::unexpected(painter.error());
+    painter_ = std::move(*painter);
+    if (auto good = check_outputs(request_, output_); !good) return good;
+    auto simulation = Simulation::create(script_, request_.simulation);
+    if (!simulation) return tl::unexpected(simulation.error());
+    simulation_ = std::move(*simulation);
+    if (!request_.frames.empty() || request_.picture.space_time) {
+        auto frames = FrameRecorder::create(request_.frames, request_.picture.space_time);
+        if (!frames) return tl::unexpected(frames.error());
+        frames_ = std::move(*frames);
+    }
+    if (request_.resume.empty()) return {};
+    return restore_run(request_.resume, script_, *simulation_);
+}
+
+Result<StageEnd> Runner::run_stage(std::uint32_t k) {
+    const Stage& stage = script_.program->stages[k];
+    if (!simulation_->state(k).started) {
+        if (auto started = simulation_->start_stage(k); !started) {
+            return tl::unexpected(started.error());
+        }
+        if (stage.iterations > 0) look();
+    }
+    if (simulation_->state(k).done) return StageEnd::finished;
+    std::int64_t last = stage.iterations;
+    const bool stops_here = request_.stop_at && request_.stop_at->stage == stage.name &&
+                            request_.stop_at->step < last;
+    if (stops_here) last = request_.stop_at->step;
+    const std::int64_t before = simulation_->state(k).steps;
+    const auto start = Clock::now();
+    auto end = simulation_->advance_stage(k, std::max(last, before), control_, [&] { look(); });
+    report_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    report_.steps += simulation_->state(k).steps - before;
+    return end;
+}
+
+Result<void> Runner::run_stages() {
+    for (std::uint32_t k = 0; k < script_.stage_count(); ++k) {
+        auto end = run_stage(k);
+        if (!end) return tl::unexpected(end.error());
+        report_.where = place();
+        if (*end == StageEnd::finished) continue;
+        report_.status =
+            *end == StageEnd::cancelled ? RunStatus::cancelled : RunStatus::stopped;
+        return {};
+    }
+    return {};
+}
+
+void Runner::look() {
+    if (!frames_) return;
+    const auto stage = simulation_->shown_stage().value_or(0);
+    frames_->record(painter_->canvas(*simulation_), script_.program->stages[stage].name,
+                    simulation_->state(stage).steps);
+}
+
+std::string Runner::place() const {
+    const auto stage = simulation_->shown_stage().value_or(0);
+    return fmt::format("stage '{}', step {} of {}", script_.program->stages[stage].name,
+                       simulation_->state(stage).steps,
+                       script_.program->stages[stage].iterations);
+}
+
+Result<void> Runner::write_picture(const std::filesystem::path& path, const Image& image) {
+    auto done = write_png(path, image, depth_of(request_.picture),
+                          embed_script(script_, request_.picture));
+    if (done) report_.written.push_back(path);
+    return done;
+}
+
+Result<void> Runner::write_results() {
+    if (frames_) {
+        if (auto failed = frames_->failure()) return tl::unexpected(*failed);
+    }
+    const Image image = request_.picture.space_time
+                            ? frames_->space_time(*painter_)
+                            : painter_->image(painter_->canvas(*simulation_));
+    if (auto done = write_picture(output_, image); !done) return done;
+    if (!request_.frames.empty()) {
+        auto written = frames_->write(*painter_, depth_of(request_.picture),
+                                      embed_script(script_, request_.picture));
+        if (!written) return tl::unexpected(written.error());
+        report_.written.insert(report_.written.end(), written->begin(), written->end());
+    }
+    if (!request_.sheet.empty()) {
+        const Image sheet = draw_sheet(*simulation_, request_.picture);
+        if (auto done = write_picture(request_.sheet, sheet); !done) return done;
+    }
+    if (!request_.save.empty()) {
+        auto written = save_run(request_.save, script_, *simulation_);
+        if (!written) return tl::unexpected(written.error());
+        report_.written.push_back(request_.save);
+    }
+    if (painter_->fell_back() && control_.warn) {
+        control_.warn("where the picture names a stage that has not run, the default picture is "
+                      "drawn instead");
+    }
+    return {};
+}
+
+Result<RunReport> Runner::run() {
+    if (auto ready = prepare(); !ready) return tl::unexpected(ready.error());
+    if (auto done = run_stages(); !done) return tl::unexpected(done.error());
+    if (auto written = write_results(); !written) return tl::unexpected(written.error());
+    return std::move(report_);
+}
+
+}  // namespace
+
+Result<RunReport> run(Script& script, const RunRequest& request, RunControl& control) {
+    return Runner(script, request, control).run();
+}
+
+}  // namespace cascade

@@ -1,0 +1,67 @@
+// `cascade run`: stages, pictures, frames, saved fields, from a loaded script to files.
+#pragma once
+
+#include "core/result.h"
+#include "core/run_control.h"
+#include "run/picture_request.h"
+#include "run/script.h"
+#include "run/simulation.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// A place to stop at: as Ctrl-C would, but at a step that is known.
+struct StopAt {
+    std::string stage;
+    std::int64_t step = 0;
+};
+
+struct RunRequest {
+    SimulationOptions simulation;
+    PictureRequest picture;
+    std::filesystem::path output;      ///< The picture; empty: SCRIPT.png in the current folder.
+    std::filesystem::path sheet;       ///< `--sheet FILE`; empty: none.
+    std::filesystem::path frames;      ///< `--frames DIR`; empty: none.
+    std::filesystem::path save;        ///< `--save DIR`; empty: none.
+    std::filesystem::path resume;      ///< `--resume DIR`; empty: from the start.
+    std::optional<StopAt> stop_at;
+};
+
+enum class RunStatus {
+    finished,
+    stopped,    ///< At `stop_at`.
+    cancelled,  ///< By the user.
+};
+
+struct RunReport {
+    RunStatus status = RunStatus::finished;
+    std::string where;                           ///< "stage 'small', step 312 of 7000".
+    std::vector<std::filesystem::path> written;  ///< In order.
+    std::int64_t steps = 0;                      ///< Taken by this run.
+    double seconds = 0;                          ///< Of stepping.
+};
+
+/// Runs the script and writes what was asked for. All outputs are checked before the first step.
+/// After a cancel what there is is written. A failure's text is complete; where it is a fault of
+/// the script, `script.diagnostics` has errors.
+Result<RunReport> run(Script& script, const RunRequest& request, RunControl& control);
+
+/// Writes every field of the started stages as STAGE.NAME.npy, the script, and `run.json`.
+Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path& folder,
+                                                    const Script& script,
+                                                    const Simulation& simulation);
+
+/// Starts the stages of a saved run again and puts their species back. The script must be the one
+/// that was saved (load it with load_saved_script).
+Result<void> restore_run(const std::filesystem::path& folder, const Script& script,
+                         Simulation& simulation);
+
+/// The script and overrides of a saved run. `changes` may lift or set `steps` and `until_stage`
+/// only.
+Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes);
+
+}  // namespace cascade

@@ -1,0 +1,166 @@
+// Saved runs: a folder with STAGE.NAME.npy for every field, and run.json with the rest.
+
+#include "core/file.h"
+#include "picture/npy.h"
+#include "run/png_texts.h"
+#include "run/run.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::uint64_t largest_manifest = std::uint64_t{64} << 20;
+
+std::filesystem::path array_path(const std::filesystem::path& folder, const Stage& stage,
+                                 std::string_view item) {
+    return folder / fmt::format("{}.{}.npy", stage.name, item);
+}
+
+std::string manifest(const Script& script, const Simulation& simulation) {
+    nlohmann::json stages = nlohmann::json::array();
+    for (std::uint32_t k = 0; k < script.program->stages.size(); ++k) {
+        const StageState& state = simulation.state(k);
+        if (!state.started) break;
+        stages.push_back({{"name", script.program->stages[k].name},
+                          {"steps", state.steps},
+                          {"done", state.done}});
+    }
+    const nlohmann::json json = {
+        {"cascade", version()},
+        {"name", script.name},
+        {"script", script.text},
+        {"folder", std::filesystem::absolute(script.folder).string()},
+        {"overrides", nlohmann::json::parse(overrides_to_json(script.overrides))},
+        {"grid", {simulation.grid().width, simulation.grid().height}},
+        {"seed", script.program->domain.seed},
+        {"stages", stages},
+    };
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+Result<nlohmann::json> read_manifest(const std::filesystem::path& folder) {
+    const auto text = read_file(folder / "run.json", largest_manifest);
+    if (!text) {
+        return failure(fmt::format("{} holds no saved run: {}", folder.string(),
+                                   text.error().message),
+                       "--resume takes a folder that --save has written");
+    }
+    auto json = nlohmann::json::parse(*text, nullptr, false);
+    if (json.is_discarded() || !json.is_object()) {
+        return failure(fmt::format("{}: this is not a manifest of a saved run",
+                                   (folder / "run.json").string()));
+    }
+    return json;
+}
+
+Failure damaged(const std::filesystem::path& folder, const std::string& why) {
+    return {fmt::format("the saved run in {} is damaged: {}", folder.string(), why), ""};
+}
+
+Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
+                                        const Program& program, std::uint32_t stage) {
+    std::vector<Field> species;
+    const System& system = program.system_of(stage);
+    const Grid& grid = program.domain.grid;
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        if (!system.is_species(item)) continue;
+        const auto path = array_path(folder, program.stages[stage], system.item_name(item));
+        const auto array = read_npy(path);
+        if (!array) return tl::unexpected(damaged(folder, array.error().message));
+        if (array->rows != grid.height || array->columns != grid.width) {
+            return tl::unexpected(
+                damaged(folder, fmt::format("{} has another shape", path.filename().string())));
+        }
+        Field field{PlaneLayout(grid)};
+        for (std::int64_t j = 0; j < grid.height; ++j) {
+            std::memcpy(field.row(j), array->values.data() + j * grid.width,
+                        static_cast<std::size_t>(grid.width) * sizeof(float));
+        }
+        species.push_back(std::move(field));
+    }
+    return species;
+}
+
+}  // namespace
+
+Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path& folder,
+                                                    const Script& script,
+                                                    const Simulation& simulation) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        return failure(fmt::format("the folder {} cannot be made: {}", folder.string(),
+                                   error.message()));
+    }
+    std::vector<std::filesystem::path> written;
+    const Program& program = *script.program;
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        if (!simulation.state(k).started) break;
+        const System& system = program.system_of(k);
+        for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+            if (!system.is_species(item) && program.stages[k].uniform[item]) continue;
+            const auto path = array_path(folder, program.stages[k], system.item_name(item));
+            if (auto done = write_npy(path, simulation.state(k).field(item)); !done) {
+                return tl::unexpected(done.error());
+            }
+            written.push_back(path);
+        }
+    }
+    // The manifest comes last: a folder without one is not taken for a saved run.
+    const auto path = folder / "run.json";
+    if (auto done = write_file(path, manifest(script, simulation)); !done) {
+        return tl::unexpected(done.error());
+    }
+    written.push_back(path);
+    return written;
+}
+
+Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes) {
+    auto json = read_manifest(folder);
+    if (!json) return tl::unexpected(json.error());
+    if (!changes.sets.empty() || changes.grid || changes.seed) {
+        return failure("a resumed run keeps its grid, seed and parameters",
+                       "only --steps and --until-stage can change");
+    }
+    try {
+        auto overrides = overrides_from_json(json->at("overrides").dump());
+        if (!overrides) return tl::unexpected(damaged(folder, overrides.error().message));
+        // A cap that made the run stop would make the resumed one stop as well.
+        overrides->steps = changes.steps;
+        overrides->until_stage = changes.until_stage;
+        return load_script(json->at("name").get<std::string>(),
+                           json->at("script").get<std::string>(),
+                           json->at("folder").get<std::string>(), std::move(*overrides));
+    } catch (const nlohmann::json::exception& error) {
+        return tl::unexpected(damaged(folder, error.what()));
+    }
+}
+
+Result<void> restore_run(const std::filesystem::path& folder, const Script& script,
+                         Simulation& simulation) {
+    auto json = read_manifest(folder);
+    if (!json) return tl::unexpected(json.error());
+    try {
+        const auto& stages = json->at("stages");
+        if (stages.size() > script.program->stages.size()) {
+            return tl::unexpected(damaged(folder, "it has more stages than its script"));
+        }
+        for (std::uint32_t k = 0; k < stages.size(); ++k) {
+            const auto steps = stages[k].at("steps").get<std::int64_t>();
+            const bool done = stages[k].at("done").get<bool>();
+            if (steps < 0) return tl::unexpected(damaged(folder, "a number of steps is negative"));
+            if (auto started = simulation.start_stage(k); !started) return started;
+            auto species = read_species(folder, *script.program, k);
+            if (!species) return tl::unexpected(species.error());
+            simulation.set_species(k, std::move(*species), steps, done);
+        }
+    } catch (const nlohmann::json::exception& error) {
+        return tl::unexpected(damaged(folder, error.what()));
+    }
+    return {};
+}
+
+}  // namespace cascade

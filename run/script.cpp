@@ -1,0 +1,155 @@
+#include "run/script.h"
+
+#include "core/file.h"
+#include "lang/check.h"
+#include "lang/parse.h"
+#include "picture/image.h"
+#include "run/png_texts.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace cascade {
+
+std::string Script::messages(bool colour) const {
+    RenderStyle style;
+    style.colour = colour;
+    return render(diagnostics, sources, style);
+}
+
+std::uint32_t Script::stage_count() const {
+    const auto& stages = program->stages;
+    for (std::uint32_t k = 0; k < stages.size(); ++k) {
+        if (overrides.until_stage && stages[k].name == *overrides.until_stage) return k + 1;
+    }
+    return static_cast<std::uint32_t>(stages.size());
+}
+
+std::uint32_t Script::final_stage() const {
+    const std::uint32_t count = stage_count();
+    for (std::uint32_t k = count; k-- > 0;) {
+        if (program->stages[k].iterations > 0) return k;
+    }
+    return count - 1;
+}
+
+namespace {
+
+/// A place for messages about an option: the option's own text is the source.
+Span option_span(Sources& sources, const std::string& option, const std::string& value) {
+    const SourceId id = sources.add(fmt::format("<{}>", option), value);
+    return {id, 0, static_cast<std::uint32_t>(value.size())};
+}
+
+void apply_grid(Script& script) {
+    if (!script.overrides.grid) return;
+    const auto [width, height] = *script.overrides.grid;
+    const Span span =
+        option_span(script.sources, "--grid", fmt::format("{}x{}", width, height));
+    script.program->domain.grid_span = span;
+    if (width < 1 || height < 1) {
+        script.diagnostics.error(span, "a grid has at least one column and one row");
+    } else if (width == 1 && height == 1) {
+        script.diagnostics.error(span, "a grid of one cell has no neighbours",
+                                 "patterns need at least two cells");
+    } else if (width > (std::int64_t{1} << 31) / height) {
+        script.diagnostics.error(span, "a grid of more than 2147483648 cells is too large");
+    } else {
+        script.program->domain.grid.width = width;
+        script.program->domain.grid.height = height;
+    }
+}
+
+void apply_steps(Script& script) {
+    if (!script.overrides.steps) return;
+    for (Stage& stage : script.program->stages) {
+        stage.iterations = std::min(stage.iterations, *script.overrides.steps);
+    }
+}
+
+void check_until_stage(Script& script) {
+    if (!script.overrides.until_stage) return;
+    const std::string& name = *script.overrides.until_stage;
+    std::vector<std::string> names;
+    for (const Stage& stage : script.program->stages) names.push_back(stage.name);
+    if (std::find(names.begin(), names.end(), name) != names.end()) return;
+    const Span span = option_span(script.sources, "--until-stage", name);
+    Diagnostic diagnostic{Severity::error, span, fmt::format("no stage is called '{}'", name), "",
+                          {}};
+    diagnostic.notes.push_back({std::nullopt, fmt::format("the stages are {}",
+                                                          fmt::join(names, ", "))});
+    script.diagnostics.add(std::move(diagnostic));
+}
+
+void check_picture_block(Script& script) {
+    const auto expression = picture_expression(script.tree);
+    if (!expression || script.program->stages.empty()) return;
+    const std::uint32_t stage = script.final_stage();
+    const std::uint32_t last = script.stage_count() - 1;
+    // A run cut short by --until-stage may lack stages that the picture names; that is no fault of
+    // the script, so only a whole run is checked here.
+    if (last + 1 != script.program->stages.size()) return;
+    const auto formula = check_view(script.tree, *expression, stage, last, *script.program,
+                                    script.sources, script.diagnostics);
+    if (formula && formula->nodes.back().type != ValueType::colour) {
+        script.diagnostics.error(formula->nodes.back().span, "'color' must be a colour",
+                                 "use rgb(…) or palette(value, low, high, \"name\")");
+    }
+}
+
+}  // namespace
+
+Script load_script(std::string name, std::string text, std::filesystem::path folder,
+                   Overrides overrides) {
+    Script script;
+    script.name = std::move(name);
+    script.text = std::move(text);
+    script.folder = std::move(folder);
+    script.overrides = std::move(overrides);
+
+    const SourceId source = script.sources.add(script.name, script.text);
+    script.tree = parse(source, script.sources, script.diagnostics);
+    for (const std::string& set : script.overrides.sets) {
+        const SourceId id = script.sources.add("<--set>", set);
+        parse_override(id, script.sources, script.tree, script.diagnostics);
+    }
+    script.program = check(script.tree, script.sources, script.diagnostics);
+    if (!script.program) return script;
+
+    if (script.overrides.seed) script.program->domain.seed = *script.overrides.seed;
+    apply_grid(script);
+    apply_steps(script);
+    check_until_stage(script);
+    if (!script.diagnostics.has_errors()) check_picture_block(script);
+    if (script.diagnostics.has_errors()) script.program.reset();
+    return script;
+}
+
+Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides) {
+    // Pictures may be larger than any script; their text is limited again when it is parsed.
+    constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
+    auto bytes = read_file(path, largest_file);
+    if (!bytes) return tl::unexpected(bytes.error());
+
+    const bool is_png = bytes->starts_with("\x89PNG\r\n\x1a\n");
+    if (!is_png) {
+        if (bytes->size() > largest_script) {
+            return failure(fmt::format("{}: this script has {} bytes; the largest allowed has {}",
+                                       path.string(), bytes->size(), largest_script),
+                           "is it really a Cascade script?");
+        }
+        return LoadedFile{load_script(path.string(), std::move(*bytes), path.parent_path(),
+                                      std::move(overrides)),
+                          ""};
+    }
+    auto embedded = read_embedded_script(path);
+    if (!embedded) return tl::unexpected(embedded.error());
+    Overrides merged = merge(embedded->overrides, overrides);
+    return LoadedFile{load_script(embedded->name, std::move(embedded->text), path.parent_path(),
+                                  std::move(merged)),
+                      std::move(embedded->picture_options)};
+}
+
+}  // namespace cascade

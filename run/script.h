@@ -1,0 +1,70 @@
+// A script as it was asked for: its text, what the command line changes about it, and the checked
+// program that comes of both.
+#pragma once
+
+#include "core/diagnostics.h"
+#include "core/result.h"
+#include "lang/ast.h"
+#include "lang/program.h"
+#include "lang/token.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cascade {
+
+/// Changes that come from outside the script. They travel inside pictures and saved runs.
+struct Overrides {
+    std::vector<std::string> sets;                               ///< "large.ka=1/400", in order.
+    std::optional<std::pair<std::int64_t, std::int64_t>> grid;   ///< Columns, rows.
+    std::optional<std::uint32_t> seed;
+    std::optional<std::int64_t> steps;                           ///< A cap for every stage.
+    std::optional<std::string> until_stage;                      ///< The last stage that runs.
+
+    friend bool operator==(const Overrides&, const Overrides&) = default;
+};
+
+/// A loaded script. `program` is empty when `diagnostics` has errors.
+struct Script {
+    Script() = default;
+    Script(Script&&) = default;
+    Script& operator=(Script&&) = default;
+    Script(const Script&) = delete;  // The tree holds views into this script's own sources.
+    Script& operator=(const Script&) = delete;
+
+    std::string name;                 ///< As the user typed it: "examples/leopard.cascade".
+    std::string text;
+    std::filesystem::path folder;     ///< Paths in the script are relative to it.
+    Overrides overrides;
+
+    Sources sources;
+    Diagnostics diagnostics;
+    ast::Script tree;
+    std::optional<Program> program;
+
+    /// All diagnostics, drawn.
+    std::string messages(bool colour) const;
+    /// The last stage that will take a step, or the last stage where none will.
+    std::uint32_t final_stage() const;
+    /// How many stages will run: all, or those up to `until_stage`.
+    std::uint32_t stage_count() const;
+};
+
+/// Parses and checks `text` with its overrides, picture block included. Never fails otherwise than
+/// by diagnostics.
+Script load_script(std::string name, std::string text, std::filesystem::path folder,
+                   Overrides overrides = {});
+
+/// Reads the file first. A PNG that Cascade wrote carries its script: that is loaded, with the
+/// overrides it was made with (`overrides`' own members win). Fails on unreadable files.
+struct LoadedFile {
+    Script script;
+    std::string picture_options;   ///< JSON of the PictureRequest in a PNG; empty for a script.
+};
+Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides = {});
+
+}  // namespace cascade

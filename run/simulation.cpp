@@ -1,0 +1,276 @@
+#include "run/simulation.h"
+
+#include "core/check.h"
+#include "core/floating_point.h"
+#include "core/parallel.h"
+#include "ir/interpreter.h"
+#include "run/bound_kernel.h"
+#include "run/input_files.h"
+#include "run/not_finite.h"
+#include "solvers/stability.h"
+#if CASCADE_HAS_JIT
+#include "jit/jit.h"
+#endif
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace cascade {
+
+bool has_jit() { return CASCADE_HAS_JIT; }
+
+namespace {
+
+Result<std::unique_ptr<Backend>> make_backend(const SimulationOptions& options) {
+    if (options.backend == BackendKind::interpreter) return make_interpreter();
+#if CASCADE_HAS_JIT
+    JitOptions jit;
+    jit.lanes = options.lanes;
+    return make_jit(jit);
+#else
+    return failure("this build has no native compiler", "use --backend interp");
+#endif
+}
+
+}  // namespace
+
+struct Simulation::Implementation {
+    Script* script = nullptr;
+    const Program* program = nullptr;
+    Grid grid;
+    int threads = 1;
+    std::unique_ptr<Backend> interpreter;
+    std::unique_ptr<Backend> stepper;
+    std::unique_ptr<Team> team;
+    InputFiles files;
+    std::vector<StageState> states;
+
+    const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
+
+    BindingContext context(std::uint32_t stage) const {
+        return {states, files, states[stage].steps, grid};
+    }
+
+    /// Starting values need no compiling and pictures neither: both are interpreted.
+    std::vector<Field> evaluate(const BoundKernel& bound, std::uint32_t stage,
+                                const Grid& on) const {
+        auto kernel = interpreter->compile(bound.kernel, on.stencil());
+        CHECK(kernel, "the interpreter compiles every kernel");
+        return run_once(**kernel, bound, context(stage), on, *team);
+    }
+
+    void start_uniform_items(std::uint32_t k) {
+        const BoundKernel bound = lower_uniform_start(*program, k);
+        const std::vector<Field> values = evaluate(bound, k, Grid{1, 1, Boundary::periodic});
+        for (std::size_t r = 0; r < values.size(); ++r) {
+            states[k].numbers[bound.results[r]] = values[r].at(0, 0);
+        }
+    }
+
+    void start_varying_items(std::uint32_t k) {
+        const BoundKernel bound = lower_cell_start(*program, k);
+        std::vector<Field> values = evaluate(bound, k, grid);
+        StageState& state = states[k];
+        const System& system = program->system_of(k);
+        for (std::size_t r = 0; r < values.size(); ++r) {
+            const std::uint32_t item = bound.results[r];
+            const int species = state.species_of_item[item];
+            if (species >= 0) {
+                state.species[static_cast<std::size_t>(species)] = std::move(values[r]);
+            } else {
+                if (item == system.frozen_item()) state.frozen = to_mask(values[r]);
+                state.fields[item] = std::move(values[r]);
+            }
+        }
+    }
+
+    Result<void> check_speed(std::uint32_t k) const {
+        const System& system = program->system_of(k);
+        const std::uint32_t item = system.speed_item();
+        float slowest = states[k].numbers[item];
+        if (!stage(k).uniform[item]) slowest = smallest(states[k].fields[item]);
+        if (slowest > 0 && std::isfinite(slowest)) return {};
+        return failure(fmt::format("stage '{}': its speed is {}, but a time step must be above 0",
+                                   stage(k).name, slowest));
+    }
+
+    StepProblem problem(const BoundKernel& bound, KernelPointer kernel, std::uint32_t k) const {
+        return bind_step(bound, std::move(kernel), context(k), program->system_of(k), k);
+    }
+
+    bool frozen_everywhere(std::uint32_t k) const {
+        const std::uint32_t item = program->system_of(k).frozen_item();
+        return stage(k).uniform[item] && states[k].numbers[item] != 0.0F;
+    }
+
+    KernelPointer compile_step(const BoundKernel& bound, RunControl& control,
+                               const std::string& name) const {
+        auto kernel = stepper->compile(bound.kernel, grid.stencil());
+        if (kernel) return *kernel;
+        if (control.warn) {
+            control.warn(fmt::format("stage '{}' is interpreted, which is slow: {}", name,
+                                     kernel.error().message));
+        }
+        return *interpreter->compile(bound.kernel, grid.stencil());
+    }
+
+    Failure explain(const NotFinite& found, std::uint32_t k);
+    void warn_of_chequerboard(std::uint32_t k, RunControl& control) const;
+    StabilityEstimate stability(std::uint32_t k) const {
+        const BoundKernel rates = lower_rates(*program, k);
+        auto kernel = interpreter->compile(rates.kernel, grid.stencil());
+        return estimate_stability(problem(rates, *kernel, k), states[k].species);
+    }
+    double speed_number(std::uint32_t k) const {
+        const std::uint32_t item = program->system_of(k).speed_item();
+        return stage(k).uniform[item] ? states[k].numbers[item] : NAN;
+    }
+};
+
+Simulation::Simulation() : self_(std::make_unique<Implementation>()) {}
+Simulation::~Simulation() = default;
+
+Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
+                                                       const SimulationOptions& options) {
+    CHECK(script.program, "only a checked script is simulated");
+    std::unique_ptr<Simulation> simulation(new Simulation);
+    Implementation& self = *simulation->self_;
+    self.script = &script;
+    self.program = &*script.program;
+    self.grid = self.program->domain.grid;
+    self.threads = options.threads > 0 ? options.threads : hardware_threads();
+
+    if (auto enough = check_memory(*self.program); !enough) return tl::unexpected(enough.error());
+    auto files = read_input_files(script);
+    if (!files) return tl::unexpected(files.error());
+    self.files = std::move(*files);
+
+    self.interpreter = make_interpreter();
+    auto stepper = make_backend(options);
+    if (!stepper) return tl::unexpected(stepper.error());
+    self.stepper = std::move(*stepper);
+    // Evaluating a small grid is over before a second thread has woken up.
+    const bool small = self.grid.cell_count() < 65536;
+    self.team = std::make_unique<Team>(small ? 1 : self.threads);
+    self.states.resize(self.program->stages.size());
+    return simulation;
+}
+
+Result<void> Simulation::start_stage(std::uint32_t k) {
+    Implementation& self = *self_;
+    const System& system = self.program->system_of(k);
+    StageState& state = self.states[k];
+    state = StageState{};
+    state.numbers.assign(system.item_count(), 0.0F);
+    state.fields.resize(system.item_count());
+    state.species_of_item.assign(system.item_count(), -1);
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        if (!system.is_species(item)) continue;
+        state.species_of_item[item] = static_cast<int>(state.species.size());
+        state.species.emplace_back();
+    }
+    self.start_uniform_items(k);
+    self.start_varying_items(k);
+    state.started = true;
+    return self.check_speed(k);
+}
+
+Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_step,
+                                           RunControl& control,
+                                           const std::function<void()>& observe) {
+    Implementation& self = *self_;
+    StageState& state = self.states[k];
+    const Stage& stage = self.stage(k);
+    CHECK(state.started, "a stage is started before it advances");
+
+    Progress progress;
+    progress.stage = stage.name;
+    progress.stage_number = static_cast<int>(k) + 1;
+    progress.stage_count = static_cast<int>(self.script->stage_count());
+    progress.steps = stage.iterations;
+
+    const BoundKernel bound = lower_step(*self.program, k);
+    Schedule schedule;
+    schedule.first_step = state.steps;
+    // Nothing moves where everything is frozen: its steps are complete as they begin.
+    schedule.last_step = self.frozen_everywhere(k) ? state.steps : last_step;
+    schedule.interval = stage.interval;
+    schedule.threads = self.threads;
+    const auto outcome = advance(
+        self.problem(bound, self.compile_step(bound, control, stage.name), k), schedule,
+        state.species, control, progress,
+        [&](std::int64_t step, std::span<const Field>) {
+            state.steps = step;
+            if (observe) observe();
+            return true;
+        });
+    state.steps = outcome.steps;
+    if (outcome.not_finite) return tl::unexpected(self.explain(*outcome.not_finite, k));
+    if (self.frozen_everywhere(k) && !outcome.cancelled) state.steps = last_step;
+    self.warn_of_chequerboard(k, control);
+    if (outcome.cancelled) return StageEnd::cancelled;
+    state.done = state.steps >= stage.iterations;
+    return state.done ? StageEnd::finished : StageEnd::stopped;
+}
+
+void Simulation::set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps,
+                             bool done) {
+    StageState& state = self_->states[stage];
+    CHECK(species.size() == state.species.size(), "every species of the stage is given");
+    state.species = std::move(species);
+    state.steps = steps;
+    state.done = done;
+}
+
+std::vector<Field> Simulation::evaluate(const Formula& formula, std::uint32_t stage) const {
+    return self_->evaluate(lower_view(*self_->program, formula, stage), stage, self_->grid);
+}
+
+const Program& Simulation::program() const { return *self_->program; }
+const Grid& Simulation::grid() const { return self_->grid; }
+const StageState& Simulation::state(std::uint32_t stage) const { return self_->states[stage]; }
+
+std::optional<std::uint32_t> Simulation::shown_stage() const {
+    std::optional<std::uint32_t> shown;
+    for (std::uint32_t k = 0; k < self_->states.size(); ++k) {
+        if (self_->states[k].started && !shown) shown = k;
+        if (self_->states[k].started && self_->states[k].steps > 0) shown = k;
+    }
+    return shown;
+}
+
+Failure Simulation::Implementation::explain(const NotFinite& found, std::uint32_t k) {
+    NotFiniteReport report;
+    report.stage = stage(k).name;
+    const System& system = program->system_of(k);
+    report.system = system.name;
+    report.species = species_name(system, found.species);
+    report.found = found;
+    report.speed = speed_number(k);
+    report.estimate_before = stability(k);
+    // A state on its way to infinity says little about the speed that would have been right: the
+    // start of the stage is asked as well.
+    if (found.step > 0) {
+        std::vector<Field> last_finite = std::move(states[k].species);
+        states[k].species.resize(last_finite.size());
+        start_varying_items(k);
+        report.estimate_at_start = stability(k);
+        states[k].species = std::move(last_finite);
+    }
+    return describe(report);
+}
+
+void Simulation::Implementation::warn_of_chequerboard(std::uint32_t k,
+                                                      RunControl& control) const {
+    if (!control.warn || states[k].steps == 0) return;
+    const System& system = program->system_of(k);
+    for (std::size_t s = 0; s < states[k].species.size(); ++s) {
+        if (chequerboard(states[k].species[s]) < chequerboard_threshold) continue;
+        control.warn(describe_chequerboard(stage(k).name, species_name(system, s),
+                                           stability(k), speed_number(k)));
+        return;
+    }
+}
+
+}  // namespace cascade

@@ -1,0 +1,93 @@
+// The state of a run: the values of every stage's items, and how they come about.
+#pragma once
+
+#include "core/plane.h"
+#include "core/result.h"
+#include "core/run_control.h"
+#include "ir/backend.h"
+#include "lang/lower.h"
+#include "run/script.h"
+#include "solvers/advance.h"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+enum class BackendKind { interpreter, jit };
+
+/// Is native code compiled into this build?
+bool has_jit();
+
+/// Values of one stage's items.
+struct StageState {
+    bool started = false;
+    bool done = false;                  ///< All its steps are taken.
+    std::int64_t steps = 0;             ///< Complete steps.
+    std::vector<float> numbers;         ///< Per item; meaningful where it is uniform.
+    std::vector<Field> fields;          ///< Per item; empty where uniform, and for species.
+    std::vector<Field> species;         ///< In order of the species' items.
+    std::vector<int> species_of_item;   ///< Per item; −1 for parameters.
+    Mask frozen;                        ///< Only where `frozen` varies.
+
+    /// The plane of an item that varies (a species or a varying parameter).
+    const Field& field(std::uint32_t item) const {
+        const int index = species_of_item[item];
+        return index >= 0 ? species[static_cast<std::size_t>(index)] : fields[item];
+    }
+};
+
+struct SimulationOptions {
+    BackendKind backend = BackendKind::jit;
+    int lanes = 0;      ///< Vector width of the JIT; 0 takes the host's.
+    int threads = 0;    ///< 0 takes all the machine has.
+};
+
+/// Why a stage ended.
+enum class StageEnd { finished, stopped, cancelled };
+
+/// Runs the stages of a checked program, one after the other. Owns all fields.
+class Simulation {
+public:
+    /// Checks memory and reads the files that the script names. Faults of such files are added to
+    /// `script.diagnostics` (and the result fails). `script` must outlive the simulation.
+    static Result<std::unique_ptr<Simulation>> create(Script& script,
+                                                      const SimulationOptions& options);
+    ~Simulation();
+
+    /// Computes the starting values of a stage from the earlier ones. Fails if `speed` is not
+    /// above 0 or a starting value is not finite.
+    Result<void> start_stage(std::uint32_t stage);
+
+    /// Takes steps until `last_step` are complete. `observe` is called at multiples of the stage's
+    /// interval. Fails, with stage, species, cell, step and the largest stable speed, on values
+    /// that are not finite.
+    Result<StageEnd> advance_stage(std::uint32_t stage, std::int64_t last_step,
+                                   RunControl& control, const std::function<void()>& observe);
+
+    /// Replaces the species of a started stage (resume, the prompt's :load).
+    void set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps,
+                     bool done);
+
+    /// A formula for pictures over the present state: one field, or three for a colour.
+    std::vector<Field> evaluate(const Formula& formula, std::uint32_t stage) const;
+
+    const Program& program() const;
+    const Grid& grid() const;
+    const StageState& state(std::uint32_t stage) const;
+    /// The last stage that took a step; the last started one where none has; empty before.
+    std::optional<std::uint32_t> shown_stage() const;
+
+private:
+    Simulation();
+    struct Implementation;
+    std::unique_ptr<Implementation> self_;
+};
+
+}  // namespace cascade
