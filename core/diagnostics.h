@@ -7,8 +7,11 @@
 #include "core/source.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace cascade {
@@ -31,9 +34,13 @@ struct Diagnostic {
     std::vector<Note> notes;
 };
 
-/// Collects the diagnostics of one program. The same message at the same place is kept once.
+/// Collects the diagnostics of one program. The same message at the same place is kept once. Of a
+/// text that is no script at all only the first `most_kept` of a severity are kept; the others are
+/// counted.
 class Diagnostics {
 public:
+    static constexpr std::size_t most_kept = 10'000;
+
     void error(Span span, std::string message, std::string hint = "");
     void warning(Span span, std::string message, std::string hint = "");
     void add(Diagnostic diagnostic);
@@ -41,13 +48,16 @@ public:
     bool has_errors() const { return error_count_ > 0; }
     bool empty() const { return list_.empty(); }
     std::size_t error_count() const { return error_count_; }
+    std::size_t warning_count() const { return warning_count_; }
 
     /// In order of source and position, as a reader meets them.
     std::vector<Diagnostic> sorted() const;
 
 private:
     std::vector<Diagnostic> list_;
+    std::set<std::tuple<Severity, SourceId, std::uint32_t, std::uint32_t, std::string>> seen_;
     std::size_t error_count_ = 0;
+    std::size_t warning_count_ = 0;
 };
 
 struct RenderStyle {

@@ -10,6 +10,9 @@ namespace cascade {
 /// Red, green, blue as stored in a picture (sRGB), each 0 … 1.
 using Colour = std::array<float, 3>;
 
+/// What NaN looks like: magenta, which no palette comes near.
+inline constexpr Colour colour_of_nan{1.0F, 0.0F, 1.0F};
+
 /// Colours at equal distances from 0 to 1; between them colour is linear in sRGB.
 struct Palette {
     std::string_view name;
@@ -23,7 +26,7 @@ std::span<const Palette> palettes();
 /// By name; nullptr where there is none.
 const Palette* find_palette(std::string_view name);
 
-/// The colour at `position`, clamped to 0 … 1; NaN gives magenta.
+/// The colour at `position`, clamped to 0 … 1; NaN gives colour_of_nan.
 Colour colour_at(const Palette& palette, double position);
 
 }  // namespace cascade

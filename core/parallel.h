@@ -34,7 +34,10 @@ public:
     /// throw. Not reentrant.
     void run(const std::function<void(int index)>& work);
 
-    /// Inside `work` only: waits until every thread of the team has arrived. What a thread wrote
+    /// The same on threads 0 … active − 1 only. With one, the others are left asleep.
+    void run(const std::function<void(int index)>& work, int active);
+
+    /// Inside `work` only: waits until every thread that works has arrived. What a thread wrote
     /// before is seen by all behind it. Spins a little, then yields.
     void barrier();
 

@@ -66,4 +66,10 @@ void fill_halo_columns(float* origin, const PlaneLayout& layout, Boundary bounda
 /// The same for rows −1 and height only (cells 0 … width − 1 of them).
 void fill_halo_rows(float* origin, const PlaneLayout& layout, Boundary boundary);
 
+/// All of the halo whose values come from rows [begin, end): their columns and, where row 0 or the
+/// last row is among them, the halo row that copies it. Threads that call it on parts of the rows
+/// have filled the whole halo together, without reading each other's rows.
+void fill_halo_from_rows(float* origin, const PlaneLayout& layout, Boundary boundary,
+                         std::int64_t begin, std::int64_t end);
+
 }  // namespace cascade

@@ -1,7 +1,7 @@
 // The contract between kernels and what executes them.
 //
-// Backends: ir/interpreter.h (blocks of cells; the oracle), jit/jit.h (native code by LLVM). Both give the
-// same bits for the same kernel and arguments.
+// Backends: ir/interpreter.h (blocks of cells; the oracle), jit/jit.h (native code by LLVM). Both
+// give the same bits for the same kernel and arguments.
 #pragma once
 
 #include "core/grid.h"

@@ -3,7 +3,8 @@
 // evaluation of an operation) and value-numbers, so an unsimplified kernel never exists.
 //
 // Only identities that hold for every word are used (select of equal branches or of a constant
-// condition; x * 1 and x + 0 are NOT among them: they flush denormals and lose −0).
+// condition, `and` and `or` with a constant; x * 1 and x + 0 are NOT among them: they flush
+// denormals and lose −0).
 //
 // Elementary functions are expanded here into table operations, so that every executor computes
 // the same bits (ir/elementary.cpp; their accuracy is stated there and in spec/numerics.md).
@@ -12,6 +13,7 @@
 #include "ir/cell_kernel.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <unordered_map>
 
@@ -20,7 +22,7 @@ namespace cascade {
 class KernelBuilder {
 public:
     // Sources. A slot is made at its first use; the same name gives the same slot.
-    ValueId number(float value);             ///< Denormals become zero.
+    ValueId number(float value);  ///< Denormals become zero.
     ValueId word(std::uint32_t bits);
     std::uint32_t field_slot(const std::string& name);
     std::uint32_t mask_slot(const std::string& name);
@@ -61,7 +63,7 @@ public:
     ValueId power(ValueId x, ValueId y);
 
     // Random numbers (ir/random_numbers.cpp).
-    /// Uniform in (−1, 1), symmetric, 2^24 different values: a pure function of the cell, the
+    /// Uniform in (−1, 1), symmetric, 2^23 different values: a pure function of the cell, the
     /// `draw` word (which step, or 0) and the 64-bit `key` (seed, stage, parameter, occurrence).
     ValueId random_symmetric(ValueId draw, std::uint64_t key);
 
@@ -77,9 +79,13 @@ public:
 
 private:
     ValueId emit(Instruction instruction);
+    std::optional<ValueId> simplify(const Instruction& instruction);
+    std::optional<ValueId> simplify_logic(Op op, ValueId x, std::uint32_t known);
+    ValueId fold(const Instruction& instruction);
 
     CellKernel kernel_;
-    std::unordered_map<std::uint64_t, std::vector<ValueId>> numbering_;
+    std::unordered_map<std::uint64_t, ValueId>
+        numbering_;  ///< By hash; the next is tried if taken.
     std::unordered_map<std::string, std::uint32_t> field_slots_, mask_slots_, uniform_slots_;
 };
 

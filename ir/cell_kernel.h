@@ -1,7 +1,7 @@
 // Cell kernels: what a stage computes per cell, as one small flat program.
 //
-// A kernel is a list of instructions in static single assignment: an instruction's position is the
-// name of its value, and it reads only values before it. There is no control flow; `select` chooses.
+// A kernel is a list of instructions in static single assignment: an instruction's position is
+// the name of its value, and it reads only values before it. There is no control flow; `select` chooses.
 // Nothing in it knows what a cell's neighbours are (the executor's stencil does) nor where fields
 // lie (KernelArguments does). It cannot fail: users' errors end in lang/.
 #pragma once
@@ -36,6 +36,17 @@ inline constexpr int op_count = 0
 #include "ir/operations.def"
 #undef CASCADE_OPERATION
     ;
+
+/// How many values an operation reads, for use at compile time.
+constexpr int info_arity(Op op) {
+    switch (op) {
+#define CASCADE_OPERATION(name, arity, payload, meaning) \
+    case Op::name: return arity;
+#include "ir/operations.def"
+#undef CASCADE_OPERATION
+    }
+    return 0;
+}
 
 /// Position of the instruction that computes a value.
 using ValueId = std::uint32_t;

@@ -13,13 +13,16 @@ namespace cascade {
 
 struct JitOptions {
     int lanes = 0;      ///< Cells per vector: 4, 8 or 16; 0 takes the host's widest.
-    int optimise = 2;   ///< 0 … 3, of LLVM's pipeline and code generator.
+    int optimise = 2;   ///< 0 … 3, of LLVM's code generator.
 };
 
 /// A backend whose kernels are machine code of this process. Fails if the host is not supported.
+/// Its compile() may be called from several threads, and fails on kernels of more than 20,000
+/// instructions (about; a Laplacian counts for more), which the interpreter can run.
 Result<std::unique_ptr<Backend>> make_jit(const JitOptions& options = {});
 
-/// The kernel's LLVM IR after optimisation (`--dump llvm`) or its assembly (`--dump asm`).
+/// The LLVM IR that the kernel's code is generated from (`--dump llvm`), or its assembly
+/// (`--dump asm`).
 Result<std::string> dump_llvm(const CellKernel& kernel, Stencil stencil, const JitOptions& options);
 Result<std::string> dump_assembly(const CellKernel& kernel, Stencil stencil,
                                   const JitOptions& options);
@@ -39,7 +42,11 @@ struct ObjectOptions {
 ///               const float *uniforms, float *const *results,
 ///               int64_t width, int64_t stride, int64_t row_begin, int64_t row_end);
 ///
-/// that computes rows [row_begin, row_end): the same code and ABI as the JIT's own kernels.
+/// that computes rows [row_begin, row_end): the same code and ABI as the JIT's own kernels. It
+/// calls nothing. Planes are laid out as in PlaneLayout: pointers are to cell (0, 0), of floats
+/// aligned to 64 bytes and of masks to 16; `stride` is a multiple of 16 elements, with 16 or more
+/// in front of and behind each row; `width` is at least 1. The bits are those of a run if the
+/// processor flushes denormal inputs and results meanwhile (FTZ and DAZ on x86).
 Result<std::vector<std::uint8_t>> compile_object(const CellKernel& kernel, Stencil stencil,
                                                  const ObjectOptions& options);
 

@@ -84,7 +84,9 @@ struct Block {
     BlockKind kind = BlockKind::system;
     Word keyword;  ///< `system`, `stage`, `system_name`, …: the block's place in messages.
     Word name;     ///< Of a system or stage; empty for others.
-    Word base;     ///< The stage's system; empty for others.
+    /// The stage's system; empty where it could not be read. Of a system: the system it is derived
+    /// from. The parser has given a message for both: later stages take the name and are silent.
+    Word base;
     std::vector<Sentence> sentences;
 };
 

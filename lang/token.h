@@ -4,6 +4,8 @@
 #include "core/diagnostics.h"
 #include "core/source.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,6 +60,10 @@ struct Token {
     TokenKind kind = TokenKind::end_of_text;
     Span span;
 };
+
+/// A script of more tokens is refused with one message: no page of text has so many, and what the
+/// later stages need in memory is bounded by it.
+inline constexpr std::size_t most_tokens = 1u << 22;
 
 /// Splits a source into tokens; the last is end_of_text. Every line end is a token (several in a
 /// row are one); comments and blanks are none. Bad input (a stray character, invalid UTF-8, NUL, an

@@ -5,11 +5,13 @@
 #include "core/plane.h"
 #include "core/result.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cascade {
@@ -37,29 +39,45 @@ struct ValueRange {
     float high = 1;
 };
 
-/// Smallest and largest finite value; [0, 0] where there is none.
+/// Smallest and largest finite value of the cells; [0, 0] where there is none.
 ValueRange value_range(const Field& field);
 
-/// A field through a palette. A range of no width gives the palette's middle.
+/// A field through a palette. A range of no width gives the palette's middle, a range whose ends
+/// are swapped the palette from its end to its start. Values beyond the range get the colour of
+/// its end, NaN magenta.
 Image paint(const Field& field, ValueRange range, const Palette& palette);
 
-/// Three fields as red, green, blue, clamped to 0 … 1.
+/// Three fields of one layout as red, green, blue, clamped to 0 … 1; magenta where one is NaN.
 Image paint(const Field& red, const Field& green, const Field& blue);
 
-/// Every pixel as a square of `factor` pixels.
+/// Every pixel as a square of `factor` pixels (at least 1).
 Image enlarge(const Image& image, int factor);
 
 enum class PngDepth { eight = 8, sixteen = 16 };
 
-/// Text chunks of a PNG by keyword (Latin letters, at most 79). Values are UTF-8 (iTXt).
+/// Text chunks of a PNG by keyword (printable ASCII, 1 to 79 characters, no blank at the ends or
+/// twice in a row). Values are UTF-8 (iTXt).
 using PngTexts = std::map<std::string, std::string>;
 
+/// The longest text that is written or read, in bytes.
+inline constexpr std::size_t longest_png_text = std::size_t{16} << 20;
+
+/// A PNG file in memory, as write_png writes it. Fails where a side is 0 or above 2^31 − 1, a text
+/// is too long or holds a NUL, or memory is short.
+Result<std::string> encode_png(const Image& image, PngDepth depth, const PngTexts& texts);
+
 /// Writes atomically: a file of that name is replaced only by a complete one. A picture whose
-/// pixels are all grey is written as greyscale.
+/// pixels are all grey is written as greyscale. Colours are rounded to the nearest of 256 or 65536
+/// levels; long texts are compressed. Fails as encode_png and write_file do.
 Result<void> write_png(const std::filesystem::path& path, const Image& image, PngDepth depth,
                        const PngTexts& texts);
 
-/// The text chunks of a PNG file (tEXt, zTXt, iTXt). Fails on what is no PNG.
+/// The text chunks (tEXt, zTXt, iTXt) of a PNG file in memory; Latin-1 becomes UTF-8, of a keyword
+/// used twice the first text stays. The picture itself is not decoded. Fails, with the reason, on
+/// what is no PNG, is cut off, damaged (checksums are looked at) or has a text above the limit.
+Result<PngTexts> parse_png_texts(std::string_view bytes);
+
+/// The same of a file.
 Result<PngTexts> read_png_texts(const std::filesystem::path& path);
 
 /// One picture of a sheet with the line written under it.
@@ -68,10 +86,14 @@ struct Panel {
     Image image;
 };
 
-/// A contact sheet: panels in rows of `columns`, labels in a small font of our own (ASCII).
+/// A contact sheet: panels in rows of `columns`, labels in a small font of our own (ASCII; another
+/// character is drawn as a box, a label that is too long ends in "…"). All panels are enlarged by
+/// one whole factor, so that small ones can be seen; a picture of a few rows is drawn as a band.
 Image make_sheet(std::span<const Panel> panels, int columns);
 
 /// The picture in half-block characters and 24-bit colour, at most `columns` wide, for terminals.
+/// A wider picture is averaged down in its own proportions, none is enlarged. Each line ends in a
+/// reset of the colours and a line end.
 std::string half_blocks(const Image& image, int columns);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// NumPy's .npy files: one array, little-endian float32 written, float32 and float64 read.
+// NumPy's .npy files: one array. Little-endian float32 is written; floats, integers and booleans of
+// both byte orders are read as float32. The format: NumPy Enhancement Proposal 1.
 #pragma once
 
 #include "core/plane.h"
@@ -6,6 +7,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace cascade {
@@ -17,11 +20,20 @@ struct NpyArray {
     std::vector<float> values;
 };
 
-/// Reads format versions 1 to 3. Fails, with the reason, on other types, Fortran order, more than
-/// two dimensions, a truncated or oversized file, a bad header.
+/// An array from a .npy file in memory, format versions 1 to 3. Types f4 f8 i1 i2 i4 i8 u1 u2 u4 u8
+/// b1, little- or big-endian, each value rounded to the nearest float32. Fails, with the reason, on
+/// other types, Fortran order, no or more than two dimensions, no elements, missing or surplus
+/// bytes, a bad header. The message is a clause that follows "cannot read 'FILE': ".
+Result<NpyArray> parse_npy(std::string_view bytes);
+
+/// The same of a file.
 Result<NpyArray> read_npy(const std::filesystem::path& path);
 
-/// Writes rows × columns float32 in C order, atomically; every NaN as 0x7fc00000.
+/// A field as a .npy file in memory: version 1.0, header as NumPy writes it, rows × columns
+/// little-endian float32 in C order; every NaN as 0x7fc00000.
+std::string encode_npy(const Field& field);
+
+/// Writes encode_npy(field), atomically.
 Result<void> write_npy(const std::filesystem::path& path, const Field& field);
 
 }  // namespace cascade

@@ -52,23 +52,32 @@ struct NotFinite {
     std::size_t species = 0;
     std::int64_t column = 0, row = 0;
     std::int64_t step = 0;            ///< It appeared in this step (the first step is 1): exact.
+                                      ///< Schedule::first_step where a start value was so already.
 };
 
 struct StageOutcome {
     std::int64_t steps = 0;           ///< Complete steps when the loop ended.
     bool cancelled = false;
     std::optional<NotFinite> not_finite;
+    /// Only with `not_finite`: the species at the last look before, up to `check_every` steps
+    /// earlier, when growth was slight still. A good state to estimate stability at.
+    std::vector<Field> last_checked;
 };
 
-/// Called on the caller's thread with the number of complete steps; the species are as that step
-/// left them. Returns false to end the stage there.
+/// Called on the caller's thread with the number of complete steps, not for `first_step`; the
+/// species (the same vector that was given to advance()) are as that step left them, and have been
+/// found finite. Returns false to end the stage there.
 using Observer = std::function<bool(std::int64_t step, std::span<const Field> species)>;
 
-/// Advances `species` (start values in, last complete step out). Before a step that would leave a
-/// value that is not finite is found, up to `check_every` steps are replayed from a kept copy to
-/// name step and cell; then `species` hold the last step at which all were finite.
+/// Advances `species` (start values in, last complete step out). When a look finds a value that is
+/// not finite, the steps since the last look, at most `check_every`, are replayed from a kept copy
+/// to name step and cell; then `species` hold the last step at which all were finite.
 /// `progress` carries the stage's name and numbers; the loop fills in the rest and reports through
-/// `control`. If `control.cancel` is set it ends at the next complete step.
+/// `control`: at once, about ten times a second, and with `stage_done` when the loop ends for
+/// whatever reason. If `control.cancel` is set it ends at the next complete step (batches of steps
+/// between two looks at it take about 20 ms).
+///
+/// Needs memory for three copies of all species. Addresses of the fields' values change.
 StageOutcome advance(const StepProblem& problem, const Schedule& schedule,
                      std::vector<Field>& species, RunControl& control, Progress progress,
                      const Observer& observe);

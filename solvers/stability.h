@@ -11,13 +11,20 @@ namespace cascade {
 
 /// The result of a power iteration on the Jacobian of the rates at a state.
 struct StabilityEstimate {
-    double eigenvalue = 0;                ///< Of largest magnitude, in 1 / time.
-    std::optional<double> largest_speed;  ///< 2 / |eigenvalue| where that eigenvalue is negative;
-                                          ///< empty where growth has another cause than the step.
+    /// Of largest magnitude, in 1 / time; the real part where a pair of complex ones leads. 0 where
+    /// the rates at the state are not finite.
+    double eigenvalue = 0;
+    /// Explicit Euler steps of this size and less damp the fastest decaying mode: 2 / |λ| of the
+    /// most negative eigenvalue λ (−2 Re λ / |λ|² of a complex pair). Empty where no eigenvalue is
+    /// negative: growth then has another cause than the step, as it has where the speed in use is
+    /// well below this one.
+    std::optional<double> largest_speed;
 };
 
 /// Estimates it at the state `species` by finite differences of the kernel of rates (one result per
-/// species, slots as for the step). Deterministic; a few hundred evaluations.
+/// species, slots as for the step). Cells that one of `rates.masks` marks do not move. Takes at
+/// most about 800 evaluations of the rates, on one thread; within 2 % for diffusion. The result is
+/// deterministic. Of use only at a state before a blow-up: at 1e20 any reaction looks stiff.
 StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const Field> species);
 
 /// The chequerboard mode of a field: |Σ (−1)^(i+j) c| / N divided by the standard deviation of c.

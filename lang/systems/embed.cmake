@@ -1,1 +1,37 @@
-# The built-in systems are Cascade texts; this turns them into one C++ file of raw strings.
+# The built-in systems are Cascade texts; this turns them into one C++ file of raw strings. It runs
+# when CMake configures, which a change of a text or a new text brings about.
+file(GLOB built_in_systems CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lang/systems/*.cascade)
+list(SORT built_in_systems)
+set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND
+  PROPERTY CMAKE_CONFIGURE_DEPENDS ${built_in_systems})
+
+set(built_in_entries "")
+foreach(path IN LISTS built_in_systems)
+  get_filename_component(name ${path} NAME)
+  file(READ ${path} text)
+  string(APPEND built_in_entries "    {\"${name}\", R\"cascade(${text})cascade\"},\n")
+endforeach()
+
+set(built_in_source ${PROJECT_BINARY_DIR}/lang/built_in_systems.cpp)
+file(CONFIGURE OUTPUT ${built_in_source} @ONLY CONTENT [[
+// Made by lang/systems/embed.cmake from lang/systems/*.cascade.
+#include "lang/check.h"
+
+#include <array>
+
+namespace cascade {
+
+namespace {
+
+using Text = std::pair<std::string_view, std::string_view>;
+
+constexpr auto texts = std::to_array<Text>({
+@built_in_entries@});
+
+}  // namespace
+
+std::span<const Text> built_in_system_texts() { return texts; }
+
+}  // namespace cascade
+]])
+target_sources(cascade_lang PRIVATE ${built_in_source})

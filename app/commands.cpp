@@ -1,0 +1,186 @@
+#include "app/commands.h"
+
+#include "app/exit_status.h"
+#include "core/file.h"
+#include "lang/parse.h"
+#include "run/dump.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <unistd.h>
+
+namespace cascade {
+
+namespace {
+
+Result<std::string> read_standard_input(std::size_t largest) {
+    std::string text;
+    std::string piece(1 << 16, '\0');
+    while (true) {
+        const ssize_t count = ::read(STDIN_FILENO, piece.data(), piece.size());
+        if (count == 0) return text;
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) {
+            return failure(fmt::format("standard input cannot be read: {}", std::strerror(errno)));
+        }
+        text.append(piece, 0, static_cast<std::size_t>(count));
+        if (text.size() > largest) {
+            return failure(
+                fmt::format("standard input has more than the {} bytes a script may have", largest));
+        }
+    }
+}
+
+Result<LoadedFile> load_file(const std::string& path, const Overrides& overrides) {
+    if (path != "-") return load_script_file(path, overrides);
+    auto text = read_standard_input(largest_script);
+    if (!text) return tl::unexpected(text.error());
+    return LoadedFile{load_script("<standard input>", std::move(*text), ".", overrides), ""};
+}
+
+/// "2 stages, 35000 steps, 64 × 64 cells".
+std::string summary(const Script& script) {
+    const Program& program = *script.program;
+    std::int64_t steps = 0;
+    const std::uint32_t count = program.stages.empty() ? 0 : script.stage_count();
+    for (std::uint32_t k = 0; k < count; ++k) steps += program.stages[k].iterations;
+    return fmt::format("{} {}, {} steps, {} × {} cells", count, count == 1 ? "stage" : "stages",
+                       steps, program.domain.grid.width, program.domain.grid.height);
+}
+
+int check_one(const std::string& path, const Options& options, Console& console) {
+    const auto file = load(path, options.overrides, console);
+    if (!file) return exit_status::wrong_script;
+    if (!options.dump.empty()) return dump_command(file->script, options.dump, console);
+    console.say(file->script.messages(console.error().colour));
+    if (!file->script.program) return exit_status::wrong_script;
+    console.print(fmt::format("{}: no errors ({})\n", file->script.name, summary(file->script)));
+    return exit_status::success;
+}
+
+/// The file name beside which others are named: "leopard" of "examples/leopard.cascade".
+std::filesystem::path stem_of(const Script& script) {
+    const auto stem = std::filesystem::path(script.name).stem();
+    return stem.empty() || stem.string().starts_with("<") ? "cascade" : stem;
+}
+
+Result<void> write_compiled(const CompiledStep& compiled, const std::filesystem::path& object,
+                            const std::filesystem::path& header) {
+    const std::string_view bytes(reinterpret_cast<const char*>(compiled.object.data()),
+                                 compiled.object.size());
+    if (auto done = write_file(object, bytes); !done) return done;
+    return write_file(header, compiled.header);
+}
+
+/// The text of a default value as its author wrote it.
+std::string source_of(const Formula& formula, const Sources& sources) {
+    return formula.nodes.empty() ? "" : std::string(sources.text(formula.nodes.back().span));
+}
+
+void print_quantities(const System& system, const Sources& sources, bool species,
+                      Console& console) {
+    for (const Quantity& quantity : system.quantities) {
+        if (quantity.is_species != species) continue;
+        console.print(fmt::format("  {:<9} {:<10} {}\n", species ? "species" : "parameter",
+                                  quantity.name, source_of(quantity.start, sources)));
+    }
+}
+
+void print_settings(const System& system, const Sources& sources, Console& console) {
+    const auto line = [&](std::string_view name, const std::string& value) {
+        console.print(fmt::format("  {:<9} {:<10} {}\n", "setting", name, value));
+    };
+    const Settings& settings = system.settings;
+    if (settings.iterations) line("iterations", fmt::format("{}", *settings.iterations));
+    if (settings.interval) line("interval", fmt::format("{}", *settings.interval));
+    if (settings.speed) line("speed", source_of(*settings.speed, sources));
+    if (settings.frozen) line("frozen", source_of(*settings.frozen, sources));
+    if (settings.show) line("show", source_of(*settings.show, sources));
+}
+
+}  // namespace
+
+std::optional<LoadedFile> load(const std::string& path, const Overrides& overrides,
+                               const Console& console) {
+    auto file = load_file(path, overrides);
+    if (file) return std::move(*file);
+    console.fail(file.error());
+    return std::nullopt;
+}
+
+int dump_command(const Script& script, const std::string& kind, Console& console) {
+    // A wrong script has tokens and a tree; beyond those its messages say enough.
+    const bool can_be_shown = script.program || kind == "tokens" || kind == "ast";
+    const auto text = can_be_shown ? dump(script, kind) : Result<std::string>(std::string());
+    if (text) console.print(*text);
+    console.say(script.messages(console.error().colour));
+    if (!script.program) return exit_status::wrong_script;
+    if (text) return exit_status::success;
+    console.fail(text.error());
+    return exit_status::failed_run;
+}
+
+int check_command(const Options& options, Console& console) {
+    int status = exit_status::success;
+    for (const std::string& path : options.scripts) {
+        status = std::max(status, check_one(path, options, console));
+    }
+    return status;
+}
+
+int compile_command(const Options& options, Console& console) {
+    const auto file = load(options.scripts[0], options.overrides, console);
+    if (!file) return exit_status::wrong_script;
+    const Script& script = file->script;
+    console.say(script.messages(console.error().colour));
+    if (!script.program) return exit_status::wrong_script;
+
+    std::filesystem::path object = options.object;
+    if (object.empty()) object = stem_of(script).concat(".o");
+    std::filesystem::path header = options.header;
+    if (header.empty()) header = std::filesystem::path(object).replace_extension(".h");
+    for (const auto& path : {object, header}) {
+        if (auto good = check_writable(path); !good) {
+            console.fail(good.error());
+            return exit_status::failed_run;
+        }
+    }
+    const auto compiled = compile_step(script, options.compile);
+    if (!compiled) {
+        console.fail(compiled.error());
+        return has_jit() ? exit_status::wrong_use : exit_status::failed_run;
+    }
+    if (auto done = write_compiled(*compiled, object, header); !done) {
+        console.fail(done.error());
+        return exit_status::failed_run;
+    }
+    console.print(fmt::format("wrote {}\nwrote {}\n", object.string(), header.string()));
+    return exit_status::success;
+}
+
+int systems_command(const Options& options, Console& console) {
+    // A script with nothing of its own has the built-in systems.
+    LoadedFile file{load_script("<built in>", "domain { grid: 64, 64 }", "."), ""};
+    if (!options.scripts.empty()) {
+        auto given = load(options.scripts[0], {}, console);
+        if (!given) return exit_status::wrong_script;
+        file = std::move(*given);
+    }
+    const Script& script = file.script;
+    console.say(script.messages(console.error().colour));
+    if (!script.program) return exit_status::wrong_script;
+    std::string_view between;
+    for (const System& system : script.program->systems) {
+        console.print(fmt::format("{}{}{}\n", between, system.name,
+                                  system.built_in ? "" : fmt::format(" ({})", script.name)));
+        print_quantities(system, script.sources, true, console);
+        print_quantities(system, script.sources, false, console);
+        print_settings(system, script.sources, console);
+        between = "\n";
+    }
+    return exit_status::success;
+}
+
+}  // namespace cascade

@@ -1,0 +1,21 @@
+// The commands of the program, from options to an exit status.
+#pragma once
+
+#include "app/console.h"
+#include "app/options.h"
+
+namespace cascade {
+
+int run_command(const Options& options, Console& console);
+int check_command(const Options& options, Console& console);
+int compile_command(const Options& options, Console& console);
+int systems_command(const Options& options, Console& console);
+
+/// A script or a picture; "-" is standard input. Says why where there is nothing to read.
+std::optional<LoadedFile> load(const std::string& path, const Overrides& overrides,
+                               const Console& console);
+
+/// What `--dump` asks for, of a script that may be wrong. Exit status.
+int dump_command(const Script& script, const std::string& kind, Console& console);
+
+}  // namespace cascade

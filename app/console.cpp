@@ -1,0 +1,88 @@
+#include "app/console.h"
+
+#include "app/exit_status.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace cascade {
+
+namespace {
+
+constexpr int usual_columns = 80;
+
+bool is_set(const char* name) {
+    const char* const value = std::getenv(name);
+    return value && *value;
+}
+
+}  // namespace
+
+Stream Stream::of(int descriptor) {
+    const char* const terminal = std::getenv("TERM");
+    Stream stream;
+    stream.descriptor = descriptor;
+    stream.is_terminal =
+        isatty(descriptor) == 1 && terminal && std::string_view(terminal) != "dumb";
+    stream.colour = stream.is_terminal && !is_set("NO_COLOR");
+    return stream;
+}
+
+int Stream::columns() const {
+    winsize size = {};
+    if (is_terminal && ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+        return size.ws_col;
+    }
+    return usual_columns;
+}
+
+Result<void> Stream::write(std::string_view text) const {
+    while (!text.empty()) {
+        const ssize_t count = ::write(descriptor, text.data(), text.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return failure(errno == EPIPE ? "" : std::strerror(errno));
+        text.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return {};
+}
+
+void Console::print(std::string_view text) {
+    if (reader_gone_ || !fault_.empty()) return;
+    const auto done = out_.write(text);
+    if (done) return;
+    reader_gone_ = done.error().message.empty();
+    fault_ = done.error().message;
+}
+
+void Console::say(std::string_view text) const { (void)error_.write(text); }
+
+void Console::fail(const Failure& failure) const {
+    const auto in_colour = [&](std::string_view colour) {
+        return error_.colour ? colour : std::string_view();
+    };
+    std::string text = fmt::format("cascade: {}error:{} {}\n", in_colour("\x1b[1;31m"),
+                                   in_colour("\x1b[0m"), failure.message);
+    if (!failure.hint.empty()) {
+        text += fmt::format("{}note:{} {}\n", in_colour("\x1b[1;36m"), in_colour("\x1b[0m"),
+                            failure.hint);
+    }
+    say(text);
+}
+
+void Console::warn(std::string_view message) const {
+    say(error_.colour ? fmt::format("cascade: \x1b[1;35mwarning:\x1b[0m {}\n", message)
+                      : fmt::format("cascade: warning: {}\n", message));
+}
+
+int Console::finish(int status) const {
+    if (fault_.empty()) return status;
+    fail({fmt::format("standard output cannot be written: {}", fault_), ""});
+    return status == exit_status::success ? exit_status::failed_run : status;
+}
+
+}  // namespace cascade

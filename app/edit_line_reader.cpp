@@ -1,0 +1,128 @@
+// Lines with libedit. The only file that sees its header.
+#include "app/line_reader.h"
+#include "app/prompt_text.h"
+
+#include <histedit.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <system_error>
+
+namespace cascade {
+
+namespace {
+
+class EditReader : public LineReader {
+public:
+    EditReader(std::filesystem::path history_file, NamesToComplete names)
+        : names_(std::move(names)),
+          history_file_(std::move(history_file)),
+          history_(history_init()),
+          edit_(el_init("cascade", stdin, stdout, stderr)) {
+        HistEvent event;
+        history(history_.get(), &event, H_SETSIZE, 2000);
+        history(history_.get(), &event, H_SETUNIQUE, 1);
+        if (!history_file_.empty()) {
+            history(history_.get(), &event, H_LOAD, history_file_.c_str());
+        }
+        EditLine* const edit = edit_.get();
+        el_set(edit, EL_CLIENTDATA, this);
+        el_set(edit, EL_PROMPT, &EditReader::prompt);
+        el_set(edit, EL_EDITOR, "emacs");
+        el_set(edit, EL_HIST, ::history, history_.get());
+        el_set(edit, EL_ADDFN, "cascade-complete", "Complete the word", &EditReader::complete);
+        el_set(edit, EL_BIND, "^I", "cascade-complete", nullptr);
+        // Ctrl-C is a key while a line is typed: it drops the line and not the program.
+        el_set(edit, EL_SETTY, "-d", "intr=", nullptr);
+        el_set(edit, EL_ADDFN, "cascade-drop", "Drop the line", &EditReader::drop);
+        el_set(edit, EL_BIND, "^C", "cascade-drop", nullptr);
+        el_set(edit, EL_BIND, "^R", "em-inc-search-prev", nullptr);
+        el_source(edit, nullptr);  // The user's own ~/.editrc has the last word.
+    }
+
+    ~EditReader() override {
+        if (history_file_.empty()) return;
+        std::error_code error;
+        std::filesystem::create_directories(history_file_.parent_path(), error);
+        HistEvent event;
+        if (!error) history(history_.get(), &event, H_SAVE, history_file_.c_str());
+    }
+
+    TypedLine read(const std::string& prompt) override {
+        prompt_ = prompt;
+        dropped_ = false;
+        int count = 0;
+        const char* const text = el_gets(edit_.get(), &count);
+        if (!text || count <= 0) return {};
+        if (dropped_) return {TypedLine::Kind::cancelled, ""};
+        TypedLine line{TypedLine::Kind::line, std::string(text, static_cast<std::size_t>(count))};
+        while (line.text.ends_with('\n') || line.text.ends_with('\r')) line.text.pop_back();
+        if (line.text.find_first_not_of(" \t") != std::string::npos) {
+            HistEvent event;
+            history(history_.get(), &event, H_ENTER, line.text.c_str());
+        }
+        return line;
+    }
+
+private:
+    struct EndEdit {
+        void operator()(EditLine* edit) const { el_end(edit); }
+    };
+    struct EndHistory {
+        void operator()(History* history) const { history_end(history); }
+    };
+
+    static EditReader& of(EditLine* edit) {
+        void* self = nullptr;
+        el_get(edit, EL_CLIENTDATA, &self);
+        return *static_cast<EditReader*>(self);
+    }
+
+    static char* prompt(EditLine* edit) { return of(edit).prompt_.data(); }
+
+    static unsigned char drop(EditLine* edit, int) {
+        of(edit).dropped_ = true;
+        std::fputs("^C", stdout);
+        return CC_NEWLINE;
+    }
+
+    static unsigned char complete(EditLine* edit, int) {
+        const LineInfo* const line = el_line(edit);
+        const std::string typed(line->buffer, line->cursor);
+        const Completion completion = complete_word(typed, of(edit).names_(typed));
+        if (!completion.insert.empty()) {
+            if (el_insertstr(edit, completion.insert.c_str()) == -1) return CC_ERROR;
+            return CC_REFRESH;
+        }
+        if (completion.choices.empty()) return CC_REFRESH_BEEP;
+        std::fputc('\n', stdout);
+        for (const std::string& choice : completion.choices) std::printf("%s  ", choice.c_str());
+        std::fputc('\n', stdout);
+        return CC_REDISPLAY;
+    }
+
+    NamesToComplete names_;
+    std::filesystem::path history_file_;
+    std::string prompt_;
+    bool dropped_ = false;
+    std::unique_ptr<History, EndHistory> history_;
+    std::unique_ptr<EditLine, EndEdit> edit_;
+};
+
+}  // namespace
+
+std::unique_ptr<LineReader> make_edit_reader(const std::filesystem::path& history,
+                                             NamesToComplete names) {
+    return std::make_unique<EditReader>(history, std::move(names));
+}
+
+std::filesystem::path history_path() {
+    const char* const state = std::getenv("XDG_STATE_HOME");
+    // By the XDG base directory specification a relative path there counts for nothing.
+    if (state && *state == '/') return std::filesystem::path(state) / "cascade/history";
+    const char* const home = std::getenv("HOME");
+    if (!home || !*home) return {};
+    return std::filesystem::path(home) / ".local/state/cascade/history";
+}
+
+}  // namespace cascade

@@ -1,0 +1,13 @@
+// What the program tells the shell.
+#pragma once
+
+namespace cascade::exit_status {
+
+constexpr int success = 0;
+constexpr int wrong_script = 2;   ///< The script has faults, or cannot be read.
+constexpr int failed_run = 3;     ///< A run that blew up, an output that cannot be written.
+constexpr int wrong_use = 64;     ///< EX_USAGE of BSD's sysexits.h: options and arguments.
+constexpr int bug = 70;           ///< EX_SOFTWARE: a fault of Cascade's own.
+constexpr int signal_base = 128;  ///< Stopped by signal n: 128 + n, so 130 for Ctrl-C.
+
+}  // namespace cascade::exit_status

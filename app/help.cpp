@@ -1,0 +1,71 @@
+#include "app/help.h"
+
+#include "run/png_texts.h"
+#include "run/simulation.h"
+
+#include <fmt/format.h>
+
+namespace cascade::help {
+
+const std::string_view about =
+    "Cascade grows patterns by reaction and diffusion: a page of text becomes spots, stripes,\n"
+    "a leopard.";
+
+const std::string_view examples = R"(Examples:
+  cascade run examples/leopard.cascade               draws leopard.png
+  cascade run leopard.cascade --grid 256x256 --palette leopard --scale 2
+  cascade run leopard.cascade --set stage2.ka=1/200 --seed 7 -o other.png
+  cascade run leopard.png                            draws a picture again
+  cascade check my.cascade                           says what is wrong with it
+  cascade systems                                    what there is to begin with
+
+A first script, spots.cascade:
+  stage large: turing_spots { iterations: 8000; ka: 1/320 }
+  stage small: turing_spots {
+    iterations: 4000
+    frozen: b < 4                # the spots of 'large' stay
+    a: if([frozen], 4, a)
+    b: if([frozen], 4, b)
+    ka: 1/80
+  }
+
+Exit status: 0 done, 2 wrong script, 3 failed run, 64 wrong use, 130 stopped by Ctrl-C.)";
+
+const std::string_view run = "Runs a script and draws a picture.";
+const std::string_view run_examples = R"(Examples:
+  cascade run leopard.cascade                        leopard.png: the last stage that ran
+  cascade run leopard.cascade --show stage1.b        another species, another stage
+  cascade run leopard.cascade --sheet all.png        everything at a glance
+  cascade run leopard.cascade --frames film          a picture at each interval
+  cascade run leopard.cascade --save half --stop-at stage1:9000
+  cascade run --resume half                          the same bits as without the stop
+  cascade run line.cascade --space-time              one dimension, time runs downwards
+
+Ctrl-C stops at a complete step and writes what there is; a second one leaves at once.)";
+
+const std::string_view check = "Says what is wrong with scripts, and runs nothing.";
+const std::string_view check_examples = R"(Examples:
+  cascade check *.cascade
+  cascade check leopard.cascade --dump ir            what a cell computes in a step)";
+
+const std::string_view compile =
+    "Writes the step of a stage as an object file with a C header.";
+const std::string_view compile_examples = R"(Example:
+  cascade compile leopard.cascade --stage 2 --per-cell beta -o step.o --header step.h
+The header says how fields lie in memory and how steps are taken.)";
+
+const std::string_view systems = "Lists the systems: their species, parameters and defaults.";
+const std::string_view systems_examples = R"(Example:
+  cascade systems my.cascade                         those of a script too)";
+
+const std::string_view repl = "The language line by line, with pictures in the terminal.";
+const std::string_view repl_examples = R"(Example:
+  cascade repl leopard.cascade
+Then :help tells what can be typed.)";
+
+std::string version_text() {
+    return fmt::format("cascade {}\n{}\n", version(),
+                       has_jit() ? "native code by LLVM" : "interpreter only, without LLVM");
+}
+
+}  // namespace cascade::help

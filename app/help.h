@@ -1,0 +1,19 @@
+// What --help says beside the lists of options, and what --version says.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace cascade::help {
+
+extern const std::string_view about;
+extern const std::string_view examples;
+extern const std::string_view run, run_examples;
+extern const std::string_view check, check_examples;
+extern const std::string_view compile, compile_examples;
+extern const std::string_view systems, systems_examples;
+extern const std::string_view repl, repl_examples;
+
+std::string version_text();
+
+}  // namespace cascade::help

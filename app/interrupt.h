@@ -1,0 +1,30 @@
+// Ctrl-C: the first ends the run at a complete step, the second ends the program.
+#pragma once
+
+#include "core/run_control.h"
+
+#include <memory>
+
+namespace cascade {
+
+/// While it lives, SIGINT, SIGTERM and SIGHUP set `control.cancel`; a second SIGINT leaves the
+/// program at once, with status 130. One at a time.
+class InterruptGuard {
+public:
+    explicit InterruptGuard(RunControl& control);
+    ~InterruptGuard();
+    InterruptGuard(const InterruptGuard&) = delete;
+    InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+    /// The signal that came, 0 if none has.
+    int signal() const;
+
+private:
+    struct Saved;
+    std::unique_ptr<Saved> saved_;
+};
+
+/// Writing to a pipe that nobody reads any more becomes an error of the write, not a signal.
+void ignore_broken_pipes();
+
+}  // namespace cascade

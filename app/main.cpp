@@ -1,0 +1,48 @@
+// The program `cascade`: options, a command, an exit status.
+
+#include "app/commands.h"
+#include "app/exit_status.h"
+#include "app/interrupt.h"
+#include "app/options.h"
+#include "app/repl.h"
+
+#include <clocale>
+#include <new>
+
+namespace {
+
+int run_chosen(const cascade::Options& options, cascade::Console& console) {
+    switch (options.command) {
+        case cascade::Command::run: return run_command(options, console);
+        case cascade::Command::check: return check_command(options, console);
+        case cascade::Command::compile: return compile_command(options, console);
+        case cascade::Command::systems: return systems_command(options, console);
+        case cascade::Command::repl: return repl_command(options, console);
+    }
+    return cascade::exit_status::bug;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    // libedit asks the locale which bytes make a letter; numbers are read and written without it.
+    std::setlocale(LC_CTYPE, "");
+    cascade::ignore_broken_pipes();
+    auto console = cascade::Console::standard();
+    try {
+        const std::vector<std::string> arguments(argv + 1, argv + std::max(argc, 1));
+        const auto parsed = cascade::parse_options("cascade", arguments);
+        if (const auto* const leave = std::get_if<cascade::Leave>(&parsed)) {
+            if (leave->status == cascade::exit_status::success) {
+                console.print(leave->text);
+            } else {
+                console.say(leave->text);
+            }
+            return console.finish(leave->status);
+        }
+        return console.finish(run_chosen(std::get<cascade::Options>(parsed), console));
+    } catch (const std::bad_alloc&) {
+        console.fail({"there is not enough memory", "a smaller grid needs less"});
+        return cascade::exit_status::failed_run;
+    }
+}

@@ -1,0 +1,98 @@
+#include "app/option_values.h"
+
+#include "core/near_name.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace cascade {
+
+namespace {
+
+/// Reads all of `text` as a number.
+template <typename Number>
+bool read_all(std::string_view text, Number& number) {
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && stop == end;
+}
+
+}  // namespace
+
+Result<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::int64_t high) {
+    std::int64_t number = 0;
+    if (read_all(text, number) && number >= low && number <= high) return number;
+    return failure(fmt::format("'{}' is not a whole number from {} to {}", text, low, high));
+}
+
+Result<std::pair<std::int64_t, std::int64_t>> parse_grid(std::string_view text) {
+    // More cells than this are refused later, with a message about the grid.
+    constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();
+    const std::size_t cross = text.find('x');
+    const auto columns = parse_whole(text.substr(0, cross), 0, largest);
+    const auto rows = cross == std::string_view::npos ? Result<std::int64_t>(1)
+                                                      : parse_whole(text.substr(cross + 1), 0, largest);
+    if (columns && rows) return std::pair{*columns, *rows};
+    return failure(fmt::format("'{}' is not a grid", text),
+                   "write columns x rows, as in --grid 256x128");
+}
+
+Result<ValueRange> parse_range(std::string_view text) {
+    const std::size_t comma = text.find(',');
+    ValueRange range;
+    if (comma != std::string_view::npos && read_all(text.substr(0, comma), range.low) &&
+        read_all(text.substr(comma + 1), range.high) && std::isfinite(range.low) &&
+        std::isfinite(range.high) && range.low != range.high) {
+        return range;
+    }
+    return failure(fmt::format("'{}' is not a range", text),
+                   "write the values of the palette's two ends, as in --range 0,8");
+}
+
+Result<StopAt> parse_stop_at(std::string_view text) {
+    const std::size_t colon = text.rfind(':');
+    if (colon != std::string_view::npos && colon > 0) {
+        const auto step =
+            parse_whole(text.substr(colon + 1), 0, std::numeric_limits<std::int64_t>::max());
+        if (step) return StopAt{std::string(text.substr(0, colon)), *step};
+    }
+    return failure(fmt::format("'{}' is not a place to stop at", text),
+                   "write STAGE:STEP, as in --stop-at stage2:3000");
+}
+
+Result<std::vector<std::string>> parse_names(std::string_view text) {
+    std::vector<std::string> names;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        if (end == begin) {
+            return failure(fmt::format("'{}' is not a list of names", text),
+                           "write them with commas and no spaces, as in beta,ka");
+        }
+        names.emplace_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return names;
+}
+
+Result<std::string> parse_choice(std::string_view text, std::span<const std::string> choices) {
+    if (std::find(choices.begin(), choices.end(), text) != choices.end()) return std::string(text);
+    const std::string near = nearest_name(text, choices);
+    return failure(fmt::format("'{}' is none of {}", text, fmt::join(choices, ", ")),
+                   near.empty() ? "" : fmt::format("did you mean '{}'?", near));
+}
+
+Result<std::string> parse_png_path(std::string_view text) {
+    const std::size_t dot = text.rfind('.');
+    std::string ending(dot == std::string_view::npos ? "" : text.substr(dot));
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    if (ending == ".png") return std::string(text);
+    return failure(fmt::format("'{}' does not end in .png", text),
+                   "pictures are written as PNG files");
+}
+
+}  // namespace cascade

@@ -1,0 +1,38 @@
+// The values of command-line options, from text. Failures say what the option takes.
+#pragma once
+
+#include "core/result.h"
+#include "picture/image.h"
+#include "run/run.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace cascade {
+
+/// A whole number of digits only, within [low, high].
+Result<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::int64_t high);
+
+/// "256x128" is 256 columns of 128 rows; "60" is one row of 60 cells.
+Result<std::pair<std::int64_t, std::int64_t>> parse_grid(std::string_view text);
+
+/// "0,8": two different finite numbers. The first may be the larger one: colours turn around.
+Result<ValueRange> parse_range(std::string_view text);
+
+/// "large:12000": a stage and a number of complete steps.
+Result<StopAt> parse_stop_at(std::string_view text);
+
+/// "p,q" in parts; fails on an empty part.
+Result<std::vector<std::string>> parse_names(std::string_view text);
+
+/// One of `choices`; a failure lists them and names the nearest.
+Result<std::string> parse_choice(std::string_view text, std::span<const std::string> choices);
+
+/// The path of a picture to be written: it must end in .png.
+Result<std::string> parse_png_path(std::string_view text);
+
+}  // namespace cascade

@@ -1,0 +1,57 @@
+// The command line: what the user asked for, as values. The only file that sees CLI11 is
+// options.cpp, since its headers take seconds to compile.
+#pragma once
+
+#include "run/compile.h"
+#include "run/picture_request.h"
+#include "run/run.h"
+#include "run/script.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace cascade {
+
+enum class Command { run, check, compile, systems, repl };
+
+/// The options about pictures that were given. A picture that is run again brings options of its
+/// own, so what was not given must be told from what is the default.
+struct PictureChanges {
+    std::optional<std::string> show;
+    std::optional<std::string> palette;
+    std::optional<ValueRange> range;
+    std::optional<int> scale;
+    std::optional<int> depth;
+    bool space_time = false;
+};
+
+PictureRequest apply(const PictureChanges& changes, PictureRequest request);
+
+struct Options {
+    Command command = Command::run;
+    std::vector<std::string> scripts;  ///< One, but for `check`; none with --resume alone.
+    Overrides overrides;
+    PictureChanges picture;
+    RunRequest run;                    ///< Its `picture` is left at the defaults.
+    std::string dump;                  ///< A dump kind; empty to run.
+    bool quiet = false;                ///< Neither progress nor remarks.
+    CompileRequest compile;
+    std::filesystem::path object;      ///< `compile -o`
+    std::filesystem::path header;      ///< `compile --header`
+};
+
+/// Nothing to do but to print and to leave: --help, --version, wrong use.
+struct Leave {
+    int status = 0;
+    std::string text;   ///< For standard output if `status` is 0, else for standard error.
+};
+
+/// `program` is what messages call us; `arguments` come without it.
+std::variant<Options, Leave> parse_options(const std::string& program,
+                                           const std::vector<std::string>& arguments);
+
+}  // namespace cascade

@@ -1,0 +1,150 @@
+#include "app/progress_display.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace cascade {
+
+namespace {
+
+constexpr int widest_bar = 40;
+constexpr int narrowest_bar = 8;
+constexpr auto between_lines = std::chrono::seconds(10);
+
+/// From empty to full in eighths of a character.
+constexpr std::array<std::string_view, 9> blocks = {" ", "▏", "▎", "▍", "▌", "▋", "▊", "▉", "█"};
+
+std::string draw_bar(double share, int width) {
+    const int eighths = static_cast<int>(std::clamp(share, 0.0, 1.0) * width * 8);
+    std::string bar;
+    for (int k = 0; k < width; ++k) {
+        bar += blocks[static_cast<std::size_t>(std::clamp(eighths - 8 * k, 0, 8))];
+    }
+    return bar;
+}
+
+double share_of(const Progress& progress) {
+    if (progress.steps <= 0) return 1.0;
+    return static_cast<double>(progress.step) / static_cast<double>(progress.steps);
+}
+
+/// Terminal columns of a text, taken as one for each character: names are letters and digits.
+int width_of(std::string_view text) {
+    return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+    }));
+}
+
+std::string rate_text(double steps_per_second) {
+    if (!(steps_per_second > 0)) return "";
+    if (steps_per_second < 10) return fmt::format("{:.1f} steps/s", steps_per_second);
+    return with_commas(static_cast<std::int64_t>(steps_per_second)) + " steps/s";
+}
+
+std::string left_text(const Progress& progress) {
+    if (progress.seconds_left < 0 || progress.stage_done) return "";
+    return clock_time(progress.seconds_left) + " left";
+}
+
+std::string stage_text(const Progress& progress) {
+    if (progress.stage_count == 1) return fmt::format("'{}'", progress.stage);
+    return fmt::format("{}/{} '{}'", progress.stage_number, progress.stage_count, progress.stage);
+}
+
+}  // namespace
+
+std::string with_commas(std::int64_t number) {
+    std::string digits = fmt::format("{}", number);
+    const std::size_t first = digits[0] == '-' ? 1 : 0;
+    for (std::size_t k = digits.size(); k > first + 3;) {
+        k -= 3;
+        digits.insert(k, 1, ',');
+    }
+    return digits;
+}
+
+std::string clock_time(double seconds) {
+    // More than a thousand hours are no longer counted down.
+    const auto whole = static_cast<std::int64_t>(std::ceil(std::clamp(seconds, 0.0, 3.6e6)));
+    const std::int64_t hours = whole / 3600, minutes = whole / 60 % 60;
+    if (hours > 0) return fmt::format("{}:{:02}:{:02}", hours, minutes, whole % 60);
+    return fmt::format("{}:{:02}", minutes, whole % 60);
+}
+
+std::string progress_bar(const Progress& progress, int columns) {
+    // A full line would move the cursor to the next one.
+    const int room = columns - 1;
+    const std::string left = "stage " + stage_text(progress) + " ";
+    std::vector<std::string> facts = {
+        fmt::format("{}/{}", with_commas(progress.step), with_commas(progress.steps))};
+    if (auto text = left_text(progress); !text.empty()) facts.push_back(text);
+    if (auto text = rate_text(progress.steps_per_second); !text.empty()) facts.push_back(text);
+
+    for (std::size_t count = facts.size(); count > 0; --count) {
+        std::string right;
+        for (std::size_t k = 0; k < count; ++k) right += "  " + facts[k];
+        const int bar = std::min(room - width_of(left) - width_of(right) - 2, widest_bar);
+        if (bar >= narrowest_bar) {
+            return fmt::format("{}▕{}▏{}", left, draw_bar(share_of(progress), bar), right);
+        }
+    }
+    const std::string percent = fmt::format("{:.0f} %", 100.0 * share_of(progress));
+    return width_of(percent) <= room ? percent : "";
+}
+
+std::string progress_line(const Progress& progress) {
+    std::string line = fmt::format("stage {}: {} of {} steps", stage_text(progress),
+                                   with_commas(progress.step), with_commas(progress.steps));
+    for (const std::string& fact : {rate_text(progress.steps_per_second), left_text(progress)}) {
+        if (!fact.empty()) line += ", " + fact;
+    }
+    return line;
+}
+
+ProgressDisplay::ProgressDisplay(Kind kind, Output output)
+    : kind_(kind), output_(std::move(output)) {}
+
+void ProgressDisplay::show(const Progress& progress) {
+    if (kind_ == Kind::none) return;
+    if (progress.stage_number != stage_) {
+        stage_ = progress.stage_number;
+        stage_begun_ = last_line_ = output_.now();
+        first_step_ = progress.step;
+    }
+    if (kind_ == Kind::lines) {
+        show_line(progress);
+    } else if (progress.stage_done) {
+        clear();
+    } else {
+        output_.write("\r\x1b[2K" + progress_bar(progress, output_.columns()));
+        drawn_ = true;
+    }
+}
+
+void ProgressDisplay::clear() {
+    if (!drawn_) return;
+    output_.write("\r\x1b[2K");
+    drawn_ = false;
+}
+
+void ProgressDisplay::show_line(const Progress& progress) {
+    const Time now = output_.now();
+    if (progress.stage_done) {
+        // The rate over the whole stage says more than that of its last second.
+        const double seconds = std::chrono::duration<double>(now - stage_begun_).count();
+        Progress whole = progress;
+        whole.steps_per_second =
+            seconds > 0 ? static_cast<double>(progress.step - first_step_) / seconds : 0;
+        output_.write(progress_line(whole) + "\n");
+        stage_ = 0;
+    } else if (now - last_line_ >= between_lines) {
+        last_line_ = now;
+        output_.write(progress_line(progress) + "\n");
+    }
+}
+
+}  // namespace cascade

@@ -1,0 +1,55 @@
+// How far a run is, for the person in front of it: a bar that is drawn anew in a terminal, a line
+// now and then in a pipe or a log.
+#pragma once
+
+#include "core/run_control.h"
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace cascade {
+
+/// "1,234,567".
+std::string with_commas(std::int64_t number);
+
+/// "0:07", "12:34", "3:02:01".
+std::string clock_time(double seconds);
+
+/// One line of at most `columns` columns, without a line end: stage, bar, steps, rate, time left.
+/// What does not fit is left out, the least important first.
+std::string progress_bar(const Progress& progress, int columns);
+
+/// "stage 2/2 'small': 3,000 of 7,000 steps, 12,340 steps/s, 0:05 left".
+std::string progress_line(const Progress& progress);
+
+class ProgressDisplay {
+public:
+    enum class Kind { none, lines, bar };
+    using Time = std::chrono::steady_clock::time_point;
+    struct Output {
+        std::function<void(std::string_view)> write;
+        std::function<int()> columns;
+        std::function<Time()> now;
+    };
+
+    ProgressDisplay(Kind kind, Output output);
+
+    void show(const Progress& progress);
+    /// Takes the bar away, so that something else can be written. The next show() draws it again.
+    void clear();
+
+private:
+    void show_line(const Progress& progress);
+
+    Kind kind_;
+    Output output_;
+    bool drawn_ = false;
+    int stage_ = 0;            ///< The stage that was shown last.
+    Time stage_begun_;
+    std::int64_t first_step_ = 0;
+    Time last_line_;
+};
+
+}  // namespace cascade

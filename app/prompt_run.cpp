@@ -1,0 +1,197 @@
+// What the prompt does with a run: starting, stepping, showing, saving.
+#include "app/prompt_session.h"
+
+#include "app/interrupt.h"
+#include "app/option_values.h"
+#include "app/progress_display.h"
+#include "run/picture_request.h"
+#include "run/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace cascade {
+
+namespace {
+
+/// Have two stages the same species, so that the fields of one can go on in the other?
+bool same_species(const System& first, const System& second) {
+    std::vector<std::string> names[2];
+    for (const Quantity& quantity : first.quantities) {
+        if (quantity.is_species) names[0].push_back(quantity.name);
+    }
+    for (const Quantity& quantity : second.quantities) {
+        if (quantity.is_species) names[1].push_back(quantity.name);
+    }
+    return names[0] == names[1];
+}
+
+std::vector<Field> copies(const std::vector<Field>& fields) {
+    std::vector<Field> result;
+    for (const Field& field : fields) result.push_back(field.clone());
+    return result;
+}
+
+}  // namespace
+
+/// A simulation of a changed script that goes on where the present one is. Parameters are computed
+/// anew; species and steps are kept for the first stages that are alike.
+Result<std::unique_ptr<Simulation>> PromptSession::carry_over(Script& script) const {
+    auto created = Simulation::create(script, options_);
+    if (!created) return created;
+    Simulation& simulation = **created;
+    const Program& before = *script_->program;
+    const Program& after = *script.program;
+    if (!(before.domain.grid == after.domain.grid) || before.domain.seed != after.domain.seed) {
+        return created;
+    }
+    const std::size_t count = std::min(before.stages.size(), after.stages.size());
+    for (std::uint32_t k = 0; k < count && simulation_->state(k).started; ++k) {
+        if (before.stages[k].name != after.stages[k].name ||
+            !same_species(before.system_of(k), after.system_of(k))) {
+            break;
+        }
+        const StageState& state = simulation_->state(k);
+        if (auto started = simulation.start_stage(k); !started) {
+            return tl::unexpected(started.error());
+        }
+        simulation.set_species(k, copies(state.species), state.steps,
+                               state.steps >= after.stages[k].iterations);
+    }
+    return created;
+}
+
+bool PromptSession::has_something_to_run() {
+    if (script_ && !script_->program->stages.empty()) return true;
+    console_.fail({"there is no stage yet", "type one: stage spots: turing_spots { ka: 1/80 }"});
+    return false;
+}
+
+/// Makes one with the first stage started, if there is none.
+bool PromptSession::make_simulation() {
+    if (simulation_) return true;
+    if (!has_something_to_run()) return false;
+    auto simulation = Simulation::create(*script_, options_);
+    Result<void> started;
+    if (simulation) started = (*simulation)->start_stage(0);
+    if (!simulation || !started) {
+        console_.say(script_->messages(console_.error().colour));
+        script_->diagnostics = {};
+        console_.fail(simulation ? started.error() : simulation.error());
+        return false;
+    }
+    simulation_ = std::move(*simulation);
+    return true;
+}
+
+void PromptSession::init(const std::string&) {
+    simulation_.reset();
+    if (make_simulation()) tell_place();
+}
+
+void PromptSession::run(const std::string& count) {
+    std::int64_t steps = std::numeric_limits<std::int64_t>::max();
+    if (!count.empty()) {
+        const auto parsed = parse_whole(count, 1, steps);
+        if (!parsed) {
+            console_.fail(parsed.error());
+            return;
+        }
+        steps = *parsed;
+    }
+    if (!make_simulation()) return;
+    const bool good = advance(steps);
+    tell_place();
+    if (good && show_after_run_) show("");
+}
+
+/// Goes on for so many steps, from stage to stage. False where a run failed.
+bool PromptSession::advance(std::int64_t steps) {
+    RunControl control;
+    const Stream stream = console_.error();
+    ProgressDisplay display(
+        stream.is_terminal ? ProgressDisplay::Kind::bar : ProgressDisplay::Kind::none,
+        {[stream](std::string_view text) { (void)stream.write(text); },
+         [stream] { return stream.columns(); }, [] { return std::chrono::steady_clock::now(); }});
+    control.report = [&](const Progress& progress) { display.show(progress); };
+    control.warn = [&](const std::string& message) {
+        display.clear();
+        console_.warn(message);
+    };
+    const InterruptGuard interrupt(control);
+    for (std::uint32_t k = 0; k < script_->stage_count() && steps > 0; ++k) {
+        if (simulation_->state(k).done) continue;
+        Result<StageEnd> end = StageEnd::finished;
+        if (!simulation_->state(k).started) {
+            if (auto started = simulation_->start_stage(k); !started) {
+                end = tl::unexpected(started.error());
+            }
+        }
+        const std::int64_t before = simulation_->state(k).steps;
+        const std::int64_t iterations = script_->program->stages[k].iterations;
+        const std::int64_t last = before + std::min(steps, iterations - before);
+        if (end) end = simulation_->advance_stage(k, last, control, {});
+        display.clear();
+        if (!end) {
+            console_.fail(end.error());
+            return false;
+        }
+        if (*end != StageEnd::finished) return true;
+        steps -= simulation_->state(k).steps - before;
+    }
+    return true;
+}
+
+void PromptSession::show(const std::string& expression) {
+    if (!make_simulation()) return;
+    PictureRequest request;
+    request.show = expression;
+    auto painter = Painter::create(*script_, request);
+    if (!painter) {
+        console_.say(script_->messages(console_.error().colour));
+        script_->diagnostics = {};
+        return;
+    }
+    const Canvas canvas = painter->canvas(*simulation_);
+    console_.print(half_blocks(painter->image(canvas), console_.out().columns()));
+    if (!canvas.is_colour()) {
+        const ValueRange range = value_range(canvas.fields[0]);
+        console_.print(fmt::format("{:.6g} to {:.6g}\n", range.low, range.high));
+    }
+    if (painter->fell_back()) {
+        console_.warn("it names a stage that has not run; this is the default picture");
+    }
+}
+
+void PromptSession::list_stages(const std::string&) {
+    if (!has_something_to_run()) return;
+    const Program& program = *script_->program;
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        const std::int64_t steps = simulation_ ? simulation_->state(k).steps : 0;
+        console_.print(fmt::format("{}: {}, step {} of {}\n", program.stages[k].name,
+                                   program.system_of(k).name, steps,
+                                   program.stages[k].iterations));
+    }
+}
+
+void PromptSession::save(const std::string& folder) {
+    if (!make_simulation()) return;
+    const auto written = save_run(folder, *script_, *simulation_);
+    if (!written) {
+        console_.fail(written.error());
+        return;
+    }
+    console_.say(fmt::format("wrote {} files in {}\n", written->size(), folder));
+}
+
+void PromptSession::tell_place() {
+    const auto shown = simulation_->shown_stage();
+    if (!shown) return;
+    const Stage& stage = script_->program->stages[*shown];
+    console_.print(fmt::format("stage '{}', step {} of {}\n", stage.name,
+                               simulation_->state(*shown).steps, stage.iterations));
+}
+
+}  // namespace cascade

@@ -1,0 +1,230 @@
+#include "app/prompt_session.h"
+
+#include "app/prompt_text.h"
+#include "core/near_name.h"
+#include "lang/check.h"
+#include "run/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace cascade {
+
+/// A line that begins with a colon.
+struct PromptSession::Command {
+    std::string_view name;
+    std::string_view argument;
+    std::string_view about;
+    void (PromptSession::*action)(const std::string& argument);  ///< Null to leave.
+};
+
+std::span<const PromptSession::Command> PromptSession::commands() {
+    static constexpr std::array<Command, 11> all = {{
+        {":run", "[N]", "take N steps, or all that are left", &PromptSession::run},
+        {":show", "[EXPR]", "draw a species or any expression: ':show b'", &PromptSession::show},
+        {":init", "", "back to the starting values", &PromptSession::init},
+        {":set", "NAME=EXPR", "change a parameter: ':set stage1.ka=1/400'", &PromptSession::set},
+        {":stages", "", "the stages, and how far they are", &PromptSession::list_stages},
+        {":text", "", "the script so far", &PromptSession::print_text},
+        {":save", "FOLDER", "write every field, to load or to resume", &PromptSession::save},
+        {":load", "FILE", "a script, a picture, or a folder that was saved", &PromptSession::load},
+        {":new", "", "forget the script", &PromptSession::forget},
+        {":help", "", "this list", &PromptSession::help},
+        {":quit", "", "leave (Ctrl-D does too)", nullptr},
+    }};
+    return all;
+}
+
+PromptSession::PromptSession(const SimulationOptions& options, Console& console,
+                             bool show_after_run)
+    : options_(options), console_(console), show_after_run_(show_after_run) {}
+
+PromptSession::~PromptSession() = default;
+
+std::string PromptSession::prompt() const {
+    const auto lines_of = [](const std::string& text) {
+        return std::count(text.begin(), text.end(), '\n');
+    };
+    const auto line = (script_ ? lines_of(script_->text) : 0) + lines_of(pending_) + 1;
+    return fmt::format("{}{} ", line, pending_.empty() ? '>' : '|');
+}
+
+std::vector<std::string> PromptSession::names(const std::string& line) const {
+    std::vector<std::string> names;
+    if (line.starts_with(":") && line.find(' ') == std::string::npos) {
+        for (const Command& command : commands()) names.emplace_back(command.name);
+        return names;
+    }
+    for (const char* const word : {"system", "stage", "domain", "picture", "system_name"}) {
+        names.emplace_back(word);
+    }
+    if (script_) {
+        for (std::string& name : known_names(*script_->program)) names.push_back(std::move(name));
+        return names;
+    }
+    const Script built_in = load_script("", "domain { grid: 64, 64 }", ".");
+    for (std::string& name : known_names(*built_in.program)) names.push_back(std::move(name));
+    return names;
+}
+
+bool PromptSession::take(const std::string& line) {
+    if (pending_.empty()) {
+        const std::string_view words = trim(line);
+        if (words.starts_with(":")) return obey(words);
+        if (says_nothing(line)) return true;
+    }
+    pending_ += line + "\n";
+    if (is_complete(pending_)) end();
+    return true;
+}
+
+void PromptSession::end() {
+    if (pending_.empty()) return;
+    const std::string text = std::move(pending_);
+    pending_.clear();
+    add_text(text);
+}
+
+bool PromptSession::obey(std::string_view line) {
+    const std::size_t space = std::min(line.find_first_of(" \t"), line.size());
+    const std::string_view name = line.substr(0, space);
+    const std::string argument(trim(line.substr(space)));
+    std::vector<std::string> known;
+    for (const Command& command : commands()) {
+        known.emplace_back(command.name);
+        if (command.name != name) continue;
+        if (!command.action) return false;
+        if (argument.empty() && !command.argument.empty() && command.argument[0] != '[') {
+            console_.fail({fmt::format("{} takes {}", name, command.argument), ""});
+        } else if (!argument.empty() && command.argument.empty()) {
+            console_.fail({fmt::format("{} takes nothing behind it", name), ""});
+        } else {
+            (this->*command.action)(argument);
+        }
+        return true;
+    }
+    const std::string near = nearest_name(name, known);
+    console_.fail({fmt::format("there is no command '{}'", name),
+                   near.empty() ? "':help' lists them" : fmt::format("did you mean '{}'?", near)});
+    return true;
+}
+
+void PromptSession::add_text(const std::string& text) {
+    if (!script_) {
+        change(load_script("prompt", text, "."));
+        return;
+    }
+    change(load_script(script_->name, script_->text + text, script_->folder, script_->overrides));
+}
+
+/// Takes over a script and what has been computed of the one before, if it is right.
+bool PromptSession::change(Script changed) {
+    const std::string messages = changed.messages(console_.error().colour);
+    if (!changed.program) {
+        console_.say(messages);
+        return false;
+    }
+    if (messages != last_warnings_) console_.say(messages);
+    auto script = std::make_unique<Script>(std::move(changed));
+    script->diagnostics = {};  // Said; from now on only new faults count.
+    std::unique_ptr<Simulation> simulation;
+    if (simulation_) {
+        auto carried = carry_over(*script);
+        if (!carried) {
+            console_.say(script->messages(console_.error().colour));
+            console_.fail(carried.error());
+            return false;
+        }
+        simulation = std::move(*carried);
+    }
+    // The old simulation refers to the old script and must go first.
+    simulation_ = std::move(simulation);
+    script_ = std::move(script);
+    last_warnings_ = messages;
+    return true;
+}
+
+void PromptSession::load(const std::string& path) {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) {
+        load_saved(path);
+        return;
+    }
+    auto file = load_script_file(path);
+    if (!file) {
+        console_.fail(file.error());
+        return;
+    }
+    if (!file->script.text.ends_with('\n') && file->script.program) {
+        const Script& read = file->script;
+        file->script = load_script(read.name, read.text + "\n", read.folder, read.overrides);
+    }
+    // Another script begins at its start, whatever its stages are called.
+    std::unique_ptr<Simulation> before = std::move(simulation_);
+    if (!change(std::move(file->script))) {
+        simulation_ = std::move(before);
+        return;
+    }
+    console_.say(fmt::format("{}: {} stages\n", path, script_->program->stages.size()));
+}
+
+void PromptSession::load_saved(const std::string& folder) {
+    auto saved = load_saved_script(folder, {});
+    if (!saved) {
+        console_.fail(saved.error());
+        return;
+    }
+    if (!saved->program) {
+        console_.say(saved->messages(console_.error().colour));
+        return;
+    }
+    auto script = std::make_unique<Script>(std::move(*saved));
+    auto simulation = Simulation::create(*script, options_);
+    Result<void> done;
+    if (simulation) done = restore_run(folder, *script, **simulation);
+    if (!simulation || !done) {
+        console_.fail(simulation ? done.error() : simulation.error());
+        return;
+    }
+    simulation_ = std::move(*simulation);
+    script_ = std::move(script);
+    tell_place();
+}
+
+void PromptSession::set(const std::string& assignment) {
+    if (!script_) {
+        console_.fail({"there is no script yet", ""});
+        return;
+    }
+    Overrides overrides = script_->overrides;
+    overrides.sets.push_back(assignment);
+    change(load_script(script_->name, script_->text, script_->folder, std::move(overrides)));
+}
+
+void PromptSession::print_text(const std::string&) {
+    if (!script_) return;
+    console_.print(script_->text);
+    for (const std::string& set : script_->overrides.sets) {
+        console_.print(fmt::format("# :set {}\n", set));
+    }
+}
+
+void PromptSession::forget(const std::string&) {
+    simulation_.reset();
+    script_.reset();
+    last_warnings_.clear();
+}
+
+void PromptSession::help(const std::string&) {
+    for (const Command& command : commands()) {
+        console_.print(fmt::format("  {:<20} {}\n",
+                                   fmt::format("{} {}", command.name, command.argument),
+                                   command.about));
+    }
+    console_.print("Anything else is the language: 'stage s: turing_spots { ka: 1/80 }'. A line that "
+                   "is\nright is kept; one that is wrong changes nothing.\n");
+}
+
+}  // namespace cascade

@@ -1,0 +1,104 @@
+#include "app/prompt_text.h"
+
+#include <algorithm>
+#include <array>
+
+namespace cascade {
+
+namespace {
+
+bool is_word_character(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+bool ends_in_word(std::string_view text, std::string_view word) {
+    if (!text.ends_with(word)) return false;
+    const std::string_view before = text.substr(0, text.size() - word.size());
+    return before.empty() || !is_word_character(before.back());
+}
+
+bool ends_in_operator(std::string_view text) {
+    constexpr std::array<std::string_view, 3> words = {"and", "or", "not"};
+    if (text.empty()) return false;
+    if (std::string_view("+-*/^,<>=").find(text.back()) != std::string_view::npos) return true;
+    return std::any_of(words.begin(), words.end(),
+                       [&](std::string_view word) { return ends_in_word(text, word); });
+}
+
+/// Where a line's comment begins; its size where there is none. Texts in quotes end with the line.
+std::size_t comment_begin(std::string_view line) {
+    bool quoted = false;
+    for (std::size_t k = 0; k < line.size(); ++k) {
+        if (line[k] == '"') quoted = !quoted;
+        if (line[k] == '#' && !quoted) return k;
+    }
+    return line.size();
+}
+
+/// Opening brackets of a line less its closing ones.
+long open_brackets(std::string_view line) {
+    long open = 0;
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"') quoted = !quoted;
+        if (quoted) continue;
+        if (c == '(' || c == '[' || c == '{') ++open;
+        if (c == ')' || c == ']' || c == '}') --open;
+    }
+    return open;
+}
+
+}  // namespace
+
+std::string_view trim(std::string_view text) {
+    constexpr std::string_view white = " \t\r\n";
+    const std::size_t begin = text.find_first_not_of(white);
+    if (begin == std::string_view::npos) return {};
+    return text.substr(begin, text.find_last_not_of(white) + 1 - begin);
+}
+
+bool is_complete(std::string_view text) {
+    long open = 0;
+    std::string_view last;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        std::string_view line = text.substr(0, end);
+        line = trim(line.substr(0, comment_begin(line)));
+        open += open_brackets(line);
+        if (!line.empty()) last = line;
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    // With a bracket too many the parser shall speak.
+    return open <= 0 && !ends_in_operator(last);
+}
+
+bool says_nothing(std::string_view line) { return trim(line.substr(0, comment_begin(line))).empty(); }
+
+Completion complete_word(std::string_view line, std::vector<std::string> names) {
+    std::size_t begin = line.size();
+    while (begin > 0 && is_word_character(line[begin - 1])) --begin;
+    if (begin == 1 && line[0] == ':') begin = 0;
+    const std::string_view word = line.substr(begin);
+
+    Completion completion;
+    for (std::string& name : names) {
+        if (name.starts_with(word)) completion.choices.push_back(std::move(name));
+    }
+    auto& choices = completion.choices;
+    std::sort(choices.begin(), choices.end());
+    choices.erase(std::unique(choices.begin(), choices.end()), choices.end());
+    if (choices.empty()) return completion;
+
+    // Of a sorted list the first and the last differ soonest.
+    const std::string& first = choices.front();
+    const std::string& last = choices.back();
+    std::size_t common = word.size();
+    while (common < first.size() && common < last.size() && first[common] == last[common]) {
+        ++common;
+    }
+    completion.insert = first.substr(word.size(), common - word.size());
+    if (choices.size() == 1) completion.insert += ' ';
+    return completion;
+}
+
+}  // namespace cascade

@@ -1,0 +1,34 @@
+#include "app/repl.h"
+
+#include "app/exit_status.h"
+#include "app/line_reader.h"
+#include "app/prompt_session.h"
+
+#include <unistd.h>
+
+namespace cascade {
+
+int repl_command(const Options& options, Console& console) {
+    const bool at_terminal = isatty(STDIN_FILENO) == 1 && console.out().is_terminal;
+    PromptSession session(options.run.simulation, console, at_terminal);
+    const auto reader =
+        at_terminal ? make_edit_reader(history_path(),
+                                       [&](const std::string& line) { return session.names(line); })
+                    : make_plain_reader(STDIN_FILENO);
+    if (at_terminal) console.say("Cascade: ':help' lists what can be typed, Ctrl-D leaves.\n");
+    if (!options.scripts.empty()) session.load(options.scripts[0]);
+    while (true) {
+        const TypedLine line = reader->read(session.prompt());
+        if (line.kind == TypedLine::Kind::cancelled) {
+            session.drop_pending();
+            continue;
+        }
+        if (line.kind == TypedLine::Kind::end) break;
+        if (!session.take(line.text)) return exit_status::success;
+    }
+    session.end();
+    if (at_terminal) console.say("\n");
+    return exit_status::success;
+}
+
+}  // namespace cascade

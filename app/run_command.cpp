@@ -1,0 +1,118 @@
+// `cascade run`: a script, its progress and what came of it.
+
+#include "app/commands.h"
+#include "app/exit_status.h"
+#include "app/interrupt.h"
+#include "app/progress_display.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cascade {
+
+namespace {
+
+ProgressDisplay make_display(const Console& console, bool quiet) {
+    using Kind = ProgressDisplay::Kind;
+    const Stream stream = console.error();
+    const Kind kind = quiet ? Kind::none : stream.is_terminal ? Kind::bar : Kind::lines;
+    return {kind,
+            {[stream](std::string_view text) { (void)stream.write(text); },
+             [stream] { return stream.columns(); }, [] { return std::chrono::steady_clock::now(); }}};
+}
+
+/// The script that is run, and the picture options that it brings.
+std::optional<LoadedFile> load_for_run(const Options& options, const Console& console) {
+    if (options.run.resume.empty()) return load(options.scripts[0], options.overrides, console);
+    auto saved = load_saved_script(options.run.resume, options.overrides);
+    if (!saved) {
+        console.fail(saved.error());
+        return std::nullopt;
+    }
+    if (!options.scripts.empty()) {
+        const auto given = load(options.scripts[0], {}, console);
+        if (!given) return std::nullopt;
+        if (given->script.text != saved->text) {
+            console.fail({fmt::format("{} is not the script of the run saved in {}",
+                                      options.scripts[0], options.run.resume.string()),
+                          "a saved run carries its script: leave SCRIPT out"});
+            return std::nullopt;
+        }
+    }
+    return LoadedFile{std::move(*saved), ""};
+}
+
+/// Names what was written; the many pictures of --frames in one line.
+void tell_written(const RunReport& report, const RunRequest& request, Console& console) {
+    std::size_t frames = 0;
+    for (const auto& path : report.written) {
+        if (!request.frames.empty() && path.parent_path() == request.frames) {
+            ++frames;
+        } else {
+            console.print(fmt::format("wrote {}\n", path.string()));
+        }
+    }
+    if (frames > 0) {
+        console.print(fmt::format("wrote {} pictures in {}\n", frames, request.frames.string()));
+    }
+}
+
+int tell(const RunReport& report, const Options& options, int signal, Console& console) {
+    if (!options.quiet) {
+        tell_written(report, options.run, console);
+        if (report.steps > 0) {
+            console.say(fmt::format("{} steps in {:.2f} s\n", with_commas(report.steps),
+                                    report.seconds));
+        }
+    }
+    if (report.status == RunStatus::stopped && !options.quiet) {
+        console.say(fmt::format("stopped at {}\n", report.where));
+    }
+    if (report.status != RunStatus::cancelled) return exit_status::success;
+    console.say(fmt::format("cascade: interrupted at {}; what there is has been written\n",
+                            report.where));
+    return exit_status::signal_base + signal;
+}
+
+}  // namespace
+
+int run_command(const Options& options, Console& console) {
+    auto file = load_for_run(options, console);
+    if (!file) return exit_status::wrong_script;
+    Script& script = file->script;
+    if (!options.dump.empty()) return dump_command(script, options.dump, console);
+    console.say(script.messages(console.error().colour));
+    if (!script.program) return exit_status::wrong_script;
+    script.diagnostics = {};  // Warnings have been said.
+
+    RunRequest request = options.run;
+    if (!file->picture_options.empty()) {
+        auto stored = picture_request_from_json(file->picture_options);
+        if (!stored) {
+            console.fail(stored.error());
+            return exit_status::wrong_script;
+        }
+        request.picture = std::move(*stored);
+    }
+    request.picture = apply(options.picture, std::move(request.picture));
+    if (request.output.empty() && script.name.starts_with("<")) request.output = "cascade.png";
+
+    RunControl control;
+    ProgressDisplay display = make_display(console, options.quiet);
+    control.report = [&](const Progress& progress) { display.show(progress); };
+    control.warn = [&](const std::string& message) {
+        display.clear();
+        if (!options.quiet) console.warn(message);
+    };
+    const InterruptGuard interrupt(control);
+    const auto report = run(script, request, control);
+    display.clear();
+    if (report) return tell(*report, options, std::max(interrupt.signal(), 2), console);
+    console.say(script.messages(console.error().colour));
+    if (script.diagnostics.has_errors()) return exit_status::wrong_script;
+    console.fail(report.error());
+    return exit_status::failed_run;
+}
+
+}  // namespace cascade

@@ -1,0 +1,38 @@
+# The library libcascade, its one public header, and what `cmake --install` puts where.
+
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# The rooms are linked in but not exported: only what cascade.h declares can be called.
+add_library(cascade SHARED run/pattern.cpp)
+target_link_libraries(cascade PRIVATE cascade_run)
+target_link_options(cascade PRIVATE LINKER:--exclude-libs,ALL)
+target_compile_definitions(cascade PRIVATE CASCADE_VERSION="${PROJECT_VERSION}")
+target_include_directories(cascade INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_compile_features(cascade INTERFACE cxx_std_17)
+set_target_properties(cascade PROPERTIES
+  VERSION ${PROJECT_VERSION}
+  SOVERSION ${PROJECT_VERSION_MAJOR}
+  INSTALL_RPATH "$ORIGIN")
+add_library(Cascade::cascade ALIAS cascade)
+
+file(RELATIVE_PATH libraries_from_programs
+  ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+set_target_properties(cascade_program PROPERTIES
+  INSTALL_RPATH "$ORIGIN/${libraries_from_programs}")
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Cascade)
+configure_package_config_file(cmake/CascadeConfig.cmake.in CascadeConfig.cmake
+  INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(CascadeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+
+install(TARGETS cascade_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS cascade EXPORT CascadeTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES include/cascade/cascade.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cascade)
+install(EXPORT CascadeTargets NAMESPACE Cascade:: DESTINATION ${package_folder})
+install(FILES
+  ${PROJECT_BINARY_DIR}/CascadeConfig.cmake
+  ${PROJECT_BINARY_DIR}/CascadeConfigVersion.cmake
+  DESTINATION ${package_folder})

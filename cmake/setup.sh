@@ -1,0 +1,78 @@
+# Shell functions that `cascade` and `tests/run` share: install what is missing, configure, build.
+# Source it with `root` set to the top folder of the source tree.
+
+say() {
+    printf 'cascade: %s\n' "$*" >&2
+}
+
+# packages_for PURPOSE…: names from packages.txt.
+packages_for() {
+    local name purpose wanted
+    while read -r name purpose; do
+        for wanted in "$@"; do
+            [ "$purpose" = "$wanted" ] && printf '%s\n' "$name"
+        done
+    done < <(grep -v '^#' "$root/cmake/packages.txt")
+    return 0
+}
+
+# missing_packages NAME…: those that dpkg does not have installed.
+missing_packages() {
+    local installed name
+    installed=$(dpkg-query -W -f='${db:Status-Status} ${binary:Package}\n' "$@" 2>/dev/null)
+    for name in "$@"; do
+        grep -Eq "^installed ${name//+/\\+}(:.*)?$" <<<"$installed" || printf '%s\n' "$name"
+    done
+}
+
+# install_packages LOG PURPOSE…: installs what is missing. Other systems than Debian bring their own
+# packages; CMake says there what it does not find.
+install_packages() {
+    local log=$1 list missing as_root=()
+    shift
+    command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || return 0
+    mapfile -t list < <(packages_for "$@")
+    [ "${#list[@]}" -gt 0 ] || return 0
+    mapfile -t missing < <(missing_packages "${list[@]}")
+    [ "${#missing[@]}" -gt 0 ] || return 0
+    if [ "$(id -u)" -ne 0 ]; then
+        if ! command -v sudo >/dev/null; then
+            say "these packages are missing: ${missing[*]}"
+            say "install them as root: apt-get install --no-install-recommends ${missing[*]}"
+            return 1
+        fi
+        as_root=(sudo)
+    fi
+    say "installing ${missing[*]}"
+    local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=900)
+    if ! { "${apt[@]}" update &&
+        "${apt[@]}" install -y --no-install-recommends "${missing[@]}"; } </dev/null >>"$log" 2>&1; then
+        say "the packages could not be installed; the end of $log:"
+        tail -n 20 "$log" >&2
+        return 1
+    fi
+}
+
+# configure_and_build LOG BUILD_FOLDER TARGET [CMAKE OPTION]…
+configure_and_build() {
+    local log=$1 build=$2 target=$3
+    shift 3
+    # A build folder remembers absolute paths: in a moved or copied tree it is made anew.
+    local home
+    home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$build/CMakeCache.txt" 2>/dev/null)
+    if [ -n "$home" ] && [ "$home" != "$root" ]; then
+        rm -rf "$build/CMakeCache.txt" "$build/CMakeFiles"
+    fi
+    local options=(-DCMAKE_BUILD_TYPE=Release "$@")
+    if [ ! -e "$build/CMakeCache.txt" ] && command -v ninja >/dev/null; then
+        options+=(-G Ninja)
+    fi
+    command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    if ! { cmake -S "$root" -B "$build" "${options[@]}" &&
+        cmake --build "$build" --target "$target" --parallel "$(nproc)"; } \
+        </dev/null >>"$log" 2>&1; then
+        say "the build failed; the end of $log:"
+        tail -n 40 "$log" >&2
+        return 1
+    fi
+}

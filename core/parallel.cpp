@@ -1,0 +1,164 @@
+// The team of threads and its barrier.
+#include "core/parallel.h"
+
+#include "core/check.h"
+#include "core/floating_point.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+#include <vector>
+
+#if defined(__linux__)
+#include <sched.h>
+#endif
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace cascade {
+namespace {
+
+/// Tells the core that this is a waiting loop: the other hyper-thread gets its turn.
+void relax() {
+#if defined(__x86_64__)
+    _mm_pause();
+#else
+    std::this_thread::yield();
+#endif
+}
+
+/// Waits until `word` is no longer `old`. Spinning answers in tens of nanoseconds while every
+/// thread has a core; sleeping keeps an oversubscribed machine from burning whole time slices.
+void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t old, int spins) {
+    for (int spin = 0; spin < spins; ++spin) {
+        if (word.load(std::memory_order_acquire) != old) return;
+        relax();
+    }
+    for (int turn = 0; turn < 4; ++turn) {
+        std::this_thread::yield();
+        if (word.load(std::memory_order_acquire) != old) return;
+    }
+    while (word.load(std::memory_order_acquire) == old) {
+        word.wait(old, std::memory_order_acquire);
+    }
+}
+
+/// Cores that the scheduler's quota of this control group (version 2) allows; 0 where none is set.
+int quota_of_control_group() {
+    std::FILE* file = std::fopen("/sys/fs/cgroup/cpu.max", "r");
+    if (!file) return 0;
+    double quota = 0, period = 0;
+    const int read = std::fscanf(file, "%lf %lf", &quota, &period);  // "max" reads as no number.
+    std::fclose(file);
+    if (read != 2 || quota <= 0 || period <= 0) return 0;
+    return std::max(1, static_cast<int>(std::lround(quota / period)));
+}
+
+}  // namespace
+
+RowRange split_rows(std::int64_t rows, int index, int count) {
+    CHECK(rows >= 0 && 0 <= index && index < count, "a part of the rows that exists");
+    const std::int64_t each = rows / count;
+    const std::int64_t rest = rows % count;  // The first `rest` parts have one row more.
+    const std::int64_t begin = index * each + std::min<std::int64_t>(index, rest);
+    return {begin, begin + each + (index < rest ? 1 : 0)};
+}
+
+int hardware_threads() {
+    int threads = static_cast<int>(std::thread::hardware_concurrency());
+#if defined(__linux__)
+    cpu_set_t allowed;
+    if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) threads = CPU_COUNT(&allowed);
+#endif
+    if (const int quota = quota_of_control_group(); quota > 0) threads = std::min(threads, quota);
+    return std::max(threads, 1);
+}
+
+namespace {
+
+/// A place where a number of threads meet, again and again. Each word that threads wait for has a
+/// cache line of its own.
+struct Meeting {
+    alignas(64) std::atomic<std::uint32_t> count{0};  ///< Meetings that are over.
+    alignas(64) std::atomic<int> arrived{0};          ///< Threads that wait for the others.
+
+    void arrive(int expected, int spins) {
+        const std::uint32_t current = count.load(std::memory_order_relaxed);
+        if (arrived.fetch_add(1, std::memory_order_acq_rel) + 1 == expected) {
+            arrived.store(0, std::memory_order_relaxed);
+            count.store(current + 1, std::memory_order_release);
+            count.notify_all();
+        } else {
+            wait_while(count, current, spins);
+        }
+    }
+};
+
+}  // namespace
+
+struct Team::State {
+    alignas(64) std::atomic<std::uint32_t> task{0};  ///< Counts run() calls; workers wait for it.
+    Meeting barrier;                                 ///< Of the threads that work.
+    Meeting end_of_run;                              ///< Of all.
+    alignas(64) const std::function<void(int)>* work = nullptr;  ///< Null asks workers to end.
+    int active = 1;
+    int size = 1;
+    int spins = 0;
+    std::vector<std::thread> workers;
+
+    void serve(int index) {
+        const FlushDenormals environment;
+        for (std::uint32_t seen = 0;; ++seen) {
+            wait_while(task, seen, spins);
+            if (!work) return;
+            if (index < active) (*work)(index);
+            end_of_run.arrive(size, spins);
+        }
+    }
+
+    void start(const std::function<void(int)>* next) {
+        work = next;
+        task.fetch_add(1, std::memory_order_release);
+        task.notify_all();
+    }
+};
+
+Team::Team(int size) : state_(std::make_unique<State>()) {
+    CHECK(size >= 1, "a team has at least one thread");
+    state_->size = size;
+    state_->spins = size <= hardware_threads() ? 4000 : 50;
+    for (int index = 1; index < size; ++index) {
+        state_->workers.emplace_back([state = state_.get(), index] { state->serve(index); });
+    }
+}
+
+Team::~Team() {
+    if (!state_->workers.empty()) state_->start(nullptr);
+    for (std::thread& worker : state_->workers) worker.join();
+}
+
+int Team::size() const { return state_->size; }
+
+void Team::run(const std::function<void(int index)>& work) { run(work, state_->size); }
+
+void Team::run(const std::function<void(int index)>& work, int active) {
+    CHECK(1 <= active && active <= state_->size, "threads that the team has");
+    const FlushDenormals environment;
+    state_->active = active;
+    if (active == 1) {
+        work(0);
+        return;
+    }
+    state_->start(&work);
+    work(0);
+    state_->end_of_run.arrive(state_->size, state_->spins);
+}
+
+void Team::barrier() {
+    if (state_->active > 1) state_->barrier.arrive(state_->active, state_->spins);
+}
+
+}  // namespace cascade

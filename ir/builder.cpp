@@ -1,0 +1,195 @@
+// Emitting, folding and numbering of values.
+#include "ir/builder.h"
+
+#include "core/check.h"
+#include "core/floating_point.h"
+#include "ir/interpreter.h"
+#include "ir/word_operations.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace cascade {
+namespace {
+
+/// The one NaN: folding must not depend on which of them the host's processor makes.
+constexpr std::uint32_t nan_bits = 0x7fc00000;
+
+std::uint64_t hash_of(const Instruction& instruction) {
+    std::uint64_t hash = static_cast<std::uint64_t>(instruction.op) + 1;
+    const auto [a, b, c] = instruction.operands;
+    for (const std::uint32_t word : {a, b, c, instruction.payload}) {
+        hash = (hash ^ word) * 0x9e3779b97f4a7c15ULL;
+        hash ^= hash >> 29;
+    }
+    return hash;
+}
+
+std::uint32_t slot_of(const std::string& name, std::vector<std::string>& names,
+                      std::unordered_map<std::string, std::uint32_t>& slots) {
+    const auto [entry, is_new] = slots.try_emplace(name, static_cast<std::uint32_t>(names.size()));
+    if (is_new) names.push_back(name);
+    return entry->second;
+}
+
+/// Operations whose result is read as a number by everyone, so that any NaN may stand for any.
+bool yields_number(Op op) { return (op >= Op::add && op <= Op::divide) || op == Op::square_root; }
+
+/// Operations whose result is the number 1 or 0.
+bool yields_truth(Op op) { return op == Op::mask || (op >= Op::less && op <= Op::logical_not); }
+
+bool is_true(std::uint32_t word) {
+    const FlushDenormals environment;
+    return evaluate(Op::not_equal, word, 0, 0) != 0;
+}
+
+}  // namespace
+
+ValueId KernelBuilder::number(float value) {
+    if (std::isnan(value)) return word(nan_bits);
+    const bool is_denormal = std::fpclassify(value) == FP_SUBNORMAL;
+    return word(is_denormal ? to_bits(value) & sign_bit : to_bits(value));
+}
+
+ValueId KernelBuilder::word(std::uint32_t bits) { return emit({Op::constant, {}, bits}); }
+
+std::uint32_t KernelBuilder::field_slot(const std::string& name) {
+    return slot_of(name, kernel_.field_names, field_slots_);
+}
+
+std::uint32_t KernelBuilder::mask_slot(const std::string& name) {
+    return slot_of(name, kernel_.mask_names, mask_slots_);
+}
+
+std::uint32_t KernelBuilder::uniform_slot(const std::string& name) {
+    return slot_of(name, kernel_.uniform_names, uniform_slots_);
+}
+
+ValueId KernelBuilder::field(std::uint32_t slot) { return emit({Op::field, {}, slot}); }
+ValueId KernelBuilder::laplacian(std::uint32_t slot) { return emit({Op::laplacian, {}, slot}); }
+ValueId KernelBuilder::mask(std::uint32_t slot) { return emit({Op::mask, {}, slot}); }
+ValueId KernelBuilder::uniform(std::uint32_t slot) { return emit({Op::uniform, {}, slot}); }
+ValueId KernelBuilder::cell_column() { return emit({Op::cell_column, {}, 0}); }
+ValueId KernelBuilder::cell_row() { return emit({Op::cell_row, {}, 0}); }
+
+ValueId KernelBuilder::apply(Op op, ValueId a) {
+    CHECK(info(op).arity == 1, "builder: the operation takes one operand");
+    return emit({op, {a, 0, 0}, 0});
+}
+
+ValueId KernelBuilder::apply(Op op, ValueId a, ValueId b) {
+    CHECK(info(op).arity == 2, "builder: the operation takes two operands");
+    return emit({op, {a, b, 0}, 0});
+}
+
+ValueId KernelBuilder::select(ValueId condition, ValueId then, ValueId otherwise) {
+    return emit({Op::select, {condition, then, otherwise}, 0});
+}
+
+ValueId KernelBuilder::minimum(ValueId a, ValueId b) {
+    const ValueId a_is_nan = apply(Op::not_equal, a, a);
+    return select(apply(Op::logical_or, apply(Op::less, a, b), a_is_nan), a, b);
+}
+
+ValueId KernelBuilder::maximum(ValueId a, ValueId b) {
+    const ValueId a_is_nan = apply(Op::not_equal, a, a);
+    return select(apply(Op::logical_or, apply(Op::less, b, a), a_is_nan), a, b);
+}
+
+ValueId KernelBuilder::clamp_below(ValueId x, ValueId bound) {
+    return select(apply(Op::less, x, bound), bound, x);
+}
+
+ValueId KernelBuilder::clamp_above(ValueId x, ValueId bound) {
+    return select(apply(Op::less, bound, x), bound, x);
+}
+
+void KernelBuilder::result(const std::string& name, ValueId value) {
+    CHECK(value < kernel_.code.size(), "builder: a result is a value of this builder");
+    kernel_.results.push_back(value);
+    kernel_.result_names.push_back(name);
+}
+
+ValueId KernelBuilder::emit(Instruction instruction) {
+    const int arity = info(instruction.op).arity;
+    for (std::size_t k = 0; static_cast<int>(k) < arity; ++k) {
+        CHECK(instruction.operands[k] < kernel_.code.size(),
+              "builder: an operand is a value of this builder");
+    }
+    if (arity > 0) {
+        if (const std::optional<ValueId> known = simplify(instruction)) return *known;
+    }
+    std::uint64_t key = hash_of(instruction);
+    for (auto found = numbering_.find(key); found != numbering_.end();
+         found = numbering_.find(++key)) {
+        if (kernel_.code[found->second] == instruction) return found->second;
+    }
+    const auto id = static_cast<ValueId>(kernel_.code.size());
+    numbering_.emplace(key, id);
+    kernel_.code.push_back(instruction);
+    return id;
+}
+
+/// The value of an instruction without computing it at run time, if there is one.
+std::optional<ValueId> KernelBuilder::simplify(const Instruction& instruction) {
+    const auto [a, b, c] = instruction.operands;
+    const int arity = info(instruction.op).arity;
+    const bool is_foldable = is_constant(a) && (arity < 2 || is_constant(b)) &&
+                             (arity < 3 || is_constant(c));
+    if (is_foldable) return fold(instruction);
+    if (instruction.op == Op::select) {
+        if (b == c) return b;
+        if (is_constant(a)) return is_true(kernel_.code[a].payload) ? b : c;
+    }
+    if (instruction.op == Op::logical_and || instruction.op == Op::logical_or) {
+        if (is_constant(a)) return simplify_logic(instruction.op, b, kernel_.code[a].payload);
+        if (is_constant(b)) return simplify_logic(instruction.op, a, kernel_.code[b].payload);
+    }
+    return std::nullopt;
+}
+
+ValueId KernelBuilder::fold(const Instruction& instruction) {
+    const auto [a, b, c] = instruction.operands;
+    const FlushDenormals environment;
+    const std::uint32_t bits = evaluate(instruction.op, kernel_.code[a].payload,
+                                        kernel_.code[b].payload, kernel_.code[c].payload);
+    const bool is_nan = (bits & ~sign_bit) > 0x7f800000;
+    return word(is_nan && yields_number(instruction.op) ? nan_bits : bits);
+}
+
+/// `x and known`, `x or known`.
+std::optional<ValueId> KernelBuilder::simplify_logic(Op op, ValueId x, std::uint32_t known) {
+    const bool decides = is_true(known) == (op == Op::logical_or);
+    if (decides) return number(op == Op::logical_or ? 1.0f : 0.0f);
+    if (yields_truth(kernel_.code[x].op)) return x;
+    return std::nullopt;
+}
+
+CellKernel KernelBuilder::finish() && {
+    const std::vector<Instruction> code = std::move(kernel_.code);
+    std::vector<bool> needed(code.size());
+    for (const ValueId id : kernel_.results) needed[id] = true;
+    for (std::size_t id = code.size(); id-- > 0;) {
+        const int arity = needed[id] ? info(code[id].op).arity : 0;
+        for (std::size_t k = 0; static_cast<int>(k) < arity; ++k) {
+            needed[code[id].operands[k]] = true;
+        }
+    }
+    kernel_.code.clear();
+    std::vector<ValueId> renamed(code.size());
+    for (std::size_t id = 0; id < code.size(); ++id) {
+        if (!needed[id]) continue;
+        Instruction instruction = code[id];
+        const int arity = info(instruction.op).arity;
+        for (std::size_t k = 0; static_cast<int>(k) < arity; ++k) {
+            instruction.operands[k] = renamed[instruction.operands[k]];
+        }
+        renamed[id] = static_cast<ValueId>(kernel_.code.size());
+        kernel_.code.push_back(instruction);
+    }
+    for (ValueId& id : kernel_.results) id = renamed[id];
+    return std::move(kernel_);
+}
+
+}  // namespace cascade

@@ -1,0 +1,155 @@
+// The table of operations as data, and kernels as text, as hashes and as something to be checked.
+#include "ir/cell_kernel.h"
+
+#include "core/check.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <iterator>
+
+namespace cascade {
+namespace {
+
+constexpr OpInfo table[] = {
+#define CASCADE_OPERATION(name, arity, payload, meaning) \
+    {#name, arity, PayloadKind::payload, meaning},
+#include "ir/operations.def"
+#undef CASCADE_OPERATION
+};
+
+/// One step of a multiplicative hash; the shift brings high bits back to where the next step and
+/// hash tables look.
+std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
+    hash = (hash ^ value) * 0x9e3779b97f4a7c15ULL;
+    return hash ^ (hash >> 32);
+}
+
+std::string slot_text(const std::vector<std::string>& names, std::uint32_t slot) {
+    if (slot < names.size()) return fmt::format(" {}", names[slot]);
+    return fmt::format(" slot {} of {}", slot, names.size());
+}
+
+std::string payload_text(const CellKernel& kernel, const Instruction& instruction) {
+    const std::uint32_t payload = instruction.payload;
+    switch (info(instruction.op).payload) {
+        case PayloadKind::none: return "";
+        case PayloadKind::bits:
+            return fmt::format(" 0x{:08x}  # {}", payload, to_number(payload));
+        case PayloadKind::field: return slot_text(kernel.field_names, payload);
+        case PayloadKind::mask: return slot_text(kernel.mask_names, payload);
+        case PayloadKind::uniform: return slot_text(kernel.uniform_names, payload);
+    }
+    return "";
+}
+
+std::size_t slot_count(const CellKernel& kernel, PayloadKind kind) {
+    switch (kind) {
+        case PayloadKind::field: return kernel.field_names.size();
+        case PayloadKind::mask: return kernel.mask_names.size();
+        case PayloadKind::uniform: return kernel.uniform_names.size();
+        default: return 0;
+    }
+}
+
+std::string verify_payload(const CellKernel& kernel, const Instruction& instruction) {
+    const PayloadKind kind = info(instruction.op).payload;
+    if (kind == PayloadKind::bits) return "";
+    if (kind == PayloadKind::none) {
+        return instruction.payload == 0 ? "" : "has a payload but takes none";
+    }
+    const std::size_t slots = slot_count(kernel, kind);
+    if (instruction.payload < slots) return "";
+    return fmt::format("names slot {} of {}", instruction.payload, slots);
+}
+
+std::string verify_shift(const CellKernel& kernel, const Instruction& instruction) {
+    if (instruction.op != Op::bits_shift_left && instruction.op != Op::bits_shift_right) return "";
+    const Instruction& amount = kernel.code[instruction.operands[1]];
+    if (amount.op != Op::constant) return "shifts by an amount that is not constant";
+    return amount.payload <= 31 ? "" : fmt::format("shifts by {}", amount.payload);
+}
+
+std::string verify_instruction(const CellKernel& kernel, std::size_t id) {
+    const Instruction& instruction = kernel.code[id];
+    if (static_cast<int>(instruction.op) >= op_count) return "is no operation of the table";
+    for (std::size_t k = 0; k < instruction.operands.size(); ++k) {
+        const ValueId operand = instruction.operands[k];
+        if (static_cast<int>(k) >= info(instruction.op).arity) {
+            if (operand != 0) return "has an operand too many";
+        } else if (operand >= id) {
+            return fmt::format("reads %{}, which does not come before it", operand);
+        }
+    }
+    if (std::string wrong = verify_payload(kernel, instruction); !wrong.empty()) return wrong;
+    return verify_shift(kernel, instruction);
+}
+
+}  // namespace
+
+static_assert(std::size(table) == static_cast<std::size_t>(op_count));
+
+const OpInfo& info(Op op) {
+    CHECK(static_cast<int>(op) < op_count, "cell kernel: the operation is one of the table");
+    return table[static_cast<std::size_t>(op)];
+}
+
+bool CellKernel::reads_neighbours(std::uint32_t field_slot) const {
+    for (const Instruction& instruction : code) {
+        if (instruction.op == Op::laplacian && instruction.payload == field_slot) return true;
+    }
+    return false;
+}
+
+std::uint64_t hash(const CellKernel& kernel) {
+    std::uint64_t result = mix(kernel.code.size(), kernel.results.size());
+    for (const Instruction& instruction : kernel.code) {
+        const auto [a, b, c] = instruction.operands;
+        result = mix(result, static_cast<std::uint64_t>(instruction.op) << 32 | a);
+        if (info(instruction.op).arity > 1) result = mix(result, std::uint64_t{b} << 32 | c);
+        result = mix(result, instruction.payload);
+    }
+    for (const ValueId value : kernel.results) result = mix(result, value);
+    return result;
+}
+
+std::string print(const CellKernel& kernel) {
+    fmt::memory_buffer text;
+    const auto out = std::back_inserter(text);
+    for (std::size_t id = 0; id < kernel.code.size(); ++id) {
+        const Instruction& instruction = kernel.code[id];
+        const OpInfo& op = info(instruction.op);
+        fmt::format_to(out, "%{} = {}", id, op.name);
+        for (std::size_t k = 0; static_cast<int>(k) < op.arity; ++k) {
+            fmt::format_to(out, "{} %{}", k == 0 ? "" : ",", instruction.operands[k]);
+        }
+        fmt::format_to(out, "{}\n", payload_text(kernel, instruction));
+    }
+    for (std::size_t k = 0; k < kernel.results.size(); ++k) {
+        const std::string name =
+            k < kernel.result_names.size() ? kernel.result_names[k] : std::to_string(k);
+        fmt::format_to(out, "result {} = %{}\n", name, kernel.results[k]);
+    }
+    return fmt::to_string(text);
+}
+
+std::string verify(const CellKernel& kernel) {
+    for (std::size_t id = 0; id < kernel.code.size(); ++id) {
+        const std::string wrong = verify_instruction(kernel, id);
+        if (!wrong.empty()) return fmt::format("%{} {}", id, wrong);
+    }
+    for (std::size_t k = 0; k < kernel.results.size(); ++k) {
+        if (kernel.results[k] < kernel.code.size()) continue;
+        return fmt::format("result {} is %{}, which does not exist", k, kernel.results[k]);
+    }
+    if (kernel.result_names.size() != kernel.results.size()) {
+        return fmt::format("{} results have {} names", kernel.results.size(),
+                           kernel.result_names.size());
+    }
+    return "";
+}
+
+std::uint32_t to_bits(float number) { return std::bit_cast<std::uint32_t>(number); }
+float to_number(std::uint32_t bits) { return std::bit_cast<float>(bits); }
+
+}  // namespace cascade

@@ -1,0 +1,99 @@
+// Formulas over values of a builder, written as they are on paper.
+//
+// Internal to ir/. An Expression is a value and its builder; operators emit instructions. Each
+// operator is one operation of the table, rounded once, in the order that C++ gives the formula.
+#pragma once
+
+#include "ir/builder.h"
+
+#include <span>
+
+namespace cascade {
+
+class Expression {
+public:
+    Expression(KernelBuilder& builder, ValueId id) : builder_(&builder), id_(id) {}
+
+    ValueId id() const { return id_; }
+    Expression number(float value) const { return {*builder_, builder_->number(value)}; }
+    Expression word(std::uint32_t bits) const { return {*builder_, builder_->word(bits)}; }
+
+    Expression unary(Op op) const { return {*builder_, builder_->apply(op, id_)}; }
+    Expression binary(Op op, Expression other) const {
+        return {*builder_, builder_->apply(op, id_, other.id_)};
+    }
+
+    Expression absolute() const { return unary(Op::absolute); }
+    Expression clamped(float low, float high) const {
+        const ValueId below = builder_->clamp_below(id_, builder_->number(low));
+        return {*builder_, builder_->clamp_above(below, builder_->number(high))};
+    }
+
+    /// This value, read as truth, chooses. Beware of words as conditions: small integers are
+    /// denormal numbers, which are not true.
+    Expression choose(Expression then, Expression otherwise) const {
+        return {*builder_, builder_->select(id_, then.id_, otherwise.id_)};
+    }
+    Expression choose(float then, Expression otherwise) const {
+        return choose(number(then), otherwise);
+    }
+
+    // Words as unsigned integers.
+    Expression plus_word(std::uint32_t bits) const { return binary(Op::bits_add, word(bits)); }
+    Expression and_word(std::uint32_t bits) const { return binary(Op::bits_and, word(bits)); }
+    Expression shifted_left(std::uint32_t amount) const {
+        return binary(Op::bits_shift_left, word(amount));
+    }
+    Expression shifted_right(std::uint32_t amount) const {
+        return binary(Op::bits_shift_right, word(amount));
+    }
+    Expression to_number() const { return unary(Op::bits_to_number); }
+
+    /// The number without the lower 12 bits of its significand: products of two such are exact.
+    Expression head() const { return and_word(0xfffff000); }
+
+private:
+    KernelBuilder* builder_;
+    ValueId id_;
+};
+
+inline Expression operator+(Expression a, Expression b) { return a.binary(Op::add, b); }
+inline Expression operator-(Expression a, Expression b) { return a.binary(Op::subtract, b); }
+inline Expression operator*(Expression a, Expression b) { return a.binary(Op::multiply, b); }
+inline Expression operator/(Expression a, Expression b) { return a.binary(Op::divide, b); }
+inline Expression operator+(Expression a, float b) { return a + a.number(b); }
+inline Expression operator-(Expression a, float b) { return a - a.number(b); }
+inline Expression operator*(Expression a, float b) { return a * a.number(b); }
+inline Expression operator-(float a, Expression b) { return b.number(a) - b; }
+inline Expression operator/(float a, Expression b) { return b.number(a) / b; }
+
+inline Expression operator<(Expression a, Expression b) { return a.binary(Op::less, b); }
+inline Expression operator<(Expression a, float b) { return a < a.number(b); }
+inline Expression operator<(float a, Expression b) { return b.number(a) < b; }
+inline Expression equals(Expression a, Expression b) { return a.binary(Op::equal, b); }
+inline Expression equals(Expression a, float b) { return equals(a, a.number(b)); }
+inline Expression both(Expression a, Expression b) { return a.binary(Op::logical_and, b); }
+inline Expression either(Expression a, Expression b) { return a.binary(Op::logical_or, b); }
+inline Expression operator!(Expression a) { return a.unary(Op::logical_not); }
+
+/// c[0] + x (c[1] + x (c[2] + …)), from the innermost bracket outwards.
+Expression polynomial(Expression x, std::span<const float> coefficients);
+
+/// A number rounded to the nearest whole one, ties to even: for |x| < 2^22.
+struct Rounded {
+    Expression number;  ///< As a number.
+    Expression word;    ///< As a word, modulo 2^32.
+};
+Rounded round_to_whole(Expression x);
+
+/// x · 2^n for a whole word n of −254 … 254. Exact, or flushed, or infinite.
+Expression scale(Expression x, Expression n);
+
+/// A positive normal number as m · 2^e with m in [√½, √2).
+struct Decomposed {
+    Expression significand;
+    Expression exponent;  ///< As a number.
+};
+Decomposed decompose(Expression x);
+
+}  // namespace cascade

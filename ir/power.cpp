@@ -1,0 +1,171 @@
+// x^y, expanded into operations of the table.
+//
+// Whole constant exponents up to 64 multiply. Others are 2^(y · log2|x|), where the logarithm is
+// carried as a head and a tail of together some 36 bits: the product may be as large as 128, and
+// its error is the relative error of the result. Products of heads of 12 bits are exact (G. W.
+// Veltkamp and T. J. Dekker, Numerische Mathematik 18, 1971), so that no fused operation is needed.
+//
+// Special cases are those of C's pow(): 1 for y = 0 or x = 1, even if the other is NaN; NaN for a
+// finite x below 0 and a y that is not whole; the sign of x for odd y.
+#include "ir/expression.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace cascade {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float largest_multiplied = 64.0f;
+
+// Beyond this the result is infinite or 0 for every x but 1: |log2 x| is at least 2^−25.
+constexpr float large_exponent = 0x1p40f;
+// 2^200 is infinite and 2^−200 is 0.
+constexpr float large_logarithm = 200.0f;
+
+// 2 / (3 ln 2): to 24 bits, and as a head of 11 bits and a tail.
+constexpr float log2_factor = 0x1.ec709ep-1f;
+constexpr float log2_factor_head = 0x1.ec8p-1f;
+constexpr float log2_factor_tail = -0x1.ec478cp-14f;
+
+// (3 artanh(s)/s − 3 − s²) / s⁴ in s², for |s| ≤ 0.172; error 2^−44 of the logarithm.
+constexpr float log2_coefficients[] = {0x1.333334p-1f, 0x1.b6d9e6p-2f, 0x1.55d65cp-2f,
+                                       0x1.056c74p-2f, 0x1.d51992p-2f};
+
+// (2^f − 1) / f for |f| ≤ 0.51; error 2^−32 of 2^f.
+constexpr float exp2_coefficients[] = {0x1.62e430p-1f, 0x1.ebfbe0p-3f,  0x1.c6b070p-5f,
+                                       0x1.3b2a54p-7f, 0x1.5da228p-10f, 0x1.4419cap-13f,
+                                       0x1.e5b8e2p-17f};
+
+/// The sum of a head of 12 bits and a tail.
+struct Split {
+    Expression head;
+    Expression tail;
+};
+
+/// s = (m − 1) / (m + 1), with both parts of it.
+struct Quotient {
+    Expression rounded;
+    Split parts;
+};
+
+Quotient quotient_of(Expression m) {
+    const Expression f = m - 1.0f;  // Exact.
+    const Expression d = m + 1.0f;
+    const Expression inverse = 1.0f / d;
+    const Expression s = f * inverse;
+    const Expression d_head = d.head();
+    const Expression d_tail = m - (d_head - 1.0f);  // Of the exact m + 1.
+    const Expression s_head = s.head();
+    const Expression rest = (f - s_head * d_head) - s_head * d_tail;
+    return {s, {s_head, rest * inverse}};
+}
+
+/// log2(x) of a positive normal x. With s as above, ln m = 2 artanh(s) = s · ⅔ · (3 + s² + …).
+Split logarithm_to_base_2(Expression x) {
+    const auto [m, e] = decompose(x);
+    const auto [s, parts] = quotient_of(m);
+    const Expression z = s * s;
+    const Expression square = parts.head * parts.head;  // Exact.
+    const Expression small =
+        (z * z) * polynomial(z, log2_coefficients) + parts.tail * (parts.head + s);
+    const Expression series_head = ((square + 3.0f) + small).head();
+    const Expression series_tail = small - ((series_head - 3.0f) - square);
+
+    const Expression product = parts.head * series_head;  // Exact.
+    const Expression rest = parts.tail * series_head + series_tail * s;
+    const Expression p_head = (product + rest).head();
+    const Expression p_tail = rest - (p_head - product);
+
+    const Expression large = p_head * log2_factor_head;  // Exact.
+    const Expression little = p_head * log2_factor_tail + p_tail * log2_factor;
+    const Expression head = ((large + little) + e).head();
+    return {head, little - ((head - e) - large)};
+}
+
+/// 2^(p + q), where q is small beside p or beside 1 and |p| ≤ 200.
+Expression exponential_to_base_2(Expression p, Expression q) {
+    const Rounded n = round_to_whole(p + q);
+    const Expression f = (p - n.number) + q;
+    return scale(f * polynomial(f, exp2_coefficients) + 1.0f, n.word);
+}
+
+/// |x|^y, for any words.
+Expression power_of_magnitude(Expression a, Expression exponent) {
+    const Expression y = exponent.clamped(-large_exponent, large_exponent);
+    const Split logarithm = logarithm_to_base_2(a);
+    const Expression y_head = y.head();
+    const Expression y_tail = y - y_head;
+    const Expression large = y_head * logarithm.head;  // Exact.
+    const Expression little = y_tail * logarithm.head + y * logarithm.tail;
+    // Zero, infinity and NaN have no significand to take the logarithm of; and the head of a NaN
+    // may be the word of an infinity.
+    const Expression is_ordinary = both(both(0.0f < a, a < infinity), equals(y, y));
+    const Expression extreme = y * equals(a, 0.0f).choose(-infinity, a);
+    const Expression p = is_ordinary.choose(large, extreme);
+    const Expression has_tail = p.absolute() < large_logarithm;
+    const Expression q = has_tail.choose(little, a.number(0.0f));
+    return exponential_to_base_2(p.clamped(-large_logarithm, large_logarithm), q);
+}
+
+struct Parity {
+    Expression is_whole;  ///< A truth.
+    Expression odd_bit;   ///< The word 1 if the number is an odd whole number, else 0.
+};
+
+Parity parity_of(Expression y) {
+    // 2^23 + a has no digits behind the point for a < 2^23, and its last bit is that of a. From
+    // 2^23 to 2^24 the last bit of a itself is worth 1; beyond, all numbers are even.
+    const Expression a = y.absolute();
+    const Expression is_small = a < 0x1p23f;
+    const Expression sum = is_small.choose(a + 0x1p23f, a);
+    const Expression is_whole = either(equals(sum - 0x1p23f, a), !is_small);
+    const Expression odd_bit = (a < 0x1p24f).choose(sum.and_word(1), a.word(0));
+    return {is_whole, both(is_whole, a < 0x1p24f).choose(odd_bit, a.word(0))};
+}
+
+/// The whole constant of at most 64 in magnitude that `y` is, if it is one.
+std::optional<int> small_whole(const KernelBuilder& builder, ValueId y) {
+    if (!builder.is_constant(y)) return std::nullopt;
+    const float value = to_number(builder[y].payload);
+    if (!(std::fabs(value) <= largest_multiplied) || std::trunc(value) != value) {
+        return std::nullopt;
+    }
+    return static_cast<int>(value);
+}
+
+/// x^n for n > 0. Bits of n from the lowest: the squares of x belonging to set bits are multiplied
+/// onto the product, from the right: x^3 = x · (x·x), x^7 = (x · x²) · x⁴.
+Expression repeated_product(Expression x, unsigned n) {
+    std::optional<Expression> product;
+    Expression square = x;
+    for (;; square = square * square) {
+        if ((n & 1) != 0) product = product ? *product * square : square;
+        n >>= 1;
+        if (n == 0) return *product;
+    }
+}
+
+}  // namespace
+
+ValueId KernelBuilder::power(ValueId base, ValueId exponent) {
+    const Expression x(*this, base);
+    if (const std::optional<int> n = small_whole(*this, exponent)) {
+        if (*n == 0) return number(1.0f);
+        const Expression product = repeated_product(x, static_cast<unsigned>(std::abs(*n)));
+        return (*n > 0 ? product : 1.0f / product).id();
+    }
+    const Expression y(*this, exponent);
+    const Expression magnitude = power_of_magnitude(x.absolute(), y);
+    const Parity parity = parity_of(y);
+    const Expression odd_sign = parity.odd_bit.shifted_left(31);
+    const Expression sign = odd_sign.binary(Op::bits_and, x);
+    const Expression is_negative = both(x < 0.0f, -infinity < x);
+    const Expression is_undefined = both(is_negative, !parity.is_whole);
+    const Expression real = is_undefined.choose(nan, magnitude.binary(Op::bits_xor, sign));
+    return either(equals(y, 0.0f), equals(x, 1.0f)).choose(1.0f, real).id();
+}
+
+}  // namespace cascade

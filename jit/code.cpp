@@ -1,0 +1,105 @@
+// Building modules and generating machine code.
+#include "jit/code.h"
+
+#include "jit/target_machine.h"
+
+#include <fmt/format.h>
+#include <llvm/IR/DiagnosticInfo.h>
+#include <llvm/IR/DiagnosticPrinter.h>
+#include <llvm/IR/LegacyPassManager.h>
+#include <llvm/IR/Verifier.h>
+#include <llvm/Support/raw_ostream.h>
+
+#include <algorithm>
+
+namespace cascade {
+namespace {
+
+/// Keeps what LLVM has to say about a module; without a handler it prints that and may exit.
+class Complaints : public llvm::DiagnosticHandler {
+public:
+    explicit Complaints(std::string& text) : text_(text) {}
+
+    bool handleDiagnostics(const llvm::DiagnosticInfo& info) override {
+        if (info.getSeverity() == llvm::DS_Error) {
+            llvm::raw_string_ostream stream(text_);
+            llvm::DiagnosticPrinterRawOStream printer(stream);
+            info.print(printer);
+        }
+        return true;
+    }
+
+private:
+    std::string& text_;
+};
+
+std::size_t size_of(const CellKernel& kernel) {
+    constexpr std::size_t loads_of_laplacian = 10;  // In time that they take, not in number.
+    const auto laplacians = static_cast<std::size_t>(
+        std::count_if(kernel.code.begin(), kernel.code.end(),
+                      [](const Instruction& i) { return i.op == Op::laplacian; }));
+    return kernel.code.size() + loads_of_laplacian * laplacians;
+}
+
+/// Takes a machine's optimisation away while it lives.
+class SimpleGenerator {
+public:
+    SimpleGenerator(llvm::TargetMachine& machine, bool is_wanted)
+        : machine_(machine), level_(machine.getOptLevel()) {
+        if (is_wanted) machine_.setOptLevel(llvm::CodeGenOptLevel::None);
+    }
+    ~SimpleGenerator() { machine_.setOptLevel(level_); }
+    SimpleGenerator(const SimpleGenerator&) = delete;
+    SimpleGenerator& operator=(const SimpleGenerator&) = delete;
+
+private:
+    llvm::TargetMachine& machine_;
+    llvm::CodeGenOptLevel level_;
+};
+
+}  // namespace
+
+Result<CodeModule> make_code(const CellKernel& kernel, const GridShape& shape,
+                             const std::string& name, const llvm::TargetMachine& machine) {
+    const std::size_t size = size_of(kernel);
+    if (size > largest_native_kernel) {
+        return failure(fmt::format("a kernel of size {} is too large for native code, which ends "
+                                   "at {}",
+                                   size, largest_native_kernel));
+    }
+    CodeModule code{std::make_unique<llvm::LLVMContext>(), nullptr,
+                    size > largest_optimised_kernel};
+    code.module = std::make_unique<llvm::Module>("cascade", *code.context);
+    code.module->setDataLayout(machine.createDataLayout());
+    code.module->setTargetTriple(machine.getTargetTriple().str());
+    code.module->setPICLevel(llvm::PICLevel::BigPIC);
+    llvm::Function* function = build_grid_function(*code.module, kernel, shape, name);
+    set_target(*function, machine, shape.lanes);
+
+    std::string fault;
+    llvm::raw_string_ostream stream(fault);
+    if (llvm::verifyFunction(*function, &stream)) {
+        return failure("the code of a kernel is not valid: " + stream.str());
+    }
+    return code;
+}
+
+Result<llvm::SmallVector<char, 0>> generate(CodeModule& code, llvm::TargetMachine& machine,
+                                            CodeForm form) {
+    const SimpleGenerator level(machine, code.is_large);
+    std::string complaints;
+    code.context->setDiagnosticHandler(std::make_unique<Complaints>(complaints));
+    llvm::SmallVector<char, 0> bytes;
+    llvm::raw_svector_ostream stream(bytes);
+    llvm::legacy::PassManager passes;
+    const auto type = form == CodeForm::object ? llvm::CodeGenFileType::ObjectFile
+                                               : llvm::CodeGenFileType::AssemblyFile;
+    if (machine.addPassesToEmitFile(passes, stream, nullptr, type)) {
+        return failure("LLVM cannot write code for this processor");
+    }
+    passes.run(*code.module);
+    if (!complaints.empty()) return failure("LLVM refused a kernel: " + complaints);
+    return bytes;
+}
+
+}  // namespace cascade

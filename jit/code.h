@@ -1,0 +1,47 @@
+// From a cell kernel to LLVM IR, and from that to an object file or assembly.
+//
+// Internal to jit/. Objects, dumps and the code that runs in this process all come this way. None
+// of LLVM's passes over the IR is run: the builder of kernels has folded and numbered all values,
+// the skeleton has put them on their levels, and with them the generator writes the same code.
+#pragma once
+
+#include "core/result.h"
+#include "jit/skeleton_grid.h"
+
+#include <llvm/ADT/SmallVector.h>
+#include <llvm/IR/LLVMContext.h>
+#include <llvm/IR/Module.h>
+#include <llvm/Target/TargetMachine.h>
+
+#include <memory>
+#include <string>
+
+namespace cascade {
+
+/// A module with the context it lives in.
+struct CodeModule {
+    std::unique_ptr<llvm::LLVMContext> context;
+    std::unique_ptr<llvm::Module> module;
+    bool is_large = false;  ///< Above `largest_optimised_kernel`.
+};
+
+// The sizes of kernels count instructions, and for each Laplacian its loads besides. The time that
+// LLVM's optimising code generator takes grows with the square of it: 0.2 to 0.4 s at this size.
+// Larger kernels get code of the simple generator, whose time grows linearly.
+inline constexpr std::size_t largest_optimised_kernel = 3000;
+
+/// Above this size kernels are refused; it takes up to 1 s to compile.
+inline constexpr std::size_t largest_native_kernel = 20000;
+
+/// The kernel as one function `name`. Fails if the kernel is larger than
+/// `largest_native_kernel` or if LLVM finds fault with the code (our own mistake, but one that the
+/// caller can survive by interpreting).
+Result<CodeModule> make_code(const CellKernel& kernel, const GridShape& shape,
+                             const std::string& name, const llvm::TargetMachine& machine);
+
+/// Machine code as the bytes of an object file, or as assembly text.
+enum class CodeForm { object, assembly };
+Result<llvm::SmallVector<char, 0>> generate(CodeModule& code, llvm::TargetMachine& machine,
+                                            CodeForm form);
+
+}  // namespace cascade

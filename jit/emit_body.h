@@ -1,0 +1,107 @@
+// Cell kernels to LLVM instructions: the body of the loops that a skeleton builds.
+//
+// Internal to jit/. The emitter knows the operations of ir/operations.def and nothing of grids; it
+// asks a Lane for what depends on where the cells lie. A skeleton opens one scope per level of its
+// loops, so that what is the same in all cells, or in a row, is computed outside of the loop
+// without any pass that moves code.
+//
+// Denormals. The kernel runs with denormal inputs and results flushed, and LLVM takes the liberty
+// to drop operations such as x * 1, which flush. Wherever a word may be a denormal number the
+// emitter writes something that LLVM cannot weaken: see `flushed` and `select` in the .cpp.
+#pragma once
+
+#include "ir/cell_kernel.h"
+
+#include <llvm/Analysis/InstSimplifyFolder.h>
+#include <llvm/IR/IRBuilder.h>
+
+#include <span>
+#include <vector>
+
+namespace cascade {
+
+/// The folder knows LLVM's algebra and does not fold where a denormal is involved.
+using Builder = llvm::IRBuilder<llvm::InstSimplifyFolder>;
+
+/// How often a value is computed.
+enum class Level : std::uint8_t {
+    call,  ///< Once: it depends on constants and uniforms alone.
+    row,   ///< Once a row.
+    cell,  ///< For each vector of cells.
+};
+
+/// The level of every instruction of a kernel.
+std::vector<Level> levels_of(const CellKernel& kernel);
+
+/// The cells that one execution of the body computes; N of them make a vector. A skeleton has a
+/// lane for each level, which is asked only for what belongs to this level.
+class Lane {
+public:
+    virtual ~Lane() = default;
+    // Of the call.
+    virtual llvm::Value* uniform(std::uint32_t slot);    ///< <N x float>
+    // Of the row.
+    virtual llvm::Value* cell_row();                     ///< <N x i32>
+    // Of the cells.
+    virtual llvm::Value* field(std::uint32_t slot);      ///< <N x float>
+    virtual llvm::Value* laplacian(std::uint32_t slot);  ///< <N x float>
+    virtual llvm::Value* mask(std::uint32_t slot);       ///< <N x i1>
+    virtual llvm::Value* cell_column();                  ///< <N x i32>
+};
+
+/// The values of one level, at one place of the code. Values of lower levels are looked up in the
+/// scopes outside of it, which must outlive it.
+class BodyScope {
+public:
+    /// `builder` writes in front of the terminator, or at the end, of this level's block.
+    BodyScope(const CellKernel& kernel, std::span<const Level> levels, Level level,
+              Builder& builder, Lane& lane, int lanes, BodyScope* outer);
+
+    /// Emits all instructions of this level.
+    void emit();
+
+    /// A value as <N x float>, <N x i32>, or as the truth of it in <N x i1>.
+    llvm::Value* number(ValueId id);
+    llvm::Value* bits(ValueId id);
+    llvm::Value* truth(ValueId id);
+
+private:
+    /// One value in up to three forms; forms that nobody asked for are not made.
+    struct Forms {
+        llvm::Value* number = nullptr;
+        llvm::Value* bits = nullptr;
+        llvm::Value* truth = nullptr;
+        bool is_boolean = false;        ///< It is 1 or 0, and `truth` says which.
+        bool may_be_denormal = false;
+        /// Made of constants that conditions choose from, at least in one branch of a choice.
+        bool is_choice_of_constants = false;
+    };
+
+    BodyScope& owner(ValueId id);
+    Forms& forms(ValueId id) { return owner(id).values_[id]; }
+
+    Forms emit(const Instruction& instruction);
+    bool chooses_constants(const Instruction& instruction);
+    Forms emit_source(const Instruction& instruction);
+    Forms emit_arithmetic(const Instruction& instruction);
+    Forms emit_comparison(const Instruction& instruction);
+    Forms emit_logic(const Instruction& instruction);
+    Forms emit_select(const Instruction& instruction);
+    Forms emit_word(const Instruction& instruction);
+    llvm::Value* operand(ValueId id);
+    llvm::Value* operand(ValueId id, ValueId partner, float neutral);
+    llvm::Value* flushed(ValueId id);
+    llvm::Constant* splat(std::uint32_t word) const;
+
+    const CellKernel& kernel_;
+    std::span<const Level> levels_;
+    Level level_;
+    Builder& builder_;
+    Lane& lane_;
+    BodyScope* outer_;
+    llvm::VectorType* number_type_;
+    llvm::VectorType* bits_type_;
+    std::vector<Forms> values_;  ///< By value; only those of this level are filled in.
+};
+
+}  // namespace cascade

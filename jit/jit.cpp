@@ -1,0 +1,123 @@
+// The backend: compiles, keeps what it compiled, and hands out kernels.
+#include "jit/jit.h"
+
+#include "core/check.h"
+#include "jit/code.h"
+#include "jit/native_session.h"
+#include "jit/target_machine.h"
+
+#include <fmt/format.h>
+#include <llvm/Config/llvm-config.h>
+
+#include <mutex>
+#include <unordered_map>
+
+namespace cascade {
+namespace {
+
+class NativeKernel final : public Kernel {
+public:
+    NativeKernel(const CellKernel& kernel, std::unique_ptr<LoadedFunction> function)
+        : fields_(kernel.field_names.size()),
+          masks_(kernel.mask_names.size()),
+          uniforms_(kernel.uniform_names.size()),
+          results_(kernel.results.size()),
+          function_(std::move(function)) {}
+
+    void run(const KernelArguments& arguments, RowRange rows) const override {
+        CHECK(arguments.fields.size() >= fields_ && arguments.masks.size() >= masks_ &&
+                  arguments.uniforms.size() >= uniforms_ && arguments.results.size() >= results_,
+              "a kernel is given all its planes and numbers");
+        CHECK(rows.empty() || (rows.begin >= 0 && rows.end <= arguments.layout.height),
+              "rows to compute are rows of the plane");
+        if (arguments.layout.width <= 0) return;
+        function_->address(arguments.fields.data(), arguments.masks.data(),
+                           arguments.uniforms.data(), arguments.results.data(),
+                           arguments.layout.width, arguments.layout.stride, rows.begin, rows.end);
+    }
+
+private:
+    std::size_t fields_, masks_, uniforms_, results_;
+    std::unique_ptr<LoadedFunction> function_;
+};
+
+/// A kernel that was compiled, with all that its code depends on: hashes may collide.
+struct Known {
+    CellKernel kernel;
+    Stencil stencil;
+    KernelPointer compiled;
+
+    bool is(const CellKernel& other, Stencil its_stencil) const {
+        return stencil == its_stencil && kernel.code == other.code &&
+               kernel.results == other.results &&
+               kernel.field_names.size() == other.field_names.size() &&
+               kernel.mask_names.size() == other.mask_names.size() &&
+               kernel.uniform_names.size() == other.uniform_names.size();
+    }
+};
+
+/// Beyond this many kernels all are forgotten, so that a day at the prompt does not fill memory;
+/// those that somebody holds live on.
+constexpr std::size_t most_known = 1024;
+
+class JitBackend final : public Backend {
+public:
+    JitBackend(std::unique_ptr<llvm::TargetMachine> machine,
+               std::shared_ptr<NativeSession> session, int lanes)
+        : machine_(std::move(machine)), session_(std::move(session)), lanes_(lanes) {}
+
+    std::string_view name() const override { return "jit"; }
+
+    Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) override {
+        const std::lock_guard lock(mutex_);
+        const std::uint64_t key = hash(kernel) * 4 + static_cast<std::uint64_t>(stencil);
+        const auto [first, last] = known_.equal_range(key);
+        for (auto found = first; found != last; ++found) {
+            if (found->second.is(kernel, stencil)) return found->second.compiled;
+        }
+        Result<KernelPointer> made = make(kernel, stencil);
+        if (!made) return made;
+        if (known_.size() >= most_known) known_.clear();
+        known_.emplace(key, Known{kernel, stencil, *made});
+        return made;
+    }
+
+private:
+    Result<KernelPointer> make(const CellKernel& kernel, Stencil stencil) {
+        const std::string function_name = fmt::format("kernel{}", next_number_++);
+        auto code = make_code(kernel, {stencil, lanes_}, function_name, *machine_);
+        if (!code) return tl::unexpected(code.error());
+        const auto object = generate(*code, *machine_, CodeForm::object);
+        if (!object) return tl::unexpected(object.error());
+        auto function = session_->load({object->data(), object->size()}, function_name);
+        if (!function) return tl::unexpected(function.error());
+        return std::make_shared<NativeKernel>(kernel, std::move(*function));
+    }
+
+    std::mutex mutex_;
+    std::unique_ptr<llvm::TargetMachine> machine_;
+    std::shared_ptr<NativeSession> session_;
+    int lanes_;
+    std::uint64_t next_number_ = 0;
+    std::unordered_multimap<std::uint64_t, Known> known_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Backend>> make_jit(const JitOptions& options) {
+    auto target = choose_target("", options);
+    if (!target) return tl::unexpected(target.error());
+    auto session = NativeSession::make();
+    if (!session) return tl::unexpected(session.error());
+    return std::make_unique<JitBackend>(std::move(target->machine), std::move(*session),
+                                        target->lanes);
+}
+
+std::string describe_jit() {
+    const auto target = choose_target("", {});
+    if (!target) return fmt::format("LLVM {}: {}", LLVM_VERSION_STRING, target.error().message);
+    return fmt::format("LLVM {}, {}, {} cells a vector", LLVM_VERSION_STRING, host_cpu_name(),
+                       target->lanes);
+}
+
+}  // namespace cascade

@@ -1,0 +1,33 @@
+// The loops over the rows and vectors of a grid around a kernel's body.
+//
+// Internal to jit/. The function that is built has this C signature:
+//
+//     void NAME(const float *const *fields, const unsigned char *const *masks,
+//               const float *uniforms, float *const *results,
+//               int64_t width, int64_t stride, int64_t row_begin, int64_t row_end);
+//
+// Pointers are to cell (0, 0) of planes in the layout of PlaneLayout. Rows [row_begin, row_end) are
+// computed in vectors of `lanes` cells; the last vector of a row may run into its padding, at most
+// to the next multiple of PlaneLayout::row_pad. Neighbours are read up to one vector beside that.
+#pragma once
+
+#include "core/grid.h"
+#include "ir/cell_kernel.h"
+
+#include <llvm/IR/Module.h>
+
+#include <string>
+
+namespace cascade {
+
+/// What decides the code of a kernel besides the kernel.
+struct GridShape {
+    Stencil stencil = Stencil::plane;
+    int lanes = 16;  ///< Cells per vector: 4, 8 or 16.
+};
+
+/// Adds the function to `module`, whose data layout is already that of the target.
+llvm::Function* build_grid_function(llvm::Module& module, const CellKernel& kernel,
+                                    const GridShape& shape, const std::string& name);
+
+}  // namespace cascade

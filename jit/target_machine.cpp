@@ -1,0 +1,112 @@
+// Looks up targets, and names what they can do.
+#include "jit/target_machine.h"
+
+#include <fmt/format.h>
+#include <llvm/MC/MCSubtargetInfo.h>
+#include <llvm/MC/TargetRegistry.h>
+#include <llvm/Support/TargetSelect.h>
+#include <llvm/TargetParser/Host.h>
+#include <llvm/TargetParser/SubtargetFeature.h>
+#include <llvm/TargetParser/Triple.h>
+#include <llvm/TargetParser/X86TargetParser.h>
+
+#include <algorithm>
+
+namespace cascade {
+namespace {
+
+/// Registers the native code generator; LLVM keeps the registry. True if it has one.
+bool initialise_target() {
+    static const bool done = !llvm::InitializeNativeTarget() &&
+                             !llvm::InitializeNativeTargetAsmPrinter();
+    return done;
+}
+
+std::string host_features() {
+    llvm::SubtargetFeatures features;
+    for (const auto& feature : llvm::sys::getHostCPUFeatures()) {
+        features.AddFeature(feature.getKey(), feature.getValue());
+    }
+    return features.getString();
+}
+
+llvm::CodeGenOptLevel codegen_level(int optimise) {
+    switch (optimise) {
+        case 0: return llvm::CodeGenOptLevel::None;
+        case 1: return llvm::CodeGenOptLevel::Less;
+        case 2: return llvm::CodeGenOptLevel::Default;
+        default: return llvm::CodeGenOptLevel::Aggressive;
+    }
+}
+
+Result<std::unique_ptr<llvm::TargetMachine>> make_target_machine(const std::string& cpu,
+                                                                 int optimise) {
+    if (!initialise_target()) return failure("LLVM has no code generator for this machine");
+    if (!cpu.empty()) {
+        const std::vector<std::string> known = known_targets();
+        if (std::find(known.begin(), known.end(), cpu) == known.end()) {
+            return failure(fmt::format("'{}' is not a processor that code can be made for", cpu),
+                           "such as x86-64, x86-64-v2, x86-64-v3, x86-64-v4");
+        }
+    }
+    const std::string triple = llvm::sys::getProcessTriple();
+    std::string error;
+    const llvm::Target* target = llvm::TargetRegistry::lookupTarget(triple, error);
+    if (!target) return failure(fmt::format("no native code for {}: {}", triple, error));
+    llvm::TargetOptions options;
+    options.AllowFPOpFusion = llvm::FPOpFusion::Strict;
+    std::unique_ptr<llvm::TargetMachine> machine(target->createTargetMachine(
+        triple, cpu.empty() ? host_cpu_name() : cpu, cpu.empty() ? host_features() : "", options,
+        llvm::Reloc::PIC_, llvm::CodeModel::Small, codegen_level(optimise)));
+    if (!machine) return failure(fmt::format("no native code for {}", triple));
+    return machine;
+}
+
+}  // namespace
+
+std::string host_cpu_name() { return llvm::sys::getHostCPUName().str(); }
+
+std::vector<std::string> known_targets() {
+    llvm::SmallVector<llvm::StringRef, 128> names;
+    if (llvm::Triple(llvm::sys::getProcessTriple()).isX86()) {
+        llvm::X86::fillValidCPUArchList(names, /*Only64Bit=*/true);
+    }
+    std::vector<std::string> targets;
+    for (const llvm::StringRef name : names) targets.push_back(name.str());
+    std::sort(targets.begin(), targets.end());
+    return targets;
+}
+
+Result<TargetChoice> choose_target(const std::string& cpu, const JitOptions& options) {
+    const int lanes = options.lanes;
+    if (lanes != 0 && lanes != 4 && lanes != 8 && lanes != 16) {
+        return failure(fmt::format("no vectors of {} cells", lanes), "4, 8 or 16");
+    }
+    if (options.optimise < 0 || options.optimise > 3) {
+        return failure(fmt::format("no optimisation level {}", options.optimise), "0 to 3");
+    }
+    auto machine = make_target_machine(cpu, options.optimise);
+    if (!machine) return tl::unexpected(machine.error());
+    const int widest = widest_lanes(**machine);
+    return TargetChoice{std::move(*machine), lanes == 0 ? widest : lanes};
+}
+
+int widest_lanes(const llvm::TargetMachine& machine) {
+    const llvm::MCSubtargetInfo& features = *machine.getMCSubtargetInfo();
+    if (!machine.getTargetTriple().isX86()) return 4;
+    if (features.checkFeatures("+avx512f")) return 16;
+    return features.checkFeatures("+avx") ? 8 : 4;
+}
+
+void set_target(llvm::Function& function, const llvm::TargetMachine& machine, int lanes) {
+    function.addFnAttr("target-cpu", machine.getTargetCPU());
+    function.addFnAttr("target-features", machine.getTargetFeatureString());
+    // Processors that prefer narrower vectors than they have split ours without this.
+    const std::string bits = std::to_string(32 * lanes);
+    function.addFnAttr("prefer-vector-width", bits);
+    function.addFnAttr("min-legal-vector-width", bits);
+    function.addFnAttr("denormal-fp-math", "preserve-sign,preserve-sign");
+    function.addFnAttr("denormal-fp-math-f32", "preserve-sign,preserve-sign");
+}
+
+}  // namespace cascade

@@ -1,0 +1,141 @@
+// The checker: systems first, then stages in order, then the domain and the picture.
+#include "lang/check.h"
+
+#include "core/check.h"
+#include "lang/check_blocks.h"
+#include "lang/parse.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace cascade {
+
+namespace {
+
+using checking::Workspace;
+
+/// The source of a built-in system; an equal one from an earlier check is used again.
+SourceId source_of(std::string_view name, std::string_view text, Sources& sources) {
+    for (SourceId id = 0; id < sources.size(); ++id) {
+        if (sources[id].name() == name && sources[id].text() == text) return id;
+    }
+    return sources.add(std::string(name), std::string(text));
+}
+
+void check_built_in_systems(Workspace& work, Sources& sources) {
+    for (const auto& [name, text] : built_in_system_texts()) {
+        const SourceId source = source_of(name, text, sources);
+        const ast::Script script = parse(source, sources, work.diagnostics);
+        for (const ast::Block& block : script.blocks) {
+            CHECK(block.kind == ast::BlockKind::system, "a built-in text holds systems only");
+            checking::check_system(work, script, block, true);
+        }
+    }
+    CHECK(!work.diagnostics.has_errors(), "the built-in systems are sound");
+}
+
+/// The workspace of a program that is checked already.
+Workspace workspace_of(Program& program, Diagnostics& diagnostics) {
+    Workspace work{program, diagnostics, {}, {}, {}, {}, {}, 0};
+    for (const System& system : program.systems) {
+        work.names.push_back(checking::names_of(system));
+    }
+    for (std::uint32_t i = 0; i < program.stages.size(); ++i) {
+        work.stages.emplace(program.stages[i].name, i);
+    }
+    return work;
+}
+
+}  // namespace
+
+namespace checking {
+
+void warn_unread(Workspace& work) {
+    for (std::size_t index = 0; index < work.program.systems.size(); ++index) {
+        const System& system = work.program.systems[index];
+        if (system.built_in) continue;
+        for (std::size_t item = 0; item < system.quantities.size(); ++item) {
+            const Quantity& quantity = system.quantities[item];
+            if (quantity.is_species || work.items_read[index][item]) continue;
+            work.diagnostics.warning(quantity.span,
+                                     fmt::format("parameter '{}' is never read", quantity.name));
+        }
+        for (std::size_t i = 0; i < system.definitions.size(); ++i) {
+            if (work.definitions_read[index][i]) continue;
+            work.diagnostics.warning(
+                system.definitions[i].span,
+                fmt::format("definition '{}' is never read", system.definitions[i].name));
+        }
+    }
+}
+
+}  // namespace checking
+
+std::optional<Program> check(const ast::Script& script, Sources& sources,
+                             Diagnostics& diagnostics) {
+    Program program;
+    Diagnostics own;
+    {
+        Workspace work{program, own, {}, {}, {}, {}, {}, 0};
+        check_built_in_systems(work, sources);
+        for (const ast::Block& block : script.blocks) {
+            if (block.kind != ast::BlockKind::system) continue;
+            checking::check_system(work, script, block, false);
+        }
+        checking::check_stages(work, script);
+        checking::check_domain(work, script);
+        checking::check_picture(work, script);
+        if (!own.has_errors()) checking::warn_unread(work);
+    }
+    for (Diagnostic& diagnostic : own.sorted()) diagnostics.add(std::move(diagnostic));
+    if (diagnostics.has_errors()) return std::nullopt;
+    return program;
+}
+
+std::optional<Formula> check_view(const ast::Script& script, ast::Expression expression,
+                                  std::uint32_t stage, std::uint32_t last_stage, Program& program,
+                                  const Sources& /*sources*/, Diagnostics& diagnostics) {
+    Workspace work = workspace_of(program, diagnostics);
+    checking::Scope scope;
+    scope.place = checking::Place::picture;
+    scope.stage = stage;
+    scope.system = program.stages[stage].system;
+    scope.last_stage = last_stage;
+    auto checked = checking::check_expression(work, script, expression, scope);
+    if (!checked) return std::nullopt;
+    return std::move(checked->formula);
+}
+
+std::optional<ast::Expression> picture_expression(const ast::Script& script) {
+    for (const ast::Block& block : script.blocks) {
+        if (block.kind != ast::BlockKind::picture) continue;
+        for (const ast::Sentence& sentence : block.sentences) {
+            const bool is_color = sentence.kind == ast::SentenceKind::value &&
+                                  sentence.name.text == "color" && !sentence.values.empty();
+            if (is_color) return sentence.values[0];
+        }
+    }
+    return std::nullopt;
+}
+
+std::vector<std::string> known_names(const Program& program) {
+    std::set<std::string> names{"system", "stage", "domain", "picture", "system_name", "grid",
+                                "boundary", "seed", "color", "periodic", "noflux",
+                                "iterations", "interval", "frozen", "speed", "show",
+                                "x", "y", "sx", "sy", "t", "step", "pi", "and", "or", "not"};
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(Function::mix); ++i) {
+        const FunctionInfo& row = info(static_cast<Function>(i));
+        if (!row.is_operator) names.emplace(row.spelling);
+    }
+    for (const System& system : program.systems) {
+        names.insert(system.name);
+        for (const Quantity& quantity : system.quantities) names.insert(quantity.name);
+        for (const Definition& definition : system.definitions) names.insert(definition.name);
+    }
+    for (const Stage& stage : program.stages) names.insert(stage.name);
+    return {names.begin(), names.end()};
+}
+
+}  // namespace cascade

@@ -1,0 +1,190 @@
+// The `domain` and `picture` blocks.
+#include "lang/check_blocks.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr double most_cells = 2147483648.0;  // 2^31: a cell's number fits a 32-bit word.
+constexpr double largest_seed = 4294967295.0;
+
+const ast::Block* find_block(Workspace& work, const ast::Script& script, ast::BlockKind kind,
+                             const char* name) {
+    const ast::Block* first = nullptr;
+    for (const ast::Block& block : script.blocks) {
+        if (block.kind != kind) continue;
+        if (first == nullptr) {
+            first = &block;
+        } else {
+            report_twice(work, block.keyword.span, first->keyword.span,
+                         fmt::format("there are two {} blocks", name));
+        }
+    }
+    return first;
+}
+
+Span span_of(const ast::Script& script, ast::Expression expression) {
+    return script.expressions[expression.root].span;
+}
+
+/// One side of the grid, or nothing with a message.
+std::optional<double> check_side(Workspace& work, const ast::Script& script,
+                                 ast::Expression expression) {
+    const auto side = check_constant(work, script, expression, "a side of the grid");
+    if (!side) return std::nullopt;
+    if (!(*side >= 1) || *side != std::floor(*side)) {
+        work.diagnostics.error(span_of(script, expression),
+                               "a side of the grid must be a whole number of at least 1");
+        return std::nullopt;
+    }
+    return side;
+}
+
+void check_grid(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (sentence.values.size() > 2) {
+        work.diagnostics.error(span_of(script, sentence.values[2]),
+                               "the grid has one or two sides");
+        return;
+    }
+    const auto width = check_side(work, script, sentence.values[0]);
+    auto height = std::optional<double>(1);
+    if (sentence.values.size() == 2) height = check_side(work, script, sentence.values[1]);
+    if (!width || !height) return;
+    const Span sides = join(span_of(script, sentence.values.front()),
+                            span_of(script, sentence.values.back()));
+    if (*width * *height < 2) {
+        work.diagnostics.error(sides, "a grid needs more than one cell");
+        return;
+    }
+    if (*width * *height > most_cells) {
+        work.diagnostics.error(sides, "the grid is too large",
+                               "the largest has 2147483648 cells");
+        return;
+    }
+    Grid& grid = work.program.domain.grid;
+    grid.width = static_cast<std::int64_t>(*width);
+    grid.height = static_cast<std::int64_t>(*height);
+    work.program.domain.grid_span = sides;
+}
+
+void check_boundary(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (!has_one_value(work, script, sentence)) return;
+    const ast::Expr& value = script.expressions[sentence.values[0].root];
+    if (std::holds_alternative<ast::Garbage>(value.node)) return;
+    const auto* name = std::get_if<ast::Name>(&value.node);
+    const std::string_view word = name != nullptr ? name->name : std::string_view();
+    if (word == "periodic") {
+        work.program.domain.grid.boundary = Boundary::periodic;
+    } else if (word == "noflux") {
+        work.program.domain.grid.boundary = Boundary::no_flux;
+    } else {
+        work.diagnostics.error(value.span, "the boundary is periodic or noflux",
+                               did_you_mean(work, word, {"periodic", "noflux"}));
+    }
+}
+
+void check_seed(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (!has_one_value(work, script, sentence)) return;
+    const auto seed = check_constant(work, script, sentence.values[0], "seed");
+    if (!seed) return;
+    if (!(*seed >= 0) || *seed > largest_seed || *seed != std::floor(*seed)) {
+        work.diagnostics.error(span_of(script, sentence.values[0]),
+                               "seed must be a whole number from 0 to 4294967295");
+        return;
+    }
+    work.program.domain.seed = static_cast<std::uint32_t>(*seed);
+}
+
+void check_domain_sentence(Workspace& work, const ast::Script& script,
+                           const ast::Sentence& sentence) {
+    const std::string_view key = sentence.name.text;
+    if (sentence.kind != ast::SentenceKind::value) {
+        work.diagnostics.error(sentence.span, "a domain holds settings only (name: …)");
+    } else if (key == "grid") {
+        check_grid(work, script, sentence);
+    } else if (key == "boundary") {
+        check_boundary(work, script, sentence);
+    } else if (key == "seed") {
+        check_seed(work, script, sentence);
+    } else if (key == "mesh" || key == "cells" || key == "unit") {
+        work.diagnostics.error(sentence.name.span,
+                               fmt::format("'{}' is not in this version of the language", key));
+    } else {
+        std::string hint = did_you_mean(work, key, {"grid", "boundary", "seed"});
+        if (hint.empty()) hint = "a domain has grid, boundary and seed";
+        work.diagnostics.error(sentence.name.span,
+                               fmt::format("'{}' is not a setting of the domain", key),
+                               std::move(hint));
+    }
+}
+
+/// The last stage that takes a step, or the last one where none does.
+std::uint32_t shown_stage(const Program& program) {
+    for (std::size_t i = program.stages.size(); i > 0; --i) {
+        if (program.stages[i - 1].iterations > 0) return static_cast<std::uint32_t>(i - 1);
+    }
+    return static_cast<std::uint32_t>(program.stages.size() - 1);
+}
+
+void check_color(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (work.program.stages.empty() || !has_one_value(work, script, sentence)) return;
+    Scope scope;
+    scope.place = Place::picture;
+    scope.stage = shown_stage(work.program);
+    scope.system = work.program.stages[*scope.stage].system;
+    scope.last_stage = static_cast<std::uint32_t>(work.program.stages.size() - 1);
+    const auto checked = check_expression(work, script, sentence.values[0], scope);
+    if (!checked) return;
+    if (checked->type() != ValueType::colour) {
+        work.diagnostics.error(span_of(script, sentence.values[0]), "color must be a colour",
+                               "rgb(…) and palette(…) make colours");
+        return;
+    }
+    mark_reads(work, checked->formula, scope.system);
+}
+
+}  // namespace
+
+void check_domain(Workspace& work, const ast::Script& script) {
+    const ast::Block* block = find_block(work, script, ast::BlockKind::domain, "domain");
+    if (block == nullptr) return;
+    std::unordered_map<std::string, Span> seen;
+    for (const ast::Sentence& sentence : block->sentences) {
+        if (sentence.name.empty() || sentence.values.empty()) continue;
+        const auto [first, is_new] =
+            seen.try_emplace(std::string(sentence.name.text), sentence.name.span);
+        if (is_new) {
+            check_domain_sentence(work, script, sentence);
+        } else {
+            report_twice(work, sentence.name.span, first->second,
+                         fmt::format("'{}' is given a value twice", sentence.name.text));
+        }
+    }
+}
+
+void check_picture(Workspace& work, const ast::Script& script) {
+    const ast::Block* block = find_block(work, script, ast::BlockKind::picture, "picture");
+    if (block == nullptr) return;
+    const ast::Sentence* first = nullptr;
+    for (const ast::Sentence& sentence : block->sentences) {
+        if (sentence.name.empty() || sentence.values.empty()) continue;
+        if (sentence.kind != ast::SentenceKind::value || sentence.name.text != "color") {
+            work.diagnostics.error(
+                sentence.name.span,
+                fmt::format("'{}' is not a setting of the picture", sentence.name.text),
+                "a picture has color: …");
+        } else if (first != nullptr) {
+            report_twice(work, sentence.name.span, first->name.span,
+                         "'color' is given a value twice");
+        } else {
+            first = &sentence;
+            check_color(work, script, sentence);
+        }
+    }
+}
+
+}  // namespace cascade::checking

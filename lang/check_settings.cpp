@@ -1,0 +1,75 @@
+// Settings: iterations, interval, frozen, speed, show, in systems and in stages.
+#include "lang/check_blocks.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr double most_iterations = 1e9;
+
+Span span_of(const ast::Script& script, ast::Expression expression) {
+    return script.expressions[expression.root].span;
+}
+
+}  // namespace
+
+bool has_one_value(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (sentence.values.size() == 1) return true;
+    if (sentence.values.empty()) return false;
+    work.diagnostics.error(span_of(script, sentence.values[1]),
+                           fmt::format("'{}' takes one value", sentence.name.text));
+    return false;
+}
+
+std::optional<std::int64_t> check_count(Workspace& work, const ast::Script& script,
+                                        const ast::Sentence& sentence) {
+    const std::string_view name = sentence.name.text;
+    const Span span = span_of(script, sentence.values[0]);
+    const auto value = check_constant(work, script, sentence.values[0], name);
+    if (!value) return std::nullopt;
+    const double least = name == "interval" ? 1 : 0;
+    if (*value < least) {
+        work.diagnostics.error(span, fmt::format("{} must be at least {}", name, least));
+        return std::nullopt;
+    }
+    if (*value > most_iterations) {
+        work.diagnostics.error(span, fmt::format("{} must be at most 1000000000", name));
+        return std::nullopt;
+    }
+    if (*value != std::floor(*value)) {  // NaN comes here too.
+        work.diagnostics.error(span, fmt::format("{} must be a whole number", name));
+        return std::nullopt;
+    }
+    return static_cast<std::int64_t>(*value);
+}
+
+void check_setting(Workspace& work, const ast::Script& script, const ast::Sentence& sentence,
+                   const Scope& scope, Settings& settings) {
+    if (!has_one_value(work, script, sentence)) return;
+    const std::string_view name = sentence.name.text;
+    if (name == "iterations") {
+        settings.iterations = check_count(work, script, sentence);
+    } else if (name == "interval") {
+        settings.interval = check_count(work, script, sentence);
+    } else if (name == "show") {
+        Scope picture = scope;
+        picture.place = Place::picture;
+        picture.last_stage = scope.stage.value_or(0);
+        auto checked = check_expression(work, script, sentence.values[0], picture);
+        if (checked) settings.show = std::move(checked->formula);
+    } else {
+        auto checked = check_number(work, script, sentence.values[0], scope);
+        if (!checked) return;
+        if (name == "speed" && checked->constant && !(*checked->constant > 0)) {
+            work.diagnostics.error(span_of(script, sentence.values[0]), "speed must be above 0");
+            return;
+        }
+        (name == "speed" ? settings.speed : settings.frozen) = std::move(checked->formula);
+    }
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,360 @@
+// Stages: each sentence checked, defaults filled in, the order of items found, and which of them
+// are the same in all cells.
+#include "lang/check_blocks.h"
+#include "lang/check_circles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr std::size_t most_stages = 1000;
+/// Defaults are copied into every stage; a script whose copies hold more parts than this is
+/// refused before it fills the memory.
+constexpr std::size_t most_copied_nodes = 8u << 20;
+constexpr std::int64_t default_iterations = 1000;
+
+const ast::Sentence* value_sentence(const ast::Sentence& sentence) {
+    const bool usable = sentence.kind == ast::SentenceKind::value && !sentence.name.empty() &&
+                        !sentence.values.empty();
+    return usable ? &sentence : nullptr;
+}
+
+Formula number_formula(double value, Span span) {
+    Node node;
+    node.number = value;
+    node.span = span;
+    return {{node}};
+}
+
+class StageChecker {
+public:
+    StageChecker(Workspace& work, const ast::Script& script, std::uint32_t index,
+                 std::size_t& copied)
+        : work_(work), script_(script), index_(index), copied_(copied) {}
+
+    /// `overrides` come from outside the script; of two with one name the last counts.
+    void run(const ast::Block& block, const std::vector<const ast::Sentence*>& overrides);
+
+private:
+    Stage& stage() { return work_.program.stages[index_]; }
+    const System& system() const {
+        return work_.program.systems[work_.program.stages[index_].system];
+    }
+    Scope scope() const {
+        Scope result;
+        result.system = work_.program.stages[index_].system;
+        result.stage = index_;
+        result.last_stage = index_;
+        return result;
+    }
+    std::vector<const ast::Sentence*> collect(const ast::Block& block,
+                                              const std::vector<const ast::Sentence*>& overrides);
+    void set(const ast::Sentence& sentence);
+    void report_unknown(const ast::Word& name);
+    void fill_defaults();
+    void take_default(std::uint32_t item, const Formula* formula, double otherwise);
+    void order_items();
+    void find_uniform();
+
+    Workspace& work_;
+    const ast::Script& script_;
+    std::uint32_t index_;
+    std::size_t& copied_;
+    Settings settings_;
+    std::vector<bool> from_system_;
+};
+
+std::vector<const ast::Sentence*> StageChecker::collect(
+    const ast::Block& block, const std::vector<const ast::Sentence*>& overrides) {
+    std::vector<const ast::Sentence*> sentences;
+    std::unordered_map<std::string, std::size_t> positions;
+    for (const ast::Sentence& sentence : block.sentences) {
+        if (sentence.name.empty()) continue;
+        const ast::Sentence* value = value_sentence(sentence);
+        if (value == nullptr) {
+            if (sentence.kind == ast::SentenceKind::value) continue;
+            work_.diagnostics.error(sentence.span, "a stage holds values only (name: …)",
+                                    "rates, definitions and bounds belong in a system");
+            continue;
+        }
+        const auto [first, is_new] =
+            positions.try_emplace(std::string(sentence.name.text), sentences.size());
+        if (is_new) {
+            sentences.push_back(value);
+        } else {
+            report_twice(work_, sentence.name.span, sentences[first->second]->name.span,
+                         fmt::format("'{}' is given a value twice", sentence.name.text));
+        }
+    }
+    for (const ast::Sentence* sentence : overrides) {
+        const auto [place, is_new] =
+            positions.try_emplace(std::string(sentence->name.text), sentences.size());
+        if (is_new) sentences.push_back(sentence);
+        else sentences[place->second] = sentence;
+    }
+    return sentences;
+}
+
+void StageChecker::run(const ast::Block& block,
+                       const std::vector<const ast::Sentence*>& overrides) {
+    const std::vector<const ast::Sentence*> sentences = collect(block, overrides);
+    if (stage().system == unknown_system) return;
+    stage().items.resize(system().item_count());
+    from_system_.assign(system().item_count(), false);
+    for (const ast::Sentence* sentence : sentences) set(*sentence);
+    for (const Formula& formula : stage().items) mark_reads(work_, formula, stage().system);
+    if (settings_.show) mark_reads(work_, *settings_.show, stage().system);
+    fill_defaults();
+    order_items();
+    find_uniform();
+}
+
+void StageChecker::set(const ast::Sentence& sentence) {
+    const std::string_view name = sentence.name.text;
+    const Reserved kind = reserved(name);
+    if (kind == Reserved::setting) {
+        check_setting(work_, script_, sentence, scope(), settings_);
+        return;
+    }
+    if (kind == Reserved::later_setting) {
+        work_.diagnostics.error(sentence.name.span,
+                                fmt::format("'{}' is not in this version of the language", name));
+        return;
+    }
+    const Meaning* meaning = find(work_.names[stage().system], name);
+    if (meaning == nullptr) return report_unknown(sentence.name);
+    if (meaning->is_faulty) return;
+    if (meaning->is_definition) {
+        work_.diagnostics.error(
+            sentence.name.span,
+            fmt::format("'{}' is a definition of {} and cannot be set", name, system().name));
+        return;
+    }
+    if (!has_one_value(work_, script_, sentence)) return;
+    auto checked = check_number(work_, script_, sentence.values[0], scope());
+    if (checked) stage().items[meaning->index] = std::move(checked->formula);
+}
+
+void StageChecker::report_unknown(const ast::Word& name) {
+    Diagnostic diagnostic;
+    diagnostic.span = name.span;
+    diagnostic.message =
+        fmt::format("'{}' is not a parameter of {}", name.text, system().name);
+    if (!is_hopeless(work_)) {
+        std::vector<std::string> names = quantity_names(system());
+        diagnostic.notes.push_back({std::nullopt, fmt::format("{} has {}", system().name,
+                                                              list_names(names))});
+        for (const char* setting : {"iterations", "interval", "frozen", "speed", "show"}) {
+            names.emplace_back(setting);
+        }
+        diagnostic.hint = did_you_mean(work_, name.text, names);
+    }
+    work_.diagnostics.add(std::move(diagnostic));
+}
+
+void StageChecker::take_default(std::uint32_t item, const Formula* formula, double otherwise) {
+    Formula& target = stage().items[item];
+    if (!target.nodes.empty()) return;
+    from_system_[item] = true;
+    if (formula == nullptr || formula->nodes.empty()) {
+        target = number_formula(otherwise, stage().span);
+        return;
+    }
+    copied_ += formula->nodes.size();
+    if (copied_ > most_copied_nodes) {
+        work_.diagnostics.error(stage().span, "the stages of this script are too large together");
+        target = number_formula(otherwise, stage().span);
+        return;
+    }
+    target = *formula;
+}
+
+void StageChecker::fill_defaults() {
+    const System& from = system();
+    const Settings& defaults = from.settings;
+    const auto pick = [](const std::optional<Formula>& own, const std::optional<Formula>& other) {
+        return own ? &*own : other ? &*other : nullptr;
+    };
+    if (settings_.frozen) stage().items[from.frozen_item()] = std::move(*settings_.frozen);
+    if (settings_.speed) stage().items[from.speed_item()] = std::move(*settings_.speed);
+    mark_reads(work_, stage().items[from.frozen_item()], stage().system);
+    mark_reads(work_, stage().items[from.speed_item()], stage().system);
+    for (std::uint32_t item = 0; item < from.quantities.size(); ++item) {
+        take_default(item, &from.quantities[item].start, 0);
+    }
+    take_default(from.frozen_item(), pick(defaults.frozen, std::nullopt), 0);
+    take_default(from.speed_item(), pick(defaults.speed, std::nullopt), 1);
+
+    Stage& target = stage();
+    target.iterations =
+        settings_.iterations.value_or(defaults.iterations.value_or(default_iterations));
+    const std::int64_t interval = std::max<std::int64_t>(1, target.iterations / 10);
+    target.interval = settings_.interval.value_or(defaults.interval.value_or(interval));
+    if (const Formula* show = pick(settings_.show, defaults.show)) {
+        target.show = *show;
+        return;
+    }
+    Node first_species;
+    first_species.kind = NodeKind::own;
+    first_species.span = target.span;
+    while (first_species.index + 1 < from.quantities.size() &&
+           !from.quantities[first_species.index].is_species) {
+        ++first_species.index;
+    }
+    target.show = {{first_species}};
+}
+
+void StageChecker::order_items() {
+    std::vector<const Formula*> items;
+    for (const Formula& formula : stage().items) items.push_back(&formula);
+    Order order = topological_order(item_dependencies(items));
+    for (const auto& circle : order.circles) {
+        // A circle of defaults has been reported with the system.
+        const bool is_default = std::all_of(circle.begin(), circle.end(), [&](std::uint32_t item) {
+            return from_system_[item];
+        });
+        if (!is_default) report_item_circle(work_, system(), items, from_system_, circle);
+    }
+    stage().order = std::move(order.order);
+}
+
+/// The same in all cells is what reads nothing that differs between cells.
+void StageChecker::find_uniform() {
+    Stage& target = stage();
+    target.uniform.assign(target.items.size(), false);
+    const auto varies = [&](const Node& node) {
+        switch (node.kind) {
+            case NodeKind::own: return !target.uniform[node.index];
+            case NodeKind::earlier: {
+                const Stage& other = work_.program.stages[node.stage];
+                return other.uniform.empty() || !other.uniform[node.index];
+            }
+            case NodeKind::builtin: return true;
+            case NodeKind::call:
+                return node.function == Function::random || node.function == Function::disc ||
+                       node.function == Function::field;
+            default: return false;
+        }
+    };
+    for (const std::uint32_t item : target.order) {
+        const std::vector<Node>& nodes = target.items[item].nodes;
+        target.uniform[item] =
+            !system().is_species(item) && std::none_of(nodes.begin(), nodes.end(), varies);
+    }
+}
+
+/// The overrides of one stage, in order.
+using StageOverrides = std::vector<std::vector<const ast::Sentence*>>;
+
+bool has_name(const Workspace& work, const Stage& stage, std::string_view name) {
+    if (stage.system == unknown_system) return true;
+    if (reserved(name) != Reserved::no) return true;
+    return find(work.names[stage.system], name) != nullptr;
+}
+
+void report_unknown_override(Workspace& work, const ast::Word& name) {
+    std::vector<std::string> names;
+    for (const Stage& stage : work.program.stages) {
+        if (stage.system == unknown_system) continue;
+        for (std::string& each : quantity_names(work.program.systems[stage.system])) {
+            names.push_back(std::move(each));
+        }
+    }
+    for (const char* setting : {"iterations", "interval", "frozen", "speed", "show"}) {
+        names.emplace_back(setting);
+    }
+    work.diagnostics.error(name.span, fmt::format("no stage has a parameter '{}'", name.text),
+                           did_you_mean(work, name.text, names));
+}
+
+StageOverrides distribute(Workspace& work, const ast::Script& script) {
+    StageOverrides result(work.program.stages.size());
+    for (const ast::Override& change : script.overrides) {
+        const ast::Sentence* sentence = value_sentence(change.sentence);
+        if (sentence == nullptr) continue;
+        if (!change.stage.empty()) {
+            const auto found = work.stages.find(std::string(change.stage.text));
+            if (found != work.stages.end()) {
+                result[found->second].push_back(sentence);
+                continue;
+            }
+            std::vector<std::string> names;
+            for (const Stage& stage : work.program.stages) names.push_back(stage.name);
+            work.diagnostics.error(change.stage.span,
+                                   fmt::format("there is no stage '{}'", change.stage.text),
+                                   did_you_mean(work, change.stage.text, names));
+            continue;
+        }
+        bool used = false;
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            if (!has_name(work, work.program.stages[i], sentence->name.text)) continue;
+            result[i].push_back(sentence);
+            used = true;
+        }
+        if (!used) report_unknown_override(work, sentence->name);
+    }
+    return result;
+}
+
+std::uint32_t find_system(Workspace& work, const ast::Word& name) {
+    const auto found = work.systems.find(std::string(name.text));
+    if (found != work.systems.end()) return found->second;
+    if (name.empty()) return unknown_system;
+    std::vector<std::string> names;
+    if (!is_hopeless(work)) {
+        for (const System& system : work.program.systems) names.push_back(system.name);
+    }
+    Diagnostic diagnostic;
+    diagnostic.span = name.span;
+    diagnostic.message = fmt::format("there is no system '{}'", name.text);
+    diagnostic.hint = did_you_mean(work, name.text, names);
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    diagnostic.notes.push_back({std::nullopt, "systems are " + list_names(names)});
+    work.diagnostics.add(std::move(diagnostic));
+    return unknown_system;
+}
+
+void add_stage(Workspace& work, const ast::Block& block) {
+    const auto index = static_cast<std::uint32_t>(work.program.stages.size());
+    Stage stage;
+    stage.span = block.name.empty() ? block.keyword.span : block.name.span;
+    stage.name = block.name.empty() ? fmt::format("stage{}", index + 1)
+                                    : std::string(block.name.text);
+    stage.system = find_system(work, block.base);
+    const auto [first, is_new] = work.stages.try_emplace(stage.name, index);
+    if (!is_new) {
+        report_twice(work, stage.span, work.program.stages[first->second].span,
+                     fmt::format("there are two stages '{}'", stage.name));
+    }
+    work.program.stages.push_back(std::move(stage));
+}
+
+}  // namespace
+
+void check_stages(Workspace& work, const ast::Script& script) {
+    std::vector<const ast::Block*> blocks;
+    for (const ast::Block& block : script.blocks) {
+        if (block.kind != ast::BlockKind::stage && block.kind != ast::BlockKind::classic_stage) {
+            continue;
+        }
+        if (blocks.size() == most_stages) {
+            work.diagnostics.error(block.keyword.span,
+                                   fmt::format("a script has at most {} stages", most_stages));
+            break;
+        }
+        blocks.push_back(&block);
+        add_stage(work, block);
+    }
+    const StageOverrides overrides = distribute(work, script);
+    std::size_t copied = 0;
+    for (std::uint32_t i = 0; i < blocks.size(); ++i) {
+        StageChecker(work, script, i, copied).run(*blocks[i], overrides[i]);
+    }
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,109 @@
+// Words of the checker: which are reserved, which are near to each other, how lists are written.
+#include "core/near_name.h"
+#include "lang/check_names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace cascade::checking {
+
+namespace {
+
+/// From so many errors on no near names are looked for any more.
+constexpr std::size_t most_suggestions = 200;
+constexpr std::size_t most_names_compared = 1'000'000;
+constexpr std::size_t most_listed = 24;
+
+template <std::size_t count>
+bool among(const std::array<std::string_view, count>& words, std::string_view word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+}  // namespace
+
+Reserved reserved(std::string_view name) {
+    static constexpr std::array<std::string_view, 5> settings{"iterations", "interval", "frozen",
+                                                              "speed", "show"};
+    static constexpr std::array<std::string_view, 6> later_settings{
+        "duration", "solver", "tolerance", "until", "check", "start"};
+    static constexpr std::array<std::string_view, 7> builtins{"x", "y", "sx", "sy",
+                                                              "t", "step", "pi"};
+    static constexpr std::array<std::string_view, 6> later_builtins{"z",  "sz", "nx",
+                                                                    "ny", "nz", "curvature"};
+    if (among(settings, name)) return Reserved::setting;
+    if (among(later_settings, name)) return Reserved::later_setting;
+    if (among(builtins, name)) return Reserved::builtin;
+    if (among(later_builtins, name)) return Reserved::later_builtin;
+    return Reserved::no;
+}
+
+NameTable names_of(const System& system) {
+    NameTable table;
+    table.reserve(system.item_count() + system.definitions.size());
+    for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+        table.try_emplace(std::string(system.item_name(item)), Meaning{false, item});
+    }
+    for (std::uint32_t index = 0; index < system.definitions.size(); ++index) {
+        table.try_emplace(system.definitions[index].name, Meaning{true, index});
+    }
+    return table;
+}
+
+const Meaning* find(const NameTable& table, std::string_view name) {
+    const auto found = table.find(std::string(name));
+    return found == table.end() ? nullptr : &found->second;
+}
+
+bool is_hopeless(const Workspace& work) {
+    return work.diagnostics.error_count() > most_suggestions ||
+           work.names_compared > most_names_compared;
+}
+
+std::string did_you_mean(Workspace& work, std::string_view name,
+                         const std::vector<std::string>& candidates) {
+    if (is_hopeless(work)) return "";
+    work.names_compared += candidates.size();
+    const std::string near = nearest_name(name, candidates);
+    return near.empty() ? "" : fmt::format("did you mean '{}'?", near);
+}
+
+std::vector<std::string> quantity_names(const System& system) {
+    std::vector<std::string> names;
+    names.reserve(system.quantities.size());
+    for (const Quantity& quantity : system.quantities) names.push_back(quantity.name);
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string list_names(const std::vector<std::string>& names) {
+    std::string list;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i == most_listed) return list + ", …";
+        if (i > 0) list += ", ";
+        list += names[i];
+    }
+    return list;
+}
+
+void report_twice(Workspace& work, Span second, Span first, std::string message) {
+    Diagnostic diagnostic;
+    diagnostic.span = second;
+    diagnostic.message = std::move(message);
+    diagnostic.notes.push_back({first, "the first is here"});
+    work.diagnostics.add(std::move(diagnostic));
+}
+
+void mark_reads(Workspace& work, const Formula& formula, std::uint32_t system) {
+    for (const Node& node : formula.nodes) {
+        if (node.kind == NodeKind::own) work.items_read[system][node.index] = true;
+        if (node.kind == NodeKind::definition) work.definitions_read[system][node.index] = true;
+        if (node.kind == NodeKind::earlier) {
+            const std::uint32_t other = work.program.stages[node.stage].system;
+            if (other != unknown_system) work.items_read[other][node.index] = true;
+        }
+    }
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,128 @@
+// Formulas to instructions: one loop over the parts, operands first.
+#include "lang/lower_formula.h"
+
+#include "core/check.h"
+
+namespace cascade::lowering {
+
+ValueId KernelAssembly::formula(const Formula& formula, const Noise& noise, Value* colour) {
+    Cursor cursor{formula, noise, {}, 0};
+    cursor.values.reserve(formula.nodes.size());
+    for (const Node& node : formula.nodes) {
+        Value value{};
+        switch (node.kind) {
+            case NodeKind::number:
+                value[0] = builder_.number(static_cast<float>(node.number));
+                break;
+            case NodeKind::text: break;  // Its reader looks at the node itself.
+            case NodeKind::own: value[0] = own_item(node.index); break;
+            case NodeKind::earlier: value[0] = item(node.stage, node.index); break;
+            case NodeKind::builtin: value[0] = builtin(static_cast<Builtin>(node.index)); break;
+            case NodeKind::definition: value[0] = definitions_.at(node.index); break;
+            case NodeKind::rate: value[0] = rates_.at(node.index); break;
+            case NodeKind::call:
+                if (node.function == Function::random) ++cursor.occurrences;
+                value = call(node, cursor);
+                break;
+        }
+        cursor.values.push_back(value);
+    }
+    CHECK(!cursor.values.empty(), "lowering: a checked formula has parts");
+    if (colour != nullptr) *colour = cursor.values.back();
+    return cursor.values.back()[0];
+}
+
+Value KernelAssembly::call(const Node& node, const Cursor& cursor) {
+    switch (node.function) {
+        case Function::if_:
+        case Function::mix:
+        case Function::rgb: return colour_call(node, cursor);
+        case Function::palette: return palette(node, cursor);
+        case Function::lap: {
+            const Node& species = cursor.formula.nodes[node.operands[0]];
+            return {builder_.laplacian(field_slot(stage_, species.index))};
+        }
+        case Function::random:
+            return {random(cursor.number(node, 0), cursor.number(node, 1), cursor.noise,
+                           cursor.occurrences)};
+        case Function::disc:
+            return {disc(cursor.number(node, 0), cursor.number(node, 1), cursor.number(node, 2))};
+        case Function::field: {
+            return {file(cursor.formula.nodes[node.operands[0]].index)};
+        }
+        default: break;
+    }
+    const ValueId a = cursor.number(node, 0);
+    if (info(node.function).arity == 1) return {elementary(node.function, a)};
+    return {operation(node.function, a, cursor.number(node, 1))};
+}
+
+Value KernelAssembly::colour_call(const Node& node, const Cursor& cursor) {
+    const auto& values = cursor.values;
+    const auto& operands = node.operands;
+    if (node.function == Function::rgb) {
+        return {cursor.number(node, 0), cursor.number(node, 1), cursor.number(node, 2)};
+    }
+    const std::size_t channels = node.type == ValueType::colour ? 3 : 1;
+    Value value{};
+    for (std::size_t channel = 0; channel < channels; ++channel) {
+        if (node.function == Function::if_) {
+            value[channel] = builder_.select(values[operands[0]][0], values[operands[1]][channel],
+                                             values[operands[2]][channel]);
+            continue;
+        }
+        const ValueId from = values[operands[0]][channel];
+        const ValueId span = builder_.subtract(values[operands[1]][channel], from);
+        value[channel] = builder_.add(from, builder_.multiply(span, values[operands[2]][0]));
+    }
+    return value;
+}
+
+ValueId KernelAssembly::elementary(Function function, ValueId a) {
+    switch (function) {
+        case Function::logical_not: return builder_.apply(Op::logical_not, a);
+        case Function::negate: return builder_.apply(Op::negate, a);
+        case Function::abs: return builder_.apply(Op::absolute, a);
+        case Function::sqrt: return builder_.apply(Op::square_root, a);
+        case Function::exp: return builder_.exponential(a);
+        case Function::log: return builder_.logarithm(a);
+        case Function::sin: return builder_.sine(a);
+        case Function::cos: return builder_.cosine(a);
+        case Function::tanh: return builder_.hyperbolic_tangent(a);
+        default: break;
+    }
+    CHECK(false, "lowering: every function of one number has a meaning");
+}
+
+ValueId KernelAssembly::operation(Function function, ValueId a, ValueId b) {
+    switch (function) {
+        case Function::logical_or: return builder_.apply(Op::logical_or, a, b);
+        case Function::logical_and: return builder_.apply(Op::logical_and, a, b);
+        case Function::less: return builder_.apply(Op::less, a, b);
+        case Function::less_equal: return builder_.apply(Op::less_equal, a, b);
+        case Function::greater: return builder_.apply(Op::less, b, a);
+        case Function::greater_equal: return builder_.apply(Op::less_equal, b, a);
+        case Function::equal: return builder_.apply(Op::equal, a, b);
+        case Function::not_equal: return builder_.apply(Op::not_equal, a, b);
+        case Function::add: return builder_.add(a, b);
+        case Function::subtract: return builder_.subtract(a, b);
+        case Function::multiply: return builder_.multiply(a, b);
+        case Function::divide: return builder_.divide(a, b);
+        case Function::power: return builder_.power(a, b);
+        case Function::min: return builder_.minimum(a, b);
+        case Function::max: return builder_.maximum(a, b);
+        default: break;
+    }
+    CHECK(false, "lowering: every function of two numbers has a meaning");
+}
+
+/// mean + spread · u with u uniform in (−1, 1).
+ValueId KernelAssembly::random(ValueId middle, ValueId spread, const Noise& noise,
+                               std::size_t occurrence) {
+    const std::uint64_t key =
+        random_key(program_.domain.seed, stage().name, noise.origin, occurrence);
+    const ValueId draw = noise.every_step ? step() : builder_.word(0);
+    return builder_.add(middle, builder_.multiply(spread, builder_.random_symmetric(draw, key)));
+}
+
+}  // namespace cascade::lowering

@@ -1,0 +1,106 @@
+// The entries of the parser.
+#include "lang/parse.h"
+
+#include "lang/script_parser.h"
+
+#include <fmt/core.h>
+
+namespace cascade {
+
+namespace {
+
+/// False, with a message, for a text larger than any script.
+bool has_sane_size(SourceId source, const Sources& sources, Diagnostics& diagnostics) {
+    const std::size_t size = sources[source].text().size();
+    if (size <= largest_script) return true;
+    diagnostics.error({source, 0, 0},
+                      fmt::format("this script has {} bytes; at most {} can be read", size,
+                                  largest_script));
+    return false;
+}
+
+}  // namespace
+
+ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnostics) {
+    ast::Script script;
+    if (!has_sane_size(source, sources, diagnostics)) return script;
+    const std::size_t errors_before = diagnostics.error_count();
+    TokenCursor cursor(source, sources, diagnostics);
+    cursor.skip_newlines();
+    if (cursor.at_end()) {
+        if (diagnostics.error_count() == errors_before) {
+            diagnostics.error({source, 0, 0}, "this script is empty",
+                              "a script begins with 'system_name: turing_spots', for example");
+        }
+        return script;
+    }
+    script.expressions.reserve(cursor.token_count());
+    ScriptParser(cursor, script).parse_script();
+    return script;
+}
+
+std::optional<ast::Expression> parse_expression(SourceId source, const Sources& sources,
+                                                ast::Script& script, Diagnostics& diagnostics) {
+    if (!has_sane_size(source, sources, diagnostics)) return std::nullopt;
+    const std::size_t errors_before = diagnostics.error_count();
+    TokenCursor cursor(source, sources, diagnostics);
+    const auto expression = ScriptParser(cursor, script).parse_lone_expression();
+    return diagnostics.error_count() == errors_before ? expression : std::nullopt;
+}
+
+void parse_override(SourceId source, const Sources& sources, ast::Script& script,
+                    Diagnostics& diagnostics) {
+    if (!has_sane_size(source, sources, diagnostics)) return;
+    TokenCursor cursor(source, sources, diagnostics);
+    ScriptParser(cursor, script).parse_override();
+}
+
+std::optional<ast::Expression> ScriptParser::parse_lone_expression() {
+    cursor_.skip_newlines();
+    if (cursor_.at_end()) {
+        cursor_.error(cursor_.peek().span, "an expression is missing");
+        return std::nullopt;
+    }
+    const ast::Expression expression = expressions_.parse("the expression");
+    cursor_.skip_newlines();
+    if (!cursor_.at_end()) {
+        cursor_.error(cursor_.peek().span,
+                      "one expression ends before " + cursor_.describe(cursor_.peek()));
+    }
+    return expression;
+}
+
+void ScriptParser::parse_override() {
+    const std::string form = "write name=value or stage.name=value";
+    ast::Override change;
+    cursor_.skip_newlines();
+    if (!cursor_.at(TokenKind::name)) {
+        if (cursor_.at(TokenKind::garbage)) return;
+        return cursor_.error(cursor_.peek().span, "the name of what to set is missing", form);
+    }
+    change.sentence.name = cursor_.word(cursor_.take());
+    if (cursor_.take_if(TokenKind::dot)) {
+        change.stage = change.sentence.name;
+        if (!cursor_.at(TokenKind::name)) {
+            return cursor_.error(cursor_.previous().span, "a name is missing after '.'", form);
+        }
+        change.sentence.name = cursor_.word(cursor_.take());
+    }
+    const ast::Word& name = change.sentence.name;
+    if (!cursor_.take_if(TokenKind::assign) && !cursor_.take_if(TokenKind::colon)) {
+        if (cursor_.at(TokenKind::garbage)) return;
+        return cursor_.error(
+            name.span, fmt::format("'=' is missing after '{}'", shortened(name.text)), form);
+    }
+    change.sentence.values.push_back(
+        expressions_.parse("the value of '" + shortened(name.text) + "'"));
+    change.sentence.span = join(name.span, cursor_.previous().span);
+    cursor_.skip_newlines();
+    if (!cursor_.at_end()) {
+        cursor_.error(cursor_.peek().span,
+                      "one value ends before " + cursor_.describe(cursor_.peek()), form);
+    }
+    script_.overrides.push_back(std::move(change));
+}
+
+}  // namespace cascade

@@ -1,0 +1,92 @@
+// `--dump program`: what the checker has made of a script.
+#include "lang/print_formula.h"
+#include "lang/program.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace cascade {
+
+namespace {
+
+using Output = std::back_insert_iterator<std::string>;
+
+void print_settings(const Program& program, const System& system, Output out) {
+    const Settings& settings = system.settings;
+    if (settings.iterations) fmt::format_to(out, "  iterations: {}\n", *settings.iterations);
+    if (settings.interval) fmt::format_to(out, "  interval: {}\n", *settings.interval);
+    const auto print = [&](const char* name, const std::optional<Formula>& formula) {
+        if (!formula) return;
+        fmt::format_to(out, "  {}: {}\n", name, print_formula(program, system, *formula));
+    };
+    print("frozen", settings.frozen);
+    print("speed", settings.speed);
+    print("show", settings.show);
+}
+
+void print_system(const Program& program, const System& system, Output out) {
+    fmt::format_to(out, "system {} {{\n", system.name);
+    print_settings(program, system, out);
+    for (const Quantity& quantity : system.quantities) {
+        fmt::format_to(out, "  {}: {}  # {}\n", quantity.name,
+                       print_formula(program, system, quantity.start),
+                       quantity.is_species ? "species" : "parameter");
+    }
+    for (const Definition& definition : system.definitions) {
+        fmt::format_to(out, "  {} = {}\n", definition.name,
+                       print_formula(program, system, definition.formula));
+    }
+    for (const std::uint32_t item : system.rate_order) {
+        fmt::format_to(out, "  {}' = {}\n", system.quantities[item].name,
+                       print_formula(program, system, system.rates[item]));
+    }
+    for (const Invariant& invariant : system.invariants) {
+        fmt::format_to(out, "  {} {} {}\n", system.quantities[invariant.species].name,
+                       invariant.at_least ? ">=" : "<=",
+                       print_formula(program, system, invariant.bound));
+    }
+    fmt::format_to(out, "}}\n\n");
+}
+
+const char* kind_of(const Program& program, std::uint32_t index, std::uint32_t item) {
+    if (program.system_of(index).is_species(item)) return "species";
+    return program.stages[index].uniform[item] ? "uniform" : "varies";
+}
+
+void print_stage(const Program& program, std::uint32_t index, Output out) {
+    const Stage& stage = program.stages[index];
+    const System& system = program.system_of(index);
+    fmt::format_to(out, "stage {}: {} {{  # in order of computing\n", stage.name, system.name);
+    fmt::format_to(out, "  iterations: {}\n  interval: {}\n", stage.iterations, stage.interval);
+    for (const std::uint32_t item : stage.order) {
+        fmt::format_to(out, "  {}: {}  # {}\n", system.item_name(item),
+                       print_formula(program, system, stage.items[item], index),
+                       kind_of(program, index, item));
+    }
+    fmt::format_to(out, "  show: {}\n}}\n\n", print_formula(program, system, stage.show, index));
+}
+
+}  // namespace
+
+std::string print_program(const Program& program) {
+    std::string text;
+    const Output out = std::back_inserter(text);
+    std::vector<bool> used(program.systems.size(), program.stages.empty());
+    for (const Stage& stage : program.stages) used[stage.system] = true;
+    for (std::size_t i = 0; i < program.systems.size(); ++i) {
+        if (used[i]) print_system(program, program.systems[i], out);
+    }
+    const Grid& grid = program.domain.grid;
+    fmt::format_to(out, "domain {{\n  grid: {}, {}\n  boundary: {}\n  seed: {}\n}}\n", grid.width,
+                   grid.height, grid.boundary == Boundary::periodic ? "periodic" : "noflux",
+                   program.domain.seed);
+    for (std::uint32_t i = 0; i < program.stages.size(); ++i) {
+        text += "\n";
+        print_stage(program, i, out);
+        text.pop_back();
+    }
+    return text;
+}
+
+}  // namespace cascade

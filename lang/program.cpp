@@ -1,0 +1,41 @@
+// The checked program: its table of functions and the names of items.
+#include "lang/program.h"
+
+#include "core/check.h"
+
+namespace cascade {
+
+namespace {
+
+constexpr bool is_operator(std::string_view spelling) {
+    const char first = spelling.front();
+    const bool is_word = first >= 'a' && first <= 'z';
+    return !is_word || spelling == "or" || spelling == "and" || spelling == "not";
+}
+
+constexpr auto any = Places::any;
+constexpr auto rates = Places::rates;
+constexpr auto values = Places::values;
+constexpr auto noisy = Places::noisy;
+constexpr auto picture = Places::picture;
+
+constexpr FunctionInfo function_table[] = {
+#define CASCADE_FUNCTION(id, spelling, arity, places, meaning) \
+    {spelling, arity, places, meaning, is_operator(spelling)},
+#include "lang/functions.def"
+#undef CASCADE_FUNCTION
+};
+
+}  // namespace
+
+const FunctionInfo& info(Function function) {
+    return function_table[static_cast<std::size_t>(function)];
+}
+
+std::string_view System::item_name(std::uint32_t item) const {
+    if (item < quantities.size()) return quantities[item].name;
+    CHECK(item < item_count(), "an item is a quantity, frozen or speed");
+    return item == frozen_item() ? "frozen" : "speed";
+}
+
+}  // namespace cascade

@@ -1,0 +1,59 @@
+// The parser of blocks and sentences.
+#pragma once
+
+#include "lang/ast.h"
+#include "lang/expression_parser.h"
+#include "lang/token_cursor.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace cascade {
+
+/// Reads one source into a script.
+class ScriptParser {
+public:
+    ScriptParser(TokenCursor& cursor, ast::Script& script)
+        : cursor_(cursor), script_(script), expressions_(cursor, script) {}
+
+    /// Everything up to the end of the text.
+    void parse_script();
+    /// `[stage.]name=expression`, the whole text.
+    void parse_override();
+    /// The expression that is the whole text.
+    std::optional<ast::Expression> parse_lone_expression();
+
+private:
+    // Blocks (parser_blocks.cpp).
+    void parse_item();
+    void parse_block();
+    void parse_header_of_system(ast::Block& block);
+    void parse_header_of_stage(ast::Block& block);
+    void parse_header_without_name();
+    void parse_body(ast::Block& block);
+    void report_unclosed(const Token& open, const ast::Block& block);
+    void parse_classic_stage();
+    void parse_base_of_classic_stage(ast::Block& block);
+    void parse_outside_sentence();
+    bool refuse_later_word();
+    bool begins_classic_stage() const { return cursor_.at_name("system_name"); }
+
+    // Sentences (parser_sentences.cpp).
+    std::optional<ast::Sentence> parse_sentence();
+    bool parse_relation(ast::Sentence& sentence);
+    bool parse_rate_relation(ast::Sentence& sentence);
+    bool report_missing_colon(const ast::Sentence& sentence);
+    bool begins_misspelt_stage() const;
+    bool report_no_sentence();
+    void parse_values(ast::Sentence& sentence);
+
+    TokenCursor& cursor_;
+    ast::Script& script_;
+    ExpressionParser expressions_;
+    bool in_classic_stage_ = false;   ///< Sentences belong to the last block of the script.
+    bool outside_reported_ = false;   ///< One message serves a run of sentences outside of stages.
+    std::size_t forgiven_closings_ = 0;  ///< `}` that are left over by a block told to be unclosed.
+};
+
+}  // namespace cascade

@@ -1,0 +1,83 @@
+// Fields to images: ranges, palettes, enlarging.
+#include "core/check.h"
+#include "picture/image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace cascade {
+namespace {
+
+/// Where a value lies between the ends of a range, in double so that no float range overflows.
+double position_in(ValueRange range, float value) {
+    if (std::isnan(value)) return std::numeric_limits<double>::quiet_NaN();
+    const double low = static_cast<double>(range.low);
+    const double width = static_cast<double>(range.high) - low;
+    if (width == 0) return 0.5;
+    return (static_cast<double>(value) - low) / width;
+}
+
+}  // namespace
+
+ValueRange value_range(const Field& field) {
+    float low = std::numeric_limits<float>::infinity();
+    float high = -low;
+    const PlaneLayout& layout = field.layout();
+    for (std::int64_t j = 0; j < layout.height; ++j) {
+        const float* row = field.row(j);
+        for (std::int64_t i = 0; i < layout.width; ++i) {
+            if (!std::isfinite(row[i])) continue;
+            low = std::min(low, row[i]);
+            high = std::max(high, row[i]);
+        }
+    }
+    if (low > high) return {0, 0};
+    return {low, high};
+}
+
+Image paint(const Field& field, ValueRange range, const Palette& palette) {
+    const PlaneLayout& layout = field.layout();
+    Image image(layout.width, layout.height);
+    for (std::int64_t j = 0; j < layout.height; ++j) {
+        const float* row = field.row(j);
+        for (std::int64_t i = 0; i < layout.width; ++i) {
+            image.at(i, j) = colour_at(palette, position_in(range, row[i]));
+        }
+    }
+    return image;
+}
+
+Image paint(const Field& red, const Field& green, const Field& blue) {
+    const PlaneLayout& layout = red.layout();
+    CHECK(layout == green.layout() && layout == blue.layout(),
+          "the three channels of a picture have one layout");
+    Image image(layout.width, layout.height);
+    for (std::int64_t j = 0; j < layout.height; ++j) {
+        for (std::int64_t i = 0; i < layout.width; ++i) {
+            const Colour values{red.at(i, j), green.at(i, j), blue.at(i, j)};
+            Colour& pixel = image.at(i, j);
+            if (std::any_of(values.begin(), values.end(), [](float v) { return std::isnan(v); })) {
+                pixel = colour_of_nan;
+                continue;
+            }
+            std::transform(values.begin(), values.end(), pixel.begin(),
+                           [](float value) { return std::clamp(value, 0.0F, 1.0F); });
+        }
+    }
+    return image;
+}
+
+Image enlarge(const Image& image, int factor) {
+    CHECK(factor >= 1, "a picture is enlarged by a whole factor of at least 1");
+    Image large(image.width * factor, image.height * factor);
+    for (std::int64_t y = 0; y < large.height; ++y) {
+        for (std::int64_t x = 0; x < image.width; ++x) {
+            std::fill_n(&large.at(x * factor, y), factor, image.at(x, y / factor));
+        }
+    }
+    return large;
+}
+
+}  // namespace cascade

@@ -1,0 +1,147 @@
+// Reads .npy files into arrays of float.
+#include "core/file.h"
+#include "picture/npy.h"
+#include "picture/npy_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <new>
+
+namespace cascade {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+constexpr std::uint64_t most_elements = std::uint64_t{1} << 31;
+constexpr std::uint64_t largest_file = most_elements * 8 + (std::uint64_t{1} << 17);
+
+/// Turns the elements of a file into floats; `swapped` says that they are big-endian.
+using Convert = void (*)(std::string_view bytes, bool swapped, std::vector<float>& values);
+
+template <typename T>
+void convert(std::string_view bytes, bool swapped, std::vector<float>& values) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        std::array<char, sizeof(T)> element;
+        std::memcpy(element.data(), bytes.data() + k * sizeof(T), sizeof(T));
+        if (swapped) std::reverse(element.begin(), element.end());
+        values[k] = static_cast<float>(std::bit_cast<T>(element));
+    }
+}
+
+struct ElementType {
+    std::string_view name;
+    std::uint64_t size;
+    Convert convert;
+};
+
+constexpr std::array<ElementType, 11> element_types{{
+    {"f4", 4, convert<float>},
+    {"f8", 8, convert<double>},
+    {"i1", 1, convert<std::int8_t>},
+    {"i2", 2, convert<std::int16_t>},
+    {"i4", 4, convert<std::int32_t>},
+    {"i8", 8, convert<std::int64_t>},
+    {"u1", 1, convert<std::uint8_t>},
+    {"u2", 2, convert<std::uint16_t>},
+    {"u4", 4, convert<std::uint32_t>},
+    {"u8", 8, convert<std::uint64_t>},
+    {"b1", 1, convert<std::uint8_t>},
+}};
+
+/// The type without its byte order, or nullptr. Only a type of one byte may have none ('|').
+const ElementType* find_type(std::string_view type) {
+    if (type.size() != 3 || std::string_view("<>=|").find(type[0]) == std::string_view::npos) {
+        return nullptr;
+    }
+    for (const ElementType& candidate : element_types) {
+        if (candidate.name != type.substr(1)) continue;
+        return type[0] != '|' || candidate.size == 1 ? &candidate : nullptr;
+    }
+    return nullptr;
+}
+
+/// A type's name from a file, fit for a message.
+std::string shown(std::string_view type) {
+    std::string text(type.substr(0, 20));
+    for (char& c : text) {
+        if (c < ' ' || c > '~') c = '?';
+    }
+    return type.size() > 20 ? text + "..." : text;
+}
+
+tl::unexpected<Failure> wrong_type(const std::string& type) {
+    const std::string hint = "save it as float32: numpy.save(file, array.astype('float32'))";
+    if (type.empty()) return failure("its elements are records, not numbers", hint);
+    if (type.find('O') != std::string::npos) {
+        return failure("its elements are Python objects, not numbers", hint);
+    }
+    return failure(fmt::format("its elements are of type '{}', which cannot be read", shown(type)),
+                   hint);
+}
+
+/// Rows and columns of a header's shape; the number of elements is below most_elements.
+Result<NpyArray> array_of_shape(const NpyHeader& header) {
+    const std::vector<std::uint64_t>& shape = header.shape;
+    if (shape.empty()) return failure("it holds one number, not an array of rows and columns");
+    if (shape.size() > 2) {
+        return failure(fmt::format("its array has {} dimensions", shape.size()),
+                       "a field has two: rows and columns");
+    }
+    if (header.fortran_order) {
+        return failure("its array is in Fortran order",
+                       "save it in C order: numpy.save(file, numpy.ascontiguousarray(array))");
+    }
+    const std::uint64_t rows = shape.size() == 2 ? shape[0] : 1;
+    const std::uint64_t columns = shape.back();
+    if (rows == 0 || columns == 0) return failure("its array has no elements");
+    if (rows > most_elements / columns) {
+        return failure(fmt::format("its array of {} × {} elements is too large", rows, columns),
+                       fmt::format("at most {} elements can be read", most_elements));
+    }
+    NpyArray array;
+    array.rows = static_cast<std::int64_t>(rows);
+    array.columns = static_cast<std::int64_t>(columns);
+    return array;
+}
+
+}  // namespace
+
+Result<NpyArray> parse_npy(std::string_view bytes) {
+    const Result<NpyHeader> header = parse_npy_header(bytes);
+    if (!header) return tl::unexpected<Failure>(header.error());
+    const ElementType* type = find_type(header->type);
+    if (type == nullptr) return wrong_type(header->type);
+    Result<NpyArray> array = array_of_shape(*header);
+    if (!array) return array;
+    const auto count = static_cast<std::uint64_t>(array->rows * array->columns);
+    const std::uint64_t wanted = count * type->size;
+    const std::string_view data = bytes.substr(header->data_begin);
+    if (data.size() != wanted) {
+        return failure(fmt::format("it has {} bytes of elements instead of {}", data.size(), wanted),
+                       data.size() < wanted ? "the file is cut off" : "");
+    }
+    try {
+        array->values.resize(count);
+    } catch (const std::bad_alloc&) {
+        return failure("there is not enough memory");
+    }
+    type->convert(data, header->type[0] == '>', array->values);
+    return array;
+}
+
+Result<NpyArray> read_npy(const std::filesystem::path& path) {
+    const Result<std::string> bytes = read_file(path, largest_file);
+    if (!bytes) return tl::unexpected<Failure>(bytes.error());
+    Result<NpyArray> array = parse_npy(*bytes);
+    if (!array) {
+        return failure(fmt::format("cannot read '{}': {}", path.string(), array.error().message),
+                       array.error().hint);
+    }
+    return array;
+}
+
+}  // namespace cascade

@@ -1,0 +1,110 @@
+// Pictures in a terminal: each character '▀' shows two pixels, one above the other, the upper in
+// the foreground's colour and the lower in the background's. As a character is about twice as high
+// as wide, the pixels are square.
+#include "core/check.h"
+#include "picture/image.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+
+namespace cascade {
+namespace {
+
+/// How much of source pixel k lies in the part [from, to) of its axis.
+double overlap(std::int64_t k, double from, double to) {
+    const auto left = static_cast<double>(k);
+    return std::max(0.0, std::min(left + 1, to) - std::max(left, from));
+}
+
+/// Pixel k of `parts` along an axis of `size` pixels, as a stretch of that axis.
+struct Stretch {
+    double from;
+    double to;
+    std::int64_t first;
+    std::int64_t last;  ///< One behind.
+
+    Stretch(std::int64_t k, std::int64_t parts, std::int64_t size)
+        : from(static_cast<double>(k) * static_cast<double>(size) / static_cast<double>(parts)),
+          to(static_cast<double>(k + 1) * static_cast<double>(size) / static_cast<double>(parts)),
+          first(static_cast<std::int64_t>(from)),
+          last(std::min(size, static_cast<std::int64_t>(std::ceil(to)))) {}
+};
+
+Colour average(const Image& image, const Stretch& across, const Stretch& down) {
+    std::array<double, 3> sum{};
+    double weight_sum = 0;
+    for (std::int64_t y = down.first; y < down.last; ++y) {
+        for (std::int64_t x = across.first; x < across.last; ++x) {
+            const double weight =
+                overlap(x, across.from, across.to) * overlap(y, down.from, down.to);
+            const Colour& pixel = image.at(x, y);
+            weight_sum += weight;
+            for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * static_cast<double>(pixel[c]);
+        }
+    }
+    Colour colour{};
+    for (std::size_t c = 0; c < 3; ++c) colour[c] = static_cast<float>(sum[c] / weight_sum);
+    return colour;
+}
+
+/// The picture averaged down to `width` columns in its own proportions.
+Image reduce(const Image& image, std::int64_t width) {
+    const double factor = static_cast<double>(width) / static_cast<double>(image.width);
+    const double height = std::round(static_cast<double>(image.height) * factor);
+    Image small(width, std::max<std::int64_t>(1, static_cast<std::int64_t>(height)));
+    for (std::int64_t y = 0; y < small.height; ++y) {
+        const Stretch down(y, small.height, image.height);
+        for (std::int64_t x = 0; x < width; ++x) {
+            small.at(x, y) = average(image, Stretch(x, width, image.width), down);
+        }
+    }
+    return small;
+}
+
+using Bytes = std::array<int, 3>;
+
+Bytes bytes_of(const Colour& colour) {
+    Bytes bytes{};
+    std::transform(colour.begin(), colour.end(), bytes.begin(), [](float value) {
+        if (!(value > 0)) return 0;  // NaN too.
+        return static_cast<int>(std::min(value, 1.0F) * 255.0F + 0.5F);
+    });
+    return bytes;
+}
+
+/// Adds the escape sequence of a colour where it differs from the one in force. `kind` is 38 for
+/// the foreground, 48 for the background.
+void set_colour(std::string& out, std::optional<Bytes>& current, const Bytes& wanted, int kind) {
+    if (current == wanted) return;
+    current = wanted;
+    fmt::format_to(std::back_inserter(out), "\x1b[{};2;{};{};{}m", kind, wanted[0], wanted[1],
+                   wanted[2]);
+}
+
+}  // namespace
+
+std::string half_blocks(const Image& image, int columns) {
+    CHECK(columns >= 1, "a terminal has columns");
+    if (image.width < 1 || image.height < 1) return {};
+    if (image.width > columns) return half_blocks(reduce(image, columns), columns);
+    std::string out;
+    for (std::int64_t y = 0; y < image.height; y += 2) {
+        std::optional<Bytes> upper;
+        std::optional<Bytes> lower;
+        for (std::int64_t x = 0; x < image.width; ++x) {
+            set_colour(out, upper, bytes_of(image.at(x, y)), 38);
+            // Under the last row of an odd picture the terminal's own ground stays.
+            if (y + 1 < image.height) set_colour(out, lower, bytes_of(image.at(x, y + 1)), 48);
+            out += "\u2580";
+        }
+        out += "\x1b[0m\n";
+    }
+    return out;
+}
+
+}  // namespace cascade

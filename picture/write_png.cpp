@@ -1,0 +1,198 @@
+// PNG files written by libpng, into memory first.
+//
+// libpng reports errors by a jump over our frames. The jump is safe here because it lands in
+// Encoder::run and skips only frames that own nothing: everything with a destructor lives in
+// encode_png, outside the jump.
+#include "core/check.h"
+#include "core/file.h"
+#include "picture/image.h"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <csetjmp>
+#include <cstring>
+#include <new>
+
+namespace cascade {
+namespace {
+
+constexpr std::int64_t longest_side = 0x7fffffff;       // The format's own limit.
+constexpr std::size_t longest_plain_text = 1024;        // Longer ones are compressed.
+
+/// A channel as a level of 0 … `highest`, rounded to nearest; NaN becomes 0.
+unsigned level(float value, unsigned highest) {
+    if (!(value > 0)) return 0;
+    const double clamped = std::min(static_cast<double>(value), 1.0);
+    return static_cast<unsigned>(std::floor(clamped * highest + 0.5));
+}
+
+bool all_grey(const Image& image, unsigned highest) {
+    return std::all_of(image.pixels.begin(), image.pixels.end(), [highest](const Colour& pixel) {
+        const unsigned red = level(pixel[0], highest);
+        return red == level(pixel[1], highest) && red == level(pixel[2], highest);
+    });
+}
+
+/// All that one encoding needs, prepared so that `run` allocates nothing of C++.
+class Encoder {
+public:
+    Encoder(const Image& image, PngDepth depth, const PngTexts& texts);
+    ~Encoder() { png_destroy_write_struct(&png_, &info_); }
+    Encoder(const Encoder&) = delete;
+    Encoder& operator=(const Encoder&) = delete;
+
+    bool run();
+    std::string take_bytes() { return std::move(bytes_); }
+    const char* error() const { return error_.data(); }
+
+private:
+    static void append(png_structp png, png_bytep data, png_size_t size);
+    [[noreturn]] static void fail(png_structp png, png_const_charp message);
+    void fill_row(std::int64_t y);
+
+    const Image& image_;
+    int depth_;
+    bool grey_;
+    std::vector<png_text> texts_;  // Points into the caller's texts.
+    std::vector<png_byte> row_;
+    std::string bytes_;
+    std::array<char, 200> error_{};
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+};
+
+Encoder::Encoder(const Image& image, PngDepth depth, const PngTexts& texts)
+    : image_(image),
+      depth_(static_cast<int>(depth)),
+      grey_(all_grey(image, (1U << depth_) - 1)),
+      row_(static_cast<std::size_t>(image.width) * (grey_ ? 1U : 3U) *
+           static_cast<std::size_t>(depth_ / 8)) {
+    for (const auto& [keyword, text] : texts) {
+        png_text chunk{};
+        const bool compressed = text.size() > longest_plain_text;
+        chunk.compression = compressed ? PNG_ITXT_COMPRESSION_zTXt : PNG_ITXT_COMPRESSION_NONE;
+        // libpng 1.6 copies both texts and never writes through these pointers.
+        chunk.key = const_cast<char*>(keyword.c_str());
+        chunk.text = const_cast<char*>(text.c_str());
+        chunk.itxt_length = text.size();
+        texts_.push_back(chunk);
+    }
+}
+
+void Encoder::append(png_structp png, png_bytep data, png_size_t size) {
+    auto& bytes = static_cast<Encoder*>(png_get_io_ptr(png))->bytes_;
+    bool appended = true;
+    try {
+        bytes.append(reinterpret_cast<const char*>(data), size);
+    } catch (const std::bad_alloc&) {
+        appended = false;
+    }
+    // Outside of the handler: a jump out of it would leak the exception.
+    if (!appended) png_error(png, "there is not enough memory");
+}
+
+void Encoder::fail(png_structp png, png_const_charp message) {
+    auto& error = static_cast<Encoder*>(png_get_error_ptr(png))->error_;
+    std::strncpy(error.data(), message, error.size() - 1);
+    png_longjmp(png, 1);
+}
+
+void Encoder::fill_row(std::int64_t y) {
+    const unsigned highest = (1U << depth_) - 1;
+    const std::size_t channels = grey_ ? 1 : 3;
+    png_byte* out = row_.data();
+    for (std::int64_t x = 0; x < image_.width; ++x) {
+        const Colour& pixel = image_.at(x, y);
+        for (std::size_t channel = 0; channel < channels; ++channel) {
+            const unsigned value = level(pixel[channel], highest);
+            if (depth_ == 16) *out++ = static_cast<png_byte>(value >> 8);
+            *out++ = static_cast<png_byte>(value & 0xffU);
+        }
+    }
+}
+
+bool Encoder::run() {
+    png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, fail, [](auto, auto) {});
+    if (png_ != nullptr) info_ = png_create_info_struct(png_);
+    if (info_ == nullptr) {
+        std::strncpy(error_.data(), "there is not enough memory", error_.size() - 1);
+        return false;
+    }
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_set_write_fn(png_, this, append, nullptr);
+    png_set_user_limits(png_, longest_side, longest_side);
+    png_set_IHDR(png_, info_, static_cast<png_uint_32>(image_.width),
+                 static_cast<png_uint_32>(image_.height), depth_,
+                 grey_ ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_set_text(png_, info_, texts_.data(), static_cast<int>(texts_.size()));
+    png_write_info(png_, info_);
+    for (std::int64_t y = 0; y < image_.height; ++y) {
+        fill_row(y);
+        png_write_row(png_, row_.data());
+    }
+    png_write_end(png_, nullptr);
+    return true;
+}
+
+bool valid_keyword(const std::string& keyword) {
+    if (keyword.empty() || keyword.size() > 79) return false;
+    if (keyword.front() == ' ' || keyword.back() == ' ') return false;
+    if (keyword.find("  ") != std::string::npos) return false;
+    return std::all_of(keyword.begin(), keyword.end(), [](char c) { return c >= ' ' && c <= '~'; });
+}
+
+Result<void> check_texts(const PngTexts& texts) {
+    for (const auto& [keyword, text] : texts) {
+        CHECK(valid_keyword(keyword), "the keywords of our PNG texts are plain words");
+        if (text.size() > longest_png_text) {
+            return failure(fmt::format("the text '{}' that goes with the picture is longer than "
+                                       "{} bytes", keyword, longest_png_text));
+        }
+        if (text.find('\0') != std::string::npos) {
+            return failure(fmt::format("the text '{}' that goes with the picture has a NUL byte",
+                                       keyword));
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<std::string> encode_png(const Image& image, PngDepth depth, const PngTexts& texts) {
+    if (image.width < 1 || image.height < 1) return failure("the picture has no pixels");
+    if (image.width > longest_side || image.height > longest_side) {
+        return failure(fmt::format("a picture of {} × {} pixels is too large for a PNG file",
+                                   image.width, image.height),
+                       fmt::format("a side has at most {} pixels", longest_side));
+    }
+    CHECK(static_cast<std::int64_t>(image.pixels.size()) == image.width * image.height,
+          "an image has a colour for each pixel");
+    if (auto checked = check_texts(texts); !checked) {
+        return tl::unexpected<Failure>(checked.error());
+    }
+    try {
+        Encoder encoder(image, depth, texts);
+        if (!encoder.run()) return failure(encoder.error());
+        return encoder.take_bytes();
+    } catch (const std::bad_alloc&) {
+        return failure("there is not enough memory");
+    }
+}
+
+Result<void> write_png(const std::filesystem::path& path, const Image& image, PngDepth depth,
+                       const PngTexts& texts) {
+    const Result<std::string> bytes = encode_png(image, depth, texts);
+    if (!bytes) {
+        return failure(fmt::format("cannot write '{}': {}", path.string(), bytes.error().message),
+                       bytes.error().hint);
+    }
+    return write_file(path, *bytes);
+}
+
+}  // namespace cascade

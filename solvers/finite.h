@@ -1,0 +1,24 @@
+// Looking for infinities and NaNs in fields, fast enough to do it often.
+#pragma once
+
+#include "core/parallel.h"
+#include "core/plane.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace cascade {
+
+/// A cell by column and row.
+struct CellPlace {
+    std::int64_t column = 0, row = 0;
+    friend bool operator==(const CellPlace&, const CellPlace&) = default;
+};
+
+/// Are all cells of these rows finite? Looks at cells only: halo and padding may hold anything.
+bool rows_are_finite(const Field& field, RowRange rows);
+
+/// The first cell, row by row, that is not finite.
+std::optional<CellPlace> first_not_finite(const Field& field);
+
+}  // namespace cascade

@@ -1,0 +1,40 @@
+// How fast a run goes: batches of steps that are short enough to stay responsive, and the rate and
+// remaining time that a user is told.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+
+namespace cascade {
+
+/// Times come from outside, so that a test can make them up.
+class Pace {
+public:
+    using Time = std::chrono::steady_clock::time_point;
+
+    Pace(Time now, std::int64_t step);
+
+    /// Steps to take before looking at the clock and at `cancel` again: about 20 ms of work.
+    std::int64_t batch() const { return batch_; }
+    /// A batch of `count` steps took so long.
+    void took(std::int64_t count, std::chrono::duration<double> duration);
+
+    /// Is it time for a report? About ten times a second.
+    bool report_due(Time now) const;
+    /// Notes the time of a report, at so many complete steps.
+    void reported(Time now, std::int64_t step);
+
+    /// Steps per second over the last two seconds of reports; 0 while unknown.
+    double steps_per_second() const;
+
+private:
+    struct Sample {
+        Time time;
+        std::int64_t step;
+    };
+    std::deque<Sample> samples_;
+    std::int64_t batch_ = 1;
+};
+
+}  // namespace cascade

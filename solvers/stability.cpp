@@ -1,0 +1,221 @@
+// Eigenvalues of the Jacobian of the rates by power iteration.
+//
+// The Jacobian J is never formed: J v is the central difference of the rates along v. Species of
+// different size are measured in units of their own root mean square, which changes no eigenvalue.
+// Plain iteration finds the eigenvalue of largest magnitude. Where that one is positive, iterating
+// with J − c, c > 0 its magnitude, moves the spectrum to the left and finds the most negative one.
+// The eigenvalue is read off the last three iterates w, Jw, JJw: λ² + pλ + q = 0 with p and q by
+// least squares holds for a single leading eigenvalue and for a leading pair, real or complex
+// (J. H. Wilkinson, "The Algebraic Eigenvalue Problem", 1965, chapter 9).
+#include "solvers/stability.h"
+
+#include "core/check.h"
+#include "core/floating_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <vector>
+
+namespace cascade {
+namespace {
+
+/// The error for diffusion on a plane is about 1 / (2 · iterations); big grids get fewer, so that a
+/// user whose run has failed is not kept waiting.
+constexpr std::size_t least_iterations = 48, most_iterations = 200;
+constexpr std::size_t entries_to_visit = 50'000'000;
+
+/// The largest change of a value in a difference, in units of its species' root mean square: near
+/// the cube root of the rounding error, where truncation and rounding of a central difference meet.
+constexpr double difference_step = 0.005;
+
+using Vector = std::vector<double>;  ///< Species after species, row after row, without halo.
+
+double dot(const Vector& a, const Vector& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    return sum;
+}
+
+/// Fixed noise in (−1, 1) that contains every mode: the SplitMix64 mixer of a counter (G. Steele,
+/// D. Lea, C. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+double noise(std::uint64_t number) {
+    std::uint64_t word = (number + 1) * 0x9e3779b97f4a7c15ULL;
+    word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    word = (word ^ (word >> 27)) * 0x94d049bb133111ebULL;
+    word ^= word >> 31;
+    return static_cast<double>(word >> 11) * 0x1p-52 - 1.0;
+}
+
+/// The Jacobian of a kernel of rates at a state, as something that multiplies vectors.
+class Jacobian {
+public:
+    Jacobian(const StepProblem& rates, std::span<const Field> species)
+        : rates_(rates), layout_(rates.grid), state_(species), moves_(layout_) {
+        for_each_cell([&](std::size_t, std::int64_t i, std::int64_t j) {
+            moves_.at(i, j) = is_frozen(i, j) ? 0.0f : 1.0f;
+        });
+        for (const Field& field : species) {
+            CHECK(field.layout() == layout_, "species lie as the grid says");
+            moved_.emplace_back(layout_);
+            rates_of_.emplace_back(layout_);
+            scales_.push_back(root_mean_square(field));
+        }
+        // A species that is zero everywhere takes the scale of the others.
+        const double largest = *std::max_element(scales_.begin(), scales_.end());
+        for (double& scale : scales_) {
+            if (!(scale > 0)) scale = largest > 0 ? largest : 1;
+        }
+    }
+
+    std::size_t size() const { return cells() * state_.size(); }
+
+    /// J v − shift · v.
+    Vector multiply(const Vector& v, double shift) {
+        double largest = 0;
+        for (const double value : v) largest = std::max(largest, std::abs(value));
+        const double step = largest > 0 ? difference_step / largest : 1;
+        Vector product(v.size());
+        add_rates(v, step, 0.5 / step, product);
+        add_rates(v, -step, -0.5 / step, product);
+        for (std::size_t n = 0; n < v.size(); ++n) product[n] -= shift * v[n];
+        return product;
+    }
+
+    /// A vector of noise whose entries of frozen cells are zero.
+    Vector start() const {
+        Vector v(size());
+        for (std::size_t k = 0; k < state_.size(); ++k) {
+            for_each_cell([&](std::size_t n, std::int64_t i, std::int64_t j) {
+                const std::size_t entry = k * cells() + n;
+                v[entry] = noise(entry) * moves_.at(i, j);
+            });
+        }
+        return v;
+    }
+
+private:
+    std::size_t cells() const { return static_cast<std::size_t>(layout_.width * layout_.height); }
+
+    template <typename Visit>
+    void for_each_cell(Visit visit) const {
+        std::size_t n = 0;
+        for (std::int64_t j = 0; j < layout_.height; ++j) {
+            for (std::int64_t i = 0; i < layout_.width; ++i) visit(n++, i, j);
+        }
+    }
+
+    bool is_frozen(std::int64_t i, std::int64_t j) const {
+        return std::any_of(rates_.masks.begin(), rates_.masks.end(), [&](const auto* mask) {
+            return mask[j * layout_.stride + i] != 0;
+        });
+    }
+
+    double root_mean_square(const Field& field) const {
+        double squares = 0;
+        for_each_cell([&](std::size_t, std::int64_t i, std::int64_t j) {
+            squares += static_cast<double>(field.at(i, j)) * field.at(i, j);
+        });
+        return std::sqrt(squares / static_cast<double>(cells()));
+    }
+
+    /// Adds weight · rates(state + step · v), in units of the scales; frozen cells have rate 0.
+    void add_rates(const Vector& v, double step, double weight, Vector& sum) {
+        for (std::size_t k = 0; k < state_.size(); ++k) {
+            const double* entries = v.data() + k * cells();
+            const double scaled_step = step * scales_[k];
+            for_each_cell([&](std::size_t n, std::int64_t i, std::int64_t j) {
+                moved_[k].at(i, j) =
+                    static_cast<float>(state_[k].at(i, j) + scaled_step * entries[n]);
+            });
+        }
+        run_kernel();
+        for (std::size_t k = 0; k < state_.size(); ++k) {
+            double* entries = sum.data() + k * cells();
+            const double scaled_weight = weight / scales_[k];
+            for_each_cell([&](std::size_t n, std::int64_t i, std::int64_t j) {
+                // Not a product: a frozen cell may have any rate, even an infinite one.
+                if (moves_.at(i, j) != 0) entries[n] += scaled_weight * rates_of_[k].at(i, j);
+            });
+        }
+    }
+
+    void run_kernel() {
+        std::vector<const float*> inputs;
+        std::vector<float*> outputs;
+        for (Field& field : moved_) {
+            fill_halo(field.origin(), layout_, rates_.grid.boundary);
+        }
+        for (const StepProblem::FieldSlot& slot : rates_.fields) {
+            inputs.push_back(slot.species < 0
+                                 ? slot.fixed
+                                 : moved_[static_cast<std::size_t>(slot.species)].origin());
+        }
+        for (Field& field : rates_of_) outputs.push_back(field.origin());
+        const FlushDenormals environment;
+        rates_.step->run({inputs, rates_.masks, rates_.uniforms, outputs, layout_},
+                         {0, layout_.height});
+    }
+
+    const StepProblem& rates_;
+    PlaneLayout layout_;
+    std::span<const Field> state_;
+    Field moves_;  ///< 1 where a cell moves, 0 where it is frozen.
+    std::vector<Field> moved_, rates_of_;
+    std::vector<double> scales_;
+};
+
+/// The root of λ² + pλ + q of larger magnitude that fits w₂ + p w₁ + q w₀ ≈ 0 best, w₀ of length 1;
+/// either one of a complex pair.
+std::complex<double> leading_root(const Vector& w0, const Vector& w1, const Vector& w2) {
+    const double along = dot(w0, w1);  // The Rayleigh quotient.
+    const double across = dot(w1, w1) - along * along;
+    // Where w₁ is parallel to w₀ a single eigenvalue is all there is to see. Differences of single
+    // precision know directions to some 1e-4.
+    if (across <= 1e-7 * dot(w1, w1)) return along;
+    const double p = -(dot(w1, w2) - along * dot(w0, w2)) / across;
+    const double q = -(dot(w0, w2) + p * along);
+    const std::complex<double> root = std::sqrt(std::complex<double>(p * p / 4 - q));
+    return p > 0 ? -p / 2 - root : -p / 2 + root;
+}
+
+/// The eigenvalue of J − shift of largest magnitude; 0 where the rates are not finite.
+std::complex<double> leading_eigenvalue(Jacobian& jacobian, double shift) {
+    const std::size_t iterations =
+        std::clamp(entries_to_visit / jacobian.size(), least_iterations, most_iterations);
+    Vector w0 = jacobian.start();
+    Vector w1;
+    for (std::size_t iteration = 1;; ++iteration) {
+        const double length = std::sqrt(dot(w0, w0));
+        if (!std::isfinite(length) || length < 1e-30) return 0;
+        for (double& value : w0) value /= length;
+        w1 = jacobian.multiply(w0, shift);
+        if (iteration == iterations) break;
+        w0.swap(w1);
+    }
+    const Vector w2 = jacobian.multiply(w1, shift);
+    const std::complex<double> found = leading_root(w0, w1, w2);
+    return std::isfinite(found.real()) && std::isfinite(found.imag()) ? found : 0;
+}
+
+}  // namespace
+
+StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const Field> species) {
+    CHECK(rates.step && !species.empty(), "a kernel of rates and its species");
+    Jacobian jacobian(rates, species);
+    std::complex<double> fastest = leading_eigenvalue(jacobian, 0);
+    StabilityEstimate estimate;
+    estimate.eigenvalue = fastest.real();
+    if (fastest.real() > 0) {
+        const double shift = std::abs(fastest);
+        fastest = shift + leading_eigenvalue(jacobian, shift);
+    }
+    // What differences cannot tell from zero is no decay.
+    if (fastest.real() < -1e-4 * std::abs(estimate.eigenvalue)) {
+        estimate.largest_speed = -2 * fastest.real() / std::norm(fastest);
+    }
+    return estimate;
+}
+
+}  // namespace cascade

@@ -1,0 +1,79 @@
+// Stepping: three copies of every species, a team of threads, and who writes where. Used by
+// advance(), which decides how many steps to take and when to look.
+//
+// Two copies change places from step to step. The third is the kept one: keep() declares the
+// current copy the kept one without moving a byte, and steps go on between the other two, so that
+// back() can return there. Keeping is therefore free.
+#pragma once
+
+#include "core/parallel.h"
+#include "core/plane.h"
+#include "ir/backend.h"
+#include "solvers/advance.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace cascade {
+
+/// Which of the three copies is what.
+struct CopyRoles {
+    int kept = 0;
+    int current = 0;
+
+    /// The copy that the next step writes: neither kept nor current.
+    int target() const { return current == kept ? (current + 1) % 3 : 3 - kept - current; }
+};
+
+class Stepper {
+public:
+    /// Takes `species` as kept and current; their halo is filled here. All threads are in use at
+    /// first; `most_threads` is lowered to what the grid is worth.
+    Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads);
+
+    /// Takes `count` steps, at least one; `complete` were complete before. With `look`, returns
+    /// whether the new values are all finite; without, true.
+    bool advance(std::int64_t complete, std::int64_t count, bool look);
+
+    /// Are all current values finite?
+    bool is_finite();
+
+    void keep() { roles_.kept = roles_.current; }
+    void back() { roles_.current = roles_.kept; }
+    /// Undoes the last step: `before` are the roles as they were before it.
+    void undo(CopyRoles before) { roles_ = before; }
+    CopyRoles roles() const { return roles_; }
+
+    /// The current copy, to be exchanged with the caller's vector and back again.
+    std::vector<Field>& current() { return copies_[roles_.current]; }
+    std::vector<Field>& kept() { return copies_[roles_.kept]; }
+
+    int most_threads() const { return team_.size(); }
+    /// So many threads share the work from now on; no result depends on it.
+    void use_threads(int threads);
+
+private:
+    /// What one thread needs, on cache lines of its own.
+    struct alignas(64) Worker {
+        RowRange rows;
+        std::vector<float> uniforms;
+        bool finite = true;
+    };
+
+    void work(Worker& worker, std::int64_t complete, std::int64_t count, bool look);
+    void step(Worker& worker, CopyRoles roles, std::int64_t complete);
+    bool rows_finite(const Worker& worker, int copy) const;
+    bool all_finite() const;
+
+    const StepProblem& problem_;
+    PlaneLayout layout_;
+    std::array<std::vector<Field>, 3> copies_;
+    std::array<std::vector<const float*>, 3> inputs_;  ///< Field slots where a copy is the old step.
+    std::array<std::vector<float*>, 3> outputs_;       ///< Species where a copy is the new step.
+    CopyRoles roles_;
+    Team team_;
+    std::vector<Worker> workers_;  ///< One for each thread in use.
+};
+
+}  // namespace cascade

@@ -1,0 +1,66 @@
+// How many threads a run uses.
+#include "solvers/thread_tuner.h"
+
+#include <algorithm>
+
+namespace cascade {
+namespace {
+
+// A trial is long enough to be more than one time slice of the machine, and so rare in the end
+// that a bad one costs little.
+constexpr double trial_seconds = 0.02;
+constexpr double first_trial = 0.1;
+constexpr double longest_between_trials = 4;
+constexpr double rest_per_trial = 20;
+/// So much less time must a step take to change the number.
+constexpr double worth_changing = 0.95;
+
+}  // namespace
+
+void ThreadTuner::took(std::int64_t count, std::chrono::duration<double> duration) {
+    if (most_ == 1) return;
+    const auto steps = static_cast<double>(count);
+    if (current_ != best_) {
+        trial_.seconds += duration.count();
+        trial_.steps += steps;
+        if (trial_.seconds >= trial_seconds) end_trial();
+        return;
+    }
+    // What is old counts less and less, so that the present is compared with the present.
+    const double old = std::max(0.0, 1 - duration.count() / first_trial);
+    recent_.seconds = recent_.seconds * old + duration.count();
+    recent_.steps = recent_.steps * old + steps;
+    until_trial_ -= duration.count();
+    if (until_trial_ <= 0) begin_trial();
+}
+
+/// Near numbers and the extremes: half as many may be no better where one alone is.
+int ThreadTuner::candidate(int turn) const {
+    switch (turn % 4) {
+        case 0: return std::max(best_ / 2, 1);
+        case 1: return 1;
+        case 2: return std::min(best_ * 2, most_);
+        default: return most_;
+    }
+}
+
+void ThreadTuner::begin_trial() {
+    while (candidate(turn_) == best_) ++turn_;  // Ends: 1 or most_ is another number.
+    current_ = candidate(turn_);
+    trial_ = {};
+}
+
+void ThreadTuner::end_trial() {
+    if (trial_.seconds_per_step() < worth_changing * recent_.seconds_per_step()) {
+        best_ = current_;  // The turn stays: what helped may help again.
+        recent_ = trial_;
+        between_trials_ = first_trial;
+    } else {
+        current_ = best_;
+        ++turn_;
+        between_trials_ = std::min(2 * between_trials_, longest_between_trials);
+    }
+    until_trial_ = std::max(between_trials_, rest_per_trial * trial_.seconds);
+}
+
+}  // namespace cascade

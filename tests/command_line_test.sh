@@ -1,0 +1,139 @@
+#!/usr/bin/env bash
+# The program as a user meets it: exit statuses, streams, files, Ctrl-C.
+set -u
+rm -rf ./* && mkdir kept
+unset NO_COLOR
+
+fail() {
+    echo "command line: $*"
+    echo "--- out"; cat out
+    echo "--- err"; cat err
+    exit 1
+}
+# run STATUS ARGUMENTS…: what it prints is in the files out and err.
+run() {
+    local wanted=$1 got
+    shift
+    "$CASCADE" "$@" >out 2>err </dev/null
+    got=$?
+    [ "$got" = "$wanted" ] || fail "cascade $* gave $got, not $wanted"
+}
+says() { grep -qF -- "$2" "$1" || fail "no '$2' in $1"; }
+
+cat >spots.cascade <<'END'
+stage large: turing_spots { iterations: 400; interval: 100; ka: 1/80 }
+stage small: turing_spots { iterations: 200; ka: 1/20; beta: beta; a: a; b: b }
+END
+printf 'stage s: turing_spots {\n  betta: 2\n}\n' >wrong.cascade
+printf 'stage s: turing_spots { iterations: 100000000 }\n' >long.cascade
+printf 'system s { u: 1; u'"'"' = u^3 }\nstage s: s { iterations: 1000 }\n' >explodes.cascade
+
+# What comes where.
+run 0 run spots.cascade
+says out 'wrote spots.png'
+says err "stage 1/2 'large': 400 of 400 steps"
+says err "stage 2/2 'small': 200 of 200 steps"
+grep -q $'\r\|\x1b' out err && fail "control characters in a pipe"
+cp spots.png first.png
+run 0 run spots.cascade --quiet --threads 1 --backend interp -o second.png
+[ ! -s out ] && [ ! -s err ] || fail "quiet is not quiet"
+cmp -s first.png second.png || fail "another backend, another picture"
+mkdir again && cp first.png again/
+(cd again && "$CASCADE" run first.png -q && cmp -s spots.png ../first.png) ||
+    fail "a picture does not make itself again"
+run 0 run - <spots.cascade
+"$CASCADE" run - -q <spots.cascade && [ -s cascade.png ] || fail "standard input is no script"
+
+# Files beside the picture.
+run 0 run spots.cascade --sheet sheet.png --frames film --save kept --scale 2
+says out 'wrote sheet.png'
+says out 'pictures in film'
+[ -s kept/small.b.npy ] && [ -s kept/run.json ] || fail "nothing was saved"
+run 0 run spots.cascade -q --save half --stop-at large:150 -o half.png
+run 0 run --resume half -q -o resumed.png
+run 0 run --resume half -q --save all
+cmp all/small.b.npy kept/small.b.npy || fail "a resumed run has other bits"
+run 2 run explodes.cascade --resume half
+says err 'is not the script of the run saved in half'
+
+# Wrong scripts: 2, and nothing is written.
+rm -f wrong.png
+run 2 run wrong.cascade
+says err "wrong.cascade:2:3: error: 'betta' is not a parameter of turing_spots"
+says err "did you mean 'beta'?"
+[ ! -e wrong.png ] && [ ! -s out ] || fail "a wrong script was run"
+run 2 check spots.cascade wrong.cascade
+says out 'spots.cascade: no errors (2 stages, 600 steps, 64 × 64 cells)'
+run 2 run missing.cascade
+says err 'missing.cascade'
+[ "$(grep -c error: err)" = 1 ] || fail "one fault, one message"
+run 2 run kept
+: >empty.cascade
+run 2 check empty.cascade
+run 2 run spots.cascade --set large.kaa=1
+run 2 run spots.cascade --until-stage larg
+run 2 run spots.cascade --show 'large.c'
+
+# Failed runs: 3.
+run 3 run explodes.cascade
+says err "species 'u'"
+run 3 run spots.cascade -o no_such_folder/spots.png
+says err 'no_such_folder'
+[ -c /dev/full ] && { "$CASCADE" systems >/dev/full 2>err && fail "a full disk is no success"; }
+
+# Wrong use: 64.
+run 64
+run 64 run spots.cascade --pallete tan
+says err 'did you mean --palette?'
+run 64 fly
+
+# --dump of every stage; a wrong script has tokens and a tree.
+for stage in tokens ast program ir; do
+    run 0 check spots.cascade --dump "$stage"
+    [ -s out ] && [ ! -s err ] || fail "--dump $stage"
+done
+if [ "$CASCADE_JIT" = 1 ]; then
+    for stage in llvm asm; do
+        run 0 run spots.cascade --dump "$stage"
+        [ -s out ] || fail "--dump $stage"
+    done
+fi
+run 2 check wrong.cascade --dump tokens
+[ -s out ] || fail "no tokens of a wrong script"
+run 2 check wrong.cascade --dump ir
+[ ! -s out ] || fail "kernels of a wrong script"
+
+run 0 systems
+for name in turing_spots autocatalysis stripes; do says out "$name"; done
+grep -Eq '^  parameter beta +random\(12, ?0\.1\)' out || fail "a default as its author wrote it"
+run 0 --help
+run 0 --version
+says out 'cascade 0.1.0'
+
+# A reader that goes away, a diagnostic that nobody reads.
+"$CASCADE" systems 2>err | head -n 1 >out
+[ "${PIPESTATUS[0]}" = 0 ] && [ ! -s err ] || fail "cascade systems | head"
+"$CASCADE" run spots.cascade -o pipe.png 2>&1 >/dev/null | true
+[ "${PIPESTATUS[0]}" = 0 ] && [ -s pipe.png ] || fail "nobody reads the progress"
+
+# Ctrl-C: what there is is written, and said.
+timeout --preserve-status -s INT 1 "$CASCADE" run long.cascade --save stopped >out 2>err
+[ $? = 130 ] || fail "Ctrl-C is not 130"
+says err "interrupted at stage 's', step"
+[ -s long.png ] && [ -s stopped/s.b.npy ] || fail "Ctrl-C lost the picture"
+timeout --preserve-status -s TERM 1 "$CASCADE" run long.cascade -q >out 2>err
+[ $? = 143 ] || fail "SIGTERM is not 143"
+
+# A terminal: a bar, colours, and neither with NO_COLOR or TERM=dumb.
+in_terminal() { TERM=$1 script -qec "$2" /dev/null >out 2>err </dev/null; }
+if command -v script >/dev/null; then
+    in_terminal xterm "timeout --preserve-status -s INT 1 '$CASCADE' run long.cascade"
+    grep -q "stage 's' ▕" out || fail "no bar in a terminal"
+    in_terminal xterm "'$CASCADE' check wrong.cascade"
+    grep -q $'\x1b\\[1;31m' out || fail "no colours in a terminal"
+    NO_COLOR=1 in_terminal xterm "'$CASCADE' check wrong.cascade"
+    grep -q $'\x1b' out && fail "colours in spite of NO_COLOR"
+    in_terminal dumb "'$CASCADE' run spots.cascade -o dumb.png"
+    grep -q $'\x1b' out && fail "control characters for a dumb terminal"
+fi
+echo "command line: right"

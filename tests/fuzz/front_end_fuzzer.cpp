@@ -1,0 +1,75 @@
+// A fuzzer of the whole front end: any bytes are lexed, parsed, checked, and, where a program comes
+// out, lowered and verified; all messages are drawn. Found is what crashes, hangs, leaks, or breaks
+// a CHECK. Built with clang, libFuzzer and sanitizers; the commands are in README.md here.
+#include "core/check.h"
+#include "lang/check.h"
+#include "lang/lower.h"
+#include "lang/parse.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace cascade {
+
+namespace {
+
+void lower_stages(const Program& program) {
+    for (std::uint32_t stage = 0; stage < program.stages.size(); ++stage) {
+        for (const BoundKernel& bound :
+             {lower_uniform_start(program, stage), lower_cell_start(program, stage),
+              lower_step(program, stage), lower_rates(program, stage),
+              lower_view(program, program.stages[stage].show, stage)}) {
+            CHECK(verify(bound.kernel).empty(), "every kernel that lowering makes is sound");
+        }
+    }
+}
+
+void lower_picture(const ast::Script& script, Program& program, const Sources& sources,
+                   Diagnostics& diagnostics) {
+    const auto expression = picture_expression(script);
+    if (!expression || program.stages.empty()) return;
+    const auto last = static_cast<std::uint32_t>(program.stages.size() - 1);
+    const auto view = check_view(script, *expression, last, last, program, sources, diagnostics);
+    if (!view) return;
+    const BoundKernel bound = lower_view(program, *view, last);
+    CHECK(verify(bound.kernel).empty(), "the kernel of a picture is sound");
+}
+
+void run_front_end(const std::string& text) {
+    Sources sources;
+    Diagnostics diagnostics;
+    const SourceId source = sources.add("fuzz.cascade", text);
+    const ast::Script script = parse(source, sources, diagnostics);
+    print_ast(script, sources);
+    std::optional<Program> program = check(script, sources, diagnostics);
+    CHECK(program || diagnostics.has_errors(), "a script that is refused has a message");
+    if (program && !diagnostics.has_errors()) {
+        print_program(*program);
+        lower_stages(*program);
+        lower_picture(script, *program, sources, diagnostics);
+    }
+    render(diagnostics, sources, {.colour = true});
+}
+
+void run_short_forms(const std::string& text) {
+    Sources sources;
+    Diagnostics diagnostics;
+    ast::Script script;
+    const SourceId source = sources.add("--set", text);
+    parse_override(source, sources, script, diagnostics);
+    parse_expression(source, sources, script, diagnostics);
+    print_tokens(lex(source, sources, diagnostics), sources);
+    render(diagnostics, sources, {});
+}
+
+}  // namespace
+
+}  // namespace cascade
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string text(reinterpret_cast<const char*>(data), size);
+    cascade::run_front_end(text);
+    cascade::run_short_forms(text);
+    return 0;
+}

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# `cmake --install` into an empty prefix gives a program that runs from there, also when the prefix
+# has moved, and a library that find_package(Cascade) finds: examples/embed is built on it and run.
+set -eu
+rm -rf prefix moved embed
+cmake --install "$BUILD" --prefix "$PWD/prefix" >install.log
+mv prefix moved
+prefix=$PWD/moved
+
+"$prefix/bin/cascade" --version | grep -q '^cascade [0-9]*\.[0-9]*\.[0-9]*' ||
+    { echo "the installed program does not tell its version"; exit 1; }
+printf 'stage s: turing_spots { iterations: 20 }\n' >dots.cascade
+"$prefix/bin/cascade" run dots.cascade -o dots.png
+[ -s dots.png ] || { echo "the installed program drew nothing"; exit 1; }
+
+# The public header is the only one, and the library exports nothing but what it declares.
+headers=$(cd "$prefix/include" && find . -type f)
+[ "$headers" = ./cascade/cascade.h ] || { echo "unexpected headers: $headers"; exit 1; }
+library=$(echo "$prefix"/lib*/libcascade.so)
+exported=$(nm -DC --defined-only "$library" | awk '$2 ~ /[TDBR]/' | cut -d' ' -f3-)
+extra=$(grep -vE '^(cascade::(Pattern::|library_version)|_init$|_fini$)' <<<"$exported" || true)
+if [ -z "$SANITIZE" ] && [ -n "$extra" ]; then
+    echo "the library exports more than its header declares:"
+    echo "$extra"
+    exit 1
+fi
+grep -q 'cascade::Pattern::step' <<<"$exported" || { echo "Pattern::step is not exported"; exit 1; }
+
+flags=${SANITIZE:+-fsanitize=$SANITIZE}
+cmake -S "$SOURCE/examples/embed" -B embed -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_CXX_FLAGS="$flags" >embed.log
+cmake --build embed >>embed.log
+embed/embed >embed.out
+cat embed.out
+grep -q "did you mean 'beta'" embed.out || { echo "no hint about 'betta'"; exit 1; }
+grep -q '^spots: 6000 steps$' embed.out || { echo "the example did not run to its end"; exit 1; }
+[ "$(tail -n 12 embed.out | grep -c '^[@#*+. -]\{24\}$')" = 12 ] || { echo "no picture"; exit 1; }
+tail -n 12 embed.out | grep -q '@' || { echo "no spots in the picture"; exit 1; }

@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# The launcher `cascade` builds when it must and only then. CMake and the package tools are replaced
+# by small scripts that note their calls, so that no real build is needed.
+set -u
+
+fail() {
+    echo "launcher: $*"
+    [ -e calls ] && sed 's/^/  call: /' calls
+    exit 1
+}
+count() { grep -c "$1" calls || true; }
+
+rm -rf tree bin calls elsewhere && mkdir -p bin elsewhere
+mkdir -p tree/{core,ir,lang,jit,solvers,picture,run,app,include,cmake}
+cp "$SOURCE/cascade" tree/ && cp "$SOURCE"/cmake/{setup.sh,packages.txt} tree/cmake/
+touch tree/CMakeLists.txt tree/core/a.cpp
+
+calls=$PWD/calls
+cat >bin/cmake <<END
+#!/bin/bash
+echo "cmake \$*" >>"$calls"
+[ -e "$PWD/break_build" ] && { echo "a.cpp:1: some error"; exit 1; }
+if [ "\$1" = --build ]; then
+    sleep 0.3
+    printf '#!/bin/bash\necho "ran in \$PWD: \$*"\nexit 7\n' >"\$2/cascade" && chmod +x "\$2/cascade"
+fi
+END
+cat >bin/dpkg-query <<END
+#!/bin/bash
+for name; do case \$name in -*) ;; libfmt-dev) [ -e "$PWD/installed" ] && echo "installed \$name:amd64" ;;
+    *) echo "installed \$name" ;; esac; done
+END
+cat >bin/apt-get <<END
+#!/bin/bash
+echo "apt-get \$*" >>"$calls"
+[ -e "$PWD/break_apt" ] && { echo "E: no network"; exit 100; }
+[[ "\$*" == *install* ]] && touch "$PWD/installed"
+exit 0
+END
+printf '#!/bin/bash\nexec "$@"\n' >bin/sudo
+chmod +x bin/*
+export PATH=$PWD/bin:$PATH
+launch() { : >calls; (cd elsewhere && ../tree/cascade "$@" >../out 2>../err); }
+
+touch break_apt
+launch && fail "packages that cannot be installed are no success"
+grep -q 'no network' err || fail "why apt-get failed is not shown: $(cat err)"
+[ "$(count '^cmake')" = 0 ] || fail "built without its packages"
+rm break_apt
+
+launch run 'a b.cascade'
+[ $? = 7 ] || fail "the program's exit status is lost"
+[ "$(cat out)" = "ran in $PWD/elsewhere: run a b.cascade" ] || fail "arguments or folder: $(cat out)"
+[ "$(count 'apt-get.*install.* libfmt-dev$')" = 1 ] || fail "libfmt-dev alone is missing"
+[ "$(count 'cmake --build')" = 1 ] || fail "the first call builds"
+[ "$(wc -l <err)" -le 3 ] || fail "too many words: $(cat err)"
+
+launch
+[ ! -s calls ] && [ ! -s err ] || fail "nothing has changed: $(cat err)"
+ln -sf tree/cascade by_link
+: >calls
+./by_link >out 2>err
+[ ! -s calls ] && [ "$(cat out)" = "ran in $PWD: " ] || fail "through a link: $(cat out err)"
+
+touch tree/core/a.cpp
+launch
+[ "$(count 'cmake --build')" = 1 ] || fail "a changed file is built"
+[ "$(count apt-get)" = 0 ] || fail "packages are there"
+touch tree/core/b.cpp && launch
+[ "$(count 'cmake --build')" = 1 ] || fail "a new file is built"
+rm tree/core/b.cpp && launch
+[ "$(count 'cmake --build')" = 1 ] || fail "a file's removal is built"
+touch -d '2001-01-01' tree/core/a.cpp && launch
+[ "$(count 'cmake --build')" = 1 ] || fail "a copy with an old time is built"
+
+touch break_build tree/core/a.cpp
+launch && fail "a failed build is no success"
+grep -q 'some error' err || fail "the log of a failed build is not shown"
+rm break_build
+launch
+[ "$(count 'cmake --build')" = 1 ] || fail "after a failed build it is tried again"
+
+touch tree/core/a.cpp
+: >calls
+for _ in 1 2 3; do tree/cascade >/dev/null 2>&1 & done
+wait
+[ "$(count 'cmake --build')" = 1 ] || fail "calls at the same time build once"
+
+: >calls
+begin=$(date +%s%N)
+for _ in 1 2 3 4 5 6 7 8 9 10; do tree/cascade >/dev/null; done
+took=$((($(date +%s%N) - begin) / 10000000))
+[ "$took" -lt 300 ] || fail "a call without a build takes $took ms"
+echo "launcher: $took ms a call"

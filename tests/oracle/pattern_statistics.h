@@ -1,0 +1,53 @@
+// Numbers that say what a pattern looks like: spots, area, wavelength, direction.
+//
+// All take a picture of width × height values, row by row, on a periodic plane.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace cascade {
+
+struct Pattern2d {
+    std::size_t width = 1;
+    std::size_t height = 1;
+    std::vector<double> values;
+};
+
+using Predicate = std::function<bool(double)>;
+
+/// Part of the cells whose value fulfils the predicate, 0 … 1.
+double area_fraction(const Pattern2d& pattern, const Predicate& predicate);
+
+/// How many connected regions (by sides, across the periodic borders) of at least `smallest` cells
+/// the cells that fulfil the predicate make.
+std::size_t count_regions(const Pattern2d& pattern, const Predicate& predicate,
+                          std::size_t smallest = 1);
+
+/// Mean and standard deviation over the cells.
+struct Moments {
+    double mean = 0;
+    double deviation = 0;
+};
+Moments moments(const Pattern2d& pattern);
+
+/// Correlation coefficient of two pictures of one size, −1 … 1.
+double correlation(const Pattern2d& a, const Pattern2d& b);
+
+/// What the power spectrum |DFT|² of the picture without its mean says.
+struct SpectrumSummary {
+    /// Wavelength in cells at the centre of the spectrum's peak: with power summed over rings of
+    /// the integer wave number round(|k|), k in waves per `width`, the power-weighted mean of |k|
+    /// over the rings from half to one and a half times that of the strongest.
+    double peak_wavelength = 0;
+    /// The same over all rings.
+    double mean_wavelength = 0;
+    /// |Σ P e^(2iθ)| / Σ P with θ the direction of k: 0 for no preferred direction, 1 for straight
+    /// parallel stripes.
+    double anisotropy = 0;
+};
+/// The picture must be square, or one row.
+SpectrumSummary summarise_spectrum(const Pattern2d& pattern);
+
+}  // namespace cascade

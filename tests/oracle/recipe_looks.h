@@ -1,0 +1,41 @@
+// What the recipes of Turk's thesis look like, in numbers.
+//
+// Found for every printed recipe with an independent program (double precision, other random
+// numbers, 64 × 64 and 128 × 128, several seeds); where only a description is known the range is
+// wide. Areas, wavelengths and deviations are the same on both grids, counts are not.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace cascade {
+
+enum class Measure {
+    regions_below,    ///< Connected regions with values below `level`.
+    regions_above,    ///< The same above.
+    bumps,            ///< The same above the middle of the smallest and the largest value.
+    area_below,       ///< Part of the cells.
+    area_above,
+    peak_wavelength,  ///< In cells; `level` means nothing for these.
+    mean_wavelength,
+    anisotropy,
+    deviation,
+};
+
+struct Range {
+    double low = 0, high = 0;
+};
+
+/// One expectation: of a species at the end of a stage.
+struct Look {
+    std::string_view script;
+    int stage = 1;
+    const char* species = "b";
+    Measure measure = Measure::regions_below;
+    double level = 0;
+    Range at_64, at_128;
+};
+
+std::span<const Look> recipe_looks();
+
+}  // namespace cascade

@@ -1,0 +1,85 @@
+// See test_run.h.
+#include "tests/oracle/test_run.h"
+
+#include "core/file.h"
+
+#include <gtest/gtest.h>
+
+namespace cascade {
+
+TestRun::TestRun(std::string name, std::string text, Overrides overrides,
+                 SimulationOptions options)
+    : script_(load_script(std::move(name), std::move(text), ".", std::move(overrides))) {
+    if (!script_.program) {
+        ADD_FAILURE() << script_.messages(false);
+        return;
+    }
+    auto simulation = Simulation::create(script_, options);
+    if (!simulation) {
+        ADD_FAILURE() << simulation.error().message;
+        return;
+    }
+    simulation_ = std::move(*simulation);
+}
+
+void TestRun::check(const Result<void>& result) {
+    if (result) return;
+    ADD_FAILURE() << script_.name << ": " << result.error().message;
+    failed_ = true;
+}
+
+void TestRun::start(std::uint32_t stage) {
+    if (ok()) check(simulation_->start_stage(stage));
+}
+
+void TestRun::finish(std::uint32_t stage) {
+    if (!ok()) return;
+    RunControl control;
+    const std::int64_t last = program().stages[stage].iterations;
+    const auto end = simulation_->advance_stage(stage, last, control, [] {});
+    check(end ? Result<void>{} : Result<void>(tl::unexpected(end.error())));
+}
+
+void TestRun::finish_all() {
+    for (std::uint32_t stage = 0; ok() && stage < program().stages.size(); ++stage) {
+        start(stage);
+        finish(stage);
+    }
+}
+
+std::vector<double> TestRun::values(std::uint32_t stage, const std::string& name) const {
+    const System& system = program().system_of(stage);
+    const StageState& state = simulation_->state(stage);
+    for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+        if (system.item_name(item) != name) continue;
+        if (program().stages[stage].uniform[item]) {
+            return std::vector<double>(width() * height(), state.numbers[item]);
+        }
+        std::vector<double> values;
+        const Field& field = state.field(item);
+        for (std::int64_t j = 0; j < field.layout().height; ++j) {
+            values.insert(values.end(), field.row(j), field.row(j) + field.layout().width);
+        }
+        return values;
+    }
+    ADD_FAILURE() << system.name << " has no " << name;
+    return {};
+}
+
+std::string source_file(const std::string& path) {
+    auto text = read_file(std::string(CASCADE_SOURCE_DIR) + "/" + path, std::uint64_t{16} << 20);
+    if (!text) {
+        ADD_FAILURE() << text.error().message;
+        return {};
+    }
+    return *text;
+}
+
+SimulationOptions fastest_backend() {
+    SimulationOptions options;
+    options.backend = has_jit() ? BackendKind::jit : BackendKind::interpreter;
+    options.threads = 1;
+    return options;
+}
+
+}  // namespace cascade

@@ -1,0 +1,48 @@
+// Runs scripts for the tests of this folder, and hands out the fields.
+#pragma once
+
+#include "run/simulation.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// A script and its simulation. Faults of either fail the test that made it.
+class TestRun {
+public:
+    TestRun(std::string name, std::string text, Overrides overrides, SimulationOptions options);
+    TestRun(const TestRun&) = delete;  // The simulation points to the script.
+
+    /// False after a fault; the test has been told.
+    bool ok() const { return simulation_ != nullptr && !failed_; }
+    /// Computes the starting values of a stage. Stages are started in their order.
+    void start(std::uint32_t stage);
+    /// Takes all steps of a started stage.
+    void finish(std::uint32_t stage);
+    /// Starts and finishes every stage.
+    void finish_all();
+
+    const Program& program() const { return simulation_->program(); }
+    std::size_t width() const { return static_cast<std::size_t>(simulation_->grid().width); }
+    std::size_t height() const { return static_cast<std::size_t>(simulation_->grid().height); }
+    /// The present values of a species, parameter, `frozen` or `speed` of a stage, row by row.
+    std::vector<double> values(std::uint32_t stage, const std::string& name) const;
+
+private:
+    void check(const Result<void>& result);
+
+    Script script_;
+    std::unique_ptr<Simulation> simulation_;
+    bool failed_ = false;
+};
+
+/// The text of a file of the source tree; fails the test if it cannot be read.
+std::string source_file(const std::string& path);
+
+/// Native code where it is compiled in, else the interpreter, on one thread.
+SimulationOptions fastest_backend();
+
+}  // namespace cascade

@@ -1,0 +1,102 @@
+#!/usr/bin/env bash
+# The prompt: from a pipe, and in a terminal with editing, history and completion.
+set -u
+rm -rf ./*
+
+fail() {
+    echo "repl: $*"
+    cat out err
+    exit 1
+}
+feed() { printf '%s\n' "$@" | "$CASCADE" repl >out 2>err || fail "exit status $?"; }
+says() { grep -qF -- "$2" "$1" || fail "no '$2' in $1"; }
+
+# A script that grows, a block over several lines, stages one after the other.
+feed 'domain { grid: 16, 8 }' \
+    'stage large: turing_spots {' '  iterations: 30' '}' \
+    ':run 20' ':run 5' ':stages' ':run' ':quit' 'never: read'
+says out "stage 'large', step 20 of 30"
+says out "stage 'large', step 25 of 30"
+says out 'large: turing_spots, step 25 of 30'
+says out "stage 'large', step 30 of 30"
+[ ! -s err ] || fail "something was wrong"
+
+# A wrong line changes nothing: the fields are those of an undisturbed run.
+feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 100' ':save right'
+feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 60' \
+    'stage t: turing_spotz { }' ':set s.kaa=1' ':show nobody' ':shwo' ':run x' ':load nowhere' \
+    'stage t: turing_spots { iterations: 0 }' ':run 40' ':save wrong'
+says err "prompt:3:10: error: "
+says err "did you mean 'turing_spots'?"
+says err "did you mean ':show'?"
+says out "stage 's', step 60 of 100"
+cmp right/s.b.npy wrong/s.b.npy || fail "a wrong line changed the fields"
+
+# A parameter that changes on the way keeps the fields.
+feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 60' \
+    ':set s.ka=1/40' ':stages' ':run 40' ':save set'
+says out 's: turing_spots, step 60 of 100'
+cmp -s right/s.b.npy set/s.b.npy && fail ":set changed nothing"
+
+# Saved, loaded, gone on with: the same bits.
+feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 60' ':save half'
+feed ':load half' ':run 40' ':save loaded'
+cmp right/s.b.npy loaded/s.b.npy || fail "loading lost something"
+feed ':load half' ':init' ':run 100' ':save anew'
+cmp right/s.b.npy anew/s.b.npy || fail ":init does not begin anew"
+
+# A picture: half blocks in 24-bit colour, two rows of cells in a line.
+feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 10 }' ':show b' ':help' ':text'
+[ "$(grep -c '▀' out)" = 4 ] || fail "no picture of 4 lines"
+grep -q $'\x1b\\[38;2;' out || fail "no 24-bit colour"
+says out ':load FILE'
+says out 'stage s: turing_spots { iterations: 10 }'
+
+# The end of the pipe ends a block too, with the message of the parser.
+feed 'stage s: turing_spots {'
+says err 'error:'
+
+command -v python3 >/dev/null || exit 0
+XDG_STATE_HOME=$PWD/state python3 - "$CASCADE" <<'END' || { echo "repl: in a terminal"; exit 1; }
+import os, pty, select, sys, time
+
+pid, terminal = pty.fork()
+if pid == 0:
+    os.environ["TERM"] = "xterm"
+    os.execv(sys.argv[1], ["cascade", "repl"])
+
+def expect(words, seconds=60):
+    seen, end = b"", time.time() + seconds
+    while words not in seen:
+        ready, _, _ = select.select([terminal], [], [], max(0, end - time.time()))
+        if not ready:
+            sys.exit(f"no {words!r} in {seen!r}")
+        seen += os.read(terminal, 65536)
+    return seen
+
+def type_in(text):
+    os.write(terminal, text)
+
+expect(b"1> ")
+type_in(b"domain { grid: 16, 8 }\r")
+expect(b"2> ")
+type_in(b"stage s: turing_spots {\r")
+expect(b"3| ")
+type_in(b"\x03")                                # Ctrl-C drops the block, not the program.
+expect(b"2> ")
+type_in(b"stage s: turi\t{ iterations: 100000000 }\r")
+expect(b"3> ")
+type_in(b":sta\t\r")
+expect(b"step 0 of 100000000")
+type_in(b":run\r")
+expect("▕".encode())                            # a bar
+type_in(b"\x03")                                # Ctrl-C stops the run,
+expect("▀".encode())                            # which is shown,
+type_in(b":stages\r")                           # and the prompt goes on.
+expect(b"of 100000000")
+type_in(b":quit\r")
+_, status = os.waitpid(pid, 0)
+history = open(os.environ["XDG_STATE_HOME"] + "/cascade/history").read()
+sys.exit(0 if status == 0 and "stages" in history else f"status {status}, history {history!r}")
+END
+echo "repl: right"

@@ -1,0 +1,11 @@
+// Lowering of whole programs, for the tests of this folder.
+#pragma once
+
+#include "lang/program.h"
+
+namespace cascade {
+
+/// Lowers everything that a checked script has; fails the test if a kernel is not sound.
+void expect_sound_kernels(const Program& program);
+
+}  // namespace cascade

@@ -1,0 +1,185 @@
+// The specification's code blocks are read by the program; its tables name what the program has.
+//
+// spec/README.md says what the words behind the fences mean. CASCADE_UPDATE=1 rewrites the expected
+// messages.
+#include "run/script.h"
+#include "tests/spec/code_blocks.h"
+#include "tests/spec/sound_kernels.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace cascade {
+namespace {
+
+const std::filesystem::path spec_folder = std::filesystem::path(CASCADE_SOURCE_DIR) / "spec";
+
+std::string read_text(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return std::move(text).str();
+}
+
+std::vector<std::filesystem::path> pages() {
+    std::vector<std::filesystem::path> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(spec_folder)) {
+        if (entry.path().extension() == ".md") paths.push_back(entry.path());
+    }
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+class CodeBlockTest : public testing::TestWithParam<std::filesystem::path> {
+protected:
+    void SetUp() override { page_ = read_text(GetParam()); }
+
+    void check_script(const CodeBlock& block) {
+        const Script script = load_script("script.cascade", block.body, ".");
+        EXPECT_EQ(script.messages(false), "");
+        if (script.program) expect_sound_kernels(*script.program);
+    }
+
+    /// Compares the messages of a script with the text behind it, or rewrites that text.
+    void check_messages(const CodeBlock& block, const CodeBlock* expected) {
+        const Script script = load_script("script.cascade", block.body, ".");
+        EXPECT_EQ(script.diagnostics.has_errors(), block.word == "cascade-error");
+        const std::string messages = script.messages(false);
+        EXPECT_NE(messages, "");
+        ASSERT_TRUE(expected != nullptr && expected->word == "text")
+            << "a text block with the messages is missing:\n" << messages;
+        if (std::getenv("CASCADE_UPDATE") != nullptr) {
+            updates_.push_back({*expected, messages});
+        } else {
+            EXPECT_EQ(messages, expected->body);
+        }
+    }
+
+    void write_updates() {
+        if (updates_.empty()) return;
+        for (auto update = updates_.rbegin(); update != updates_.rend(); ++update) {
+            const auto& [block, text] = *update;
+            page_.replace(block.begin, block.end - block.begin, text);
+        }
+        std::ofstream(GetParam(), std::ios::binary) << page_;
+    }
+
+    std::string page_;
+    std::vector<std::pair<CodeBlock, std::string>> updates_;
+};
+
+TEST_P(CodeBlockTest, SaysWhatTheProgramDoes) {
+    const std::vector<CodeBlock> blocks = code_blocks(page_);
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+        const CodeBlock& block = blocks[k];
+        const CodeBlock* next = k + 1 < blocks.size() ? &blocks[k + 1] : nullptr;
+        SCOPED_TRACE(GetParam().string() + ":" + std::to_string(block.line));
+        if (block.word == "cascade") {
+            check_script(block);
+        } else if (block.word == "cascade-error" || block.word == "cascade-warning") {
+            check_messages(block, next);
+        } else {
+            EXPECT_THAT(block.word, testing::AnyOf("text", "sh", "c", "cpp", "cmake"))
+                << "an unknown kind of block";
+        }
+    }
+    write_updates();
+}
+
+INSTANTIATE_TEST_SUITE_P(Pages, CodeBlockTest, testing::ValuesIn(pages()),
+                         [](const auto& parameter) { return parameter.param.stem().string(); });
+
+TEST(CodeBlocks, AreFoundByTheirFences) {
+    const auto blocks = code_blocks("text\n```cascade\na: 1\n\n```\n```\n```\n```text\nlast");
+    ASSERT_EQ(blocks.size(), 3u);
+    EXPECT_EQ(blocks[0].word, "cascade");
+    EXPECT_EQ(blocks[0].body, "a: 1\n\n");
+    EXPECT_EQ(blocks[0].line, 2u);
+    EXPECT_EQ(blocks[0].begin, 16u);
+    EXPECT_EQ(blocks[0].end, 22u);
+    EXPECT_EQ(blocks[1].word, "");
+    EXPECT_EQ(blocks[1].body, "");
+    EXPECT_EQ(blocks[2].body, "last");
+}
+
+/// The cells of the rows of all tables of a page, without their blanks.
+std::vector<std::vector<std::string>> table_rows(const std::string& page) {
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(page);
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("| ")) continue;
+        std::vector<std::string> cells;
+        std::istringstream row(line.substr(2));
+        for (std::string cell; std::getline(row, cell, '|');) {
+            cells.push_back(cell.substr(0, cell.find_last_not_of(' ') + 1));
+            if (cells.back().starts_with(' ')) cells.back().erase(0, 1);
+        }
+        rows.push_back(std::move(cells));
+    }
+    return rows;
+}
+
+std::string_view word_of(Places places) {
+    switch (places) {
+        case Places::any: return "any";
+        case Places::rates: return "rates";
+        case Places::values: return "values";
+        case Places::noisy: return "noisy";
+        case Places::picture: return "picture";
+    }
+    return "";
+}
+
+/// How functions.md begins the row of a function: `a + b`, `not a`, `-a`, `name(`.
+std::string beginning_of_row(Function function) {
+    const FunctionInfo& row = info(function);
+    const std::string spelling(row.spelling);
+    if (!row.is_operator) return "`" + spelling + "(";
+    if (row.arity == 2) return "`a " + spelling + " b`";
+    return function == Function::logical_not ? "`not a`" : "`" + spelling + "a`";
+}
+
+TEST(FunctionsPage, HasARowForEveryFunction) {
+    auto rows = table_rows(read_text(spec_folder / "functions.md"));
+    std::erase_if(rows, [](const auto& row) { return row.size() < 4 || row[0][0] != '`'; });
+    constexpr auto last = static_cast<std::size_t>(Function::mix);
+    for (std::size_t k = 0; k <= last; ++k) {
+        const auto function = static_cast<Function>(k);
+        const std::string beginning = beginning_of_row(function);
+        const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& cells) {
+            return cells[0].starts_with(beginning);
+        });
+        ASSERT_NE(row, rows.end()) << beginning;
+        EXPECT_EQ((*row)[1], std::to_string(info(function).arity)) << beginning;
+        EXPECT_EQ((*row)[2], word_of(info(function).places)) << beginning;
+    }
+    EXPECT_EQ(rows.size(), last + 1) << "a row is for no function";
+}
+
+TEST(SystemsPage, HasARowForEveryBuiltInSystem) {
+    const auto rows = table_rows(read_text(spec_folder / "systems.md"));
+    const Script script =
+        load_script("script.cascade", "system_name: turing_spots\niterations: 1\n", ".");
+    ASSERT_TRUE(script.program);
+    for (const System& system : script.program->systems) {
+        const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& cells) {
+            return cells[0] == "`" + system.name + "`";
+        });
+        ASSERT_NE(row, rows.end()) << system.name;
+        std::string species, parameters;
+        for (const Quantity& quantity : system.quantities) {
+            if (quantity.is_species) species += (species.empty() ? "" : " ") + quantity.name;
+            else EXPECT_THAT(" " + (*row)[2], testing::HasSubstr(" " + quantity.name + " ("));
+        }
+        EXPECT_EQ((*row)[1], species);
+    }
+}
+
+}  // namespace
+}  // namespace cascade

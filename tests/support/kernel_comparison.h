@@ -1,0 +1,48 @@
+// Runs kernels on hostile inputs and compares what executors make of them.
+#pragma once
+
+#include "core/plane.h"
+#include "ir/backend.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cascade::testing {
+
+/// Arguments for a kernel on a grid, made from a seed: ordinary numbers, and among them NaN,
+/// infinities, zeros of both signs, denormals and huge numbers. Halos of fields are filled; memory
+/// that kernels have no business with holds NaN.
+class HostileInputs {
+public:
+    HostileInputs(const CellKernel& kernel, const Grid& grid, std::uint64_t seed);
+
+    /// Runs a kernel on rows [begin, end), or all rows, into new planes.
+    std::vector<Field> run(const Kernel& kernel) const;
+    std::vector<Field> run(const Kernel& kernel, RowRange rows) const;
+
+private:
+    Grid grid_;
+    std::size_t result_count_;
+    std::vector<Field> fields_;
+    std::vector<Mask> masks_;
+    std::vector<float> uniforms_;
+};
+
+/// Compiles `kernel` with `backend` and runs it on the inputs that belong to `seed`.
+std::vector<Field> run_kernel(Backend& backend, const CellKernel& kernel, const Grid& grid,
+                              std::uint64_t seed);
+
+/// Empty if both hold the same words in all cells, where all NaN are the same; else the first
+/// difference: result, cell, both words.
+std::string same_bits(const std::vector<Field>& a, const std::vector<Field>& b);
+
+/// Empty if a run wrote only what backend.h allows: the cells of `rows`, and behind the last cell
+/// of these up to the next multiple of row_pad. Else the first place that was touched. Only for planes
+/// made by HostileInputs::run.
+std::string stray_writes(const std::vector<Field>& results, RowRange rows);
+
+/// A grid of 1 … max_width × 1 … max_height cells with one of the boundaries.
+Grid random_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t max_height);
+
+}  // namespace cascade::testing

@@ -1,0 +1,191 @@
+// Makes random kernels through the builder, as the compiler does.
+#include "tests/support/random_kernels.h"
+
+#include "ir/builder.h"
+#include "tests/support/random_stream.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+namespace cascade::testing {
+namespace {
+
+constexpr std::uint32_t special_words[] = {
+    0x00000000, 0x80000000,                          // zeros
+    0x00000001, 0x80000001, 0x007fffff, 0x807fffff,  // denormals
+    0x00400000, 0x80000400,                          //
+    0x00800000, 0x80800000, 0x00800001,              // the smallest normal numbers
+    0x7f7fffff, 0xff7fffff,                          // the largest
+    0x7f800000, 0xff800000,                          // infinities
+    0x7fc00000, 0xffc00000, 0x7f800001, 0xffffffff,  // NaN
+    0x3f800000, 0xbf800000, 0x40000000, 0x3f000000,  // 1, −1, 2, 1/2
+    0x3f7fffff, 0x3f800001, 0x4b000000, 0x4b800000,  // beside 1; 2^23, 2^24
+    0x3e000000, 0x41400000, 0x42b17218, 0xc2aeac50,  // 1/8, 12, where exp overflows, underflows
+};
+
+struct Value {
+    ValueId id = 0;
+    bool is_exact = false;  ///< Its bits are determined, even if they read as NaN.
+};
+
+class Generator {
+public:
+    Generator(std::uint64_t seed, const RandomKernelOptions& options)
+        : stream_(seed), options_(options) {}
+
+    CellKernel generate() && {
+        for (int k = 0; k < options_.operations; ++k) step();
+        for (int k = 0; k < options_.results; ++k) {
+            // Most results are late values, so that much of the code is needed.
+            const std::size_t last = values_.size() - 1;
+            const std::size_t span = stream_.chance(80) ? 6 : last + 1;
+            const std::size_t back = stream_.below(span);
+            const Value value = values_[last - std::min(back, last)];
+            builder_.result(fmt::format("result{}", k), value.id);
+        }
+        return std::move(builder_).finish();
+    }
+
+private:
+    void step() {
+        if (stream_.chance(options_.composed_percent)) return composed();
+        const Op op = static_cast<Op>(stream_.below(static_cast<std::uint64_t>(op_count)));
+        if (info(op).arity == 0) return source(op);
+        const bool is_word_operation = op >= Op::bits_add;
+        if (is_word_operation) return word_operation(op);
+        const Value a = operand();
+        const Value b = operand();
+        if (op == Op::select) {
+            const Value c = operand();
+            keep(builder_.select(a.id, b.id, c.id), b.is_exact && c.is_exact);
+        } else if (info(op).arity == 1) {
+            const bool is_exact = op == Op::logical_not || (op != Op::square_root && a.is_exact);
+            keep(builder_.apply(op, a.id), is_exact);
+        } else {
+            keep(builder_.apply(op, a.id, b.id), op >= Op::less);
+        }
+    }
+
+    void source(Op op) {
+        const std::uint32_t which = stream_.below(3);
+        switch (op) {
+            case Op::field: return keep(field(which), false);
+            case Op::laplacian:
+                if (!options_.laplacians) return keep(field(which), false);
+                return keep(builder_.laplacian(builder_.field_slot(fmt::format("f{}", which))),
+                            false);
+            case Op::mask:
+                return keep(builder_.mask(builder_.mask_slot(fmt::format("m{}", which))), true);
+            case Op::uniform:
+                return keep(builder_.uniform(builder_.uniform_slot(fmt::format("u{}", which))),
+                            false);
+            case Op::cell_column: return keep(builder_.cell_column(), true);
+            case Op::cell_row: return keep(builder_.cell_row(), true);
+            default: return keep(builder_.word(hostile_word(stream_)), true);
+        }
+    }
+
+    ValueId field(std::uint32_t which) {
+        return builder_.field(builder_.field_slot(fmt::format("f{}", which)));
+    }
+
+    void word_operation(Op op) {
+        const ValueId a = exact_operand();
+        if (op == Op::bits_to_number) return keep(builder_.apply(op, a), true);
+        const bool is_shift = op == Op::bits_shift_left || op == Op::bits_shift_right;
+        const ValueId b = is_shift ? builder_.word(stream_.below(32)) : exact_operand();
+        keep(builder_.apply(op, a, b), true);
+    }
+
+    void composed() {
+        const ValueId a = operand().id;
+        const ValueId b = operand().id;
+        switch (stream_.below(12)) {
+            case 0: return keep(builder_.exponential(a), false);
+            case 1: return keep(builder_.logarithm(a), false);
+            case 2: return keep(builder_.sine(a), false);
+            case 3: return keep(builder_.cosine(a), false);
+            case 4: return keep(builder_.hyperbolic_tangent(a), false);
+            case 5: return keep(builder_.power(a, b), false);
+            case 6:
+                return keep(builder_.power(a, builder_.number(
+                                                  static_cast<float>(stream_.below(9)) - 4.0f)),
+                            false);
+            case 7: return keep(builder_.random_symmetric(exact_operand(), stream_.next()), true);
+            case 8: return keep(builder_.minimum(a, b), false);
+            case 9: return keep(builder_.maximum(a, b), false);
+            case 10: return keep(builder_.clamp_below(a, b), false);
+            default: return keep(builder_.clamp_above(a, b), false);
+        }
+    }
+
+    void keep(ValueId id, bool is_exact) { values_.push_back({id, is_exact}); }
+
+    Value operand() {
+        if (values_.empty() || stream_.chance(15)) {
+            return {builder_.word(hostile_word(stream_)), true};
+        }
+        if (stream_.chance(15)) return {field(stream_.below(3)), false};
+        const bool is_recent = stream_.chance(60) && values_.size() > 8;
+        const std::size_t from = is_recent ? values_.size() - 8 : 0;
+        return values_[from + stream_.below(values_.size() - from)];
+    }
+
+    /// A value with a NaN replaced by 0, if it could be one.
+    ValueId exact_operand() {
+        const Value value = operand();
+        if (value.is_exact) return value.id;
+        const ValueId is_number = builder_.apply(Op::equal, value.id, value.id);
+        return builder_.select(is_number, value.id, builder_.number(0));
+    }
+
+    RandomStream stream_;
+    RandomKernelOptions options_;
+    KernelBuilder builder_;
+    std::vector<Value> values_;
+};
+
+}  // namespace
+
+std::uint32_t hostile_word(RandomStream& stream) {
+    switch (stream.below(8)) {
+        case 0:
+        case 1:
+        case 2: return stream.pick<std::uint32_t>(special_words);
+        case 3: return stream.below(64);
+        case 4: return static_cast<std::uint32_t>(stream.next());
+        case 5: return to_bits(stream.symmetric() * 100.0f);
+        default: return to_bits(stream.symmetric() * 2.0f);
+    }
+}
+
+CellKernel random_kernel(std::uint64_t seed, const RandomKernelOptions& options) {
+    return Generator(seed, options).generate();
+}
+
+void OperationCounts::add(const CellKernel& kernel) {
+    for (const Instruction& instruction : kernel.code) {
+        ++counts[static_cast<std::size_t>(instruction.op)];
+    }
+}
+
+std::string OperationCounts::missing() const {
+    std::string names;
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+        if (counts[k] != 0) continue;
+        names += fmt::format("{}{}", names.empty() ? "" : " ", info(static_cast<Op>(k)).name);
+    }
+    return names;
+}
+
+std::string OperationCounts::report() const {
+    std::string text;
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+        text += fmt::format("{:>9} {}\n", counts[k], info(static_cast<Op>(k)).name);
+    }
+    return text;
+}
+
+}  // namespace cascade::testing

@@ -1,0 +1,178 @@
+// The command line: what becomes of arguments, and what is said about wrong ones.
+#include "app/options.h"
+
+#include "app/exit_status.h"
+
+#include <gmock/gmock.h>
+
+namespace cascade {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+Options parsed(const std::vector<std::string>& arguments) {
+    auto result = parse_options("cascade", arguments);
+    if (const auto* leave = std::get_if<Leave>(&result)) {
+        ADD_FAILURE() << leave->text;
+        return {};
+    }
+    return std::get<Options>(std::move(result));
+}
+
+Leave left(const std::vector<std::string>& arguments) {
+    auto result = parse_options("cascade", arguments);
+    if (auto* leave = std::get_if<Leave>(&result)) return *leave;
+    ADD_FAILURE() << "was taken for right";
+    return {};
+}
+
+TEST(Options, run_takes_everything) {
+    const Options options = parsed(
+        {"run",        "a.cascade",  "-o",        "out.png",   "--grid",  "32x16",     "--seed",
+         "7",          "--set",      "ka=1/80",   "--set",     "s.b=2",   "--steps",   "100",
+         "--until-stage", "large",   "--show",    "b - a",     "--palette", "viridis", "--range",
+         "-1,2.5",     "--scale",    "4",         "--depth",   "16",      "--threads", "3",
+         "--lanes",    "8",          "--backend", "interp",    "--save",  "kept",      "--frames",
+         "film",       "--sheet",    "all.png",   "--stop-at", "s:50",    "--quiet"});
+    EXPECT_EQ(options.command, Command::run);
+    EXPECT_THAT(options.scripts, ElementsAre("a.cascade"));
+    EXPECT_EQ(options.run.output, "out.png");
+    EXPECT_EQ(options.overrides.grid, std::pair(std::int64_t{32}, std::int64_t{16}));
+    EXPECT_EQ(options.overrides.seed, 7U);
+    EXPECT_THAT(options.overrides.sets, ElementsAre("ka=1/80", "s.b=2"));
+    EXPECT_EQ(options.overrides.steps, 100);
+    EXPECT_EQ(options.overrides.until_stage, "large");
+    EXPECT_EQ(options.picture.show, "b - a");
+    EXPECT_EQ(options.picture.palette, "viridis");
+    ASSERT_TRUE(options.picture.range);
+    EXPECT_EQ(options.picture.range->low, -1.0F);
+    EXPECT_EQ(options.picture.range->high, 2.5F);
+    EXPECT_EQ(options.picture.scale, 4);
+    EXPECT_EQ(options.picture.depth, 16);
+    EXPECT_EQ(options.run.simulation.threads, 3);
+    EXPECT_EQ(options.run.simulation.lanes, 8);
+    EXPECT_EQ(options.run.simulation.backend, BackendKind::interpreter);
+    EXPECT_EQ(options.run.save, "kept");
+    EXPECT_EQ(options.run.frames, "film");
+    EXPECT_EQ(options.run.sheet, "all.png");
+    ASSERT_TRUE(options.run.stop_at);
+    EXPECT_EQ(options.run.stop_at->stage, "s");
+    EXPECT_EQ(options.run.stop_at->step, 50);
+    EXPECT_TRUE(options.quiet);
+}
+
+TEST(Options, set_takes_one_value_and_leaves_the_script) {
+    const Options options = parsed({"run", "--set", "ka=1/80", "a.cascade"});
+    EXPECT_THAT(options.overrides.sets, ElementsAre("ka=1/80"));
+    EXPECT_THAT(options.scripts, ElementsAre("a.cascade"));
+}
+
+TEST(Options, values_of_expressions_may_begin_with_a_minus) {
+    EXPECT_EQ(parsed({"run", "a.cascade", "--show", "-b"}).picture.show, "-b");
+    EXPECT_EQ(parsed({"run", "a.cascade", "--show=-b"}).picture.show, "-b");
+}
+
+TEST(Options, standard_input_is_a_script) {
+    EXPECT_THAT(parsed({"run", "-"}).scripts, ElementsAre("-"));
+}
+
+TEST(Options, what_was_not_given_leaves_a_stored_picture_alone) {
+    PictureRequest stored;
+    stored.palette = "magma";
+    stored.scale = 3;
+    const PictureRequest request =
+        apply(parsed({"run", "a.png", "--scale", "5"}).picture, stored);
+    EXPECT_EQ(request.palette, "magma");
+    EXPECT_EQ(request.scale, 5);
+}
+
+TEST(Options, check_takes_many_scripts) {
+    const Options options = parsed({"check", "a.cascade", "b.cascade", "--dump", "ast"});
+    EXPECT_EQ(options.command, Command::check);
+    EXPECT_THAT(options.scripts, ElementsAre("a.cascade", "b.cascade"));
+    EXPECT_EQ(options.dump, "ast");
+}
+
+TEST(Options, compile) {
+    const Options options =
+        parsed({"compile", "a.cascade", "--stage", "2", "--per-cell", "beta,ka", "--target",
+                "x86-64-v3", "-o", "step.o", "--header", "step.h"});
+    EXPECT_EQ(options.command, Command::compile);
+    EXPECT_EQ(options.compile.stage, "2");
+    EXPECT_THAT(options.compile.per_cell, ElementsAre("beta", "ka"));
+    EXPECT_EQ(options.compile.target, "x86-64-v3");
+    EXPECT_EQ(options.object, "step.o");
+    EXPECT_EQ(options.header, "step.h");
+}
+
+TEST(Options, resume_needs_no_script) {
+    EXPECT_EQ(parsed({"run", "--resume", "kept"}).run.resume, "kept");
+}
+
+TEST(Options, help_goes_to_standard_output) {
+    const Leave top = left({"--help"});
+    EXPECT_EQ(top.status, exit_status::success);
+    for (const char* command : {"run", "check", "compile", "systems", "repl"}) {
+        EXPECT_THAT(top.text, HasSubstr(command));
+    }
+    EXPECT_THAT(top.text, HasSubstr("cascade run examples/leopard.cascade"));
+    const Leave run = left({"run", "--help"});
+    EXPECT_EQ(run.status, exit_status::success);
+    EXPECT_THAT(run.text, HasSubstr("Usage: cascade run SCRIPT [options]"));
+    EXPECT_THAT(run.text, HasSubstr("--until-stage NAME"));
+    EXPECT_THAT(run.text, Not(HasSubstr("OPTIONS")));
+}
+
+TEST(Options, version) {
+    const Leave version = left({"--version"});
+    EXPECT_EQ(version.status, exit_status::success);
+    EXPECT_THAT(version.text, testing::StartsWith("cascade 0.1.0\n"));
+}
+
+struct WrongUse {
+    std::vector<std::string> arguments;
+    std::string message;
+};
+
+class WrongUses : public testing::TestWithParam<WrongUse> {};
+
+TEST_P(WrongUses, is_64_with_a_hint) {
+    const Leave leave = left(GetParam().arguments);
+    EXPECT_EQ(leave.status, exit_status::wrong_use);
+    EXPECT_THAT(leave.text, HasSubstr(GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Options, WrongUses,
+    testing::Values(
+        WrongUse{{}, "Usage: cascade COMMAND"},
+        WrongUse{{"rnu", "a.cascade"}, "no command 'rnu'; did you mean 'cascade run'?"},
+        WrongUse{{"a.cascade"}, "no command 'a.cascade'; did you mean 'cascade run a.cascade'?"},
+        WrongUse{{"fly"}, "the commands are run, check, compile, systems, repl"},
+        WrongUse{{"run"}, "cascade run: a script is missing"},
+        WrongUse{{"check"}, "cascade check: a script is missing"},
+        WrongUse{{"run", "a", "--pallete", "tan"}, "no option --pallete; did you mean --palette?"},
+        WrongUse{{"run", "a", "--gird=4x4"}, "no option --gird=4x4; did you mean --grid?"},
+        WrongUse{{"run", "a", "b"}, "'b' is one argument too many"},
+        WrongUse{{"run", "a", "--grid", "4y4"}, "--grid: '4y4' is not a grid (write columns x rows"},
+        WrongUse{{"run", "a", "--grid", "-4x4"}, "is not a grid"},
+        WrongUse{{"run", "a", "--seed", "-1"}, "whole number from 0 to 4294967295"},
+        WrongUse{{"run", "a", "--seed", "4294967296"}, "whole number from 0 to 4294967295"},
+        WrongUse{{"run", "a", "--steps", "1e3"}, "'1e3' is not a whole number"},
+        WrongUse{{"run", "a", "--scale", "65"}, "whole number from 1 to 64"},
+        WrongUse{{"run", "a", "--palette", "viridi"}, "did you mean 'viridis'?"},
+        WrongUse{{"run", "a", "--backend", "gpu"}, "'gpu' is none of"},
+        WrongUse{{"run", "a", "--range", "3"}, "'3' is not a range"},
+        WrongUse{{"run", "a", "--range", "3,3"}, "'3,3' is not a range"},
+        WrongUse{{"run", "a", "--range", "nan,1"}, "'nan,1' is not a range"},
+        WrongUse{{"run", "a", "-o", "a.jpg"}, "'a.jpg' does not end in .png"},
+        WrongUse{{"run", "a", "--stop-at", "9"}, "'9' is not a place to stop at"},
+        WrongUse{{"run", "a", "--dump", "irr"}, "did you mean 'ir'?"},
+        WrongUse{{"run", "a", "--save", ""}, "--save: it must not be empty"},
+        WrongUse{{"run", "a", "-o"}, "output"},
+        WrongUse{{"compile", "a", "--per-cell", "a,,b"}, "'a,,b' is not a list of names"}));
+
+}  // namespace
+}  // namespace cascade

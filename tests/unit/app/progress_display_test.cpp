@@ -1,0 +1,122 @@
+// Progress: what a bar and a line look like, and how often they are written.
+#include "app/progress_display.h"
+
+#include <gmock/gmock.h>
+
+#include <regex>
+
+namespace cascade {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using Time = ProgressDisplay::Time;
+
+Progress half_way() {
+    Progress progress;
+    progress.stage = "small";
+    progress.stage_number = 2;
+    progress.stage_count = 3;
+    progress.step = 3500;
+    progress.steps = 7000;
+    progress.steps_per_second = 12345.6;
+    progress.seconds_left = 64.2;
+    return progress;
+}
+
+/// Columns of a text of letters, digits and block elements.
+int columns_of(const std::string& text) {
+    int count = 0;
+    for (const char c : text) count += (static_cast<unsigned char>(c) & 0xc0) != 0x80 ? 1 : 0;
+    return count;
+}
+
+TEST(Progress, numbers_are_readable) {
+    EXPECT_EQ(with_commas(0), "0");
+    EXPECT_EQ(with_commas(999), "999");
+    EXPECT_EQ(with_commas(1000), "1,000");
+    EXPECT_EQ(with_commas(-1234567), "-1,234,567");
+    EXPECT_EQ(clock_time(0), "0:00");
+    EXPECT_EQ(clock_time(59.2), "1:00");
+    EXPECT_EQ(clock_time(3725), "1:02:05");
+    EXPECT_EQ(clock_time(1e30), "1000:00:00");
+}
+
+TEST(Progress, a_line_has_all_facts) {
+    EXPECT_EQ(progress_line(half_way()),
+              "stage 2/3 'small': 3,500 of 7,000 steps, 12,345 steps/s, 1:05 left");
+}
+
+TEST(Progress, a_bar_is_filled_by_the_share_of_steps) {
+    const std::string bar = progress_bar(half_way(), 120);
+    EXPECT_THAT(bar, HasSubstr("stage 2/3 'small' ▕"));
+    EXPECT_THAT(bar, HasSubstr("3,500/7,000  1:05 left  12,345 steps/s"));
+    std::string twenty_full;
+    for (int k = 0; k < 20; ++k) twenty_full += "█";
+    EXPECT_THAT(bar, HasSubstr("▕" + twenty_full + std::string(20, ' ') + "▏"));
+}
+
+TEST(Progress, a_bar_fits_into_any_terminal) {
+    for (int columns = 1; columns < 150; ++columns) {
+        EXPECT_LT(columns_of(progress_bar(half_way(), columns)), std::max(columns, 2)) << columns;
+    }
+    EXPECT_THAT(progress_bar(half_way(), 60), Not(HasSubstr("steps/s")));
+    EXPECT_EQ(progress_bar(half_way(), 20), "50 %");
+}
+
+TEST(Progress, nothing_is_made_up_before_it_is_known) {
+    Progress progress = half_way();
+    progress.steps_per_second = 0;
+    progress.seconds_left = -1;
+    EXPECT_EQ(progress_line(progress), "stage 2/3 'small': 3,500 of 7,000 steps");
+}
+
+/// A display whose clock and stream are ours.
+struct Watched {
+    Time now{};
+    std::string written;
+    ProgressDisplay display;
+
+    explicit Watched(ProgressDisplay::Kind kind)
+        : display(kind, {[this](std::string_view text) { written += text; }, [] { return 80; },
+                         [this] { return now; }}) {}
+};
+
+TEST(Progress, lines_are_sparse) {
+    Watched watched(ProgressDisplay::Kind::lines);
+    Progress progress = half_way();
+    progress.step = 0;
+    for (int second = 0; second <= 25; ++second) {
+        watched.now = Time(std::chrono::seconds(second));
+        progress.step = second * 100;
+        watched.display.show(progress);
+    }
+    EXPECT_EQ(std::count(watched.written.begin(), watched.written.end(), '\n'), 2);
+    progress.stage_done = true;
+    progress.step = progress.steps;
+    watched.display.show(progress);
+    EXPECT_THAT(watched.written, HasSubstr("7,000 of 7,000 steps, 280 steps/s\n"));
+    EXPECT_THAT(watched.written, Not(HasSubstr("\r")));
+}
+
+TEST(Progress, the_bar_is_taken_away) {
+    Watched watched(ProgressDisplay::Kind::bar);
+    watched.display.clear();
+    EXPECT_EQ(watched.written, "");
+    watched.display.show(half_way());
+    EXPECT_THAT(watched.written, Not(HasSubstr("\n")));
+    Progress done = half_way();
+    done.stage_done = true;
+    watched.display.show(done);
+    EXPECT_TRUE(watched.written.ends_with("\r\x1b[2K"));
+}
+
+TEST(Progress, quiet_is_quiet) {
+    Watched watched(ProgressDisplay::Kind::none);
+    watched.display.show(half_way());
+    watched.display.clear();
+    EXPECT_EQ(watched.written, "");
+}
+
+}  // namespace
+}  // namespace cascade

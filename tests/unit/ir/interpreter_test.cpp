@@ -1,0 +1,275 @@
+// The interpreter: where values come from and go to, rows and blocks, and random kernels against an
+// evaluation of one cell after the other.
+#include "ir/interpreter.h"
+
+#include "core/floating_point.h"
+#include "ir/builder.h"
+#include "tests/support/kernel_comparison.h"
+#include "tests/support/random_kernels.h"
+#include "tests/support/random_stream.h"
+#include "tests/unit/ir/operation_oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace cascade {
+namespace {
+
+using testing::oracle;
+
+/// A kernel that computes a cell after the other from the tests' own table of meanings.
+class CellByCell : public Backend {
+public:
+    std::string_view name() const override { return "cell by cell"; }
+    Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) override {
+        return std::make_shared<const Compiled>(kernel, stencil);
+    }
+
+private:
+    class Compiled : public Kernel {
+    public:
+        Compiled(CellKernel kernel, Stencil stencil)
+            : kernel_(std::move(kernel)), stencil_(stencil) {}
+
+        void run(const KernelArguments& arguments, RowRange rows) const override {
+            std::vector<std::uint32_t> words(kernel_.code.size());
+            for (std::int64_t j = rows.begin; j < rows.end; ++j) {
+                for (std::int64_t i = 0; i < arguments.layout.width; ++i) {
+                    for (std::size_t id = 0; id < words.size(); ++id) {
+                        words[id] = word(arguments, i, j, kernel_.code[id], words);
+                    }
+                    const std::int64_t at = j * arguments.layout.stride + i;
+                    for (std::size_t k = 0; k < kernel_.results.size(); ++k) {
+                        arguments.results[k][at] = to_number(words[kernel_.results[k]]);
+                    }
+                }
+            }
+        }
+
+    private:
+        std::uint32_t word(const KernelArguments& arguments, std::int64_t i, std::int64_t j,
+                           const Instruction& instruction,
+                           const std::vector<std::uint32_t>& words) const {
+            const std::uint32_t slot = instruction.payload;
+            const std::int64_t at = j * arguments.layout.stride + i;
+            switch (instruction.op) {
+                case Op::constant: return slot;
+                case Op::field: return to_bits(arguments.fields[slot][at]);
+                case Op::laplacian:
+                    return laplacian(arguments.fields[slot] + at, arguments.layout.stride);
+                case Op::mask: return testing::truth(arguments.masks[slot][at] != 0);
+                case Op::uniform: return to_bits(arguments.uniforms[slot]);
+                case Op::cell_column: return static_cast<std::uint32_t>(i);
+                case Op::cell_row: return static_cast<std::uint32_t>(j);
+                default: break;
+            }
+            const auto [a, b, c] = instruction.operands;
+            return oracle(instruction.op, words[a], words[b], words[c]);
+        }
+
+        std::uint32_t laplacian(const float* cell, std::int64_t stride) const {
+            const auto sum = [](std::uint32_t a, std::uint32_t b) {
+                return oracle(Op::add, a, b, 0);
+            };
+            const std::uint32_t east_west = sum(to_bits(cell[1]), to_bits(cell[-1]));
+            const std::uint32_t north_south = sum(to_bits(cell[-stride]), to_bits(cell[stride]));
+            const std::uint32_t all =
+                sum(sum(north_south, to_bits(cell[1])), to_bits(cell[-1]));
+            const bool is_plane = stencil_ == Stencil::plane;
+            const std::uint32_t own =
+                oracle(Op::multiply, to_bits(is_plane ? 4.0f : 2.0f), to_bits(cell[0]), 0);
+            const std::uint32_t others = is_plane                   ? all
+                                         : stencil_ == Stencil::row ? east_west
+                                                                    : north_south;
+            return oracle(Op::subtract, others, own, 0);
+        }
+
+        CellKernel kernel_;
+        Stencil stencil_;
+    };
+};
+
+TEST(Interpreter, RandomKernelsAgainstCellByCell) {
+    const auto interpreter = make_interpreter();
+    CellByCell reference;
+    testing::OperationCounts counts;
+    for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+        const CellKernel kernel = testing::random_kernel(seed);
+        ASSERT_EQ(verify(kernel), "") << "seed " << seed;
+        counts.add(kernel);
+        const Grid grid = testing::random_grid(seed, seed % 20 == 0 ? 600 : 67, 5);
+        const auto expected = testing::run_kernel(reference, kernel, grid, seed);
+        const auto actual = testing::run_kernel(*interpreter, kernel, grid, seed);
+        ASSERT_EQ(testing::same_bits(expected, actual), "")
+            << "seed " << seed << "\n" << print(kernel);
+        ASSERT_EQ(testing::stray_writes(actual, {0, grid.height}), "") << "seed " << seed;
+    }
+    EXPECT_EQ(counts.missing(), "") << counts.report();
+}
+
+TEST(Interpreter, ComputesTheRowsItIsGiven) {
+    const auto interpreter = make_interpreter();
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+        const CellKernel kernel = testing::random_kernel(seed);
+        const Grid grid{37, 7, Boundary::periodic};
+        const testing::HostileInputs inputs(kernel, grid, seed);
+        const KernelPointer compiled = *interpreter->compile(kernel, grid.stencil());
+        const std::vector<Field> whole = inputs.run(*compiled);
+        const RowRange rows{2, 5};
+        const std::vector<Field> part = inputs.run(*compiled, rows);
+        ASSERT_EQ(testing::stray_writes(part, rows), "");
+        for (std::size_t k = 0; k < part.size(); ++k) {
+            for (std::int64_t j = rows.begin; j < rows.end; ++j) {
+                for (std::int64_t i = 0; i < grid.width; ++i) {
+                    ASSERT_TRUE(testing::same_word(to_bits(part[k].at(i, j)),
+                                                   to_bits(whole[k].at(i, j))));
+                }
+            }
+        }
+    }
+}
+
+/// Runs `kernel` on one field of a grid, its halo filled.
+std::vector<Field> run_on(const CellKernel& kernel, Field& field, const Grid& grid) {
+    fill_halo(field.origin(), field.layout(), grid.boundary);
+    std::vector<Field> results;
+    std::vector<float*> targets;
+    for (std::size_t k = 0; k < kernel.results.size(); ++k) {
+        results.emplace_back(field.layout());
+        targets.push_back(results.back().origin());
+    }
+    const float* fields[] = {field.origin()};
+    const float uniforms[] = {2.5f};
+    const FlushDenormals environment;
+    const KernelPointer compiled = *make_interpreter()->compile(kernel, grid.stencil());
+    compiled->run({fields, {}, std::span(uniforms).first(kernel.uniform_names.size()), targets,
+                   field.layout()},
+                  {0, grid.height});
+    return results;
+}
+
+// 2^24 + 1 + 1 is 2^24 from the left, and 2^24 + 2 if the small ones are added first: what the
+// order of the sum is, shows.
+TEST(Laplacian, HasTheOrderOfTheSpecification) {
+    KernelBuilder builder;
+    builder.result("r", builder.laplacian(builder.field_slot("a")));
+    const CellKernel kernel = std::move(builder).finish();
+    const Grid grid{3, 3, Boundary::periodic};
+    Field field{PlaneLayout(grid)};
+    const auto value = [&](float north, float south, float east, float west) {
+        field.at(1, 0) = north;
+        field.at(1, 2) = south;
+        field.at(2, 1) = east;
+        field.at(0, 1) = west;
+        return run_on(kernel, field, grid)[0].at(1, 1);
+    };
+    EXPECT_EQ(value(0x1p24f, 1, 1, 0), 0x1p24f);
+    EXPECT_EQ(value(1, 1, 0x1p24f, 0), 0x1p24f + 2);
+    EXPECT_EQ(value(1, 0, 1, 0x1p24f), 0x1p24f + 2);
+    EXPECT_EQ(value(1, 0x1p24f, 0, 1), 0x1p24f);
+    EXPECT_EQ(value(0, 1, 0x1p24f, 1), 0x1p24f);
+    EXPECT_EQ(value(1, 1, 1, 1), 4);
+    field.at(1, 1) = 3;
+    EXPECT_EQ(value(1, 1, 1, 1), -8);
+}
+
+TEST(Laplacian, OnLines) {
+    KernelBuilder builder;
+    builder.result("r", builder.laplacian(builder.field_slot("a")));
+    const CellKernel kernel = std::move(builder).finish();
+    for (const Grid& grid : {Grid{5, 1, Boundary::no_flux}, Grid{1, 5, Boundary::no_flux}}) {
+        Field field{PlaneLayout(grid)};
+        const auto cell = [&](Field& of, std::int64_t k) -> float& {
+            return grid.height == 1 ? of.at(k, 0) : of.at(0, k);
+        };
+        for (std::int64_t k = 0; k < 5; ++k) cell(field, k) = static_cast<float>(k * k);
+        std::vector<Field> results = run_on(kernel, field, grid);
+        EXPECT_EQ(cell(results[0], 0), 1) << "mirror: 1 + 0 − 2 · 0";
+        for (std::int64_t k = 1; k < 4; ++k) EXPECT_EQ(cell(results[0], k), 2);
+        EXPECT_EQ(cell(results[0], 4), -7) << "mirror: 16 + 9 − 2 · 16";
+    }
+}
+
+TEST(Interpreter, ResultsOfEveryKind) {
+    KernelBuilder builder;
+    const ValueId uniform = builder.uniform(builder.uniform_slot("u"));
+    const ValueId field = builder.field(builder.field_slot("a"));
+    builder.result("constant", builder.number(7));
+    builder.result("uniform", uniform);
+    builder.result("uniform expression", builder.multiply(uniform, builder.number(2)));
+    builder.result("field", field);
+    builder.result("field again", field);
+    builder.result("column", builder.apply(Op::bits_to_number, builder.cell_column()));
+    builder.result("row", builder.apply(Op::bits_to_number, builder.cell_row()));
+    const CellKernel kernel = std::move(builder).finish();
+    const Grid grid{700, 3, Boundary::periodic};
+    Field a{PlaneLayout(grid)};
+    for (std::int64_t j = 0; j < 3; ++j) {
+        for (std::int64_t i = 0; i < 700; ++i) a.at(i, j) = static_cast<float>(i * 10 + j);
+    }
+    const std::vector<Field> results = run_on(kernel, a, grid);
+    for (std::int64_t j = 0; j < 3; ++j) {
+        for (std::int64_t i = 0; i < 700; ++i) {
+            EXPECT_EQ(results[0].at(i, j), 7);
+            EXPECT_EQ(results[1].at(i, j), 2.5f);
+            EXPECT_EQ(results[2].at(i, j), 5);
+            EXPECT_EQ(results[3].at(i, j), a.at(i, j));
+            EXPECT_EQ(results[4].at(i, j), a.at(i, j));
+            EXPECT_EQ(results[5].at(i, j), static_cast<float>(i));
+            EXPECT_EQ(results[6].at(i, j), static_cast<float>(j));
+        }
+    }
+}
+
+// x ← x / 2 + 1 tends to 2 and stays there; a million times, with two registers.
+TEST(Interpreter, AMillionOperations) {
+    KernelBuilder builder;
+    ValueId x = builder.field(builder.field_slot("x"));
+    for (int k = 0; k < 500000; ++k) {
+        x = builder.add(builder.multiply(x, builder.number(0.5f)), builder.number(1));
+    }
+    builder.result("x", x);
+    EXPECT_GT(builder.size(), 1000000u);
+    const CellKernel kernel = std::move(builder).finish();
+    EXPECT_EQ(verify(kernel), "");
+    const Grid grid{10, 1, Boundary::periodic};
+    Field field{PlaneLayout(grid)};
+    for (std::int64_t i = 0; i < 10; ++i) field.at(i, 0) = static_cast<float>(i * i);
+    const std::vector<Field> results = run_on(kernel, field, grid);
+    for (std::int64_t i = 0; i < 10; ++i) EXPECT_EQ(results[0].at(i, 0), 2);
+}
+
+// Folded and run: the same kernel with its constants as uniforms gives the same bits.
+TEST(Interpreter, FoldingIsRunning) {
+    testing::RandomStream stream(11);
+    const Grid grid{1, 1, Boundary::periodic};
+    Field none{PlaneLayout(grid)};
+    for (int trial = 0; trial < 300; ++trial) {
+        const float a = to_number(testing::hostile_word(stream));
+        const auto expand = [&](KernelBuilder& builder, ValueId x, ValueId y) {
+            const ValueId sum = builder.add(x, builder.exponential(y));
+            const ValueId ratio = builder.divide(sum, builder.maximum(x, y));
+            return builder.minimum(builder.power(ratio, y), builder.sine(x));
+        };
+        KernelBuilder folding;
+        const ValueId known = folding.word(to_bits(a));
+        const ValueId folded = expand(folding, known, folding.number(2.5f));
+        ASSERT_TRUE(folding.is_constant(folded));
+        KernelBuilder running;
+        const ValueId first = running.field(running.field_slot("x"));
+        const ValueId second = running.uniform(running.uniform_slot("y"));
+        running.result("r", expand(running, first, second));
+        none.at(0, 0) = a;
+        const std::vector<Field> results = run_on(std::move(running).finish(), none, grid);
+        ASSERT_TRUE(testing::same_word(folding[folded].payload, to_bits(results[0].at(0, 0))))
+            << a;
+    }
+}
+
+TEST(Evaluate, IsNotForSources) {
+    EXPECT_DEATH(evaluate(Op::cell_row, 0, 0, 0), "source");
+}
+
+}  // namespace
+}  // namespace cascade

@@ -1,0 +1,53 @@
+// Runs functions of one or two numbers that a builder expands, on many arguments at once.
+#pragma once
+
+#include "core/floating_point.h"
+#include "core/plane.h"
+#include "ir/builder.h"
+#include "ir/interpreter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace cascade::testing {
+
+/// `expand(builder, x, y)` gives the value of the function.
+template <typename Expand>
+std::vector<float> apply_to_all(const Expand& expand, const std::vector<float>& x,
+                                const std::vector<float>& y) {
+    KernelBuilder builder;
+    const ValueId first = builder.field(builder.field_slot("x"));
+    const ValueId second = builder.field(builder.field_slot("y"));
+    builder.result("r", expand(builder, first, second));
+    const CellKernel kernel = std::move(builder).finish();
+    const Grid grid{static_cast<std::int64_t>(x.size()), 1, Boundary::periodic};
+    const PlaneLayout layout(grid);
+    Field a(layout), b(layout), out(layout);
+    std::copy(x.begin(), x.end(), a.origin());
+    std::copy(y.begin(), y.end(), b.origin());
+    const float* fields[] = {a.origin(), b.origin()};
+    float* results[] = {out.origin()};
+    const FlushDenormals environment;
+    const KernelPointer compiled = *make_interpreter()->compile(kernel, Stencil::row);
+    compiled->run({fields, {}, {}, results, layout}, {0, 1});
+    return {out.origin(), out.origin() + x.size()};
+}
+
+/// How far `value` is from `exact`, in units in the last place of binary32 numbers of its size.
+/// Infinite where one of them is a NaN, an infinity or of a sign that the other is not. Where the
+/// exact value is denormal a zero of its sign is right.
+inline double error_in_ulp(float value, double exact) {
+    constexpr double wrong = std::numeric_limits<double>::infinity();
+    if (std::isnan(exact) || std::isnan(value))
+        return std::isnan(exact) && std::isnan(value) ? 0 : wrong;
+    if (std::signbit(exact) != std::signbit(value)) return wrong;
+    if (std::fabs(exact) < 0x1p-126) return std::fabs(value) <= 0x1p-126f ? 0 : wrong;
+    if (std::isinf(static_cast<float>(exact)))
+        return std::fabs(value) >= 0x1.fffffep127f ? 0 : wrong;
+    if (std::isinf(value)) return std::fabs(exact) > 0x1.fffffep127 ? 0 : wrong;
+    return std::fabs(value - exact) / std::ldexp(1.0, std::max(std::ilogb(exact), -126) - 23);
+}
+
+}  // namespace cascade::testing

@@ -1,0 +1,75 @@
+// The meaning of the operations of the table, written a second time for the tests: in double
+// precision, with denormals flushed by hand, and so without any special environment.
+#pragma once
+
+#include "ir/cell_kernel.h"
+
+#include <cmath>
+#include <cstdint>
+
+namespace cascade::testing {
+
+inline bool is_nan_word(std::uint32_t word) { return (word & 0x7fffffffu) > 0x7f800000u; }
+
+/// The same number: equal words, or both NaN.
+inline bool same_word(std::uint32_t a, std::uint32_t b) {
+    return a == b || (is_nan_word(a) && is_nan_word(b));
+}
+
+/// A word as a number; denormals are zero.
+inline double read_number(std::uint32_t word) {
+    const bool is_tiny = (word & 0x7f800000u) == 0;
+    return to_number(is_tiny ? word & 0x80000000u : word);
+}
+
+/// Rounds to 24 bits as if exponents had no end, then flushes what is below 2^−126. A result of one
+/// operation on two binary32 numbers, rounded to binary64 and then again, is rounded as if once.
+inline std::uint32_t write_number(double value) {
+    if (std::fabs(value) >= 0x1p-100 || std::isnan(value)) {
+        return to_bits(static_cast<float>(value));
+    }
+    const float enlarged = static_cast<float>(value * 0x1p200);
+    if (std::fabs(enlarged) < 0x1p74f) return std::signbit(value) ? 0x80000000u : 0u;
+    return to_bits(static_cast<float>(enlarged * 0x1p-200));
+}
+
+inline std::uint32_t truth(bool value) { return value ? to_bits(1.0f) : 0u; }
+
+/// The word that an operation other than a source makes of three words.
+inline std::uint32_t oracle(Op op, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const double x = read_number(a);
+    const double y = read_number(b);
+    switch (op) {
+        case Op::add: return write_number(x + y);
+        case Op::subtract: return write_number(x - y);
+        case Op::multiply: return write_number(x * y);
+        case Op::divide: return write_number(x / y);
+        case Op::negate: return a ^ 0x80000000u;
+        case Op::absolute: return a & 0x7fffffffu;
+        case Op::square_root: return write_number(std::sqrt(x));
+        case Op::less: return truth(x < y);
+        case Op::less_equal: return truth(x <= y);
+        case Op::equal: return truth(x == y);
+        case Op::not_equal: return truth(!(x == y));
+        case Op::logical_and: return truth(!(x == 0) && !(y == 0));
+        case Op::logical_or: return truth(!(x == 0) || !(y == 0));
+        case Op::logical_not: return truth(x == 0);
+        case Op::select: return x == 0 ? c : b;
+        case Op::bits_add: return a + b;
+        case Op::bits_subtract: return a - b;
+        case Op::bits_multiply: return a * b;
+        case Op::bits_and: return a & b;
+        case Op::bits_or: return a | b;
+        case Op::bits_xor: return a ^ b;
+        case Op::bits_shift_left: return b > 31 ? 0 : a << b;
+        case Op::bits_shift_right: return b > 31 ? 0 : a >> b;
+        case Op::bits_to_number: {
+            const std::int64_t word = a;
+            const std::int64_t value = word >= 0x80000000 ? word - 0x100000000 : word;
+            return write_number(static_cast<double>(value));
+        }
+        default: return 0xdeadbeef;
+    }
+}
+
+}  // namespace cascade::testing

@@ -1,0 +1,126 @@
+// Random numbers of cells: the function that the specification writes down, and its statistics.
+#include "core/floating_point.h"
+#include "core/hash.h"
+#include "core/plane.h"
+#include "ir/builder.h"
+#include "ir/interpreter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace cascade {
+namespace {
+
+constexpr std::uint64_t some_key = 0x0123456789abcdefULL;
+
+Field random_field(const Grid& grid, std::uint64_t key, float draw) {
+    KernelBuilder builder;
+    const ValueId step = builder.uniform(builder.uniform_slot("step"));
+    builder.result("r", builder.random_symmetric(step, key));
+    const CellKernel kernel = std::move(builder).finish();
+    Field out{PlaneLayout(grid)};
+    float* results[] = {out.origin()};
+    const float uniforms[] = {draw};
+    const FlushDenormals environment;
+    const KernelPointer compiled = *make_interpreter()->compile(kernel, grid.stencil());
+    compiled->run({{}, {}, uniforms, results, out.layout()}, {0, grid.height});
+    return out;
+}
+
+TEST(RandomNumbers, AreTheHashOfCellDrawAndKey) {
+    const Grid grid{300, 40, Boundary::periodic};
+    for (const float draw : {0.0f, 1.0f, 27999.0f}) {
+        const Field field = random_field(grid, some_key, draw);
+        for (std::int64_t j = 0; j < grid.height; ++j) {
+            for (std::int64_t i = 0; i < grid.width; ++i) {
+                const auto column = static_cast<std::uint32_t>(i);
+                const auto row = static_cast<std::uint32_t>(j);
+                const auto hash = pcg4d({column, row, to_bits(draw) ^ 0x01234567u, 0x89abcdefu});
+                const double exact = ((hash[0] >> 9) + 0.5) / 4194304.0 - 1.0;
+                ASSERT_EQ(static_cast<double>(field.at(i, j)), exact) << i << ", " << j;
+            }
+        }
+    }
+}
+
+TEST(RandomNumbers, AreUniformAndSymmetric) {
+    const Grid grid{512, 512, Boundary::periodic};
+    const Field field = random_field(grid, some_key, 0);
+    const double count = static_cast<double>(grid.cell_count());
+    std::vector<double> bins(64);
+    double sum = 0, squares = 0;
+    for (std::int64_t j = 0; j < grid.height; ++j) {
+        for (std::int64_t i = 0; i < grid.width; ++i) {
+            const double value = field.at(i, j);
+            ASSERT_GT(value, -1);
+            ASSERT_LT(value, 1);
+            sum += value;
+            squares += value * value;
+            ++bins[static_cast<std::size_t>((value + 1) * 32)];
+        }
+    }
+    // Mean 0 and variance 1/3, within five standard deviations of their estimates.
+    EXPECT_NEAR(sum / count, 0, 5 * std::sqrt(1.0 / 3 / count));
+    EXPECT_NEAR(squares / count, 1.0 / 3, 5 * std::sqrt(4.0 / 45 / count));
+    // χ² of 63 degrees of freedom has the standard deviation √126.
+    double chi_square = 0;
+    for (const double bin : bins)
+        chi_square += (bin - count / 64) * (bin - count / 64) * 64 / count;
+    EXPECT_NEAR(chi_square, 63, 5 * std::sqrt(126.0));
+}
+
+/// Correlation of two fields, the second shifted by (di, dj) across periodic sides.
+double correlation(const Field& a, const Field& b, std::int64_t di, std::int64_t dj) {
+    const PlaneLayout& layout = a.layout();
+    double sum = 0;
+    for (std::int64_t j = 0; j < layout.height; ++j) {
+        for (std::int64_t i = 0; i < layout.width; ++i) {
+            sum += static_cast<double>(a.at(i, j)) *
+                   b.at((i + di) % layout.width, (j + dj) % layout.height);
+        }
+    }
+    return sum * 3 / static_cast<double>(layout.width * layout.height);
+}
+
+TEST(RandomNumbers, NeighboursAreIndependent) {
+    const Grid grid{256, 256, Boundary::periodic};
+    const Field field = random_field(grid, some_key, 0);
+    const double limit = 5.0 / 256;  // Five standard deviations.
+    for (std::int64_t dj = 0; dj <= 2; ++dj) {
+        for (std::int64_t di = 0; di <= 2; ++di) {
+            if (di == 0 && dj == 0) continue;
+            EXPECT_LT(std::fabs(correlation(field, field, di, dj)), limit) << di << ", " << dj;
+        }
+    }
+}
+
+TEST(RandomNumbers, StepsAndKeysAreIndependent) {
+    const Grid grid{128, 128, Boundary::periodic};
+    const double limit = 5.0 / 128;
+    Field before = random_field(grid, some_key, 0);
+    for (int step = 1; step <= 40; ++step) {
+        Field now = random_field(grid, some_key, static_cast<float>(step));
+        EXPECT_LT(std::fabs(correlation(before, now, 0, 0)), limit) << "step " << step;
+        before = std::move(now);
+    }
+    const Field original = random_field(grid, some_key, 0);
+    for (int bit = 0; bit < 62; ++bit) {
+        if (bit == 30 || bit == 31) continue;  // See the test of pcg4d.
+        const Field other = random_field(grid, some_key ^ (1ULL << bit), 0);
+        EXPECT_LT(std::fabs(correlation(original, other, 0, 0)), limit) << "bit " << bit;
+    }
+}
+
+TEST(RandomNumbers, ALargerGridBeginsWithTheSameValues) {
+    const Field small = random_field({20, 10, Boundary::periodic}, some_key, 3);
+    const Field large = random_field({500, 30, Boundary::no_flux}, some_key, 3);
+    for (std::int64_t j = 0; j < 10; ++j) {
+        for (std::int64_t i = 0; i < 20; ++i) ASSERT_EQ(small.at(i, j), large.at(i, j));
+    }
+}
+
+}  // namespace
+}  // namespace cascade

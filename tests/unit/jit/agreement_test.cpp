@@ -1,0 +1,227 @@
+// Native code and the interpreter compute the same bits: random kernels, hostile numbers, all
+// vector widths, stencils and shapes of grids.
+#include "ir/builder.h"
+#include "ir/interpreter.h"
+#include "jit/jit.h"
+#include "tests/support/kernel_comparison.h"
+#include "tests/support/random_kernels.h"
+#include "tests/support/random_stream.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+
+namespace cascade::testing {
+namespace {
+
+std::unique_ptr<Backend> jit_of(int lanes, int optimise) {
+    auto made = make_jit({lanes, optimise});
+    EXPECT_TRUE(made) << (made ? "" : made.error().message);
+    return made ? std::move(*made) : nullptr;
+}
+
+/// Compares one kernel on one grid; the text says where it differs, or what was written besides.
+std::string difference(Backend& jit, const CellKernel& kernel, const Grid& grid,
+                       std::uint64_t seed) {
+    const auto compiled = jit.compile(kernel, grid.stencil());
+    if (!compiled) return compiled.error().message;
+    const HostileInputs inputs(kernel, grid, seed);
+    const RowRange rows{0, grid.height};
+    const std::vector<Field> results = inputs.run(**compiled, rows);
+    const std::string stray = stray_writes(results, rows);
+    if (!stray.empty()) return stray;
+    const auto interpreter = make_interpreter();
+    return same_bits(run_kernel(*interpreter, kernel, grid, seed), results);
+}
+
+std::string describe(const Grid& grid) { return fmt::format("{} × {}", grid.width, grid.height); }
+
+struct Backends {
+    std::unique_ptr<Backend> plain[3] = {jit_of(4, 0), jit_of(8, 0), jit_of(16, 0)};
+    std::unique_ptr<Backend> optimised[3] = {jit_of(4, 2), jit_of(8, 2), jit_of(16, 2)};
+};
+
+// Each kernel is compiled twice, in two widths; all combinations come round.
+TEST(JitAgreement, RandomKernels) {
+    constexpr std::uint64_t count = 2400;
+    Backends backends;
+    OperationCounts hit;
+    for (std::uint64_t seed = 1; seed <= count; ++seed) {
+        RandomKernelOptions options;
+        options.operations = 6 + static_cast<int>(seed % 20);
+        options.results = 1 + static_cast<int>(seed % 3);
+        options.composed_percent = seed % 8 == 0 ? 8 : 0;
+        const CellKernel kernel = random_kernel(seed, options);
+        hit.add(kernel);
+        const Grid grid = random_grid(seed, 67, 5);
+        SCOPED_TRACE(fmt::format("seed {}, grid {}", seed, describe(grid)));
+        ASSERT_EQ(difference(*backends.plain[seed % 3], kernel, grid, seed), "")
+            << "without optimisation\n" << print(kernel);
+        ASSERT_EQ(difference(*backends.optimised[(seed / 3) % 3], kernel, grid, seed), "")
+            << "optimised\n" << print(kernel);
+    }
+    EXPECT_EQ(hit.missing(), "") << "operations that were never tried";
+    std::printf("operations in %d kernels:\n%s", static_cast<int>(count), hit.report().c_str());
+}
+
+TEST(JitAgreement, LargeKernels) {
+    Backends backends;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        RandomKernelOptions options;
+        options.operations = 300;
+        options.composed_percent = 2;
+        const CellKernel kernel = random_kernel(seed + 100000, options);
+        const Grid grid = random_grid(seed, 67, 5);
+        SCOPED_TRACE(fmt::format("seed {}", seed));
+        ASSERT_EQ(difference(*backends.plain[seed % 3], kernel, grid, seed), "");
+        ASSERT_EQ(difference(*backends.optimised[seed % 3], kernel, grid, seed), "");
+    }
+}
+
+// Beyond a size, code comes from the simple generator.
+TEST(JitAgreement, HugeKernels) {
+    Backends backends;
+    KernelBuilder builder;
+    const ValueId own = builder.field(builder.field_slot("a"));
+    const ValueId factor = builder.uniform(builder.uniform_slot("p"));
+    ValueId value = builder.laplacian(builder.field_slot("b"));
+    for (int k = 0; k < 1000; ++k) {
+        const ValueId product = builder.multiply(builder.add(value, own), factor);
+        const ValueId rest = builder.subtract(value, builder.number(static_cast<float>(k)));
+        value = builder.select(builder.apply(Op::less, rest, own), product, rest);
+    }
+    builder.result("r", value);
+    const CellKernel kernel = std::move(builder).finish();
+    ASSERT_GT(kernel.code.size(), 3000u);
+    for (const auto& backend : backends.optimised) {
+        ASSERT_EQ(difference(*backend, kernel, Grid{50, 2, Boundary::periodic}, 1), "");
+    }
+}
+
+/// A kernel that depends on everything that depends on place.
+CellKernel kernel_of_place() {
+    KernelBuilder builder;
+    const ValueId lap = builder.laplacian(builder.field_slot("a"));
+    const ValueId other = builder.laplacian(builder.field_slot("b"));
+    const ValueId place = builder.apply(
+        Op::bits_to_number, builder.apply(Op::bits_add,
+                                          builder.apply(Op::bits_multiply, builder.cell_row(),
+                                                        builder.word(1000)),
+                                          builder.cell_column()));
+    builder.result("lap", builder.add(lap, builder.field(builder.field_slot("a"))));
+    builder.result("place", place);
+    builder.result("all", builder.select(builder.mask(builder.mask_slot("m")), place, other));
+    return std::move(builder).finish();
+}
+
+TEST(JitAgreement, EveryShapeOfGrid) {
+    Backends backends;
+    const CellKernel kernel = kernel_of_place();
+    for (std::int64_t width = 1; width <= 67; ++width) {
+        for (std::int64_t height = 1; height <= 5; ++height) {
+            for (const Boundary boundary : {Boundary::periodic, Boundary::no_flux}) {
+                const Grid grid{width, height, boundary};
+                for (const auto& backend : backends.optimised) {
+                    ASSERT_EQ(difference(*backend, kernel, grid, 7), "") << describe(grid);
+                }
+            }
+        }
+    }
+}
+
+// The loop for wide planes prefetches and is another copy of the body.
+TEST(JitAgreement, WidePlanes) {
+    Backends backends;
+    for (const std::int64_t width : {127, 128, 129, 300, 1030}) {
+        for (const auto& backend : backends.optimised) {
+            const Grid grid{width, 3, Boundary::periodic};
+            ASSERT_EQ(difference(*backend, kernel_of_place(), grid, 3), "") << describe(grid);
+            ASSERT_EQ(difference(*backend, random_kernel(5), grid, 3), "") << describe(grid);
+        }
+    }
+}
+
+TEST(JitAgreement, PartsOfTheRowsMakeTheWhole) {
+    const auto jit = jit_of(0, 2);
+    const CellKernel kernel = kernel_of_place();
+    const Grid grid{37, 9, Boundary::periodic};
+    const auto compiled = jit->compile(kernel, grid.stencil());
+    ASSERT_TRUE(compiled);
+    const HostileInputs inputs(kernel, grid, 11);
+    const std::vector<Field> whole = inputs.run(**compiled);
+    for (const RowRange rows : {RowRange{0, 4}, {4, 5}, {5, 9}, {3, 3}}) {
+        const std::vector<Field> part = inputs.run(**compiled, rows);
+        EXPECT_EQ(stray_writes(part, rows), "");
+        for (std::size_t k = 0; k < whole.size(); ++k) {
+            for (std::int64_t j = rows.begin; j < rows.end; ++j) {
+                for (std::int64_t i = 0; i < grid.width; ++i) {
+                    const std::uint32_t expected = to_bits(whole[k].at(i, j));
+                    const bool is_nan = whole[k].at(i, j) != whole[k].at(i, j);
+                    if (is_nan) continue;
+                    ASSERT_EQ(to_bits(part[k].at(i, j)), expected);
+                }
+            }
+        }
+    }
+}
+
+// Identities that LLVM takes for granted and that are none where denormals are flushed. The
+// kernels are written by hand, as the builder folds some of them.
+TEST(JitAgreement, FlushingIsNotOptimisedAway) {
+    using Code = std::vector<Instruction>;
+    const auto word = [](std::uint32_t bits) { return Instruction{Op::constant, {}, bits}; };
+    const Instruction x{Op::field, {}, 0}, y{Op::field, {}, 1};
+    const auto on = [](Op op, ValueId a, ValueId b = 0, ValueId c = 0) {
+        return Instruction{op, {a, b, c}, 0};
+    };
+    const std::array<Code, 16> cases{{
+        {x, word(0x3f800000), on(Op::multiply, 0, 1)},
+        {x, word(0xbf800000), on(Op::multiply, 1, 0)},
+        {x, word(0x3f800000), on(Op::divide, 0, 1)},
+        {x, word(0xbf800000), on(Op::divide, 0, 1)},
+        {x, word(0), on(Op::add, 0, 1)},
+        {x, word(0x80000000), on(Op::add, 1, 0)},
+        {x, word(0), on(Op::subtract, 0, 1)},
+        {x, word(0x80000000), on(Op::subtract, 0, 1)},
+        {x, word(0x80000000), on(Op::subtract, 1, 0)},
+        {x, on(Op::absolute, 0), word(0), on(Op::add, 1, 2)},
+        {x, on(Op::bits_xor, 0, 0), on(Op::subtract, 0, 1)},
+        {x, y, on(Op::less, 0, 1), on(Op::select, 2, 0, 1)},
+        {x, y, on(Op::less, 1, 0), on(Op::select, 2, 0, 1)},
+        {x, y, on(Op::equal, 0, 1), on(Op::select, 2, 0, 1)},
+        {x, word(0x00000123), on(Op::less, 0, 1), on(Op::select, 2, 1, 0)},
+        {word(0x00000123), on(Op::square_root, 0), word(0x71000000), on(Op::multiply, 0, 2),
+         on(Op::add, 1, 3)},
+    }};
+    Backends backends;
+    for (const Code& code : cases) {
+        CellKernel kernel{code, {static_cast<ValueId>(code.size() - 1)}, {"x", "y"}, {}, {}, {"r"}};
+        ASSERT_EQ(verify(kernel), "");
+        for (int width = 0; width < 3; ++width) {
+            for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+                const Grid grid{64, 4, Boundary::periodic};
+                EXPECT_EQ(difference(*backends.plain[width], kernel, grid, seed), "")
+                    << print(kernel);
+                EXPECT_EQ(difference(*backends.optimised[width], kernel, grid, seed), "")
+                    << print(kernel);
+            }
+        }
+    }
+}
+
+// The comparison above can fail: a kernel that differs in one operation is noticed.
+TEST(JitAgreement, AnotherKernelDiffers) {
+    const auto jit = jit_of(0, 2);
+    KernelBuilder first, second;
+    const Grid grid{20, 3, Boundary::periodic};
+    first.result("r", first.add(first.field(first.field_slot("a")), first.number(1)));
+    second.result("r", second.subtract(second.field(second.field_slot("a")), second.number(1)));
+    const CellKernel one = std::move(first).finish();
+    const CellKernel other = std::move(second).finish();
+    EXPECT_NE(same_bits(run_kernel(*jit, one, grid, 1), run_kernel(*jit, other, grid, 1)), "");
+}
+
+}  // namespace
+}  // namespace cascade::testing

@@ -1,0 +1,55 @@
+// What the tests of checker and lowering share: a text, checked, and its faults as short lines.
+#pragma once
+
+#include "lang/check.h"
+#include "lang/parse.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cascade::testing {
+
+/// A text and what the front end made of it. Held by pointer: views point into its sources.
+struct Checked {
+    Sources sources;
+    Diagnostics diagnostics;
+    ast::Script tree;
+    std::optional<Program> program;
+
+    /// "line:column: message | hint", in order; warnings begin with "warning".
+    std::vector<std::string> faults() const {
+        std::vector<std::string> lines;
+        for (const Diagnostic& fault : diagnostics.sorted()) {
+            const Location place = sources[fault.span.source].locate(fault.span.begin);
+            lines.push_back(fmt::format("{}:{}: {}{}{}{}", place.line, place.column,
+                                        fault.severity == Severity::warning ? "warning: " : "",
+                                        fault.message, fault.hint.empty() ? "" : " | ",
+                                        fault.hint));
+        }
+        return lines;
+    }
+};
+
+inline std::unique_ptr<Checked> check_text(const std::string& text,
+                                           const std::vector<std::string>& overrides = {}) {
+    auto result = std::make_unique<Checked>();
+    const SourceId id = result->sources.add("test.cascade", text);
+    result->tree = parse(id, result->sources, result->diagnostics);
+    for (const std::string& change : overrides) {
+        const SourceId line = result->sources.add("<command line>", change);
+        parse_override(line, result->sources, result->tree, result->diagnostics);
+    }
+    result->program = check(result->tree, result->sources, result->diagnostics);
+    return result;
+}
+
+/// The number that a formula is, or a number that no test expects.
+inline double only_number(const Formula& formula) {
+    if (formula.nodes.size() != 1 || formula.nodes[0].kind != NodeKind::number) return -1e300;
+    return formula.nodes[0].number;
+}
+
+}  // namespace cascade::testing

@@ -1,0 +1,136 @@
+// Runs lowered kernels with the interpreter: a whole stage, item by item and step by step, with
+// nothing of the time loop.
+#pragma once
+
+#include "check_helpers.h"
+
+#include "core/floating_point.h"
+#include "core/plane.h"
+#include "ir/interpreter.h"
+#include "lang/lower.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace cascade::testing {
+
+/// The state of all stages of a program.
+class ScriptRun {
+public:
+    explicit ScriptRun(const Program& program)
+        : program_(program), layout_(program.domain.grid), stages_(program.stages.size()) {}
+
+    void start(std::uint32_t stage) {
+        State& state = stages_[stage];
+        const auto count = program_.system_of(stage).item_count();
+        state.numbers.assign(count, 0);
+        state.fields.resize(count);
+        const PlaneLayout one{Grid{1, 1, Boundary::periodic}};
+        const BoundKernel uniform = lower_uniform_start(program_, stage);
+        const std::vector<Field> numbers = run(uniform, stage, one);
+        for (std::size_t k = 0; k < numbers.size(); ++k) {
+            state.numbers[uniform.results[k]] = numbers[k].at(0, 0);
+        }
+        const BoundKernel cells = lower_cell_start(program_, stage);
+        std::vector<Field> fields = run(cells, stage, layout_);
+        for (std::size_t k = 0; k < fields.size(); ++k) {
+            state.fields[cells.results[k]] = std::move(fields[k]);
+        }
+    }
+
+    void step(std::uint32_t stage, int count = 1) {
+        const BoundKernel kernel = lower_step(program_, stage);
+        for (int i = 0; i < count; ++i) {
+            std::vector<Field> next = run(kernel, stage, layout_);
+            for (std::size_t k = 0; k < next.size(); ++k) {
+                stages_[stage].fields[kernel.results[k]] = std::move(next[k]);
+            }
+            ++stages_[stage].steps;
+        }
+    }
+
+    std::vector<Field> rates(std::uint32_t stage) {
+        return run(lower_rates(program_, stage), stage, layout_);
+    }
+
+    std::vector<Field> view(const Formula& formula, std::uint32_t stage) {
+        return run(lower_view(program_, formula, stage), stage, layout_);
+    }
+
+    Field& field(std::uint32_t stage, const std::string& name) {
+        return stages_[stage].fields[item_of(stage, name)];
+    }
+    float number(std::uint32_t stage, const std::string& name) {
+        return stages_[stage].numbers[item_of(stage, name)];
+    }
+    std::map<std::string, Field> files;  ///< What `field("…")` reads.
+
+private:
+    struct State {
+        std::vector<float> numbers;
+        std::vector<Field> fields;
+        int steps = 0;
+    };
+
+    std::uint32_t item_of(std::uint32_t stage, const std::string& name) const {
+        const System& system = program_.system_of(stage);
+        for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+            if (system.item_name(item) == name) return item;
+        }
+        ADD_FAILURE() << "no item " << name;
+        return 0;
+    }
+
+    std::vector<Field> run(const BoundKernel& bound, std::uint32_t stage,
+                           const PlaneLayout& layout) {
+        EXPECT_EQ(verify(bound.kernel), "");
+        const FlushDenormals environment;
+        std::vector<const float*> fields;
+        for (const SlotSource& source : bound.fields) {
+            Field& field = source.kind == SlotSource::Kind::file
+                               ? files.at(program_.texts[source.item])
+                               : stages_[source.stage].fields[source.item];
+            EXPECT_FALSE(field.empty());
+            fill_halo(field.origin(), layout, program_.domain.grid.boundary);
+            fields.push_back(field.origin());
+        }
+        std::vector<Mask> masks;
+        std::vector<const std::uint8_t*> mask_origins;
+        for (const SlotSource& source : bound.masks) {
+            masks.emplace_back(layout);
+            const Field& field = stages_[source.stage].fields[source.item];
+            for (std::int64_t j = 0; j < layout.height; ++j) {
+                for (std::int64_t i = 0; i < layout.width; ++i) {
+                    masks.back().at(i, j) = field.at(i, j) != 0;
+                }
+            }
+            mask_origins.push_back(masks.back().origin());
+        }
+        std::vector<float> uniforms;
+        for (const SlotSource& source : bound.uniforms) {
+            uniforms.push_back(source.kind == SlotSource::Kind::step
+                                   ? static_cast<float>(stages_[stage].steps)
+                                   : stages_[source.stage].numbers[source.item]);
+        }
+        std::vector<Field> results;
+        std::vector<float*> origins;
+        for (std::size_t k = 0; k < bound.kernel.results.size(); ++k) {
+            results.emplace_back(layout);
+            origins.push_back(results.back().origin());
+        }
+        const Stencil stencil = Grid{layout.width, layout.height}.stencil();
+        const KernelPointer kernel = make_interpreter()->compile(bound.kernel, stencil).value();
+        kernel->run({fields, mask_origins, uniforms, origins, layout}, {0, layout.height});
+        return results;
+    }
+
+    const Program& program_;
+    PlaneLayout layout_;
+    std::vector<State> stages_;
+};
+
+}  // namespace cascade::testing

@@ -1,0 +1,126 @@
+// Damaged files of all kinds give a failure or some value, never a crash. The sanitizers' build is
+// where these tests bite.
+#include "picture/image.h"
+#include "picture/npy.h"
+#include "tests/unit/picture/png_chunks.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace cascade {
+namespace {
+
+std::string valid_npy() { return encode_npy(Field(PlaneLayout(Grid{3, 2}))); }
+
+std::string valid_png() {
+    const PngTexts texts{{"Script", std::string(2000, 's')}, {"Seed", "1"}, {"Version", "0.1.0"}};
+    return encode_png(Image(5, 4, {0.2F, 0.5F, 0.8F}), PngDepth::sixteen, texts).value_or("");
+}
+
+/// A reader has met a file well if it gave a reason or a value that holds together.
+void expect_sound_npy(const std::string& bytes) {
+    const Result<NpyArray> array = parse_npy(bytes);
+    if (!array) {
+        EXPECT_FALSE(array.error().message.empty());
+        return;
+    }
+    EXPECT_EQ(static_cast<std::size_t>(array->rows * array->columns), array->values.size());
+    EXPECT_LE(array->values.size(), bytes.size());
+}
+
+void expect_sound_png(const std::string& bytes) {
+    const Result<PngTexts> texts = parse_png_texts(bytes);
+    EXPECT_TRUE(texts || !texts.error().message.empty());
+}
+
+using Expectation = void (*)(const std::string& bytes);
+
+void cut_everywhere(const std::string& file, Expectation expect_sound) {
+    for (std::size_t size = 0; size <= file.size(); ++size) expect_sound(file.substr(0, size));
+}
+
+void flip_every_bit(const std::string& file, Expectation expect_sound) {
+    for (std::size_t k = 0; k < file.size() * 8; ++k) {
+        std::string changed = file;
+        changed[k / 8] = static_cast<char>(changed[k / 8] ^ (1 << k % 8));
+        expect_sound(changed);
+    }
+}
+
+/// Replaces, deletes, doubles and swaps stretches at random.
+std::string shaken(std::string bytes, std::mt19937& random) {
+    const auto below = [&](std::size_t limit) { return limit == 0 ? 0 : random() % limit; };
+    const std::size_t changes = 1 + below(6);
+    for (std::size_t change = 0; change < changes; ++change) {
+        const std::size_t at = below(bytes.size());
+        const std::size_t size = below(16);
+        switch (below(4)) {
+            case 0: bytes.erase(at, size); break;
+            case 1: bytes.insert(at, bytes.substr(below(bytes.size()), size)); break;
+            case 2: bytes.insert(at, size, static_cast<char>(random())); break;
+            default:
+                if (at < bytes.size()) bytes[at] = static_cast<char>(random());
+        }
+    }
+    return bytes;
+}
+
+TEST(HostileNpy, CutFlippedAndShaken) {
+    const std::string file = valid_npy();
+    ASSERT_TRUE(parse_npy(file));
+    cut_everywhere(file, expect_sound_npy);
+    flip_every_bit(file, expect_sound_npy);
+    std::mt19937 random(1);
+    for (int round = 0; round < 20'000; ++round) expect_sound_npy(shaken(file, random));
+}
+
+TEST(HostileNpy, ShakenDictionaries) {
+    const std::string dictionary =
+        "{'descr': [('a', '<f4')], 'fortran_order': False, 'shape': (2, 3, 4L), }";
+    std::mt19937 random(2);
+    for (int round = 0; round < 20'000; ++round) {
+        const std::string changed = shaken(dictionary, random);
+        std::string file("\x93NUMPY\x01\x00", 8);
+        file += static_cast<char>(changed.size() & 0xff);
+        file += static_cast<char>(changed.size() >> 8);
+        expect_sound_npy(file + changed);
+    }
+}
+
+TEST(HostilePng, CutFlippedAndShaken) {
+    const std::string file = valid_png();
+    ASSERT_TRUE(parse_png_texts(file));
+    cut_everywhere(file, expect_sound_png);
+    flip_every_bit(file, expect_sound_png);
+    std::mt19937 random(3);
+    for (int round = 0; round < 5'000; ++round) expect_sound_png(shaken(file, random));
+}
+
+TEST(HostilePng, ShakenChunksWithRightChecksums) {
+    // Wrong checksums stop a reader early; these changes get past them.
+    const std::string nul(1, '\0');
+    std::vector<test::Chunk> chunks = test::take_apart(valid_png());
+    ASSERT_GE(chunks.size(), 5U);
+    chunks.insert(chunks.end() - 1, {"zTXt", "Note" + nul + nul + test::deflated("some words")});
+    chunks.insert(chunks.end() - 1, {"tEXt", "Title" + nul + "caf\xe9"});
+    ASSERT_TRUE(parse_png_texts(test::assemble(chunks)));
+    std::mt19937 random(4);
+    for (int round = 0; round < 20'000; ++round) {
+        std::vector<test::Chunk> changed = chunks;
+        const std::size_t changes = 1 + random() % 3;
+        for (std::size_t change = 0; change < changes && !changed.empty(); ++change) {
+            const std::size_t k = random() % changed.size();
+            switch (random() % 5) {
+                case 0: changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(k)); break;
+                case 1: changed.push_back(changed[k]); break;
+                case 2: std::swap(changed[k], changed[random() % changed.size()]); break;
+                default: changed[k].data = shaken(changed[k].data, random);
+            }
+        }
+        expect_sound_png(test::assemble(changed));
+    }
+}
+
+}  // namespace
+}  // namespace cascade

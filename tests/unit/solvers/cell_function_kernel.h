@@ -1,0 +1,121 @@
+// Kernels for tests, written as C++ functions of a cell: they need no IR, so that the time loop is
+// tested apart from everything that makes kernels.
+#pragma once
+
+#include "core/plane.h"
+#include "ir/backend.h"
+#include "solvers/advance.h"
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace cascade::testing {
+
+/// What a function of a cell may read.
+struct CellView {
+    const KernelArguments& arguments;
+    Stencil stencil;
+    std::int64_t i, j;
+
+    std::int64_t at() const { return j * arguments.layout.stride + i; }
+    float field(std::size_t slot) const { return arguments.fields[slot][at()]; }
+    bool mask(std::size_t slot) const { return arguments.masks[slot][at()] != 0; }
+    float uniform(std::size_t slot) const { return arguments.uniforms[slot]; }
+    float laplacian(std::size_t slot) const {
+        const float* c = arguments.fields[slot] + at();
+        const std::int64_t stride = arguments.layout.stride;
+        if (stencil == Stencil::row) return (c[1] + c[-1]) - 2.0f * c[0];
+        if (stencil == Stencil::column) return (c[-stride] + c[stride]) - 2.0f * c[0];
+        return ((c[-stride] + c[stride]) + c[1]) + c[-1] - 4.0f * c[0];
+    }
+};
+
+/// Writes the results of a cell.
+using CellFunction = std::function<void(const CellView& cell, float* results)>;
+
+/// Runs a CellFunction. Behind each row it writes NaN up to the next multiple of row_pad, as the
+/// contract of kernels allows: nobody may rely on what is there.
+class CellFunctionKernel : public Kernel {
+public:
+    CellFunctionKernel(CellFunction function, Stencil stencil)
+        : function_(std::move(function)), stencil_(stencil) {}
+
+    void run(const KernelArguments& arguments, RowRange rows) const override {
+        const PlaneLayout& layout = arguments.layout;
+        const std::int64_t pad = PlaneLayout::row_pad;
+        const std::int64_t padded = (layout.width + pad - 1) / pad * pad;
+        std::vector<float> values(arguments.results.size());
+        for (std::int64_t j = rows.begin; j < rows.end; ++j) {
+            for (std::int64_t i = 0; i < padded; ++i) {
+                if (i < layout.width) function_({arguments, stencil_, i, j}, values.data());
+                for (std::size_t k = 0; k < values.size(); ++k) {
+                    arguments.results[k][j * layout.stride + i] =
+                        i < layout.width ? values[k] : std::numeric_limits<float>::quiet_NaN();
+                }
+            }
+        }
+    }
+
+private:
+    CellFunction function_;
+    Stencil stencil_;
+};
+
+/// A problem whose slot k is species k, all read at neighbours.
+inline StepProblem make_problem(const Grid& grid, int species, CellFunction function) {
+    StepProblem problem;
+    problem.step = std::make_shared<CellFunctionKernel>(std::move(function), grid.stencil());
+    problem.grid = grid;
+    for (int k = 0; k < species; ++k) problem.fields.push_back({k, nullptr});
+    problem.species_needs_halo.assign(static_cast<std::size_t>(species), true);
+    return problem;
+}
+
+/// One explicit step of heat conduction: uniform 0 is diffusion times the time step.
+inline StepProblem heat_problem(const Grid& grid, float diffusion) {
+    StepProblem problem = make_problem(grid, 1, [](const CellView& cell, float* results) {
+        results[0] = cell.field(0) + cell.uniform(0) * cell.laplacian(0);
+    });
+    problem.uniforms = {diffusion};
+    return problem;
+}
+
+/// A field with the values of a function of column and row.
+template <typename Function>
+Field make_field(const Grid& grid, Function function) {
+    Field field{PlaneLayout(grid)};
+    for (std::int64_t j = 0; j < grid.height; ++j) {
+        for (std::int64_t i = 0; i < grid.width; ++i) {
+            field.at(i, j) = static_cast<float>(function(i, j));
+        }
+    }
+    return field;
+}
+
+/// The cells row after row, without halo and padding.
+inline std::vector<float> cells_of(const Field& field) {
+    std::vector<float> cells;
+    for (std::int64_t j = 0; j < field.layout().height; ++j) {
+        cells.insert(cells.end(), field.row(j), field.row(j) + field.layout().width);
+    }
+    return cells;
+}
+
+/// Advances with no observer and no reports.
+inline StageOutcome advance_quietly(const StepProblem& problem, const Schedule& schedule,
+                                    std::vector<Field>& species) {
+    RunControl control;
+    return advance(problem, schedule, species, control, Progress{}, Observer{});
+}
+
+/// Reproducible numbers in [0, 1) without structure a grid could resonate with.
+inline double scatter(std::int64_t i, std::int64_t j) {
+    const double wave = 43758.5453 * (static_cast<double>((i * 7919 + j * 104729) % 65537) + 0.5) /
+                        65537.0;
+    return wave - static_cast<double>(static_cast<std::int64_t>(wave));
+}
+
+}  // namespace cascade::testing
