@@ -33,7 +33,7 @@ public:
         el_set(edit, EL_ADDFN, "cascade-complete", "Complete the word", &EditReader::complete);
         el_set(edit, EL_BIND, "^I", "cascade-complete", nullptr);
         // Ctrl-C is a key while a line is typed: it drops the line and not the program.
-        el_set(edit, EL_SETTY, "-d", "intr=", nullptr);
+        el_set(edit, EL_SETTY, "-d", "-isig", nullptr);
         el_set(edit, EL_ADDFN, "cascade-drop", "Drop the line", &EditReader::drop);
         el_set(edit, EL_BIND, "^C", "cascade-drop", nullptr);
         el_set(edit, EL_BIND, "^R", "em-inc-search-prev", nullptr);

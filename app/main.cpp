@@ -6,8 +6,11 @@
 #include "app/options.h"
 #include "app/repl.h"
 
+#include <algorithm>
 #include <clocale>
+#include <exception>
 #include <new>
+#include <string>
 
 namespace {
 
@@ -44,5 +47,9 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         console.fail({"there is not enough memory", "a smaller grid needs less"});
         return cascade::exit_status::failed_run;
+    } catch (const std::exception& error) {
+        console.fail({std::string("this should not have happened: ") + error.what(),
+                      "it is a fault of Cascade's own"});
+        return cascade::exit_status::bug;
     }
 }

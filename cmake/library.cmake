@@ -4,19 +4,21 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 # The rooms are linked in but not exported: only what cascade.h declares can be called.
-add_library(cascade SHARED run/pattern.cpp)
-target_link_libraries(cascade PRIVATE cascade_run)
-target_link_options(cascade PRIVATE LINKER:--exclude-libs,ALL)
-target_compile_definitions(cascade PRIVATE CASCADE_VERSION="${PROJECT_VERSION}")
-target_include_directories(cascade INTERFACE
+add_library(cascade_library SHARED run/pattern.cpp)
+target_link_libraries(cascade_library PRIVATE cascade_run)
+target_link_options(cascade_library PRIVATE LINKER:--exclude-libs,ALL)
+target_compile_definitions(cascade_library PRIVATE CASCADE_VERSION="${PROJECT_VERSION}")
+target_include_directories(cascade_library INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-target_compile_features(cascade INTERFACE cxx_std_17)
-set_target_properties(cascade PROPERTIES
+target_compile_features(cascade_library INTERFACE cxx_std_17)
+set_target_properties(cascade_library PROPERTIES
+  OUTPUT_NAME cascade
+  EXPORT_NAME cascade
   VERSION ${PROJECT_VERSION}
   SOVERSION ${PROJECT_VERSION_MAJOR}
   INSTALL_RPATH "$ORIGIN")
-add_library(Cascade::cascade ALIAS cascade)
+add_library(Cascade::cascade ALIAS cascade_library)
 
 file(RELATIVE_PATH libraries_from_programs
   ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
@@ -29,7 +31,7 @@ configure_package_config_file(cmake/CascadeConfig.cmake.in CascadeConfig.cmake
 write_basic_package_version_file(CascadeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 
 install(TARGETS cascade_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS cascade EXPORT CascadeTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS cascade_library EXPORT CascadeTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(FILES include/cascade/cascade.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cascade)
 install(EXPORT CascadeTargets NAMESPACE Cascade:: DESTINATION ${package_folder})
 install(FILES

@@ -80,8 +80,8 @@ fs::path temporary_beside(const fs::path& path) {
            fmt::format(".cascade-{}-{}.tmp", static_cast<long>(::getpid()), count.fetch_add(1));
 }
 
-/// Where a write to this path ends: behind symbolic links, also one to a file not made yet. A circle
-/// of links is left to the system to complain about.
+/// Where a write to this path ends: behind symbolic links, also one to a file not made yet. A
+/// circle of links is left to the system to complain about.
 fs::path behind_links(const fs::path& path) {
     fs::path target = path;
     std::error_code error;

@@ -39,11 +39,6 @@ bool yields_number(Op op) { return (op >= Op::add && op <= Op::divide) || op == 
 /// Operations whose result is the number 1 or 0.
 bool yields_truth(Op op) { return op == Op::mask || (op >= Op::less && op <= Op::logical_not); }
 
-bool is_true(std::uint32_t word) {
-    const FlushDenormals environment;
-    return evaluate(Op::not_equal, word, 0, 0) != 0;
-}
-
 }  // namespace
 
 ValueId KernelBuilder::number(float value) {

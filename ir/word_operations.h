@@ -28,6 +28,10 @@ constexpr bool is_logic = op >= Op::logical_and && op <= Op::logical_not;
 inline constexpr std::uint32_t one_bits = 0x3f800000;
 inline constexpr std::uint32_t sign_bit = 0x80000000;
 
+/// A number other than zero. Asked of the word, because compilers that see a number made from a word
+/// and compared with 0 may look at its bits, and take a denormal for true.
+inline bool is_true(std::uint32_t word) { return (word & ~sign_bit) >= 0x00800000; }
+
 template <Op op>
 float arithmetic(float a, float b) {
     if constexpr (op == Op::add) return a + b;
@@ -82,9 +86,9 @@ inline std::uint32_t word_operation(std::uint32_t a, std::uint32_t b, std::uint3
     } else if constexpr (is_comparison<op>) {
         return comparison<op>(x, y) ? one_bits : 0;
     } else if constexpr (is_logic<op>) {
-        return logic<op>(x != 0, y != 0) ? one_bits : 0;
+        return logic<op>(is_true(a), is_true(b)) ? one_bits : 0;
     } else if constexpr (op == Op::select) {
-        return x != 0 ? b : c;
+        return is_true(a) ? b : c;
     } else {
         return integer<op>(a, b);
     }

@@ -53,7 +53,7 @@ public:
 /// scopes outside of it, which must outlive it.
 class BodyScope {
 public:
-    /// `builder` writes in front of the terminator, or at the end, of this level's block.
+    /// `builder` writes at the end of this level's block, which is still without a terminator.
     BodyScope(const CellKernel& kernel, std::span<const Level> levels, Level level,
               Builder& builder, Lane& lane, int lanes, BodyScope* outer);
 

@@ -274,13 +274,12 @@ void GridLoops::rows(bool prefetch, Builder& place) {
     place.SetInsertPoint(after);
 }
 
-// `place` is in the block in front of the columns, which is where the values of a row go.
+// `place` is in the block in front of the columns, which is where the values of a row go. It stays
+// open while they come: LLVM's folding follows jumps, and cannot bear to find an empty block.
 void GridLoops::columns(bool prefetch, Value* row, Builder& place, llvm::BasicBlock* next) {
     llvm::BasicBlock* cells = new_block("cells");
     Value* start = place.CreateNSWMul(row, frame_.stride(), "row_start");
     Value* end = place.CreateNSWAdd(start, frame_.width());
-    llvm::Instruction* jump = place.CreateBr(cells);
-    place.SetInsertPoint(jump);
     OuterLane row_lane(frame_, place, row);
     BodyScope row_scope(kernel_, levels_, Level::row, place, row_lane, frame_.lanes(), &scope_);
     row_scope.emit();
@@ -294,8 +293,9 @@ void GridLoops::columns(bool prefetch, Value* row, Builder& place, llvm::BasicBl
     }
     Value* behind = inner.CreateNSWAdd(element, inner.getInt64(frame_.lanes()));
     inner.CreateCondBr(inner.CreateICmpSLT(behind, end), cells, next);
-    element->addIncoming(start, jump->getParent());
+    element->addIncoming(start, place.GetInsertBlock());
     element->addIncoming(behind, cells);
+    place.CreateBr(cells);
 }
 
 void GridLoops::body(CellLane& lane, Builder& place, BodyScope& row_scope) {
@@ -347,17 +347,18 @@ llvm::Function* build_grid_function(llvm::Module& module, const CellKernel& kern
         llvm::Function::Create(type, llvm::GlobalValue::ExternalLinkage, name, module);
     function->setDoesNotThrow();
 
-    // What is needed once goes to the end of the first block while the loops behind it are built.
+    // What is needed once goes to the end of the first block while the loops behind it are built;
+    // like all blocks that are written to, it is closed last.
     llvm::BasicBlock* entry = llvm::BasicBlock::Create(context, "entry", function);
     llvm::BasicBlock* begin = llvm::BasicBlock::Create(context, "begin", function);
     const llvm::InstSimplifyFolder folder(module.getDataLayout());
     Builder entry_builder(entry, folder);
-    entry_builder.SetInsertPoint(entry_builder.CreateBr(begin));
     GridFrame frame(*function, kernel, shape, entry_builder);
     GridLoops loops(frame, kernel);
 
     Builder builder(begin, folder);
     build_loops(frame, loops, kernel, builder);
+    entry_builder.CreateBr(begin);
     return function;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -18,14 +19,16 @@ std::string advice(double largest, double speed) {
                        largest, used, safe_speed(largest));
 }
 
-/// The limit at the start if that explains the failure, else the one just before it.
+/// The smaller of the two limits; empty where neither state has one.
 std::optional<double> limit(const NotFiniteReport& report) {
     const auto start = report.estimate_at_start.largest_speed;
     const auto before = report.estimate_before.largest_speed;
-    if (start && (std::isnan(report.speed) || *start < 1.02 * report.speed)) return start;
-    if (before && std::isfinite(*before)) return before;
-    return start;
+    if (start && before) return std::min(*start, *before);
+    return start ? start : before;
 }
+
+/// A limit well above the speed in use did not make the run fail.
+bool explains(double largest, double speed) { return std::isnan(speed) || largest < 1.1 * speed; }
 
 }  // namespace
 
@@ -43,8 +46,14 @@ Failure describe(const NotFiniteReport& report) {
         "stage '{}' ({}): {} is not finite any more at column {}, row {}, after step {}",
         report.stage, report.system, report.species, found.column, found.row, found.step);
     const auto largest = limit(report);
-    failure.hint = largest ? advice(*largest, report.speed)
-                           : "the reaction itself grows without bound: a smaller speed may not help";
+    if (largest && explains(*largest, report.speed)) {
+        failure.hint = advice(*largest, report.speed);
+    } else {
+        failure.hint = "the reaction itself grows without bound here";
+        if (largest) {
+            failure.hint += fmt::format(" (diffusion is stable up to a speed of about {:.3g})", *largest);
+        }
+    }
     return failure;
 }
 

@@ -13,7 +13,7 @@ struct NotFiniteReport {
     std::string stage, system, species;
     NotFinite found;
     double speed = 0;                      ///< NaN where it varies by cell.
-    StabilityEstimate estimate_before;     ///< At the last finite state.
+    StabilityEstimate estimate_before;     ///< At the last look before.
     StabilityEstimate estimate_at_start;   ///< At the stage's starting values.
 };
 

@@ -39,6 +39,16 @@ Result<void> check_outputs(const RunRequest& request, const std::filesystem::pat
     return {};
 }
 
+/// A picture larger than memory is refused before the run, not behind it.
+Result<void> check_picture_size(const Grid& grid, const PictureRequest& picture) {
+    constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+    const std::int64_t pixels_per_cell = std::int64_t{picture.scale} * picture.scale;
+    if (grid.cell_count() <= most_pixels / pixels_per_cell) return {};
+    return failure(fmt::format("a picture of {} × {} cells at scale {} has more than {} pixels",
+                               grid.width, grid.height, picture.scale, most_pixels),
+                   "use a smaller grid or --scale");
+}
+
 Result<void> check_request(const Script& script, const RunRequest& request) {
     const Program& program = *script.program;
     if (request.picture.space_time && program.domain.grid.height != 1) {
@@ -101,6 +111,7 @@ Result<void> Runner::prepare() {
     auto simulation = Simulation::create(script_, request_.simulation);
     if (!simulation) return tl::unexpected(simulation.error());
     simulation_ = std::move(*simulation);
+    if (auto good = check_picture_size(simulation_->grid(), request_.picture); !good) return good;
     if (!request_.frames.empty() || request_.picture.space_time) {
         auto frames = FrameRecorder::create(request_.frames, request_.picture.space_time);
         if (!frames) return tl::unexpected(frames.error());
@@ -116,7 +127,10 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
         if (auto started = simulation_->start_stage(k); !started) {
             return tl::unexpected(started.error());
         }
-        if (stage.iterations > 0) look();
+        // A later stage's start shows what the frame before it shows: the stage that ran.
+        if (stage.iterations > 0 && simulation_->state(*simulation_->shown_stage()).steps == 0) {
+            look();
+        }
     }
     if (simulation_->state(k).done) return StageEnd::finished;
     std::int64_t last = stage.iterations;

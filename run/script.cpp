@@ -106,7 +106,7 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
     Script script;
     script.name = std::move(name);
     script.text = std::move(text);
-    script.folder = std::move(folder);
+    script.folder = folder.empty() ? "." : std::move(folder);
     script.overrides = std::move(overrides);
 
     const SourceId source = script.sources.add(script.name, script.text);

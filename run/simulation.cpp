@@ -115,12 +115,16 @@ struct Simulation::Implementation {
         return *interpreter->compile(bound.kernel, grid.stencil());
     }
 
-    Failure explain(const NotFinite& found, std::uint32_t k);
+    Failure explain(const StageOutcome& outcome, std::uint32_t k);
     void warn_of_chequerboard(std::uint32_t k, RunControl& control) const;
-    StabilityEstimate stability(std::uint32_t k) const {
+    StabilityEstimate stability(std::uint32_t k, std::span<const Field> species) const {
         const BoundKernel rates = lower_rates(*program, k);
         auto kernel = interpreter->compile(rates.kernel, grid.stencil());
-        return estimate_stability(problem(rates, *kernel, k), states[k].species);
+        StepProblem bound = problem(rates, *kernel, k);
+        // Rates know nothing of frozen cells, but those cannot blow up.
+        bound.masks.clear();
+        if (!states[k].frozen.empty()) bound.masks.push_back(states[k].frozen.origin());
+        return estimate_stability(bound, species);
     }
     double speed_number(std::uint32_t k) const {
         const std::uint32_t item = program->system_of(k).speed_item();
@@ -197,7 +201,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     schedule.last_step = self.frozen_everywhere(k) ? state.steps : last_step;
     schedule.interval = stage.interval;
     schedule.threads = self.threads;
-    const auto outcome = advance(
+    const StageOutcome outcome = advance(
         self.problem(bound, self.compile_step(bound, control, stage.name), k), schedule,
         state.species, control, progress,
         [&](std::int64_t step, std::span<const Field>) {
@@ -206,7 +210,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
             return true;
         });
     state.steps = outcome.steps;
-    if (outcome.not_finite) return tl::unexpected(self.explain(*outcome.not_finite, k));
+    if (outcome.not_finite) return tl::unexpected(self.explain(outcome, k));
     if (self.frozen_everywhere(k) && !outcome.cancelled) state.steps = last_step;
     self.warn_of_chequerboard(k, control);
     if (outcome.cancelled) return StageEnd::cancelled;
@@ -240,24 +244,24 @@ std::optional<std::uint32_t> Simulation::shown_stage() const {
     return shown;
 }
 
-Failure Simulation::Implementation::explain(const NotFinite& found, std::uint32_t k) {
+Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::uint32_t k) {
     NotFiniteReport report;
     report.stage = stage(k).name;
     const System& system = program->system_of(k);
     report.system = system.name;
-    report.species = species_name(system, found.species);
-    report.found = found;
+    report.species = species_name(system, outcome.not_finite->species);
+    report.found = *outcome.not_finite;
     report.speed = speed_number(k);
-    report.estimate_before = stability(k);
+    if (report.found.step == 0) return describe(report);
+    report.estimate_before = stability(k, outcome.last_checked);
     // A state on its way to infinity says little about the speed that would have been right: the
     // start of the stage is asked as well.
-    if (found.step > 0) {
-        std::vector<Field> last_finite = std::move(states[k].species);
-        states[k].species.resize(last_finite.size());
-        start_varying_items(k);
-        report.estimate_at_start = stability(k);
-        states[k].species = std::move(last_finite);
-    }
+    std::vector<Field> last_finite = std::move(states[k].species);
+    states[k].species.clear();
+    states[k].species.resize(last_finite.size());
+    start_varying_items(k);
+    report.estimate_at_start = stability(k, states[k].species);
+    states[k].species = std::move(last_finite);
     return describe(report);
 }
 
@@ -268,7 +272,7 @@ void Simulation::Implementation::warn_of_chequerboard(std::uint32_t k,
     for (std::size_t s = 0; s < states[k].species.size(); ++s) {
         if (chequerboard(states[k].species[s]) < chequerboard_threshold) continue;
         control.warn(describe_chequerboard(stage(k).name, species_name(system, s),
-                                           stability(k), speed_number(k)));
+                                           stability(k, states[k].species), speed_number(k)));
         return;
     }
 }

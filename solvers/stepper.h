@@ -69,8 +69,8 @@ private:
     const StepProblem& problem_;
     PlaneLayout layout_;
     std::array<std::vector<Field>, 3> copies_;
-    std::array<std::vector<const float*>, 3> inputs_;  ///< Field slots where a copy is the old step.
-    std::array<std::vector<float*>, 3> outputs_;       ///< Species where a copy is the new step.
+    std::array<std::vector<const float*>, 3> inputs_;  ///< Field slots, a copy being the old step.
+    std::array<std::vector<float*>, 3> outputs_;       ///< Species of a copy as the new step.
     CopyRoles roles_;
     Team team_;
     std::vector<Worker> workers_;  ///< One for each thread in use.

@@ -41,7 +41,6 @@ cmp -s first.png second.png || fail "another backend, another picture"
 mkdir again && cp first.png again/
 (cd again && "$CASCADE" run first.png -q && cmp -s spots.png ../first.png) ||
     fail "a picture does not make itself again"
-run 0 run - <spots.cascade
 "$CASCADE" run - -q <spots.cascade && [ -s cascade.png ] || fail "standard input is no script"
 
 # Files beside the picture.

@@ -1,8 +1,9 @@
 // An independent oracle: the three systems of Turk's thesis and Gray-Scott, in double precision.
 //
-// Written from the C listings of appendix B (G. Turk, "Texturing Surfaces Using Reaction-Diffusion",
-// 1992) and from J. E. Pearson, "Complex Patterns in a Simple System", Science 261, 1993. It shares
-// nothing with the compiler: no header, no formula, no order of summation.
+// Written from the C listings of appendix B (G. Turk, "Texturing Surfaces Using
+// Reaction-Diffusion", 1992) and from J. E. Pearson, "Complex Patterns in a Simple System",
+// Science 261, 1993. It shares nothing with the compiler: no header, no formula, no order of
+// summation.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // The program against the oracle: a hundred steps of every system from the program's own starting
-// values, on planes and lines, with both kinds of sides, with parameters and frozen cells that vary.
+// values, on planes and lines, with both kinds of sides, with varying parameters and frozen cells.
 #include "tests/oracle/oracle.h"
 #include "tests/oracle/test_run.h"
 
@@ -75,7 +75,8 @@ void compare_stage(TestRun& run, std::uint32_t stage, const std::string& what) {
         EXPECT_LT(relative_difference(actual, expected.at(quantity.name)), 1e-4)
             << what << ", stage " << stage + 1 << ", " << quantity.name;
         if (steps > 0) {
-            EXPECT_NE(start.at(quantity.name), expected.at(quantity.name)) << what << " stood still";
+            EXPECT_NE(start.at(quantity.name), expected.at(quantity.name))
+                << what << " stood still";
         }
     }
 }

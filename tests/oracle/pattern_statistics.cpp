@@ -109,7 +109,7 @@ Moments moments(const Pattern2d& pattern) {
     Moments result;
     result.mean = std::accumulate(pattern.values.begin(), pattern.values.end(), 0.0) / count;
     double squares = 0;
-    for (const double value : pattern.values) squares += (value - result.mean) * (value - result.mean);
+    for (const double value : pattern.values) squares += std::pow(value - result.mean, 2);
     result.deviation = std::sqrt(squares / count);
     return result;
 }

@@ -71,9 +71,9 @@ protected:
 };
 
 TEST_P(RecipeTest, LooksAsItShould) {
-    // Without native code the large grids would take minutes.
+    // Without native code all of them would take minutes.
     for (const int side : has_jit() ? std::vector{64, 128} : std::vector{64}) {
-        for (std::uint32_t seed = 1; seed <= 3; ++seed) {
+        for (std::uint32_t seed = 1; seed <= (has_jit() ? 3U : 1U); ++seed) {
             SCOPED_TRACE(std::to_string(side) + " cells, seed " + std::to_string(seed));
             expect_looks(side, seed);
         }

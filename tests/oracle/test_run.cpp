@@ -35,6 +35,9 @@ void TestRun::start(std::uint32_t stage) {
 void TestRun::finish(std::uint32_t stage) {
     if (!ok()) return;
     RunControl control;
+    control.warn = [&](const std::string& message) {
+        ADD_FAILURE() << script_.name << ": " << message;
+    };
     const std::int64_t last = program().stages[stage].iterations;
     const auto end = simulation_->advance_stage(stage, last, control, [] {});
     check(end ? Result<void>{} : Result<void>(tl::unexpected(end.error())));

@@ -10,7 +10,8 @@
 
 namespace cascade {
 
-/// A script and its simulation. Faults of either fail the test that made it.
+/// A script and its simulation. Faults of either, and warnings of the run, fail the test that made
+/// it.
 class TestRun {
 public:
     TestRun(std::string name, std::string text, Overrides overrides, SimulationOptions options);

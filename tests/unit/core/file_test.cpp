@@ -145,8 +145,8 @@ TEST_F(Files, AFailedWriteLeavesTheOldFileAndNothingElse) {
 
 TEST_F(Files, WhereNoFileCanBe) {
     std::ofstream(folder_ / "file") << "x";
-    for (const fs::path& path : {folder_ / "no-folder" / "a.png", folder_ / "file" / "a.png", folder_,
-                                 folder_ / std::string(300, 'n'), fs::path("/proc/a.png")}) {
+    for (const fs::path& path : {folder_ / "no-folder" / "a.png", folder_ / "file" / "a.png",
+                                 folder_, folder_ / std::string(300, 'n'), fs::path("/proc/a.png")}) {
         EXPECT_FALSE(check_writable(path)) << path;
         EXPECT_FALSE(write_file(path, "x")) << path;
     }

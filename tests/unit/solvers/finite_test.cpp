@@ -45,7 +45,8 @@ TEST(Finite, HaloAndPaddingMayHoldAnything) {
     const PlaneLayout layout(grid);
     Field field = make_field(grid, scatter);
     for (std::int64_t j = -1; j <= 2; ++j) {
-        for (std::int64_t i = -PlaneLayout::row_pad; i < layout.stride - PlaneLayout::row_pad; ++i) {
+        const std::int64_t pad = PlaneLayout::row_pad;
+        for (std::int64_t i = -pad; i < layout.stride - pad; ++i) {
             const bool is_cell = 0 <= j && j < 2 && 0 <= i && i < 17;
             if (!is_cell) field.at(i, j) = nan;
         }

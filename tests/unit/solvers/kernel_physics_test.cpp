@@ -82,8 +82,8 @@ TEST(KernelPhysics, FrozenEndsMakeAStraightLine) {
     std::vector<Field> species;
     species.push_back(make_field(grid, [](auto i, auto) { return i == 32 ? 16.0 : 0.0; }));
     advance_quietly(heat(grid, &frozen), {.last_step = 20000}, species);
-    // In single precision it stops where an eighth of the curvature is below half a unit in the last
-    // place of 16, 2^-21: the line then sags by at most 8 · 2^-21 · 32² / 8.
+    // In single precision it stops where an eighth of the curvature is below half a unit in the
+    // last place of 16, 2^-21: the line then sags by at most 8 · 2^-21 · 32² / 8.
     for (std::int64_t i = 0; i < 33; ++i) {
         EXPECT_NEAR(species[0].at(i, 0), 0.5 * static_cast<double>(i), 5e-4);
     }

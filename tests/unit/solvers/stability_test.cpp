@@ -148,8 +148,8 @@ void turing_rates(const CellView& cell, float* rates) {
 
 std::vector<Field> turing_start(const Grid& grid) {
     std::vector<Field> species;
-    species.push_back(make_field(grid, [](auto i, auto j) { return 3.999 + 2e-3 * scatter(i, j); }));
-    species.push_back(make_field(grid, [](auto i, auto j) { return 3.999 + 2e-3 * scatter(j, i); }));
+    species.push_back(make_field(grid, [](auto i, auto j) { return 4 + 2e-3 * scatter(i, j); }));
+    species.push_back(make_field(grid, [](auto i, auto j) { return 4 + 2e-3 * scatter(j, i); }));
     return species;
 }
 
@@ -202,10 +202,10 @@ TEST(Chequerboard, OfKnownFields) {
     const auto board = [](auto i, auto j) { return (i + j) % 2 ? -1.0 : 1.0; };
     EXPECT_EQ(chequerboard(make_field(grid, [](auto, auto) { return 4.0; })), 0);
     EXPECT_NEAR(chequerboard(make_field(grid, board)), 1, 1e-6);
-    EXPECT_NEAR(chequerboard(make_field(grid, [&](auto i, auto j) { return 1e4 + 43 * board(i, j); })),
-                1, 1e-6);
-    EXPECT_NEAR(chequerboard(make_field(grid, [](auto i, auto) { return std::sin(0.392699082 * static_cast<double>(i)); })),
-                0, 1e-6);
+    const auto high = [&](auto i, auto j) { return 1e4 + 43 * board(i, j); };
+    EXPECT_NEAR(chequerboard(make_field(grid, high)), 1, 1e-6);
+    const auto wave = [](auto i, auto) { return std::sin(0.392699082 * static_cast<double>(i)); };
+    EXPECT_NEAR(chequerboard(make_field(grid, wave)), 0, 1e-6);
     // Equal parts of a stripe and of a chequerboard: 1 / sqrt(2).
     EXPECT_NEAR(chequerboard(make_field(grid, [&](auto i, auto j) {
                     return board(i, j) + (i / 4 % 2 ? -1.0 : 1.0);

@@ -1,0 +1,98 @@
+// Our side of the benchmarks.
+#include "bench/cascade_side.h"
+
+#include "run/bound_kernel.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fmt/format.h>
+
+namespace cascade::bench {
+namespace {
+
+[[noreturn]] void give_up(const std::string& why) {
+    std::fprintf(stderr, "cascade_bench: %s\n", why.c_str());
+    std::exit(1);
+}
+
+template <typename T>
+T must(Result<T> result) {
+    if (!result) give_up(result.error().message);
+    return std::move(*result);
+}
+
+std::string domain(std::int64_t side) {
+    return fmt::format("domain {{ grid: {}, {}; boundary: periodic; seed: 1 }}\n", side, side);
+}
+
+}  // namespace
+
+std::string turing_text(std::int64_t side) {
+    return domain(side) + R"(stage spots: turing_spots {
+  iterations: 1000000
+  frozen: disc(0.3, 0.4, 0.2)
+  beta: random(12, 0.1)
+}
+)";
+}
+
+std::string gray_scott_text(std::int64_t side) {
+    return domain(side) + R"(system gray_scott {
+  u: 1 - 0.5 * disc(0.5, 0.5, 0.1)
+  v: 0.25 * disc(0.5, 0.5, 0.1) + random(0.01, 0.01)
+  feed: 0.037
+  kill: 0.060
+  diff_u: 0.16
+  diff_v: 0.08
+  rate = u * v^2
+  u' = diff_u * lap(u) - rate + feed * (1 - u)
+  v' = diff_v * lap(v) + rate - (feed + kill) * v
+}
+stage only: gray_scott { iterations: 1000000 }
+)";
+}
+
+std::string stripes_text(std::int64_t side) {
+    return domain(side) + "stage only: stripes { iterations: 1000000 }\n";
+}
+
+CascadeSide::CascadeSide(const std::string& text, Backend& backend)
+    : script_(load_script("bench", text, ".")) {
+    if (!script_.program) give_up(script_.messages(false));
+    SimulationOptions options;
+    options.backend = BackendKind::interpreter;  // For the starting values alone.
+    options.threads = 1;
+    simulation_ = must(Simulation::create(script_, options));
+    if (auto started = simulation_->start_stage(0); !started) give_up(started.error().message);
+
+    const BoundKernel bound = lower_step(*script_.program, 0);
+    const StageState& state = simulation_->state(0);
+    const BindingContext context{{&state, 1}, files_, 0, simulation_->grid()};
+    problem_ = bind_step(bound, must(backend.compile(bound.kernel, grid().stencil())), context,
+                         script_.program->system_of(0), 0);
+    stepper_.emplace(problem_, start_species(), 1);
+}
+
+std::vector<Field> CascadeSide::start_species() const {
+    std::vector<Field> species;
+    for (const Field& field : start().species) species.push_back(field.clone());
+    return species;
+}
+
+Stepper CascadeSide::fresh_stepper() const { return Stepper(problem_, start_species(), 1); }
+
+void CascadeSide::advance(std::int64_t count) {
+    if (!stepper_->advance(steps_, count, true)) give_up("a value is not finite");
+    stepper_->keep();
+    steps_ += count;
+}
+
+const Field& CascadeSide::parameter(const std::string& name) const {
+    const System& system = script_.program->system_of(0);
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        if (system.quantities[item].name == name) return start().field(item);
+    }
+    give_up("no parameter '" + name + "'");
+}
+
+}  // namespace cascade::bench

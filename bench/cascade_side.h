@@ -1,0 +1,54 @@
+// Our side of the benchmarks: a Cascade text, parsed, checked, lowered, compiled and stepped.
+#pragma once
+
+#include "ir/backend.h"
+#include "lang/lower.h"
+#include "run/input_files.h"
+#include "run/script.h"
+#include "run/simulation.h"
+#include "solvers/stepper.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cascade::bench {
+
+/// The texts that are measured, for an N × N grid.
+std::string turing_text(std::int64_t side);      ///< beta and frozen vary over the cells.
+std::string gray_scott_text(std::int64_t side);
+std::string stripes_text(std::int64_t side);     ///< ai varies.
+
+/// The first stage of a text, ready to step on one thread with kernels of `backend`. Ends the
+/// program with a message where something fails: a benchmark has no user to talk to.
+class CascadeSide {
+public:
+    CascadeSide(const std::string& text, Backend& backend);
+
+    /// Takes steps and looks at them as a run does: once for all `count` (64 in a run).
+    void advance(std::int64_t count);
+
+    /// Another stepper at the starting values. Needs this object alive.
+    Stepper fresh_stepper() const;
+
+    std::span<const Field> species() { return stepper_->current(); }
+    const StageState& start() const { return simulation_->state(0); }
+    const Grid& grid() const { return simulation_->grid(); }
+    /// A parameter that varies, by name.
+    const Field& parameter(const std::string& name) const;
+
+private:
+    std::vector<Field> start_species() const;
+
+    Script script_;
+    std::unique_ptr<Simulation> simulation_;
+    InputFiles files_;
+    StepProblem problem_;
+    std::optional<Stepper> stepper_;
+    std::int64_t steps_ = 0;
+};
+
+}  // namespace cascade::bench

@@ -1,0 +1,38 @@
+// The opponent: the same updates as a good programmer would write them in straight C++, compiled by
+// g++ with three sets of flags (see CMakeLists.txt). Simultaneous update of float fields in padded
+// rows, `__restrict` pointers, loops without branches.
+#pragma once
+
+#include <cstdint>
+
+namespace cascade::bench {
+
+/// Planes of one layout; pointers are to cell (0, 0).
+struct StraightFields {
+    const float* now[5];          ///< Species of the old step, halo filled.
+    float* next[5];               ///< Species of the new step.
+    const float* varying;         ///< beta of Turing's system, ai of the stripes.
+    const std::uint8_t* frozen;   ///< Turing's system only.
+    std::int64_t width, height, stride;
+};
+
+/// Constants of the three systems, held in variables so that no compiler can fold them.
+struct StraightConstants {
+    float speed = 1;
+    float ka = 0.0125F, diff_a = 0.125F, diff_b = 0.03125F;                    // Turing.
+    float feed = 0.037F, kill = 0.060F, diff_u = 0.16F, diff_v = 0.08F;        // Gray-Scott.
+    float p1 = 0.04F, p2 = 0.06F, p3 = 0.04F, diff1 = 0.04F, diff2 = 0.06F;    // Stripes.
+};
+
+/// One step of a system, halo of the new fields included (periodic).
+using StraightStep = void (*)(const StraightFields&, const StraightConstants&);
+
+struct StraightSteps {
+    StraightStep turing, gray_scott, stripes;
+};
+
+StraightSteps straight_contracted();  ///< -O3 -march=native -ffp-contract=fast, g++'s default.
+StraightSteps straight_wide();        ///< The same and -mprefer-vector-width=512.
+StraightSteps straight_strict();      ///< -O3 -march=native -ffp-contract=off: our own rounding.
+
+}  // namespace cascade::bench
