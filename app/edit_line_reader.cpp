@@ -53,8 +53,8 @@ public:
         dropped_ = false;
         int count = 0;
         const char* const text = el_gets(edit_.get(), &count);
-        if (!text || count <= 0) return {};
         if (dropped_) return {TypedLine::Kind::cancelled, ""};
+        if (!text || count <= 0) return {};
         TypedLine line{TypedLine::Kind::line, std::string(text, static_cast<std::size_t>(count))};
         while (line.text.ends_with('\n') || line.text.ends_with('\r')) line.text.pop_back();
         if (line.text.find_first_not_of(" \t") != std::string::npos) {
@@ -82,7 +82,7 @@ private:
 
     static unsigned char drop(EditLine* edit, int) {
         of(edit).dropped_ = true;
-        std::fputs("^C", stdout);
+        std::fputs("^C\n", stdout);
         return CC_NEWLINE;
     }
 

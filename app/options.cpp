@@ -55,6 +55,20 @@ std::vector<std::string> palette_names() {
     return names;
 }
 
+/// Names in lines that fit beside the column of options.
+std::string in_lines(const std::vector<std::string>& names) {
+    constexpr std::size_t widest = 52;
+    std::string text;
+    std::size_t column = 0;
+    for (const std::string& name : names) {
+        const bool fits = column + name.size() < widest;
+        if (column > 0) text += fits ? ' ' : '\n';
+        column = (fits ? column + 1 : 0) + name.size();
+        text += name;
+    }
+    return text;
+}
+
 auto one_of(std::vector<std::string> choices) {
     return [choices = std::move(choices)](const std::string& text) {
         return parse_choice(text, choices);
@@ -62,7 +76,9 @@ auto one_of(std::vector<std::string> choices) {
 }
 
 void add_script(CLI::App& app, Options& options, const std::string& help) {
-    app.add_option("SCRIPT", options.scripts, help)->expected(1)->type_name("");
+    app.add_option_function<std::string>(
+           "SCRIPT", [&](const std::string& path) { options.scripts.push_back(path); }, help)
+        ->type_name("");
 }
 
 void add_overrides(CLI::App& app, Overrides& overrides) {
@@ -76,8 +92,7 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
         ->group(group);
     app.add_option("--set", overrides.sets,
                    "A parameter or setting: ka=1/400, large.ka=1/400;\nmay be given again")
-        ->expected(1)
-        ->take_all()
+        ->allow_extra_args(false)
         ->type_name("NAME=EXPR")
         ->group(group);
     add_value(app, "--steps", "N", "At most so many steps in every stage",
@@ -95,7 +110,7 @@ void add_picture_options(CLI::App& app, PictureChanges& picture) {
               any_text, [&](auto show) { picture.show = show; })
         ->group(group);
     add_value(app, "--palette", "NAME",
-              fmt::format("{}", fmt::join(palette_names(), " ")), one_of(palette_names()),
+              in_lines(palette_names()), one_of(palette_names()),
               [&](auto palette) { picture.palette = palette; })
         ->group(group);
     add_value(app, "--range", "LOW,HIGH", "The values at the palette's two ends; without it the\n"
@@ -159,10 +174,10 @@ void add_execution(CLI::App& app, Options& options) {
 void add_dump(CLI::App& app, Options& options) {
     std::vector<std::string> kinds;
     for (const std::string_view kind : dump_kinds()) kinds.emplace_back(kind);
-    add_value(app, "--dump", "STAGE",
-              fmt::format("Print a stage of the way and stop there:\n{}", fmt::join(kinds, " ")),
+    add_value(app, "--dump", "WHAT",
+              fmt::format("Print what becomes of the script, and stop there:\n{}", fmt::join(kinds, " ")),
               one_of(kinds), [&](auto kind) { options.dump = kind; })
-        ->group("For the curious");
+        ->group("More");
 }
 
 void add_compile(CLI::App& app, Options& options) {
@@ -215,7 +230,7 @@ public:
 
 /// All of CLI11 in one place, so that its objects end with the parsing.
 struct Parser {
-    CLI::App app{std::string(help::about), "cascade"};
+    CLI::App app;
     CLI::App* run = nullptr;
     CLI::App* check = nullptr;
     CLI::App* compile = nullptr;
@@ -224,7 +239,12 @@ struct Parser {
     Options options;
     bool show_version = false;
 
-    Parser();
+    explicit Parser(const std::string& program) : app(std::string(help::about), program) {
+        add_all();
+    }
+    void add_all();
+    /// --help of the chosen command, or of the program.
+    std::string help();
     CLI::App* command(const std::string& name, std::string_view about, std::string_view examples);
     CLI::App* chosen();
     /// "cascade run": what the user has called.
@@ -244,11 +264,19 @@ CLI::App* Parser::command(const std::string& name, std::string_view about,
                           std::string_view examples) {
     CLI::App* sub = app.add_subcommand(name, std::string(about));
     sub->footer(std::string(examples));
-    sub->set_help_flag("-h,--help", "This text")->group("For the curious");
+    sub->group("Commands");
+    sub->set_help_flag();  // It is added last, to stand last.
     return sub;
 }
 
-Parser::Parser() {
+std::string Parser::help() {
+    std::string text = chosen() ? chosen()->help(app.get_name()) : app.help();
+    // CLI11 leaves two empty lines between groups.
+    for (std::size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;) text.erase(at, 1);
+    return text;
+}
+
+void Parser::add_all() {
     app.formatter(std::make_shared<HelpFormatter>());
     app.set_help_flag("-h,--help", "This text; 'cascade COMMAND --help' tells of a command");
     app.add_flag("-V,--version", show_version, "The version, and what it was built with");
@@ -280,6 +308,10 @@ Parser::Parser() {
     repl = command("repl", help::repl, help::repl_examples);
     add_script(*repl, options, "A script to begin with (may be left out)");
     add_execution(*repl, options);
+
+    for (CLI::App* sub : {run, check, compile, systems, repl}) {
+        sub->set_help_flag("-h,--help", "This text")->group("More");
+    }
 }
 
 CLI::App* Parser::chosen() {
@@ -346,20 +378,18 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
 
 std::variant<Options, Leave> parse_options(const std::string& program,
                                            const std::vector<std::string>& arguments) {
-    Parser parser;
+    Parser parser(program);
     try {
         // CLI11 takes the arguments from the back.
         parser.app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
     } catch (const CLI::CallForHelp&) {
-        CLI::App* const sub = parser.chosen();
-        return Leave{exit_status::success,
-                     sub ? sub->help(program + " " + sub->get_name()) : parser.app.help(program)};
+        return Leave{exit_status::success, parser.help()};
     } catch (const CLI::ParseError& error) {
         return parser.wrong_use(program, error);
     }
     if (parser.show_version) return Leave{exit_status::success, help::version_text()};
     CLI::App* const sub = parser.chosen();
-    if (!sub) return Leave{exit_status::wrong_use, parser.app.help(program)};
+    if (!sub) return Leave{exit_status::wrong_use, parser.help()};
 
     Options& options = parser.options;
     if (sub == parser.check) options.command = Command::check;

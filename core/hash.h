@@ -9,7 +9,7 @@ namespace cascade {
 
 /// pcg4d of M. Jarzynski and M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020:
 /// four 32-bit words to four well mixed ones. The cell kernels compute the same function
-/// (ir/random_numbers.h); this one serves tests and keys.
+/// (ir/random_numbers.cpp); this one serves tests and keys.
 std::array<std::uint32_t, 4> pcg4d(std::array<std::uint32_t, 4> v);
 
 /// FNV-1a, 64 bits, of a text; `seed` chains several.

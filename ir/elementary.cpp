@@ -7,7 +7,7 @@
 // time fitting the rest again. No operation fuses, so every executor computes the same bits.
 //
 // Largest errors, in units in the last place of the exact value:
-//     exp 1.0    log 0.9    tanh 1.4    all binary32 arguments
+//     exp 1.0    log 0.9    tanh 1.5    all binary32 arguments
 //     sin 0.8    cos 0.8                magnitudes up to 8192; see ir/trigonometric.cpp
 //     x^y 1.2                           see ir/power.cpp
 // Denormal arguments count as zeros and denormal results are flushed.

@@ -120,11 +120,9 @@ struct Simulation::Implementation {
     StabilityEstimate stability(std::uint32_t k, std::span<const Field> species) const {
         const BoundKernel rates = lower_rates(*program, k);
         auto kernel = interpreter->compile(rates.kernel, grid.stencil());
-        StepProblem bound = problem(rates, *kernel, k);
         // Rates know nothing of frozen cells, but those cannot blow up.
-        bound.masks.clear();
-        if (!states[k].frozen.empty()) bound.masks.push_back(states[k].frozen.origin());
-        return estimate_stability(bound, species);
+        const Mask* frozen = states[k].frozen.empty() ? nullptr : &states[k].frozen;
+        return estimate_stability(problem(rates, *kernel, k), species, frozen);
     }
     double speed_number(std::uint32_t k) const {
         const std::uint32_t item = program->system_of(k).speed_item();

@@ -51,10 +51,10 @@ double noise(std::uint64_t number) {
 /// The Jacobian of a kernel of rates at a state, as something that multiplies vectors.
 class Jacobian {
 public:
-    Jacobian(const StepProblem& rates, std::span<const Field> species)
+    Jacobian(const StepProblem& rates, std::span<const Field> species, const Mask* frozen)
         : rates_(rates), layout_(rates.grid), state_(species), moves_(layout_) {
         for_each_cell([&](std::size_t, std::int64_t i, std::int64_t j) {
-            moves_.at(i, j) = is_frozen(i, j) ? 0.0f : 1.0f;
+            moves_.at(i, j) = frozen && frozen->at(i, j) ? 0.0f : 1.0f;
         });
         for (const Field& field : species) {
             CHECK(field.layout() == layout_, "species lie as the grid says");
@@ -106,11 +106,6 @@ private:
         }
     }
 
-    bool is_frozen(std::int64_t i, std::int64_t j) const {
-        return std::any_of(rates_.masks.begin(), rates_.masks.end(), [&](const auto* mask) {
-            return mask[j * layout_.stride + i] != 0;
-        });
-    }
 
     double root_mean_square(const Field& field) const {
         double squares = 0;
@@ -201,9 +196,10 @@ std::complex<double> leading_eigenvalue(Jacobian& jacobian, double shift) {
 
 }  // namespace
 
-StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const Field> species) {
+StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const Field> species,
+                                     const Mask* frozen) {
     CHECK(rates.step && !species.empty(), "a kernel of rates and its species");
-    Jacobian jacobian(rates, species);
+    Jacobian jacobian(rates, species, frozen);
     std::complex<double> fastest = leading_eigenvalue(jacobian, 0);
     StabilityEstimate estimate;
     estimate.eigenvalue = fastest.real();

@@ -22,11 +22,11 @@ struct StabilityEstimate {
 };
 
 /// Estimates it at the state `species` by finite differences of the kernel of rates (one result
-/// per species, slots as for the step). Cells that one of `rates.masks` marks do not move: give the
-/// mask of frozen cells even where the kernel has no slot for it. Takes at most about 800
+/// per species, slots as for the step). Cells that `frozen` marks (nullptr: none) do not move. Takes at most about 800
 /// evaluations of the rates, on one thread; within 2 % for diffusion. The result is deterministic.
 /// Of use only at a state before a blow-up: at 1e20 any reaction looks stiff.
-StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const Field> species);
+StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const Field> species,
+                                     const Mask* frozen = nullptr);
 
 /// The chequerboard mode of a field: |Σ (−1)^(i+j) c| / N divided by the standard deviation of c.
 /// Near 1 when neighbours alternate, near 0 for a pattern the grid resolves; 0 for a flat field.

@@ -75,7 +75,7 @@ run 2 run spots.cascade --show 'large.c'
 
 # Failed runs: 3.
 run 3 run explodes.cascade
-says err "species 'u'"
+says err "stage 's' (s): u is not finite any more at column 0, row 0, after step 6"
 run 3 run spots.cascade -o no_such_folder/spots.png
 says err 'no_such_folder'
 [ -c /dev/full ] && { "$CASCADE" systems >/dev/full 2>err && fail "a full disk is no success"; }

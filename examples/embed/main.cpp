@@ -11,7 +11,7 @@
 namespace {
 
 const char* const script =
-    "domain { grid: 96, 96; seed: 4 }\n"
+    "domain { grid: 64, 32; seed: 4 }\n"
     "stage spots: turing_spots {\n"
     "  iterations: 6000\n"
     "  ka: 1/80\n"
@@ -26,12 +26,12 @@ bool shows_mistakes() {
     return messages.size() == 1 && messages[0].line == 2 && messages[0].column == 3;
 }
 
-/// The pattern in letters: one character for four columns and eight rows.
+/// The pattern in letters, every second row: letters are twice as high as wide.
 void draw(const cascade::Pattern& pattern, const std::vector<float>& values) {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     const std::string ink = "@#*+-. ";
-    for (std::int64_t row = 4; row < pattern.height(); row += 8) {
-        for (std::int64_t column = 2; column < pattern.width(); column += 4) {
+    for (std::int64_t row = 0; row < pattern.height(); row += 2) {
+        for (std::int64_t column = 0; column < pattern.width(); ++column) {
             const float value = values[static_cast<std::size_t>(row * pattern.width() + column)];
             const float share = (value - *low) / (*high - *low);
             std::cout << ink[static_cast<std::size_t>(share * 6.0F)];
@@ -56,7 +56,7 @@ int main() {
         std::cout << pattern.current_stage() << ": " << pattern.steps() << " steps\n";
     }
     const std::vector<float> values = pattern.values("b");
-    if (values.size() != 96U * 96U) {
+    if (values.size() != 64U * 32U) {
         std::cerr << pattern.error() << '\n';
         return 3;
     }

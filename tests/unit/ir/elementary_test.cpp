@@ -33,7 +33,7 @@ constexpr Function sin_function = {"sin", &KernelBuilder::sine,
 constexpr Function cos_function = {"cos", &KernelBuilder::cosine,
                                    [](double x) { return std::cos(x); }, 0.8, 8192};
 constexpr Function tanh_function = {"tanh", &KernelBuilder::hyperbolic_tangent,
-                                    [](double x) { return std::tanh(x); }, 1.4, infinity};
+                                    [](double x) { return std::tanh(x); }, 1.5, infinity};
 constexpr Function functions[] = {exp_function, log_function, sin_function, cos_function,
                                   tanh_function};
 

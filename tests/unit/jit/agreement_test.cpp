@@ -211,6 +211,23 @@ TEST(JitAgreement, FlushingIsNotOptimisedAway) {
     }
 }
 
+// LLVM's folding of this looks behind the end of the block that is being written.
+TEST(JitAgreement, ChoicesAreComparedInFrontOfTheLoops) {
+    for (const bool in_row : {false, true}) {
+        KernelBuilder builder;
+        const ValueId number = in_row ? builder.cell_row()
+                                      : builder.uniform(builder.uniform_slot("p"));
+        const ValueId differs = builder.apply(Op::not_equal, builder.word(1), number);
+        const ValueId sum = builder.apply(Op::bits_add, differs, builder.word(0x00400000));
+        const ValueId choice = builder.select(number, differs, builder.number(0));
+        const ValueId is_zero = builder.apply(Op::logical_not, builder.apply(Op::absolute, sum));
+        builder.result("r", builder.apply(Op::equal, is_zero, choice));
+        const CellKernel kernel = std::move(builder).finish();
+        const auto jit = jit_of(0, 2);
+        EXPECT_EQ(difference(*jit, kernel, Grid{20, 3, Boundary::periodic}, 1), "");
+    }
+}
+
 // The comparison above can fail: a kernel that differs in one operation is noticed.
 TEST(JitAgreement, AnotherKernelDiffers) {
     const auto jit = jit_of(0, 2);

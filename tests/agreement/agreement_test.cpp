@@ -1,0 +1,120 @@
+// Whole scripts, interpreted and compiled, on one thread and several: the same bits.
+
+#include "random_scripts.h"
+
+#include "core/file.h"
+#include "lang/lower.h"
+#include "run/simulation.h"
+#include "support/kernel_comparison.h"
+#include "support/random_kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#if CASCADE_HAS_JIT
+
+namespace cascade {
+namespace {
+
+using testing::OperationCounts;
+using testing::random_script;
+using testing::same_bits;
+
+/// What a run leaves: the fields of all stages, and the words of a failure.
+struct Outcome {
+    std::vector<Field> fields;
+    std::string failure;
+};
+
+Outcome run_script(const std::string& name, const std::string& text, Overrides overrides,
+                   const SimulationOptions& options) {
+    Outcome outcome;
+    const auto folder = std::filesystem::path(CASCADE_SOURCE_DIR) / "examples";
+    Script script = load_script(name, text, folder, std::move(overrides));
+    EXPECT_TRUE(script.program) << text << script.messages(false);
+    if (!script.program) return outcome;
+    auto simulation = Simulation::create(script, options);
+    EXPECT_TRUE(simulation) << (simulation ? "" : simulation.error().message);
+    if (!simulation) return outcome;
+    RunControl control;
+    for (std::uint32_t k = 0; k < script.stage_count() && outcome.failure.empty(); ++k) {
+        if (auto started = (*simulation)->start_stage(k); !started) {
+            outcome.failure = started.error().message;
+            break;
+        }
+        auto end = (*simulation)->advance_stage(k, script.program->stages[k].iterations, control, {});
+        if (!end) outcome.failure = end.error().message + end.error().hint;
+        for (const Field& field : (*simulation)->state(k).species) {
+            outcome.fields.push_back(field.clone());
+        }
+    }
+    return outcome;
+}
+
+void expect_same(const Outcome& expected, const Outcome& found, const std::string& what) {
+    EXPECT_EQ(expected.failure, found.failure) << what;
+    EXPECT_EQ(same_bits(expected.fields, found.fields), "") << what;
+}
+
+SimulationOptions interpreted() { return {BackendKind::interpreter, 0, 1}; }
+SimulationOptions compiled(int lanes, int threads) { return {BackendKind::jit, lanes, threads}; }
+
+TEST(Agreement, RandomScripts) {
+    OperationCounts counts;
+    int failed = 0;
+    constexpr int scripts = 1500;
+    for (int seed = 0; seed < scripts; ++seed) {
+        const std::string text = random_script(static_cast<std::uint64_t>(seed));
+        const Outcome expected = run_script("random", text, {}, interpreted());
+        const int lanes = 4 << (seed % 3);
+        expect_same(expected, run_script("random", text, {}, compiled(lanes, 1 + seed % 3)), text);
+        failed += expected.failure.empty() ? 0 : 1;
+        if (::testing::Test::HasFailure()) return;
+
+        Script script = load_script("random", text, ".");
+        for (std::uint32_t k = 0; k < script.program->stages.size(); ++k) {
+            const CellKernel step = lower_step(*script.program, k).kernel;
+            EXPECT_EQ(verify(step), "") << text;
+            counts.add(step);
+        }
+    }
+    // Most scripts must get through to the end, or little was compared.
+    EXPECT_LT(failed, scripts * 7 / 10);
+    std::printf("%s%d of %d scripts ended in values that are not finite\n",
+                counts.report().c_str(), failed, scripts);
+    EXPECT_EQ(counts.missing(), "");
+}
+
+std::vector<std::filesystem::path> examples() {
+    std::vector<std::filesystem::path> paths;
+    const auto folder = std::filesystem::path(CASCADE_SOURCE_DIR) / "examples";
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().extension() == ".cascade") paths.push_back(entry.path());
+    }
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+TEST(Agreement, EveryExampleOnEveryNumberOfLanesAndThreads) {
+    ASSERT_GE(examples().size(), 25u);
+    for (const auto& path : examples()) {
+        const std::string text = read_file(path, 1u << 20).value();
+        Overrides few_steps;
+        few_steps.steps = 200;
+        const std::string name = path.filename().string();
+        const Outcome expected = run_script(name, text, few_steps, interpreted());
+        EXPECT_EQ(expected.failure, "") << name;
+        EXPECT_FALSE(expected.fields.empty());
+        for (const auto& [lanes, threads] : {std::pair{4, 1}, {8, 3}, {16, 1}, {16, 8}}) {
+            expect_same(expected, run_script(name, text, few_steps, compiled(lanes, threads)),
+                        name + ", lanes " + std::to_string(lanes));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace cascade
+
+#endif

@@ -1,0 +1,183 @@
+#include "random_scripts.h"
+
+#include "lang/program.h"
+#include "support/random_stream.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <vector>
+
+namespace cascade::testing {
+
+namespace {
+
+struct FunctionRow {
+    std::string_view spelling;
+    int arity;
+    Places places;
+};
+
+constexpr std::array rows = {
+#define CASCADE_FUNCTION(id, spelling, arity, places, meaning) \
+    FunctionRow{spelling, arity, Places::places},
+#include "lang/functions.def"
+#undef CASCADE_FUNCTION
+};
+
+bool is_word(std::string_view spelling) {
+    return spelling.front() >= 'a' && spelling.front() <= 'z' && spelling != "and" &&
+           spelling != "or" && spelling != "not";
+}
+
+/// Writes one script.
+class Writer {
+public:
+    explicit Writer(std::uint64_t seed) : stream_(seed) {}
+
+    std::string write() {
+        const int systems = 1 + static_cast<int>(stream_.below(2));
+        text_ = fmt::format("domain {{ grid: {}, {}; boundary: {}; seed: {} }}\n",
+                            2 + stream_.below(37), 1 + stream_.below(9),
+                            stream_.chance(50) ? "periodic" : "noflux", stream_.below(1000));
+        for (int s = 0; s < systems; ++s) write_system(s);
+        const int stages = 1 + static_cast<int>(stream_.below(3));
+        for (int k = 0; k < stages; ++k) write_stage(k, stream_.below(static_cast<std::uint64_t>(systems)));
+        return text_;
+    }
+
+private:
+    enum class Place { value, rate };
+
+    std::string number() {
+        static constexpr std::array<std::string_view, 12> numbers = {
+            "0", "1", "2", "0.5", "1/8", ".25", "3", "1e-3", "12", "7.75", "pi", "1e30"};
+        return std::string(stream_.pick<std::string_view>(numbers));
+    }
+
+    /// A name, a number, or a coordinate.
+    std::string leaf(Place place) {
+        static constexpr std::array<std::string_view, 4> coordinates = {"x", "y", "sx", "sy"};
+        static constexpr std::array<std::string_view, 2> times = {"t", "step"};
+        const std::uint32_t kind = stream_.below(10);
+        if (kind < 5 && !readable_.empty()) return stream_.pick<std::string>(readable_);
+        if (kind == 5) return std::string(stream_.pick<std::string_view>(coordinates));
+        if (kind == 6 && place == Place::rate) {
+            return std::string(stream_.pick<std::string_view>(times));
+        }
+        return number();
+    }
+
+    std::string call(const FunctionRow& row, Place place, int depth) {
+        // A literal 0 cannot divide; a number that varies can.
+        if (row.spelling == "/") {
+            return fmt::format("({}) / (0.75 + {})", expression(place, depth - 1), leaf(place));
+        }
+        if (row.spelling == "lap") return fmt::format("lap({})", stream_.pick<std::string>(species_));
+        std::string arguments = expression(place, depth - 1);
+        if (!is_word(row.spelling) && row.arity == 1) {
+            return fmt::format("({} ({}))", row.spelling, arguments);
+        }
+        if (!is_word(row.spelling)) {
+            const std::string right = row.spelling == "^" && stream_.chance(70)
+                                          ? std::to_string(stream_.below(6))
+                                          : expression(place, depth - 1);
+            return fmt::format("(({}) {} ({}))", arguments, row.spelling, right);
+        }
+        for (int k = 1; k < row.arity; ++k) arguments += ", " + expression(place, depth - 1);
+        return fmt::format("{}({})", row.spelling, arguments);
+    }
+
+    bool fits(const FunctionRow& row, Place place) const {
+        switch (row.places) {
+            case Places::any: return row.spelling != "mix";
+            case Places::rates: return place == Place::rate && !species_.empty();
+            case Places::noisy: return true;
+            case Places::values:
+            case Places::picture: return false;
+        }
+        return false;
+    }
+
+    std::string expression(Place place, int depth) {
+        if (depth <= 0 || stream_.chance(25)) return leaf(place);
+        for (;;) {
+            const FunctionRow& row = rows[stream_.below(rows.size())];
+            if (fits(row, place)) return call(row, place, depth);
+        }
+    }
+
+    void write_system(int s) {
+        SystemNames names;
+        const int species = 1 + static_cast<int>(stream_.below(3));
+        const int parameters = static_cast<int>(stream_.below(4));
+        readable_.clear();
+        species_.clear();
+        text_ += fmt::format("system s{} {{\n", s);
+        for (int k = 0; k < parameters; ++k) {
+            const std::string name = fmt::format("p{}", k);
+            text_ += fmt::format("  {}: {}\n", name, expression(Place::value, 3));
+            readable_.push_back(name);
+            names.parameters.push_back(name);
+        }
+        for (int k = 0; k < species; ++k) {
+            const std::string name = fmt::format("u{}", k);
+            text_ += fmt::format("  {}: {}\n", name, expression(Place::value, 3));
+            readable_.push_back(name);
+            names.species.push_back(name);
+        }
+        species_ = names.species;
+        if (stream_.chance(50)) {
+            text_ += fmt::format("  shared = {}\n", expression(Place::rate, 3));
+            readable_.push_back("shared");
+        }
+        for (int k = 0; k < species; ++k) {
+            text_ += fmt::format("  u{}' = {}\n", k, expression(Place::rate, 4));
+            if (stream_.chance(30)) text_ += fmt::format("  u{}' += {}\n", k, expression(Place::rate, 2));
+            // Later rates may read earlier ones; a circle cannot come about.
+            readable_.push_back(fmt::format("u{}'", k));
+        }
+        if (stream_.chance(40)) text_ += fmt::format("  u0 >= {}\n", number());
+        if (stream_.chance(20)) text_ += "  u0 <= 100\n";
+        text_ += "}\n";
+        systems_.push_back(names);
+    }
+
+    void write_stage(int k, std::size_t system) {
+        const SystemNames& names = systems_[system];
+        text_ += fmt::format("stage g{}: s{} {{ iterations: {}; speed: {}\n", k, system,
+                             stream_.below(6), stream_.chance(70) ? "0.125" : "0.1 + 0.05 * x");
+        // Bare names read the previous stage, which may be of the other system; [p] is this one's.
+        readable_.clear();
+        species_.clear();
+        for (const std::string& name : previous_) readable_.push_back(name);
+        if (stream_.chance(50)) {
+            text_ += fmt::format("  frozen: {}\n", expression(Place::value, 2));
+            readable_.push_back("[frozen]");
+        }
+        for (const std::string& name : names.species) {
+            if (!stream_.chance(40)) continue;
+            text_ += fmt::format("  {}: {}\n", name, expression(Place::value, 3));
+            readable_.push_back("[" + name + "]");
+        }
+        text_ += "}\n";
+        previous_ = names.species;
+        previous_.insert(previous_.end(), names.parameters.begin(), names.parameters.end());
+        if (k == 0) previous_.push_back("g0.u0");
+    }
+
+    struct SystemNames {
+        std::vector<std::string> species, parameters;
+    };
+
+    RandomStream stream_;
+    std::string text_;
+    std::vector<std::string> readable_, species_, previous_;
+    std::vector<SystemNames> systems_;
+};
+
+}  // namespace
+
+std::string random_script(std::uint64_t seed) { return Writer(seed).write(); }
+
+}  // namespace cascade::testing

@@ -1,0 +1,15 @@
+// Random valid scripts: systems, stages and domains as a user might write them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace cascade::testing {
+
+/// A script of one to three stages over random systems, valid by construction; a pure function of
+/// the seed. Every function and operator of lang/functions.def that a system or a value may hold is
+/// likely to occur, and so are masks, invariants, definitions, rates of rates and uniform,
+/// varying and per-cell time steps.
+std::string random_script(std::uint64_t seed);
+
+}  // namespace cascade::testing
