@@ -89,7 +89,8 @@ Result<CompiledStep> compile_step(const Script& script, const CompileRequest& re
     options.target = request.target;
     auto object = compile_object(bound.kernel, program.domain.grid.stencil(), options);
     if (!object) return tl::unexpected(object.error());
-    return CompiledStep{std::move(*object), c_header(program, *stage, bound, name, script.name)};
+    const std::string file = std::filesystem::path(script.name).filename().string();
+    return CompiledStep{std::move(*object), c_header(program, *stage, bound, name, file)};
 #else
     return failure("this build has no native compiler");
 #endif

@@ -1,0 +1,33 @@
+#!/bin/bash
+# Every picture of the gallery grows again from itself, byte for byte, and so does the C program's.
+# Without native code the large ones would take minutes: then the small ones are drawn.
+set -u
+failed=0
+
+again() {
+    "$CASCADE" run -q "$1" -o again.png || failed=1
+    if ! cmp -s "$1" again.png; then
+        echo "gallery: $1 does not grow again from itself"
+        failed=1
+    fi
+}
+
+count=0
+for picture in "$SOURCE"/examples/*.png; do
+    if [ "$CASCADE_JIT" != 1 ] && [ "$(stat -c %s "$picture")" -gt 5300 ]; then continue; fi
+    again "$picture"
+    count=$((count + 1))
+done
+for script in "$SOURCE"/examples/*.cascade; do
+    if [ ! -f "${script%.cascade}.png" ]; then
+        echo "gallery: $script has no picture beside it"
+        failed=1
+    fi
+done
+if [ "$CASCADE_JIT" = 1 ]; then
+    [ "$count" -ge 30 ] || { echo "gallery: only $count pictures"; failed=1; }
+    "$CASCADE" compile "$SOURCE/examples/c_program/spots.cascade" -o step.o --header step.h > log &&
+        cc -O2 -Wall -Wextra -Werror -I. "$SOURCE/examples/c_program/main.c" step.o -lpng -o spots &&
+        ./spots again.png && cmp "$SOURCE/examples/c_program/spots.png" again.png || failed=1
+fi
+exit $failed
