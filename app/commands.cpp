@@ -27,8 +27,8 @@ Result<std::string> read_standard_input(std::size_t largest) {
         }
         text.append(piece, 0, static_cast<std::size_t>(count));
         if (text.size() > largest) {
-            return failure(
-                fmt::format("standard input has more than the {} bytes a script may have", largest));
+            return failure(fmt::format(
+                "standard input has more than the {} bytes a script may have", largest));
         }
     }
 }

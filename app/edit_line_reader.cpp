@@ -7,10 +7,30 @@
 #include <cstdio>
 #include <cstdlib>
 #include <system_error>
+#include <termios.h>
+#include <unistd.h>
 
 namespace cascade {
 
 namespace {
+
+/// While it lives Ctrl-C is a character like others. libedit arranges that itself, but only some
+/// time after it has drawn its prompt.
+class InterruptKeyIsText {
+public:
+    InterruptKeyIsText() { set(false); }
+    ~InterruptKeyIsText() { set(true); }
+    InterruptKeyIsText(const InterruptKeyIsText&) = delete;
+    InterruptKeyIsText& operator=(const InterruptKeyIsText&) = delete;
+
+private:
+    static void set(bool signals) {
+        termios settings = {};
+        if (tcgetattr(STDIN_FILENO, &settings) != 0) return;
+        settings.c_lflag = signals ? settings.c_lflag | ISIG : settings.c_lflag & ~tcflag_t{ISIG};
+        tcsetattr(STDIN_FILENO, TCSANOW, &settings);
+    }
+};
 
 class EditReader : public LineReader {
 public:
@@ -52,6 +72,7 @@ public:
         prompt_ = prompt;
         dropped_ = false;
         int count = 0;
+        const InterruptKeyIsText key;
         const char* const text = el_gets(edit_.get(), &count);
         if (dropped_) return {TypedLine::Kind::cancelled, ""};
         if (!text || count <= 0) return {};

@@ -20,13 +20,13 @@ const std::string_view examples = R"(Examples:
   cascade systems                                    what there is to begin with
 
 A first script, spots.cascade:
-  stage large: turing_spots { iterations: 8000; ka: 1/320 }
+  stage large: turing_spots { iterations: 28000; ka: 0.05/16 }
   stage small: turing_spots {
-    iterations: 4000
+    iterations: 7000
     frozen: b < 4                # the spots of 'large' stay
     a: if([frozen], 4, a)
     b: if([frozen], 4, b)
-    ka: 1/80
+    ka: 0.2/16
   }
 
 Exit status: 0 done, 2 wrong script, 3 failed run, 64 wrong use, 130 stopped by Ctrl-C.)";
@@ -62,6 +62,19 @@ const std::string_view repl = "The language line by line, with pictures in the t
 const std::string_view repl_examples = R"(Example:
   cascade repl leopard.cascade
 Then :help tells what can be typed.)";
+
+std::string in_lines(const std::vector<std::string>& names) {
+    constexpr std::size_t widest = 52;
+    std::string text;
+    std::size_t column = 0;
+    for (const std::string& name : names) {
+        const bool fits = column + name.size() < widest;
+        if (column > 0) text += fits ? ' ' : '\n';
+        column = (fits ? column + 1 : 0) + name.size();
+        text += name;
+    }
+    return text;
+}
 
 std::string version_text() {
     return fmt::format("cascade {}\n{}\n", version(),

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cascade::help {
 
@@ -13,6 +14,9 @@ extern const std::string_view check, check_examples;
 extern const std::string_view compile, compile_examples;
 extern const std::string_view systems, systems_examples;
 extern const std::string_view repl, repl_examples;
+
+/// Names in lines that fit beside the column of options.
+std::string in_lines(const std::vector<std::string>& names);
 
 std::string version_text();
 

@@ -58,6 +58,15 @@ InterruptGuard::~InterruptGuard() {
 
 int InterruptGuard::signal() const { return received.load(); }
 
+void stay_on_interrupt() {
+    // Not SIG_IGN: InterruptGuard would take that for the wish never to be interrupted.
+    struct sigaction action = {};
+    action.sa_handler = [](int) {};
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGINT, &action, nullptr);
+}
+
 void ignore_broken_pipes() { std::signal(SIGPIPE, SIG_IGN); }
 
 }  // namespace cascade

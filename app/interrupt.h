@@ -24,6 +24,10 @@ private:
     std::unique_ptr<Saved> saved_;
 };
 
+/// SIGINT does nothing from now on, where no InterruptGuard lives: for a prompt, which is not left
+/// by Ctrl-C.
+void stay_on_interrupt();
+
 /// Writing to a pipe that nobody reads any more becomes an error of the write, not a signal.
 void ignore_broken_pipes();
 

@@ -34,8 +34,8 @@ Result<std::pair<std::int64_t, std::int64_t>> parse_grid(std::string_view text) 
     constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();
     const std::size_t cross = text.find('x');
     const auto columns = parse_whole(text.substr(0, cross), 0, largest);
-    const auto rows = cross == std::string_view::npos ? Result<std::int64_t>(1)
-                                                      : parse_whole(text.substr(cross + 1), 0, largest);
+    const auto rows = parse_whole(
+        cross == std::string_view::npos ? "1" : text.substr(cross + 1), 0, largest);
     if (columns && rows) return std::pair{*columns, *rows};
     return failure(fmt::format("'{}' is not a grid", text),
                    "write columns x rows, as in --grid 256x128");

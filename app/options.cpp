@@ -55,20 +55,6 @@ std::vector<std::string> palette_names() {
     return names;
 }
 
-/// Names in lines that fit beside the column of options.
-std::string in_lines(const std::vector<std::string>& names) {
-    constexpr std::size_t widest = 52;
-    std::string text;
-    std::size_t column = 0;
-    for (const std::string& name : names) {
-        const bool fits = column + name.size() < widest;
-        if (column > 0) text += fits ? ' ' : '\n';
-        column = (fits ? column + 1 : 0) + name.size();
-        text += name;
-    }
-    return text;
-}
-
 auto one_of(std::vector<std::string> choices) {
     return [choices = std::move(choices)](const std::string& text) {
         return parse_choice(text, choices);
@@ -106,11 +92,11 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
 
 void add_picture_options(CLI::App& app, PictureChanges& picture) {
     const std::string group = "What the picture shows";
-    add_value(app, "--show", "EXPR", "A species, a parameter, any expression: b, stage1.b,\n'a - b'",
-              any_text, [&](auto show) { picture.show = show; })
+    add_value(app, "--show", "EXPR", "A species, a parameter, any expression: b, stage1.b,\n"
+              "'a - b'", any_text, [&](auto show) { picture.show = show; })
         ->group(group);
     add_value(app, "--palette", "NAME",
-              in_lines(palette_names()), one_of(palette_names()),
+              help::in_lines(palette_names()), one_of(palette_names()),
               [&](auto palette) { picture.palette = palette; })
         ->group(group);
     add_value(app, "--range", "LOW,HIGH", "The values at the palette's two ends; without it the\n"
@@ -163,7 +149,9 @@ void add_execution(CLI::App& app, Options& options) {
         ->group(group);
     add_value(app, "--lanes", "4|8|16", "Cells in a vector; without it what the processor has",
               one_of({"4", "8", "16"}),
-              [&](const auto& lanes) { simulation.lanes = lanes == "4" ? 4 : lanes == "8" ? 8 : 16; })
+              [&](const auto& lanes) {
+                  simulation.lanes = lanes == "4" ? 4 : lanes == "8" ? 8 : 16;
+              })
         ->group(group);
     add_value(app, "--stop-at", "STAGE:STEP", "Stop there as Ctrl-C would", parse_stop_at,
               [&](auto stop) { options.run.stop_at = stop; })
@@ -175,7 +163,7 @@ void add_dump(CLI::App& app, Options& options) {
     std::vector<std::string> kinds;
     for (const std::string_view kind : dump_kinds()) kinds.emplace_back(kind);
     add_value(app, "--dump", "WHAT",
-              fmt::format("Print what becomes of the script, and stop there:\n{}", fmt::join(kinds, " ")),
+              "Print what becomes of the script, and stop there:\n" + help::in_lines(kinds),
               one_of(kinds), [&](auto kind) { options.dump = kind; })
         ->group("More");
 }
@@ -272,7 +260,9 @@ CLI::App* Parser::command(const std::string& name, std::string_view about,
 std::string Parser::help() {
     std::string text = chosen() ? chosen()->help(app.get_name()) : app.help();
     // CLI11 leaves two empty lines between groups.
-    for (std::size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;) text.erase(at, 1);
+    for (std::size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;) {
+        text.erase(at, 1);
+    }
     return text;
 }
 

@@ -223,8 +223,9 @@ void PromptSession::help(const std::string&) {
                                    fmt::format("{} {}", command.name, command.argument),
                                    command.about));
     }
-    console_.print("Anything else is the language: 'stage s: turing_spots { ka: 1/80 }'. A line that "
-                   "is\nright is kept; one that is wrong changes nothing.\n");
+    console_.print(
+        "Anything else is the language: 'stage s: turing_spots { ka: 1/80 }'. A line that is\n"
+        "right is kept; one that is wrong changes nothing.\n");
 }
 
 }  // namespace cascade

@@ -72,7 +72,9 @@ bool is_complete(std::string_view text) {
     return open <= 0 && !ends_in_operator(last);
 }
 
-bool says_nothing(std::string_view line) { return trim(line.substr(0, comment_begin(line))).empty(); }
+bool says_nothing(std::string_view line) {
+    return trim(line.substr(0, comment_begin(line))).empty();
+}
 
 Completion complete_word(std::string_view line, std::vector<std::string> names) {
     std::size_t begin = line.size();

@@ -1,6 +1,7 @@
 #include "app/repl.h"
 
 #include "app/exit_status.h"
+#include "app/interrupt.h"
 #include "app/line_reader.h"
 #include "app/prompt_session.h"
 
@@ -15,6 +16,7 @@ int repl_command(const Options& options, Console& console) {
         at_terminal ? make_edit_reader(history_path(),
                                        [&](const std::string& line) { return session.names(line); })
                     : make_plain_reader(STDIN_FILENO);
+    if (at_terminal) stay_on_interrupt();
     if (at_terminal) console.say("Cascade: ':help' lists what can be typed, Ctrl-D leaves.\n");
     if (!options.scripts.empty()) session.load(options.scripts[0]);
     while (true) {

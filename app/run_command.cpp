@@ -19,7 +19,8 @@ ProgressDisplay make_display(const Console& console, bool quiet) {
     const Kind kind = quiet ? Kind::none : stream.is_terminal ? Kind::bar : Kind::lines;
     return {kind,
             {[stream](std::string_view text) { (void)stream.write(text); },
-             [stream] { return stream.columns(); }, [] { return std::chrono::steady_clock::now(); }}};
+             [stream] { return stream.columns(); },
+             [] { return std::chrono::steady_clock::now(); }}};
 }
 
 /// The script that is run, and the picture options that it brings.

@@ -44,9 +44,11 @@ install_packages() {
         as_root=(sudo)
     fi
     say "installing ${missing[*]}"
-    local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=900)
+    local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive
+        apt-get -o DPkg::Lock::Timeout=900)
     if ! { "${apt[@]}" update &&
-        "${apt[@]}" install -y --no-install-recommends "${missing[@]}"; } </dev/null >>"$log" 2>&1; then
+        "${apt[@]}" install -y --no-install-recommends "${missing[@]}"; } \
+        </dev/null >>"$log" 2>&1; then
         say "the packages could not be installed; the end of $log:"
         tail -n 20 "$log" >&2
         return 1

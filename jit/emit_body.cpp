@@ -2,12 +2,14 @@
 #include "jit/emit_body.h"
 
 #include "core/check.h"
+#include "core/floating_point.h"
+#include "ir/interpreter.h"
 
 #include <llvm/IR/Constants.h>
 #include <llvm/IR/DerivedTypes.h>
 #include <llvm/IR/Intrinsics.h>
 
-#include <algorithm>
+#include <array>
 
 namespace cascade {
 namespace {
@@ -30,43 +32,7 @@ bool is_plus_or_minus(llvm::Value* value, float magnitude) {
     return number->isExactlyValue(magnitude) || number->isExactlyValue(-magnitude);
 }
 
-Level level_of_source(Op op) {
-    switch (op) {
-        case Op::field:
-        case Op::laplacian:
-        case Op::mask:
-        case Op::cell_column: return Level::cell;
-        case Op::cell_row: return Level::row;
-        default: return Level::call;
-    }
-}
-
-llvm::Value* not_here() {
-    CHECK(false, "a lane is asked for values of its own level");
-    return nullptr;
-}
-
 }  // namespace
-
-llvm::Value* Lane::uniform(std::uint32_t) { return not_here(); }
-llvm::Value* Lane::cell_row() { return not_here(); }
-llvm::Value* Lane::field(std::uint32_t) { return not_here(); }
-llvm::Value* Lane::laplacian(std::uint32_t) { return not_here(); }
-llvm::Value* Lane::mask(std::uint32_t) { return not_here(); }
-llvm::Value* Lane::cell_column() { return not_here(); }
-
-std::vector<Level> levels_of(const CellKernel& kernel) {
-    std::vector<Level> levels;
-    levels.reserve(kernel.code.size());
-    for (const Instruction& instruction : kernel.code) {
-        Level level = level_of_source(instruction.op);
-        for (int k = 0; k < info(instruction.op).arity; ++k) {
-            level = std::max(level, levels[instruction.operands[static_cast<std::size_t>(k)]]);
-        }
-        levels.push_back(level);
-    }
-    return levels;
-}
 
 BodyScope::BodyScope(const CellKernel& kernel, std::span<const Level> levels, Level level,
                      Builder& builder, Lane& lane, int lanes, BodyScope* outer)
@@ -82,9 +48,7 @@ BodyScope::BodyScope(const CellKernel& kernel, std::span<const Level> levels, Le
 
 void BodyScope::emit() {
     for (ValueId id = 0; id < kernel_.code.size(); ++id) {
-        if (levels_[id] != level_) continue;
-        values_[id] = emit(kernel_.code[id]);
-        values_[id].is_choice_of_constants = chooses_constants(kernel_.code[id]);
+        if (levels_[id] == level_) values_[id] = emit(kernel_.code[id]);
     }
 }
 
@@ -104,7 +68,7 @@ llvm::Value* BodyScope::number(ValueId id) {
     if (value.number) return value.number;
     value.number = value.bits
                        ? scope.builder_.CreateBitCast(value.bits, number_type_)
-                       : scope.builder_.CreateSelect(value.truth, splat(to_bits(1)), splat(0));
+                       : scope.builder_.CreateSelect(value.truth, hidden(to_bits(1)), hidden(0));
     return value.number;
 }
 
@@ -146,39 +110,69 @@ llvm::Value* BodyScope::flushed(ValueId id) {
     return builder_.CreateBitCast(builder_.CreateSelect(is_tiny, zero, word), number_type_);
 }
 
-// An operand of arithmetic. Constants are flushed here, because LLVM's folding does not always.
+// A constant that all of LLVM takes for a variable. It belongs to the outermost scope.
+llvm::Value* BodyScope::hidden(std::uint32_t word) {
+    BodyScope* scope = this;
+    while (scope->outer_) scope = scope->outer_;
+    llvm::Value*& value = scope->hidden_[word];
+    if (!value) value = scope->lane_.hidden(word);
+    return value;
+}
+
+// The word of a value that is the same constant in all cells. LLVM may have found that out.
+std::optional<std::uint32_t> BodyScope::constant_word(ValueId id) {
+    const Forms& value = forms(id);
+    llvm::Value* form = value.truth && value.is_boolean ? value.truth
+                        : value.number                  ? value.number
+                                                        : value.bits;
+    const auto* constant = llvm::dyn_cast<llvm::Constant>(form);
+    const llvm::Constant* element = constant ? constant->getSplatValue() : nullptr;
+    if (const auto* number = llvm::dyn_cast_or_null<llvm::ConstantFP>(element)) {
+        return static_cast<std::uint32_t>(
+            number->getValueAPF().bitcastToAPInt().getZExtValue());
+    }
+    if (const auto* integer = llvm::dyn_cast_or_null<llvm::ConstantInt>(element)) {
+        const auto word = static_cast<std::uint32_t>(integer->getZExtValue());
+        return form == value.truth ? word * to_bits(1) : word;
+    }
+    return std::nullopt;
+}
+
+// An operand of arithmetic. LLVM does not always flush constants.
 llvm::Value* BodyScope::operand(ValueId id) {
-    llvm::Value* value = number(id);
-    const bool is_constant = llvm::isa<llvm::Constant>(value);
-    return is_constant && forms(id).may_be_denormal ? flushed(id) : value;
+    return forms(id).may_be_denormal && constant_word(id) ? flushed(id) : number(id);
 }
 
 // An operand whose partner may be the constant ±`neutral`, which would make the operation the
-// identity: LLVM drops such operations, also in one branch of a choice between constants.
+// identity: LLVM drops such operations, also in one branch of a choice.
 llvm::Value* BodyScope::operand(ValueId id, ValueId partner, float neutral) {
     if (!forms(id).may_be_denormal) return number(id);
-    llvm::Value* other = operand(partner);
-    const bool may_be_neutral = llvm::isa<llvm::Constant>(other)
-                                    ? is_plus_or_minus(other, neutral)
-                                    : forms(partner).is_choice_of_constants;
+    const bool may_be_neutral = is_plus_or_minus(operand(partner), neutral) ||
+                                forms(partner).may_be_neutral;
     return may_be_neutral ? flushed(id) : operand(id);
 }
 
-bool BodyScope::chooses_constants(const Instruction& instruction) {
-    const auto [a, b, c] = instruction.operands;
-    const auto chooses = [&](ValueId id) { return forms(id).is_choice_of_constants; };
-    const bool is_condition = instruction.op == Op::mask ||
-                              (instruction.op >= Op::less && instruction.op <= Op::logical_not);
-    if (is_condition || instruction.op == Op::constant) return true;
-    if (instruction.op == Op::select) return chooses(b) || chooses(c);
-    switch (info(instruction.op).arity) {
-        case 1: return chooses(a);
-        case 2: return chooses(a) && chooses(b);
-        default: return false;
+// Evaluates an operation on constants.
+bool BodyScope::is_evaluated(const Instruction& instruction, Forms& value) {
+    std::array<std::uint32_t, 3> words{};
+    const auto arity = static_cast<std::size_t>(info(instruction.op).arity);
+    if (arity == 0) return false;
+    for (std::size_t k = 0; k < arity; ++k) {
+        const auto word = constant_word(instruction.operands[k]);
+        if (!word) return false;
+        words[k] = *word;
     }
+    const FlushDenormals environment;
+    const std::uint32_t word = evaluate(instruction.op, words[0], words[1], words[2]);
+    value.number = splat(word);
+    value.may_be_denormal = is_denormal(word);
+    value.is_choice = true;
+    return true;
 }
 
 BodyScope::Forms BodyScope::emit(const Instruction& instruction) {
+    Forms value;
+    if (is_evaluated(instruction, value)) return value;
     switch (instruction.op) {
         case Op::constant:
         case Op::field:
@@ -222,6 +216,7 @@ BodyScope::Forms BodyScope::emit_source(const Instruction& instruction) {
         case Op::constant:
             value.number = splat(instruction.payload);
             value.may_be_denormal = is_denormal(instruction.payload);
+            value.is_choice = true;
             break;
         case Op::field:
             value.number = lane_.field(instruction.payload);
@@ -230,7 +225,7 @@ BodyScope::Forms BodyScope::emit_source(const Instruction& instruction) {
         case Op::laplacian: value.number = lane_.laplacian(instruction.payload); break;
         case Op::mask:
             value.truth = lane_.mask(instruction.payload);
-            value.is_boolean = true;
+            value.is_boolean = value.is_choice = true;
             break;
         case Op::uniform:
             value.number = lane_.uniform(instruction.payload);
@@ -248,6 +243,8 @@ BodyScope::Forms BodyScope::emit_arithmetic(const Instruction& instruction) {
     const ValueId a = instruction.operands[0];
     const ValueId b = instruction.operands[1];
     Forms value;
+    value.may_be_neutral = forms(a).may_be_neutral ||
+                           (info(instruction.op).arity == 2 && forms(b).may_be_neutral);
     switch (instruction.op) {
         case Op::add:
             value.number = builder_.CreateFAdd(operand(a, b, 0), operand(b, a, 0));
@@ -280,7 +277,7 @@ BodyScope::Forms BodyScope::emit_comparison(const Instruction& instruction) {
     llvm::Value* a = operand(instruction.operands[0]);
     llvm::Value* b = operand(instruction.operands[1]);
     Forms value;
-    value.is_boolean = true;
+    value.is_boolean = value.is_choice = true;
     switch (instruction.op) {
         case Op::less: value.truth = builder_.CreateFCmpOLT(a, b); break;
         case Op::less_equal: value.truth = builder_.CreateFCmpOLE(a, b); break;
@@ -293,7 +290,7 @@ BodyScope::Forms BodyScope::emit_comparison(const Instruction& instruction) {
 BodyScope::Forms BodyScope::emit_logic(const Instruction& instruction) {
     llvm::Value* a = truth(instruction.operands[0]);
     Forms value;
-    value.is_boolean = true;
+    value.is_boolean = value.is_choice = true;
     switch (instruction.op) {
         case Op::logical_and:
             value.truth = builder_.CreateAnd(a, truth(instruction.operands[1]));
@@ -306,22 +303,37 @@ BodyScope::Forms BodyScope::emit_logic(const Instruction& instruction) {
     return value;
 }
 
+// One branch of a choice, as a number. Between constants they are hidden; a constant beside
+// something else stays, so that a clamp becomes the processor's max.
+llvm::Value* BodyScope::branch(ValueId id, ValueId other) {
+    const auto word = constant_word(id);
+    return word && forms(other).is_choice ? hidden(*word) : number(id);
+}
+
 // A choice between numbers by their comparison becomes the processor's min or max, which flush
 // denormals: such words are chosen as integers.
 BodyScope::Forms BodyScope::emit_select(const Instruction& instruction) {
     const auto [condition, then, otherwise] = instruction.operands;
     llvm::Value* choice = truth(condition);
+    const Forms& first = forms(then);
+    const Forms& second = forms(otherwise);
     Forms value;
-    if (forms(then).is_boolean && forms(otherwise).is_boolean) {
+    value.is_choice = first.is_choice && second.is_choice;
+    if (first.is_boolean && second.is_boolean) {
         value.truth = builder_.CreateSelect(choice, truth(then), truth(otherwise));
         value.is_boolean = true;
         return value;
     }
-    value.may_be_denormal = forms(then).may_be_denormal || forms(otherwise).may_be_denormal;
+    value.may_be_denormal = first.may_be_denormal || second.may_be_denormal;
+    value.may_be_neutral = first.is_choice || second.is_choice || first.may_be_neutral ||
+                           second.may_be_neutral;
+    llvm::Value* a = branch(then, otherwise);
+    llvm::Value* b = branch(otherwise, then);
     if (value.may_be_denormal) {
-        value.bits = builder_.CreateSelect(choice, bits(then), bits(otherwise));
+        value.bits = builder_.CreateSelect(choice, builder_.CreateBitCast(a, bits_type_),
+                                           builder_.CreateBitCast(b, bits_type_));
     } else {
-        value.number = builder_.CreateSelect(choice, number(then), number(otherwise));
+        value.number = builder_.CreateSelect(choice, a, b);
     }
     return value;
 }
@@ -340,6 +352,7 @@ BodyScope::Forms BodyScope::emit_word(const Instruction& instruction) {
         return builder_.CreateAnd(b, llvm::ConstantInt::get(bits_type_, 31));
     };
     value.may_be_denormal = true;
+    value.may_be_neutral = true;
     switch (instruction.op) {
         case Op::bits_add: value.bits = builder_.CreateAdd(a, b); break;
         case Op::bits_subtract: value.bits = builder_.CreateSub(a, b); break;

@@ -5,9 +5,12 @@
 // loops, so that what is the same in all cells, or in a row, is computed outside of the loop
 // without any pass that moves code.
 //
-// Denormals. The kernel runs with denormal inputs and results flushed, and LLVM takes the liberty
-// to drop operations such as x * 1, which flush. Wherever a word may be a denormal number the
-// emitter writes something that LLVM cannot weaken: see `flushed` and `select` in the .cpp.
+// Denormals. The kernel runs with denormal inputs and results flushed, and LLVM takes two liberties
+// there. It drops operations such as x * 1, which flush: wherever a word may be a denormal number
+// the emitter flushes it in integer operations. And it computes with constants, also in the
+// branches of a choice between them, without flushing (or, LLVM 19, wrongly: 0 / (c ? 1 : 0) was
+// NaN for both): operations on constants are evaluated here, by the interpreter's own definition,
+// and constants to choose from are loaded from memory that LLVM does not look into.
 #pragma once
 
 #include "ir/cell_kernel.h"
@@ -15,6 +18,8 @@
 #include <llvm/Analysis/InstSimplifyFolder.h>
 #include <llvm/IR/IRBuilder.h>
 
+#include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,6 +45,7 @@ public:
     virtual ~Lane() = default;
     // Of the call.
     virtual llvm::Value* uniform(std::uint32_t slot);    ///< <N x float>
+    virtual llvm::Value* hidden(std::uint32_t word);     ///< <N x float>, a hidden constant
     // Of the row.
     virtual llvm::Value* cell_row();                     ///< <N x i32>
     // Of the cells.
@@ -73,21 +79,24 @@ private:
         llvm::Value* truth = nullptr;
         bool is_boolean = false;        ///< It is 1 or 0, and `truth` says which.
         bool may_be_denormal = false;
-        /// Made of constants that conditions choose from, at least in one branch of a choice.
-        bool is_choice_of_constants = false;
+        bool is_choice = false;         ///< Between constants, in all branches.
+        bool may_be_neutral = false;    ///< It chooses between a constant and something else.
     };
 
     BodyScope& owner(ValueId id);
     Forms& forms(ValueId id) { return owner(id).values_[id]; }
 
     Forms emit(const Instruction& instruction);
-    bool chooses_constants(const Instruction& instruction);
+    bool is_evaluated(const Instruction& instruction, Forms& value);
     Forms emit_source(const Instruction& instruction);
     Forms emit_arithmetic(const Instruction& instruction);
     Forms emit_comparison(const Instruction& instruction);
     Forms emit_logic(const Instruction& instruction);
     Forms emit_select(const Instruction& instruction);
     Forms emit_word(const Instruction& instruction);
+    std::optional<std::uint32_t> constant_word(ValueId id);
+    llvm::Value* branch(ValueId id, ValueId other);
+    llvm::Value* hidden(std::uint32_t word);
     llvm::Value* operand(ValueId id);
     llvm::Value* operand(ValueId id, ValueId partner, float neutral);
     llvm::Value* flushed(ValueId id);
@@ -101,6 +110,7 @@ private:
     BodyScope* outer_;
     llvm::VectorType* number_type_;
     llvm::VectorType* bits_type_;
+    std::map<std::uint32_t, llvm::Value*> hidden_;
     std::vector<Forms> values_;  ///< By value; only those of this level are filled in.
 };
 

@@ -69,6 +69,17 @@ public:
         return splat(builder_, aliases_.mark(number, 0));
     }
 
+    /// A variable of the module that nobody changes; the code generator does not know that.
+    Value* hidden(std::uint32_t word) {
+        llvm::Type* type = builder_.getFloatTy();
+        llvm::Constant* number = llvm::ConstantFP::get(
+            type, llvm::APFloat(llvm::APFloat::IEEEsingle(), llvm::APInt(32, word)));
+        auto* variable = new llvm::GlobalVariable(*function_.getParent(), type, false,
+                                                  llvm::GlobalValue::PrivateLinkage, number,
+                                                  "hidden");  // The module owns it.
+        return splat(builder_, builder_.CreateAlignedLoad(type, variable, alignment(4)));
+    }
+
     /// `rows` times the stride.
     Value* row_step(int rows) {
         Value*& step = row_steps_[rows];
@@ -103,6 +114,7 @@ public:
         : frame_(frame), builder_(builder), row_(row) {}
 
     Value* uniform(std::uint32_t slot) override { return frame_.uniform(slot); }
+    Value* hidden(std::uint32_t word) override { return frame_.hidden(word); }
     Value* cell_row() override {
         return frame_.splat(builder_, builder_.CreateTrunc(row_, builder_.getInt32Ty()));
     }

@@ -116,17 +116,17 @@ says out 'cascade 0.1.0'
 [ "${PIPESTATUS[0]}" = 0 ] && [ -s pipe.png ] || fail "nobody reads the progress"
 
 # Ctrl-C: what there is is written, and said.
-timeout --preserve-status -s INT 1 "$CASCADE" run long.cascade --save stopped >out 2>err
+timeout --preserve-status -s INT 2 "$CASCADE" run long.cascade --save stopped >out 2>err
 [ $? = 130 ] || fail "Ctrl-C is not 130"
 says err "interrupted at stage 's', step"
 [ -s long.png ] && [ -s stopped/s.b.npy ] || fail "Ctrl-C lost the picture"
-timeout --preserve-status -s TERM 1 "$CASCADE" run long.cascade -q >out 2>err
+timeout --preserve-status -s TERM 2 "$CASCADE" run long.cascade -q >out 2>err
 [ $? = 143 ] || fail "SIGTERM is not 143"
 
 # A terminal: a bar, colours, and neither with NO_COLOR or TERM=dumb.
 in_terminal() { TERM=$1 script -qec "$2" /dev/null >out 2>err </dev/null; }
 if command -v script >/dev/null; then
-    in_terminal xterm "timeout --preserve-status -s INT 1 '$CASCADE' run long.cascade"
+    in_terminal xterm "timeout --preserve-status -s INT 2 '$CASCADE' run long.cascade"
     grep -q "stage 's' ▕" out || fail "no bar in a terminal"
     in_terminal xterm "'$CASCADE' check wrong.cascade"
     grep -q $'\x1b\\[1;31m' out || fail "no colours in a terminal"

@@ -10,7 +10,7 @@ fail() {
 }
 count() { grep -c "$1" calls || true; }
 
-rm -rf tree bin calls elsewhere && mkdir -p bin elsewhere
+rm -rf ./* && mkdir -p bin elsewhere
 mkdir -p tree/{core,ir,lang,jit,solvers,picture,run,app,include,cmake}
 cp "$SOURCE/cascade" tree/ && cp "$SOURCE"/cmake/{setup.sh,packages.txt} tree/cmake/
 touch tree/CMakeLists.txt tree/core/a.cpp
