@@ -141,6 +141,12 @@ int compile_command(const Options& options, Console& console) {
     if (object.empty()) object = stem_of(script).concat(".o");
     std::filesystem::path header = options.header;
     if (header.empty()) header = std::filesystem::path(object).replace_extension(".h");
+    if (object.lexically_normal() == header.lexically_normal()) {
+        console.fail({fmt::format("the object file and the header are both to be written to {}",
+                                  object.string()),
+                      "name them apart with -o and --header"});
+        return exit_status::wrong_use;
+    }
     for (const auto& path : {object, header}) {
         if (auto good = check_writable(path); !good) {
             console.fail(good.error());

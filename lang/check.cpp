@@ -87,7 +87,8 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
         checking::check_stages(work, script);
         checking::check_domain(work, script);
         checking::check_picture(work, script);
-        if (!own.has_errors()) checking::warn_unread(work);
+        // What could not be read may have been what reads a parameter.
+        if (!own.has_errors() && !diagnostics.has_errors()) checking::warn_unread(work);
     }
     for (Diagnostic& diagnostic : own.sorted()) diagnostics.add(std::move(diagnostic));
     if (diagnostics.has_errors()) return std::nullopt;

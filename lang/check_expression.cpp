@@ -141,17 +141,23 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
 }
 
 /// Palettes and files are named by texts. A bare word in such a place is no unknown name but a text
-/// without its quotes.
+/// without its quotes. The texts of a call that is wrong itself are not told to be misplaced.
 void ExpressionChecker::find_text_places() {
     wants_text_.assign(expression_.root - expression_.first + 1, false);
     for (ast::ExprId id = expression_.first; id <= expression_.root; ++id) {
         const auto* call = std::get_if<ast::Call>(&script_.expressions[id].node);
         if (call == nullptr) continue;
         const auto function = function_of(call->function.text);
-        if (function != Function::palette && function != Function::field) continue;
-        if (static_cast<int>(call->argument_count) != info(*function).arity) continue;
-        const std::uint32_t last = call->first_argument + call->argument_count - 1;
-        wants_text_[part_of(script_.arguments[last])] = true;
+        const std::uint32_t end = call->first_argument + call->argument_count;
+        if (!function || static_cast<int>(call->argument_count) != info(*function).arity) {
+            for (std::uint32_t k = call->first_argument; k < end; ++k) {
+                const ast::ExprId argument = script_.arguments[k];
+                wants_text_[part_of(argument)] =
+                    std::holds_alternative<ast::Text>(script_.expressions[argument].node);
+            }
+        } else if (function == Function::palette || function == Function::field) {
+            wants_text_[part_of(script_.arguments[end - 1])] = true;
+        }
     }
 }
 

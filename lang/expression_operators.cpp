@@ -138,11 +138,11 @@ ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_lin
 ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) {
     const Token before = cursor_.previous();
     const Token here = cursor_.peek();
-    if (before.kind == TokenKind::garbage) return fail_silently();
     if (on_new_line) {
         cursor_.step_back();
         return unclosed();
     }
+    if (before.kind == TokenKind::garbage) return fail_silently();
     const bool is_sentence = cursor_.begins_sentence();
     if (is_sentence && open_brackets_ > 0) return unclosed();
     if (is_sentence) {

@@ -132,6 +132,8 @@ ExpressionParser::Progress ExpressionParser::fail(Span span, std::string message
 ExpressionParser::Progress ExpressionParser::unclosed() {
     for (std::size_t k = pending_.size(); k-- > 0;) {
         if (!pending_[k].is_bracket()) continue;
+        // Behind a text that is never closed, nothing says that the bracket was forgotten too.
+        if (cursor_.lost_in_text(pending_[k].token, "")) break;
         cursor_.error(pending_[k].token.span, "this '(' is never closed",
                       "a ')' is missing before the sentence ends");
         break;

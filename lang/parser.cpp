@@ -55,6 +55,16 @@ void parse_override(SourceId source, const Sources& sources, ast::Script& script
     ScriptParser(cursor, script).parse_override();
 }
 
+/// Something follows what should be all. An expression that could not be read has its message.
+void ScriptParser::report_rest(const std::string& what, ast::Expression expression,
+                               const std::string& hint) {
+    cursor_.skip_newlines();
+    const auto& root = script_.expressions[expression.root].node;
+    if (cursor_.at_end() || std::holds_alternative<ast::Garbage>(root)) return;
+    cursor_.error(cursor_.peek().span,
+                  fmt::format("{} ends before {}", what, cursor_.describe(cursor_.peek())), hint);
+}
+
 std::optional<ast::Expression> ScriptParser::parse_lone_expression() {
     cursor_.skip_newlines();
     if (cursor_.at_end()) {
@@ -62,11 +72,7 @@ std::optional<ast::Expression> ScriptParser::parse_lone_expression() {
         return std::nullopt;
     }
     const ast::Expression expression = expressions_.parse("the expression");
-    cursor_.skip_newlines();
-    if (!cursor_.at_end()) {
-        cursor_.error(cursor_.peek().span,
-                      "one expression ends before " + cursor_.describe(cursor_.peek()));
-    }
+    report_rest("one expression", expression, "");
     return expression;
 }
 
@@ -95,11 +101,7 @@ void ScriptParser::parse_override() {
     change.sentence.values.push_back(
         expressions_.parse("the value of '" + shortened(name.text) + "'"));
     change.sentence.span = join(name.span, cursor_.previous().span);
-    cursor_.skip_newlines();
-    if (!cursor_.at_end()) {
-        cursor_.error(cursor_.peek().span,
-                      "one value ends before " + cursor_.describe(cursor_.peek()), form);
-    }
+    report_rest("one value", change.sentence.values[0], form);
     script_.overrides.push_back(std::move(change));
 }
 

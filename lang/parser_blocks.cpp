@@ -136,7 +136,7 @@ void ScriptParser::parse_body(ast::Block& block) {
         if (refuse_later_word()) continue;
         if (auto sentence = parse_sentence()) block.sentences.push_back(std::move(*sentence));
     }
-    if (is_open) report_unclosed(open, block);
+    if (is_open && !cursor_.lost_in_text(open, "}")) report_unclosed(open, block);
 }
 
 void ScriptParser::report_unclosed(const Token& open, const ast::Block& block) {

@@ -48,6 +48,9 @@ private:
     bool report_no_sentence();
     void parse_values(ast::Sentence& sentence);
 
+    void report_rest(const std::string& what, ast::Expression expression,
+                     const std::string& hint);
+
     TokenCursor& cursor_;
     ast::Script& script_;
     ExpressionParser expressions_;

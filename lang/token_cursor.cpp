@@ -55,6 +55,15 @@ bool TokenCursor::at_sentence_end() const {
            here == TokenKind::close_curly || here == TokenKind::end_of_text;
 }
 
+bool TokenCursor::lost_in_text(const Token& from, std::string_view swallowed) const {
+    for (std::size_t k = position_; k-- > 0 && tokens_[k].span.begin > from.span.begin;) {
+        const bool is_text =
+            tokens_[k].kind == TokenKind::garbage && text(tokens_[k]).starts_with('"');
+        if (is_text && text(tokens_[k]).find(swallowed) != std::string_view::npos) return true;
+    }
+    return false;
+}
+
 bool TokenCursor::at_name(std::string_view name, std::size_t ahead) const {
     return kind(ahead) == TokenKind::name && text(peek(ahead)) == name;
 }

@@ -45,6 +45,10 @@ public:
     /// Is the token here the name with this text?
     bool at_name(std::string_view name, std::size_t ahead = 0) const;
 
+    /// Does a text that is never closed lie between `from` and here, with `swallowed` in it? What
+    /// it took with it is not missing.
+    bool lost_in_text(const Token& from, std::string_view swallowed) const;
+
     /// Goes to the end of the sentence, over `open_brackets` brackets that are open and over whole
     /// { } with everything in them.
     void skip_sentence(std::size_t open_brackets = 0);

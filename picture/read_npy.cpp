@@ -134,6 +134,11 @@ Result<NpyArray> parse_npy(std::string_view bytes) {
 }
 
 Result<NpyArray> read_npy(const std::filesystem::path& path) {
+    // A device may have no end, and no size to compare with.
+    std::error_code error;
+    if (std::filesystem::exists(path, error) && std::filesystem::is_other(path, error)) {
+        return failure(fmt::format("cannot read '{}': it is not a file", path.string()));
+    }
     const Result<std::string> bytes = read_file(path, largest_file);
     if (!bytes) return tl::unexpected<Failure>(bytes.error());
     Result<NpyArray> array = parse_npy(*bytes);

@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <set>
 #include <string>
 
 namespace cascade {
@@ -37,7 +38,7 @@ Field to_field(const NpyArray& array, const Grid& grid) {
 void read_one(Script& script, const Node& node, InputFiles& files) {
     const std::string& name = script.program->texts[node.index];
     const Grid& grid = script.program->domain.grid;
-    const auto array = read_npy(script.folder / name);
+    const auto array = read_npy((script.folder / name).lexically_normal());
     if (!array) {
         script.diagnostics.error(node.span, array.error().message, array.error().hint);
     } else if (array->rows != grid.height || array->columns != grid.width) {
@@ -55,11 +56,13 @@ void read_one(Script& script, const Node& node, InputFiles& files) {
 
 Result<InputFiles> read_input_files(Script& script) {
     InputFiles files;
+    std::set<std::uint32_t> seen;  // A file is read, and its fault told, once.
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
         for (const Formula& formula : script.program->stages[k].items) {
             for (const Node& node : formula.nodes) {
                 if (node.kind != NodeKind::call || node.function != Function::field) continue;
-                read_one(script, formula.nodes[node.operands[0]], files);
+                const Node& path = formula.nodes[node.operands[0]];
+                if (seen.insert(path.index).second) read_one(script, path, files);
             }
         }
     }

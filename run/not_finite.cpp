@@ -35,7 +35,7 @@ bool explains(double largest, double speed) { return std::isnan(speed) || larges
 Failure describe(const NotFiniteReport& report) {
     const NotFinite& found = report.found;
     Failure failure;
-    if (found.step == 0) {
+    if (report.starting) {
         failure.message =
             fmt::format("stage '{}' ({}): the starting value of {} is not finite at column {}, row {}",
                         report.stage, report.system, report.species, found.column, found.row);

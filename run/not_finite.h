@@ -12,6 +12,7 @@ namespace cascade {
 struct NotFiniteReport {
     std::string stage, system, species;
     NotFinite found;
+    bool starting = false;                 ///< It was so before the first step.
     double speed = 0;                      ///< NaN where it varies by cell.
     StabilityEstimate estimate_before;     ///< At the last look before.
     StabilityEstimate estimate_at_start;   ///< At the stage's starting values.

@@ -8,8 +8,24 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace cascade {
+
+namespace {
+
+bool makes_sense(const PictureRequest& request) {
+    if (request.scale < 1 || request.scale > 64) return false;
+    if (request.depth != 8 && request.depth != 16) return false;
+    // A range that runs downwards turns the palette over.
+    if (request.range && (!std::isfinite(request.range->low) || !std::isfinite(request.range->high) ||
+                          request.range->low == request.range->high)) {
+        return false;
+    }
+    return find_palette(request.palette) != nullptr;
+}
+
+}  // namespace
 
 std::string to_json(const PictureRequest& request) {
     nlohmann::json json = {{"palette", request.palette},
@@ -35,12 +51,10 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
             request.range = ValueRange{json.at("range").at(0).get<float>(),
                                        json.at("range").at(1).get<float>()};
         }
-        if (request.scale < 1 || request.scale > 64 || (request.depth != 8 && request.depth != 16)) {
-            return failure("the stored picture options make no sense");
-        }
+        if (!makes_sense(request)) return failure("the stored picture options make no sense");
         return request;
-    } catch (const nlohmann::json::exception& error) {
-        return failure(fmt::format("the stored picture options cannot be read ({})", error.what()));
+    } catch (const nlohmann::json::exception&) {
+        return failure("the stored picture options cannot be read");
     }
 }
 

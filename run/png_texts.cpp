@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <limits>
+#include <stdexcept>
+
 namespace cascade {
 
 namespace {
@@ -12,6 +15,12 @@ constexpr const char* key_script = "Cascade script";
 constexpr const char* key_overrides = "Cascade overrides";
 constexpr const char* key_seed = "Cascade seed";
 constexpr const char* key_picture = "Cascade picture";
+
+/// A number of the stored overrides. One that cannot be meant is refused, not bent.
+std::int64_t whole_number(const nlohmann::json& json, std::int64_t most) {
+    if (!json.is_number_integer() || json < 0 || json > most) throw std::out_of_range("number");
+    return json.get<std::int64_t>();
+}
 
 }  // namespace
 
@@ -28,23 +37,29 @@ std::string overrides_to_json(const Overrides& overrides) {
 }
 
 Result<Overrides> overrides_from_json(const std::string& text) {
+    constexpr const char* unreadable = "the stored overrides cannot be read";
+    constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
     // The library reports by exception; none leaves this function.
     try {
         const auto json = nlohmann::json::parse(text);
+        if (!json.is_object()) return failure(unreadable);
         Overrides overrides;
         if (json.contains("set")) json.at("set").get_to(overrides.sets);
         if (json.contains("grid")) {
-            overrides.grid = {json.at("grid").at(0).get<std::int64_t>(),
-                              json.at("grid").at(1).get<std::int64_t>()};
+            overrides.grid = {whole_number(json.at("grid").at(0), largest),
+                              whole_number(json.at("grid").at(1), largest)};
         }
-        if (json.contains("seed")) overrides.seed = json.at("seed").get<std::uint32_t>();
-        if (json.contains("steps")) overrides.steps = json.at("steps").get<std::int64_t>();
+        if (json.contains("seed")) {
+            overrides.seed = static_cast<std::uint32_t>(
+                whole_number(json.at("seed"), std::numeric_limits<std::uint32_t>::max()));
+        }
+        if (json.contains("steps")) overrides.steps = whole_number(json.at("steps"), largest);
         if (json.contains("until_stage")) {
             overrides.until_stage = json.at("until_stage").get<std::string>();
         }
         return overrides;
-    } catch (const nlohmann::json::exception& error) {
-        return failure(fmt::format("the stored overrides cannot be read ({})", error.what()));
+    } catch (const std::exception&) {
+        return failure(unreadable);
     }
 }
 
@@ -86,6 +101,12 @@ Result<EmbeddedScript> read_embedded_script(const std::filesystem::path& path) {
     embedded.text = script->second;
     embedded.overrides = std::move(*overrides);
     if (texts->contains(key_picture)) embedded.picture_options = texts->at(key_picture);
+    if (!embedded.picture_options.empty()) {
+        const auto picture = picture_request_from_json(embedded.picture_options);
+        if (!picture) {
+            return failure(fmt::format("{}: {}", path.string(), picture.error().message));
+        }
+    }
     return embedded;
 }
 

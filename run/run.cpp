@@ -24,6 +24,10 @@ std::filesystem::path default_output(const Script& script) {
 Result<void> check_outputs(const RunRequest& request, const std::filesystem::path& output) {
     if (auto good = check_writable(output); !good) return good;
     if (!request.sheet.empty()) {
+        if (request.sheet.lexically_normal() == output.lexically_normal()) {
+            return failure(fmt::format("the picture and --sheet are both to be written to {}",
+                                       output.string()));
+        }
         if (auto good = check_writable(request.sheet); !good) return good;
     }
     for (const auto& folder : {request.frames, request.save}) {
@@ -49,18 +53,36 @@ Result<void> check_picture_size(const Grid& grid, const PictureRequest& picture)
                    "use a smaller grid or --scale");
 }
 
-Result<void> check_request(const Script& script, const RunRequest& request) {
-    const Program& program = *script.program;
-    if (request.picture.space_time && program.domain.grid.height != 1) {
-        return failure("--space-time draws grids of one row",
-                       "for a plane, --frames writes a picture each interval");
+/// A place to stop at that the run never comes to would let it run on to its end.
+void check_stop_at(Script& script, const StopAt& stop_at) {
+    const std::string text = fmt::format("{}:{}", stop_at.stage, stop_at.step);
+    Span span = option_span(script.sources, "--stop-at", text);
+    const auto length = static_cast<std::uint32_t>(stop_at.stage.size());
+    const auto stage =
+        find_stage_of_option(script, stop_at.stage, {span.source, span.begin, span.begin + length});
+    if (!stage) return;
+    if (*stage >= script.stage_count()) {
+        script.diagnostics.error(span, fmt::format("stage '{}' does not run", stop_at.stage),
+                                 "--until-stage ends the run before it");
+        return;
     }
-    if (request.stop_at) {
-        for (const Stage& stage : program.stages) {
-            if (stage.name == request.stop_at->stage) return {};
-        }
-        return failure(fmt::format("--stop-at: no stage is called '{}'", request.stop_at->stage));
+    const std::int64_t iterations = script.program->stages[*stage].iterations;
+    if (stop_at.step <= iterations) return;
+    span.begin = length + 1;
+    script.diagnostics.error(span, fmt::format("stage '{}' has {} steps", stop_at.stage, iterations));
+}
+
+/// What is asked for must fit the script; where it does not, the script's diagnostics say so.
+Result<void> check_request(Script& script, const RunRequest& request) {
+    const std::int64_t rows = script.program->domain.grid.height;
+    if (request.picture.space_time && rows != 1) {
+        script.diagnostics.error(
+            option_span(script.sources, "--space-time", "--space-time"),
+            fmt::format("a space-time picture is drawn of a grid of one row, not of {}", rows),
+            "for a plane, --frames writes a picture each interval");
     }
+    if (request.stop_at) check_stop_at(script, *request.stop_at);
+    if (script.diagnostics.has_errors()) return failure("the request does not fit the script");
     return {};
 }
 
@@ -107,11 +129,12 @@ Result<void> Runner::prepare() {
     auto painter = Painter::create(script_, request_.picture);
     if (!painter) return tl::unexpected(painter.error());
     painter_ = std::move(*painter);
-    if (auto good = check_outputs(request_, output_); !good) return good;
     auto simulation = Simulation::create(script_, request_.simulation);
     if (!simulation) return tl::unexpected(simulation.error());
     simulation_ = std::move(*simulation);
     if (auto good = check_picture_size(simulation_->grid(), request_.picture); !good) return good;
+    // Folders are made last, so that a run that is refused leaves none behind.
+    if (auto good = check_outputs(request_, output_); !good) return good;
     if (!request_.frames.empty() || request_.picture.space_time) {
         auto frames = FrameRecorder::create(request_.frames, request_.picture.space_time);
         if (!frames) return tl::unexpected(frames.error());
@@ -135,13 +158,14 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
     if (simulation_->state(k).done) return StageEnd::finished;
     std::int64_t last = stage.iterations;
     const bool stops_here = request_.stop_at && request_.stop_at->stage == stage.name &&
-                            request_.stop_at->step < last;
+                            request_.stop_at->step <= last;
     if (stops_here) last = request_.stop_at->step;
     const std::int64_t before = simulation_->state(k).steps;
     const auto start = Clock::now();
     auto end = simulation_->advance_stage(k, std::max(last, before), control_, [&] { look(); });
     report_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
     report_.steps += simulation_->state(k).steps - before;
+    if (stops_here && end && *end == StageEnd::finished) return StageEnd::stopped;
     return end;
 }
 

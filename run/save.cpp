@@ -8,6 +8,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
 namespace cascade {
 
 namespace {
@@ -79,6 +83,11 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
             std::memcpy(field.row(j), array->values.data() + j * grid.width,
                         static_cast<std::size_t>(grid.width) * sizeof(float));
         }
+        const auto is_finite = [](float value) { return std::isfinite(value); };
+        if (!std::all_of(array->values.begin(), array->values.end(), is_finite)) {
+            return tl::unexpected(damaged(
+                folder, fmt::format("{} has a value that is not finite", path.filename().string())));
+        }
         species.push_back(std::move(field));
     }
     return species;
@@ -95,6 +104,10 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
         return failure(fmt::format("the folder {} cannot be made: {}", folder.string(),
                                    error.message()));
     }
+    // The manifest comes last: a folder without one is not taken for a saved run. Nor is one whose
+    // arrays are half new and half of an earlier run.
+    const auto path_of_manifest = folder / "run.json";
+    std::filesystem::remove(path_of_manifest, error);
     std::vector<std::filesystem::path> written;
     const Program& program = *script.program;
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
@@ -109,12 +122,10 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
             written.push_back(path);
         }
     }
-    // The manifest comes last: a folder without one is not taken for a saved run.
-    const auto path = folder / "run.json";
-    if (auto done = write_file(path, manifest(script, simulation)); !done) {
+    if (auto done = write_file(path_of_manifest, manifest(script, simulation)); !done) {
         return tl::unexpected(done.error());
     }
-    written.push_back(path);
+    written.push_back(path_of_manifest);
     return written;
 }
 
@@ -134,8 +145,8 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
         return load_script(json->at("name").get<std::string>(),
                            json->at("script").get<std::string>(),
                            json->at("folder").get<std::string>(), std::move(*overrides));
-    } catch (const nlohmann::json::exception& error) {
-        return tl::unexpected(damaged(folder, error.what()));
+    } catch (const nlohmann::json::exception&) {
+        return tl::unexpected(damaged(folder, "run.json lacks something or has it wrong"));
     }
 }
 
@@ -145,10 +156,15 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
     if (!json) return tl::unexpected(json.error());
     try {
         const auto& stages = json->at("stages");
+        if (!stages.is_array()) return tl::unexpected(damaged(folder, "its stages are no list"));
         if (stages.size() > script.program->stages.size()) {
             return tl::unexpected(damaged(folder, "it has more stages than its script"));
         }
         for (std::uint32_t k = 0; k < stages.size(); ++k) {
+            if (stages[k].at("name") != script.program->stages[k].name ||
+                !stages[k].at("steps").is_number_integer()) {
+                return tl::unexpected(damaged(folder, fmt::format("stage {} is not right", k + 1)));
+            }
             const auto steps = stages[k].at("steps").get<std::int64_t>();
             const bool done = stages[k].at("done").get<bool>();
             if (steps < 0) return tl::unexpected(damaged(folder, "a number of steps is negative"));
@@ -157,8 +173,8 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             if (!species) return tl::unexpected(species.error());
             simulation.set_species(k, std::move(*species), steps, done);
         }
-    } catch (const nlohmann::json::exception& error) {
-        return tl::unexpected(damaged(folder, error.what()));
+    } catch (const nlohmann::json::exception&) {
+        return tl::unexpected(damaged(folder, "run.json lacks something or has it wrong"));
     }
     return {};
 }

@@ -1,6 +1,7 @@
 #include "run/script.h"
 
 #include "core/file.h"
+#include "core/near_name.h"
 #include "lang/check.h"
 #include "lang/parse.h"
 #include "picture/image.h"
@@ -35,13 +36,29 @@ std::uint32_t Script::final_stage() const {
     return count - 1;
 }
 
-namespace {
-
-/// A place for messages about an option: the option's own text is the source.
 Span option_span(Sources& sources, const std::string& option, const std::string& value) {
     const SourceId id = sources.add(fmt::format("<{}>", option), value);
     return {id, 0, static_cast<std::uint32_t>(value.size())};
 }
+
+std::optional<std::uint32_t> find_stage_of_option(Script& script, const std::string& name,
+                                                  Span span) {
+    std::vector<std::string> names;
+    for (const Stage& stage : script.program->stages) names.push_back(stage.name);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) return static_cast<std::uint32_t>(found - names.begin());
+    Diagnostic diagnostic;
+    diagnostic.span = span;
+    diagnostic.message = fmt::format("no stage is called '{}'", name);
+    const std::string near = nearest_name(name, names);
+    if (!near.empty()) diagnostic.hint = fmt::format("did you mean '{}'?", near);
+    diagnostic.notes.push_back(
+        {std::nullopt, fmt::format("the stages are {}", fmt::join(names, ", "))});
+    script.diagnostics.add(std::move(diagnostic));
+    return std::nullopt;
+}
+
+namespace {
 
 void apply_grid(Script& script) {
     if (!script.overrides.grid) return;
@@ -72,15 +89,7 @@ void apply_steps(Script& script) {
 void check_until_stage(Script& script) {
     if (!script.overrides.until_stage) return;
     const std::string& name = *script.overrides.until_stage;
-    std::vector<std::string> names;
-    for (const Stage& stage : script.program->stages) names.push_back(stage.name);
-    if (std::find(names.begin(), names.end(), name) != names.end()) return;
-    const Span span = option_span(script.sources, "--until-stage", name);
-    Diagnostic diagnostic{Severity::error, span, fmt::format("no stage is called '{}'", name), "",
-                          {}};
-    diagnostic.notes.push_back({std::nullopt, fmt::format("the stages are {}",
-                                                          fmt::join(names, ", "))});
-    script.diagnostics.add(std::move(diagnostic));
+    find_stage_of_option(script, name, option_span(script.sources, "--until-stage", name));
 }
 
 void check_picture_block(Script& script) {

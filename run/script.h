@@ -67,4 +67,11 @@ struct LoadedFile {
 };
 Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides = {});
 
+/// A place for messages about an option: the option's own text is the source `<--option>`.
+Span option_span(Sources& sources, const std::string& option, const std::string& value);
+
+/// The stage that an option names, or nothing with a message at `span`. Needs a program.
+std::optional<std::uint32_t> find_stage_of_option(Script& script, const std::string& name,
+                                                  Span span);
+
 }  // namespace cascade

@@ -250,7 +250,8 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
     report.species = species_name(system, outcome.not_finite->species);
     report.found = *outcome.not_finite;
     report.speed = speed_number(k);
-    if (report.found.step == 0) return describe(report);
+    report.starting = outcome.last_checked.empty();
+    if (report.starting) return describe(report);
     report.estimate_before = stability(k, outcome.last_checked);
     // A state on its way to infinity says little about the speed that would have been right: the
     // start of the stage is asked as well.

@@ -43,7 +43,7 @@ public:
           tuner_(stepper_.most_threads()),
           step_(schedule.first_step),
           kept_step_(schedule.first_step) {
-        progress_.steps = schedule.last_step;
+        progress_.steps = std::max(progress_.steps, schedule.last_step);
     }
 
     StageOutcome run() {

@@ -211,6 +211,17 @@ TEST(CheckFaults, Declarations) {
     EXPECT_THAT(system_faults("unread: 3\nnobody = k"),
                 ElementsAre("2:1: warning: parameter 'unread' is never read",
                             "3:1: warning: definition 'nobody' is never read"));
+    // What cannot be parsed may be what reads it.
+    EXPECT_THAT(system_faults("unread: 3\nnobody = k +"),
+                ElementsAre("3:12: an expression is missing after '+'"));
+}
+
+TEST(CheckFaults, TextsInAWrongCallAreNoFurtherMistake) {
+    EXPECT_THAT(stage_faults("b: field(\"a\", \"b\")"),
+                ElementsAre("2:4: field takes 1 value, not 2 | "
+                            "field(\"file.npy\"): the file's value at the cell"));
+    EXPECT_THAT(stage_faults("b: feild(\"a\")"),
+                ElementsAre("2:4: there is no function 'feild' | did you mean 'field'?"));
 }
 
 TEST(CheckFaults, Bounds) {

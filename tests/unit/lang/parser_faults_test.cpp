@@ -61,6 +61,32 @@ TEST(ExpressionFaults, Brackets) {
     });
 }
 
+TEST(ExpressionFaults, ATextThatIsNeverClosedTakesTheBracketsWithIt) {
+    const std::string fault = " this text is never closed | a text ends with '\"' on its line";
+    expect_value_faults({
+        {"palette(b, 0, 8, \"grey)", "2:21" + fault},
+        {"(1 + f(\"a.npy)", "2:11" + fault},
+    });
+    EXPECT_THAT(faults_of("stage s: t { q: f(\"a.npy) }\n"), ElementsAre("1:19" + fault));
+    // Here nothing was lost in the text: the block is open for itself.
+    EXPECT_THAT(faults_of("stage s: t {\n q: f(\"a.npy)\n"),
+                ElementsAre("1:12 this '{' is never closed | stage 's' ends with '}'",
+                            "2:7" + fault));
+}
+
+TEST(ExpressionFaults, AnExpressionAloneHasOneMessageToo) {
+    const auto expression_faults = [](const std::string& text) {
+        Sources sources;
+        Diagnostics diagnostics;
+        ast::Script script;
+        parse_expression(sources.add("test", text), sources, script, diagnostics);
+        return list_faults(diagnostics, sources);
+    };
+    EXPECT_THAT(expression_faults("b"), IsEmpty());
+    EXPECT_THAT(expression_faults("}"), ElementsAre("1:1 the expression is missing"));
+    EXPECT_THAT(expression_faults("b }"), ElementsAre("1:3 one expression ends before '}'"));
+}
+
 TEST(ExpressionFaults, MissingOperands) {
     expect_value_faults({
         {"", "2:2 the value of 'q' is missing"},
