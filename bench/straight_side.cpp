@@ -4,21 +4,35 @@
 namespace cascade::bench {
 
 StraightSide::StraightSide(const CascadeSide& like, const std::string& varying)
-    : grid_(like.grid()) {
+    : grid_(like.grid()), layout_(grid_) {
     for (const Field& field : like.start().species) {
-        now_.push_back(field.clone());
-        next_.emplace_back(field.layout());
-        fill_halo(now_.back().origin(), field.layout(), grid_.boundary);
+        now_.emplace_back(field);
+        next_.emplace_back(field);
+        fill_halo(now_.back().origin(), layout_, grid_.boundary);
     }
-    if (!varying.empty()) varying_ = like.parameter(varying).clone();
-    if (!like.start().frozen.empty()) frozen_ = like.start().frozen.clone();
+    if (!varying.empty()) varying_ = StraightPlane<float>(like.parameter(varying));
+    if (!like.start().frozen.empty()) {
+        frozen_ = StraightPlane<std::uint8_t>(like.start().frozen);
+    }
+}
+
+std::vector<Field> StraightSide::species() const {
+    std::vector<Field> copies;
+    for (const StraightPlane<float>& plane : now_) {
+        Field& copy = copies.emplace_back(layout_);
+        for (std::int64_t j = 0; j < layout_.height; ++j) {
+            std::memcpy(copy.row(j), plane.origin() + j * layout_.stride,
+                        static_cast<std::size_t>(layout_.width) * sizeof(float));
+        }
+    }
+    return copies;
 }
 
 void StraightSide::advance(StraightStep step, std::int64_t count) {
     StraightFields fields{};
     fields.width = grid_.width;
     fields.height = grid_.height;
-    fields.stride = now_.front().layout().stride;
+    fields.stride = layout_.stride;
     fields.varying = varying_.empty() ? nullptr : varying_.origin();
     fields.frozen = frozen_.empty() ? nullptr : frozen_.origin();
     for (std::int64_t taken = 0; taken < count; ++taken) {

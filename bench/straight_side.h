@@ -6,10 +6,42 @@
 #include "core/plane.h"
 
 #include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace cascade::bench {
+
+/// A plane as straight C++ would allocate it: aligned rows from the standard allocator. (Ours ask
+/// the system for huge pages as well; that is a part of what is compared.)
+template <typename T>
+class StraightPlane {
+public:
+    StraightPlane() = default;
+    /// Takes over the values of a plane of ours.
+    explicit StraightPlane(const Plane<T>& like)
+        : offset_(like.layout().offset(0, 0)),
+          data_(static_cast<T*>(std::aligned_alloc(64, rounded_bytes(like.layout())))) {
+        if (!data_) std::abort();
+        std::memcpy(data_.get(), like.origin() - offset_, Plane<T>::bytes(like.layout()));
+    }
+
+    bool empty() const { return !data_; }
+    T* origin() { return data_.get() + offset_; }
+    const T* origin() const { return data_.get() + offset_; }
+
+private:
+    static std::size_t rounded_bytes(const PlaneLayout& layout) {
+        return (Plane<T>::bytes(layout) + 63) / 64 * 64;
+    }
+    struct Free {
+        void operator()(T* data) const { std::free(data); }
+    };
+    std::int64_t offset_ = 0;
+    std::unique_ptr<T[], Free> data_;
+};
 
 class StraightSide {
 public:
@@ -18,14 +50,16 @@ public:
 
     void advance(StraightStep step, std::int64_t count);
 
-    std::span<const Field> species() const { return now_; }
+    /// Copies of the species.
+    std::vector<Field> species() const;
 
 private:
     StraightConstants constants_;
-    std::vector<Field> now_, next_;
-    Field varying_;
-    Mask frozen_;
+    std::vector<StraightPlane<float>> now_, next_;
+    StraightPlane<float> varying_;
+    StraightPlane<std::uint8_t> frozen_;
     Grid grid_;
+    PlaneLayout layout_;
 };
 
 }  // namespace cascade::bench

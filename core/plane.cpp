@@ -3,10 +3,17 @@
 
 #include "core/check.h"
 
+#include <cstdlib>
 #include <cstring>
+#include <new>
+
+#include <sys/mman.h>
 
 namespace cascade {
 namespace {
+
+constexpr std::size_t cache_line = 64;
+constexpr std::size_t huge_page = std::size_t{2} << 20;
 
 void copy_row(float* origin, const PlaneLayout& layout, std::int64_t from, std::int64_t to) {
     std::memcpy(origin + to * layout.stride, origin + from * layout.stride,
@@ -14,6 +21,20 @@ void copy_row(float* origin, const PlaneLayout& layout, std::int64_t from, std::
 }
 
 }  // namespace
+
+void* allocate_plane(std::size_t bytes) {
+    const bool is_large = bytes >= 2 * huge_page;
+    const std::size_t alignment = is_large ? huge_page : cache_line;
+    const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
+    void* plane = std::aligned_alloc(alignment, rounded);
+    if (plane == nullptr) throw std::bad_alloc();
+    // Advice only: without huge pages the plane is as good, but slower.
+    if (is_large) madvise(plane, rounded, MADV_HUGEPAGE);
+    std::memset(plane, 0, bytes);
+    return plane;
+}
+
+void free_plane(void* plane) { std::free(plane); }
 
 void fill_halo(float* origin, const PlaneLayout& layout, Boundary boundary) {
     fill_halo_from_rows(origin, layout, boundary, 0, layout.height);

@@ -11,6 +11,11 @@
 
 namespace cascade {
 
+/// Zeroed memory, aligned to 64 bytes; large planes lie in huge pages where the system has them,
+/// because a step walks through eight and more of them at once. Throws std::bad_alloc.
+void* allocate_plane(std::size_t bytes);
+void free_plane(void* plane);
+
 /// Owns one value per cell in the layout of PlaneLayout, aligned to 64 bytes and zero at first.
 /// Movable; a copy is made only when asked for by clone().
 template <typename T>
@@ -19,9 +24,7 @@ public:
     Plane() = default;
     explicit Plane(const PlaneLayout& layout)
         : layout_(layout),
-          data_(static_cast<T*>(::operator new(bytes(layout), std::align_val_t{64}))) {
-        std::memset(data_.get(), 0, bytes(layout));
-    }
+          data_(static_cast<T*>(allocate_plane(bytes(layout)))) {}
 
     bool empty() const { return !data_; }
     const PlaneLayout& layout() const { return layout_; }
@@ -46,7 +49,7 @@ public:
 
 private:
     struct Free {
-        void operator()(T* data) const { ::operator delete(data, std::align_val_t{64}); }
+        void operator()(T* data) const { free_plane(data); }
     };
     PlaneLayout layout_;
     std::unique_ptr<T[], Free> data_;

@@ -89,13 +89,26 @@ void Stepper::step(Worker& worker, CopyRoles roles, std::int64_t complete) {
         worker.uniforms[static_cast<std::size_t>(problem_.step_uniform)] =
             static_cast<float>(complete);
     }
-    problem_.step->run({inputs_[from], problem_.masks, worker.uniforms, outputs_[to], layout_},
-                       worker.rows);
-    for (std::size_t k = 0; k < outputs_[to].size(); ++k) {
-        if (!problem_.species_needs_halo[k]) continue;
-        fill_halo_from_rows(outputs_[to][k], layout_, problem_.grid.boundary, worker.rows.begin,
-                            worker.rows.end);
+    const KernelArguments arguments{inputs_[from], problem_.masks, worker.uniforms, outputs_[to],
+                                    layout_};
+    // The halo's columns lie beside rows that were just written: filled a band at a time they are
+    // still in the cache.
+    const std::int64_t band = rows_of_a_band();
+    for (std::int64_t row = worker.rows.begin; row < worker.rows.end; row += band) {
+        const RowRange rows{row, std::min(row + band, worker.rows.end)};
+        problem_.step->run(arguments, rows);
+        for (std::size_t k = 0; k < outputs_[to].size(); ++k) {
+            if (!problem_.species_needs_halo[k]) continue;
+            fill_halo_from_rows(outputs_[to][k], layout_, problem_.grid.boundary, rows.begin,
+                                rows.end);
+        }
     }
+}
+
+std::int64_t Stepper::rows_of_a_band() const {
+    constexpr std::int64_t elements_in_cache = 65536;  // A quarter of a MiB of results.
+    const auto results = static_cast<std::int64_t>(outputs_[0].size());
+    return std::max<std::int64_t>(8, elements_in_cache / (layout_.stride * results));
 }
 
 bool Stepper::rows_finite(const Worker& worker, int copy) const {

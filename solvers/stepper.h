@@ -62,6 +62,7 @@ private:
     };
 
     void work(Worker& worker, std::int64_t complete, std::int64_t count, bool look);
+    std::int64_t rows_of_a_band() const;
     void step(Worker& worker, CopyRoles roles, std::int64_t complete);
     bool rows_finite(const Worker& worker, int copy) const;
     bool all_finite() const;

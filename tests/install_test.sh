@@ -28,7 +28,8 @@ fi
 grep -q 'cascade::Pattern::step' <<<"$exported" || { echo "Pattern::step is not exported"; exit 1; }
 
 flags=${SANITIZE:+-fsanitize=$SANITIZE}
-cmake -S "$SOURCE/examples/embed" -B embed -DCMAKE_PREFIX_PATH="$prefix" \
+generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$BUILD/CMakeCache.txt")
+cmake -G "$generator" -S "$SOURCE/examples/embed" -B embed -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_CXX_FLAGS="$flags" >embed.log
 cmake --build embed >>embed.log
 embed/embed >embed.out

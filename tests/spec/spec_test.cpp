@@ -33,6 +33,7 @@ std::vector<std::filesystem::path> pages() {
         if (entry.path().extension() == ".md") paths.push_back(entry.path());
     }
     std::sort(paths.begin(), paths.end());
+    paths.push_back(spec_folder.parent_path() / "README.md");
     return paths;
 }
 
