@@ -321,7 +321,11 @@ std::string Parser::near_option(const std::string& word) {
 /// The first word that no option and no argument has taken.
 std::string Parser::describe_unexpected(const std::string& program) {
     const std::vector<std::string> left = app.remaining(true);
-    const std::string word = left.empty() ? "" : left.front();
+    // An unknown option comes first: a word behind it may only be the value meant for it.
+    const auto option = std::find_if(left.begin(), left.end(), [](const std::string& unused) {
+        return unused.starts_with("-") && unused.size() > 1;
+    });
+    const std::string word = left.empty() ? "" : option != left.end() ? *option : left.front();
     const std::string where = called(program);
     if (word.starts_with("-") && word.size() > 1) {
         const std::string near = near_option(word);
@@ -342,6 +346,12 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
     if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
         return leave(program, describe_unexpected(program));
     }
+    // The value of an unknown option looks like an argument too many: the option is to blame.
+    const std::vector<std::string> left = app.remaining(true);
+    const bool has_unknown_option = std::any_of(left.begin(), left.end(), [](const auto& word) {
+        return word.starts_with("-") && word.size() > 1;
+    });
+    if (has_unknown_option) return leave(program, describe_unexpected(program));
     return leave(program, fmt::format("{}: {}", called(program), error.what()));
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 using llvm::Value;
 
-// Rows of at least this width are computed while the row after the next is prefetched. On narrower
+// Rows of at least this width are computed while the rows behind them are prefetched. On narrower
 // ones the processor sees far enough ahead by itself, and prefetching costs 5 to 10 %. Vectors of
 // half a cache line prefetch each line twice, which pays only for planes that leave the caches.
 std::int64_t least_width_to_prefetch(int lanes) { return lanes == 16 ? 128 : 1024; }
@@ -254,7 +254,6 @@ public:
 private:
     void columns(bool prefetch, Value* row, Builder& place, llvm::BasicBlock* next);
     void body(CellLane& lane, Builder& place, BodyScope& row_scope);
-    std::vector<std::uint32_t> fields_with_laplacian() const;
 
     GridFrame& frame_;
     const CellKernel& kernel_;
@@ -301,7 +300,10 @@ void GridLoops::columns(bool prefetch, Value* row, Builder& place, llvm::BasicBl
     CellLane lane(frame_, inner, start, element);
     body(lane, inner, row_scope);
     if (prefetch) {
-        for (const std::uint32_t slot : fields_with_laplacian()) lane.prefetch(slot, 2);
+        // What the next row will be the first to touch: its own cells, or those below it.
+        for (std::uint32_t slot = 0; slot < kernel_.field_names.size(); ++slot) {
+            lane.prefetch(slot, kernel_.reads_neighbours(slot) ? 2 : 1);
+        }
     }
     Value* behind = inner.CreateNSWAdd(element, inner.getInt64(frame_.lanes()));
     inner.CreateCondBr(inner.CreateICmpSLT(behind, end), cells, next);
@@ -316,14 +318,6 @@ void GridLoops::body(CellLane& lane, Builder& place, BodyScope& row_scope) {
     for (std::size_t result = 0; result < kernel_.results.size(); ++result) {
         lane.store(result, scope.number(kernel_.results[result]));
     }
-}
-
-std::vector<std::uint32_t> GridLoops::fields_with_laplacian() const {
-    std::vector<std::uint32_t> slots;
-    for (std::uint32_t slot = 0; slot < kernel_.field_names.size(); ++slot) {
-        if (kernel_.reads_neighbours(slot)) slots.push_back(slot);
-    }
-    return slots;
 }
 
 /// Writes the loops where `place` is, one or two ways.

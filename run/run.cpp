@@ -104,6 +104,9 @@ private:
     Result<StageEnd> run_stage(std::uint32_t stage);
     void look();
     Result<void> write_results();
+    Result<void> write_final_picture();
+    Result<void> write_frames();
+    Result<void> write_saved_run();
     Result<void> write_picture(const std::filesystem::path& path, const Image& image);
     std::string place() const;
 
@@ -203,34 +206,50 @@ Result<void> Runner::write_picture(const std::filesystem::path& path, const Imag
     return done;
 }
 
+Result<void> Runner::write_final_picture() {
+    return write_picture(output_, request_.picture.space_time
+                                      ? frames_->space_time(*painter_)
+                                      : painter_->image(painter_->canvas(*simulation_)));
+}
+
+Result<void> Runner::write_frames() {
+    if (auto failed = frames_->failure()) return tl::unexpected(*failed);
+    auto written = frames_->write(*painter_, depth_of(request_.picture),
+                                  embed_script(script_, request_.picture));
+    if (!written) return tl::unexpected(written.error());
+    report_.written.insert(report_.written.end(), written->begin(), written->end());
+    return {};
+}
+
+Result<void> Runner::write_saved_run() {
+    auto written = save_run(request_.save, script_, *simulation_);
+    if (!written) return tl::unexpected(written.error());
+    report_.written.push_back(request_.save);
+    return {};
+}
+
 Result<void> Runner::write_results() {
-    if (frames_) {
-        if (auto failed = frames_->failure()) return tl::unexpected(*failed);
-    }
-    const Image image = request_.picture.space_time
-                            ? frames_->space_time(*painter_)
-                            : painter_->image(painter_->canvas(*simulation_));
-    if (auto done = write_picture(output_, image); !done) return done;
-    if (!request_.frames.empty()) {
-        auto written = frames_->write(*painter_, depth_of(request_.picture),
-                                      embed_script(script_, request_.picture));
-        if (!written) return tl::unexpected(written.error());
-        report_.written.insert(report_.written.end(), written->begin(), written->end());
-    }
+    // One output that fails does not cost the others: hours of stepping may lie behind them.
+    std::optional<Failure> first;
+    const auto attempt = [&](const Result<void>& done) {
+        if (!done && !first) first = done.error();
+    };
+    attempt(write_final_picture());
+    if (!request_.frames.empty()) attempt(write_frames());
     if (!request_.sheet.empty()) {
-        const Image sheet = draw_sheet(*simulation_, request_.picture);
-        if (auto done = write_picture(request_.sheet, sheet); !done) return done;
+        attempt(write_picture(request_.sheet, draw_sheet(*simulation_, request_.picture)));
     }
-    if (!request_.save.empty()) {
-        auto written = save_run(request_.save, script_, *simulation_);
-        if (!written) return tl::unexpected(written.error());
-        report_.written.push_back(request_.save);
-    }
+    if (!request_.save.empty()) attempt(write_saved_run());
     if (painter_->fell_back() && control_.warn) {
         control_.warn("where the picture names a stage that has not run, the default picture is "
                       "drawn instead");
     }
-    return {};
+    if (!first) return {};
+    if (!report_.written.empty()) {
+        first->hint += fmt::format("{}written all the same: {}", first->hint.empty() ? "" : "; ",
+                                   report_.written.back().string());
+    }
+    return tl::unexpected(*first);
 }
 
 Result<RunReport> Runner::run() {

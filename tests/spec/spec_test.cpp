@@ -94,7 +94,11 @@ TEST_P(CodeBlockTest, SaysWhatTheProgramDoes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, CodeBlockTest, testing::ValuesIn(pages()),
-                         [](const auto& parameter) { return parameter.param.stem().string(); });
+                         [](const auto& parameter) {
+                             const std::filesystem::path& page = parameter.param;
+                             const bool in_spec = page.parent_path() == spec_folder;
+                             return (in_spec ? "spec_" : "top_") + page.stem().string();
+                         });
 
 TEST(CodeBlocks, AreFoundByTheirFences) {
     const auto blocks = code_blocks("text\n```cascade\na: 1\n\n```\n```\n```\n```text\nlast");
