@@ -57,10 +57,10 @@ std::string changed_number(int repetition) {
 
 }  // namespace
 
-std::unique_ptr<Backend> first_use() {
+std::unique_ptr<Backend> first_use(int lanes) {
     std::unique_ptr<Backend> backend;
     const double took = milliseconds_of([&] {
-        auto made = make_jit();
+        auto made = make_jit({lanes, JitOptions{}.optimise});
         if (!made) {
             std::fprintf(stderr, "cascade_bench: %s\n", made.error().message.c_str());
             std::exit(1);
