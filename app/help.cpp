@@ -77,8 +77,7 @@ std::string in_lines(const std::vector<std::string>& names) {
 }
 
 std::string version_text() {
-    return fmt::format("cascade {}\n{}\n", version(),
-                       has_jit() ? "native code by LLVM" : "interpreter only, without LLVM");
+    return fmt::format("cascade {}\n{}\n", version(), describe_backend());
 }
 
 }  // namespace cascade::help

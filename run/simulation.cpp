@@ -20,6 +20,14 @@ namespace cascade {
 
 bool has_jit() { return CASCADE_HAS_JIT; }
 
+std::string describe_backend() {
+#if CASCADE_HAS_JIT
+    return "native code by " + describe_jit();
+#else
+    return "interpreter only, without LLVM";
+#endif
+}
+
 namespace {
 
 Result<std::unique_ptr<Backend>> make_backend(const SimulationOptions& options) {

@@ -24,6 +24,8 @@ enum class BackendKind { interpreter, jit };
 
 /// Is native code compiled into this build?
 bool has_jit();
+/// What takes the steps: LLVM's version, the processor and its vectors, or the interpreter alone.
+std::string describe_backend();
 
 /// Values of one stage's items.
 struct StageState {
