@@ -352,7 +352,12 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
         return word.starts_with("-") && word.size() > 1;
     });
     if (has_unknown_option) return leave(program, describe_unexpected(program));
-    return leave(program, fmt::format("{}: {}", called(program), error.what()));
+    const std::string words = error.what();
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && words.starts_with("--")) {
+        const std::string option = words.substr(0, words.find(':'));
+        return leave(program, fmt::format("{}: {} needs a value", called(program), option));
+    }
+    return leave(program, fmt::format("{}: {}", called(program), words));
 }
 
 /// What CLI11 cannot know: which arguments a command cannot do without.

@@ -156,6 +156,8 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{"run", "a", "--pallete", "tan"}, "no option --pallete; did you mean --palette?"},
         WrongUse{{"run", "a", "--gird=4x4"}, "no option --gird=4x4; did you mean --grid?"},
         WrongUse{{"run", "a", "b"}, "'b' is one argument too many"},
+        WrongUse{{"run", "a", "-o"}, "--output needs a value"},
+        WrongUse{{"run", "a", "--gird", "3"}, "there is no option --gird; did you mean --grid?"},
         WrongUse{{"run", "a", "--grid", "4y4"}, "--grid: '4y4' is not a grid (write columns x rows"},
         WrongUse{{"run", "a", "--grid", "-4x4"}, "is not a grid"},
         WrongUse{{"run", "a", "--seed", "-1"}, "whole number from 0 to 4294967295"},
