@@ -6,6 +6,8 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <unistd.h>
 
 namespace cascade {
@@ -14,16 +16,36 @@ namespace {
 
 constexpr std::array watched_signals = {SIGINT, SIGTERM, SIGHUP};
 
+/// A Ctrl-C may arrive twice at once: from the terminal, and from a wrapper such as timeout(1) that
+/// passes it on. A person's second one comes later than this.
+constexpr std::int64_t least_milliseconds_between = 200;
+
 // A signal handler is given nothing but a number: what it is to change can only be found in
-// variables of the process. These two are the program's only ones, and lock-free.
+// variables of the process. These three are the program's only ones, and lock-free.
 std::atomic<std::atomic<bool>*> cancel_flag{nullptr};
 std::atomic<int> received{0};
+std::atomic<std::int64_t> interrupted_at{0};  ///< Milliseconds of the first SIGINT; 0 for none.
 static_assert(std::atomic<std::atomic<bool>*>::is_always_lock_free);
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+
+std::int64_t milliseconds_now() {
+    timespec now = {};
+    clock_gettime(CLOCK_MONOTONIC, &now);  // One of the calls that a handler may make.
+    return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1000000 + 1;
+}
 
 extern "C" void on_signal(int signal) {
-    const bool is_second = received.exchange(signal) == SIGINT && signal == SIGINT;
-    if (is_second) _exit(exit_status::signal_base + SIGINT);
+    if (signal == SIGINT) {
+        const std::int64_t now = milliseconds_now();
+        std::int64_t first = 0;
+        const bool is_first = interrupted_at.compare_exchange_strong(first, now);
+        if (!is_first && now - first >= least_milliseconds_between) {
+            _exit(exit_status::signal_base + SIGINT);
+        }
+    }
+    int none = 0;
+    received.compare_exchange_strong(none, signal);
     if (std::atomic<bool>* const flag = cancel_flag.load()) flag->store(true);
 }
 
@@ -36,6 +58,7 @@ struct InterruptGuard::Saved {
 InterruptGuard::InterruptGuard(RunControl& control) : saved_(std::make_unique<Saved>()) {
     CHECK(cancel_flag.load() == nullptr, "one run at a time is watched");
     received = 0;
+    interrupted_at = 0;
     cancel_flag = &control.cancel;
     struct sigaction action = {};
     action.sa_handler = on_signal;

@@ -7,8 +7,8 @@
 
 namespace cascade {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP set `control.cancel`; a second SIGINT leaves the
-/// program at once, with status 130. One at a time.
+/// While it lives, SIGINT, SIGTERM and SIGHUP set `control.cancel`; a second SIGINT, a
+/// fifth of a second later or more, leaves the program at once, with status 130. One at a time.
 class InterruptGuard {
 public:
     explicit InterruptGuard(RunControl& control);
