@@ -12,9 +12,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <functional>
 #include <limits>
+#include <optional>
 
 namespace cascade {
 
@@ -245,6 +245,7 @@ struct Parser {
     }
     Leave wrong_use(const std::string& program, const CLI::ParseError& error);
     std::string near_option(const std::string& word);
+    std::optional<std::string> unknown_option() const;
     std::string describe_unexpected(const std::string& program);
 };
 
@@ -318,20 +319,25 @@ std::string Parser::near_option(const std::string& word) {
     return nearest_name(word.substr(0, word.find('=')), names);
 }
 
-/// The first word that no option and no argument has taken.
+/// The first option that there is not.
+std::optional<std::string> Parser::unknown_option() const {
+    for (const std::string& word : app.remaining(true)) {
+        if (word.starts_with("-") && word.size() > 1) return word;
+    }
+    return std::nullopt;
+}
+
+/// What there is not: an option, since a word behind it may only be the value meant for it, or else
+/// the first word that no option and no argument has taken.
 std::string Parser::describe_unexpected(const std::string& program) {
-    const std::vector<std::string> left = app.remaining(true);
-    // An unknown option comes first: a word behind it may only be the value meant for it.
-    const auto option = std::find_if(left.begin(), left.end(), [](const std::string& unused) {
-        return unused.starts_with("-") && unused.size() > 1;
-    });
-    const std::string word = left.empty() ? "" : option != left.end() ? *option : left.front();
     const std::string where = called(program);
-    if (word.starts_with("-") && word.size() > 1) {
-        const std::string near = near_option(word);
-        return fmt::format("{}: there is no option {}{}", where, word,
+    if (const auto option = unknown_option()) {
+        const std::string near = near_option(*option);
+        return fmt::format("{}: there is no option {}{}", where, *option,
                            near.empty() ? "" : fmt::format("; did you mean {}?", near));
     }
+    const std::vector<std::string> left = app.remaining(true);
+    const std::string word = left.empty() ? "" : left.front();
     if (chosen()) return fmt::format("{}: '{}' is one argument too many", where, word);
     std::vector<std::string> names;
     for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
@@ -347,11 +353,7 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
         return leave(program, describe_unexpected(program));
     }
     // The value of an unknown option looks like an argument too many: the option is to blame.
-    const std::vector<std::string> left = app.remaining(true);
-    const bool has_unknown_option = std::any_of(left.begin(), left.end(), [](const auto& word) {
-        return word.starts_with("-") && word.size() > 1;
-    });
-    if (has_unknown_option) return leave(program, describe_unexpected(program));
+    if (unknown_option()) return leave(program, describe_unexpected(program));
     const std::string words = error.what();
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && words.starts_with("--")) {
         const std::string option = words.substr(0, words.find(':'));

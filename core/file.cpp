@@ -192,4 +192,12 @@ Result<void> check_writable(const fs::path& path) {
     return {};
 }
 
+Result<void> make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (!error) return {};
+    return failure(
+        fmt::format("the folder {} cannot be made: {}", folder.string(), error.message()));
+}
+
 }  // namespace cascade

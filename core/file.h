@@ -20,6 +20,9 @@ Result<std::string> read_file(const std::filesystem::path& path, std::uint64_t l
 /// temporary file is removed on failure. A full disk is a Failure.
 Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// Makes a folder and those above it, where they are missing.
+Result<void> make_folder(const std::filesystem::path& folder);
+
 /// Can a file of this path be written? Looks without leaving anything behind: the folder exists and
 /// is writable, the path is no directory.
 Result<void> check_writable(const std::filesystem::path& path);

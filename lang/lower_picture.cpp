@@ -11,7 +11,7 @@ namespace lowering {
 ///
 ///     colour = c0 + Σ (c[k+1] − c[k]) · clamp(position · (n − 1) − k, 0, 1)
 ///
-/// A position that is no number gives magenta, which no palette holds.
+/// A position that is no number gives colour_of_nan.
 Value KernelAssembly::palette(const Node& node, const Cursor& cursor) {
     const Node& name = cursor.formula.nodes[node.operands[3]];
     const Palette* palette = find_palette(program_.texts[name.index]);
@@ -39,9 +39,9 @@ Value KernelAssembly::palette(const Node& node, const Cursor& cursor) {
         }
     }
     const ValueId is_number = builder_.apply(Op::equal, position, position);
-    const std::array<ValueId, 3> magenta{one, zero, one};
     for (std::size_t channel = 0; channel < 3; ++channel) {
-        colour[channel] = builder_.select(is_number, colour[channel], magenta[channel]);
+        colour[channel] = builder_.select(is_number, colour[channel],
+                                          builder_.number(colour_of_nan[channel]));
     }
     return colour;
 }

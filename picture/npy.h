@@ -36,4 +36,7 @@ std::string encode_npy(const Field& field);
 /// Writes encode_npy(field), atomically.
 Result<void> write_npy(const std::filesystem::path& path, const Field& field);
 
+/// The array as a field of a grid of its columns × rows; the halo is zero.
+Field to_field(const NpyArray& array);
+
 }  // namespace cascade

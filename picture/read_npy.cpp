@@ -149,4 +149,12 @@ Result<NpyArray> read_npy(const std::filesystem::path& path) {
     return array;
 }
 
+Field to_field(const NpyArray& array) {
+    Field field{PlaneLayout(Grid{array.columns, array.rows})};
+    for (std::int64_t j = 0; j < array.rows; ++j) {
+        std::copy_n(array.values.begin() + j * array.columns, array.columns, field.row(j));
+    }
+    return field;
+}
+
 }  // namespace cascade

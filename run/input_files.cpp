@@ -25,16 +25,6 @@ std::uint64_t available_memory() {
     return 0;
 }
 
-Field to_field(const NpyArray& array, const Grid& grid) {
-    Field field{PlaneLayout(grid)};
-    for (std::int64_t j = 0; j < grid.height; ++j) {
-        for (std::int64_t i = 0; i < grid.width; ++i) {
-            field.at(i, j) = array.values[static_cast<std::size_t>(j * grid.width + i)];
-        }
-    }
-    return field;
-}
-
 void read_one(Script& script, const Node& node, InputFiles& files) {
     const std::string& name = script.program->texts[node.index];
     const Grid& grid = script.program->domain.grid;
@@ -48,7 +38,7 @@ void read_one(Script& script, const Node& node, InputFiles& files) {
                         array->rows, array->columns, grid.height, grid.width),
             fmt::format("a grid of {}, {} would fit", array->columns, array->rows));
     } else {
-        files.add(node.index, to_field(*array, grid));
+        files.add(node.index, to_field(*array));
     }
 }
 

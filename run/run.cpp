@@ -32,12 +32,7 @@ Result<void> check_outputs(const RunRequest& request, const std::filesystem::pat
     }
     for (const auto& folder : {request.frames, request.save}) {
         if (folder.empty()) continue;
-        std::error_code error;
-        std::filesystem::create_directories(folder, error);
-        if (error) {
-            return failure(fmt::format("the folder {} cannot be made: {}", folder.string(),
-                                       error.message()));
-        }
+        if (auto made = make_folder(folder); !made) return made;
         if (auto good = check_writable(folder / "run.json"); !good) return good;
     }
     return {};

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace cascade {
 
@@ -78,17 +77,12 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
             return tl::unexpected(
                 damaged(folder, fmt::format("{} has another shape", path.filename().string())));
         }
-        Field field{PlaneLayout(grid)};
-        for (std::int64_t j = 0; j < grid.height; ++j) {
-            std::memcpy(field.row(j), array->values.data() + j * grid.width,
-                        static_cast<std::size_t>(grid.width) * sizeof(float));
-        }
         const auto is_finite = [](float value) { return std::isfinite(value); };
         if (!std::all_of(array->values.begin(), array->values.end(), is_finite)) {
             return tl::unexpected(damaged(
                 folder, fmt::format("{} has a value that is not finite", path.filename().string())));
         }
-        species.push_back(std::move(field));
+        species.push_back(to_field(*array));
     }
     return species;
 }
@@ -98,15 +92,11 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
 Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path& folder,
                                                     const Script& script,
                                                     const Simulation& simulation) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) {
-        return failure(fmt::format("the folder {} cannot be made: {}", folder.string(),
-                                   error.message()));
-    }
+    if (auto made = make_folder(folder); !made) return tl::unexpected(made.error());
     // The manifest comes last: a folder without one is not taken for a saved run. Nor is one whose
     // arrays are half new and half of an earlier run.
     const auto path_of_manifest = folder / "run.json";
+    std::error_code error;
     std::filesystem::remove(path_of_manifest, error);
     std::vector<std::filesystem::path> written;
     const Program& program = *script.program;
