@@ -3,7 +3,7 @@
 set -u
 cd "${SOURCE:-$(dirname "${BASH_SOURCE[0]}")/..}" || exit 1
 
-rooms='core ir lang jit solvers picture run app'
+rooms='core ir lang jit solvers picture measure run app'
 declare -A may=(
     [core]='core'
     [ir]='ir core'
@@ -11,8 +11,9 @@ declare -A may=(
     [jit]='jit ir core'
     [solvers]='solvers ir core'
     [picture]='picture core'
-    [run]='run picture solvers jit lang ir core cascade'
-    [app]='app run picture lang core'
+    [measure]='measure core'
+    [run]='run picture measure solvers jit lang ir core cascade'
+    [app]='app run picture measure lang core'
 )
 
 # Reads "FILE:#include "PATH"" lines of one room, prints those that break the rule.

@@ -1,0 +1,11 @@
+# FFTW 3 in double and in single precision. Debian's package brings no CMake files of its own.
+
+find_path(FFTW_INCLUDE_DIR fftw3.h REQUIRED)
+find_library(FFTW_LIBRARY fftw3 REQUIRED)
+find_library(FFTW_FLOAT_LIBRARY fftw3f REQUIRED)
+
+# Links FFTW to a room; its header stays inside that room's .cpp files.
+function(cascade_link_fftw target)
+  target_include_directories(${target} SYSTEM PRIVATE ${FFTW_INCLUDE_DIR})
+  target_link_libraries(${target} PRIVATE ${FFTW_LIBRARY} ${FFTW_FLOAT_LIBRARY})
+endfunction()

@@ -1,0 +1,79 @@
+#include "measure/features.h"
+
+#include "measure/orientation.h"
+#include "measure/regions.h"
+#include "measure/spectrum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cascade::measure {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Mean, deviation and ends; NaN where there is no cell.
+void measure_values(const Samples& samples, Features& features) {
+    double sum = 0, inside = 0;
+    features.smallest = std::numeric_limits<double>::infinity();
+    features.largest = -features.smallest;
+    for (const double value : samples.values) {
+        if (!std::isfinite(value)) continue;
+        sum += value;
+        inside += 1;
+        features.smallest = std::min(features.smallest, value);
+        features.largest = std::max(features.largest, value);
+    }
+    if (inside == 0) {
+        features.mean = features.deviation = features.smallest = features.largest = none;
+        return;
+    }
+    features.mean = sum / inside;
+    double squares = 0;
+    for (const double value : samples.values) {
+        if (std::isfinite(value)) squares += (value - features.mean) * (value - features.mean);
+    }
+    features.deviation = std::sqrt(squares / inside);
+}
+
+}  // namespace
+
+const std::array<std::string_view, feature_count>& feature_names() {
+    static constexpr std::array<std::string_view, feature_count> names = {
+        "wavelength", "spots",     "holes",    "area",    "angle",
+        "anisotropy", "mean", "deviation", "smallest", "largest"};
+    return names;
+}
+
+std::array<double, feature_count> to_array(const Features& f) {
+    return {f.wavelength, f.spots, f.holes,     f.area,     f.angle,
+            f.anisotropy, f.mean,  f.deviation, f.smallest, f.largest};
+}
+
+Features from_array(const std::array<double, feature_count>& v) {
+    return {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9]};
+}
+
+Features measure(const Samples& samples) {
+    Features features;
+    measure_values(samples, features);
+    const double magnitude = std::max(std::abs(features.smallest), std::abs(features.largest));
+    if (!(features.deviation > even_deviation * magnitude)) {
+        features.wavelength = features.spots = features.holes = features.area = none;
+        features.angle = features.anisotropy = none;
+        return features;
+    }
+    features.wavelength = peak_wavelength(radial_spectrum(samples));
+    const Regions regions = find_regions(samples, (features.smallest + features.largest) / 2);
+    features.spots = static_cast<double>(regions.above);
+    features.holes = static_cast<double>(regions.below);
+    features.area = regions.area;
+    const Orientation orientation = orientation_of(samples);
+    features.angle = orientation.angle;
+    features.anisotropy = orientation.anisotropy;
+    return features;
+}
+
+}  // namespace cascade::measure

@@ -1,0 +1,147 @@
+#include "measure/spectrum.h"
+
+#include <fftw3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+
+namespace cascade::measure {
+
+namespace {
+
+/// From a peak to its ends: below √2, where the second wave of a square lattice lies.
+constexpr double peak_breadth = 1.3;
+
+/// FFTW makes one plan at a time; transforms themselves may run at once.
+std::mutex& planner() {
+    static std::mutex mutex;
+    return mutex;
+}
+
+struct FreeBuffer {
+    void operator()(double* buffer) const { fftw_free(buffer); }
+};
+using Buffer = std::unique_ptr<double[], FreeBuffer>;
+
+/// The values without their mean; cells outside of the domain get 0.
+Buffer centred(const Samples& samples) {
+    Buffer buffer(fftw_alloc_real(samples.count()));
+    double sum = 0;
+    std::size_t inside = 0;
+    for (const double value : samples.values) {
+        if (!std::isfinite(value)) continue;
+        sum += value;
+        ++inside;
+    }
+    const double mean = inside > 0 ? sum / static_cast<double>(inside) : 0;
+    for (std::size_t cell = 0; cell < samples.count(); ++cell) {
+        const double value = samples.values[cell];
+        buffer[cell] = std::isfinite(value) ? value - mean : 0.0;
+    }
+    return buffer;
+}
+
+/// In place, slowest axis first as FFTW counts them. R2HC is FFTW's real Fourier transform: cosine
+/// parts from the front, sine parts from the back. REDFT10 is the DCT-II.
+void transform(const Samples& samples, double* values) {
+    int sizes[3];
+    fftw_r2r_kind kinds[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        sizes[2 - axis] = static_cast<int>(samples.cells[axis]);
+        kinds[2 - axis] = samples.periodic[axis] ? FFTW_R2HC : FFTW_REDFT10;
+    }
+    fftw_plan plan = nullptr;
+    {
+        const std::lock_guard lock(planner());
+        plan = fftw_plan_r2r(3, sizes, values, values, kinds, FFTW_ESTIMATE);
+    }
+    fftw_execute(plan);
+    const std::lock_guard lock(planner());
+    fftw_destroy_plan(plan);
+}
+
+/// Along one axis: the wave number of every coefficient, and its share in Parseval's sum.
+struct AxisModes {
+    std::vector<double> wave_number;
+    std::vector<double> weight;
+};
+
+AxisModes modes_of(const Samples& samples, std::size_t axis) {
+    const std::size_t count = samples.cells[axis];
+    const auto cells = static_cast<double>(count);
+    const double length = cells * samples.spacing;
+    AxisModes modes;
+    for (std::size_t n = 0; n < count; ++n) {
+        if (samples.periodic[axis]) {
+            const std::size_t waves = std::min(n, count - n);
+            const bool is_alone = waves == 0 || 2 * waves == count;  // It has no sine part.
+            modes.wave_number.push_back(static_cast<double>(waves) / length);
+            modes.weight.push_back((is_alone ? 1 : 2) / cells);
+        } else {
+            modes.wave_number.push_back(static_cast<double>(n) / (2 * length));
+            modes.weight.push_back((n == 0 ? 0.5 : 1) / (2 * cells));
+        }
+    }
+    return modes;
+}
+
+double ring_width_of(const Samples& samples) {
+    double finest = std::numeric_limits<double>::infinity();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (samples.cells[axis] == 1) continue;
+        const double length = static_cast<double>(samples.cells[axis]) * samples.spacing;
+        finest = std::min(finest, 1 / (samples.periodic[axis] ? length : 2 * length));
+    }
+    return std::isfinite(finest) ? finest : 1;
+}
+
+}  // namespace
+
+Spectrum radial_spectrum(const Samples& samples) {
+    const Buffer values = centred(samples);
+    transform(samples, values.get());
+    const AxisModes modes[3] = {modes_of(samples, 0), modes_of(samples, 1), modes_of(samples, 2)};
+    Spectrum spectrum;
+    spectrum.ring_width = ring_width_of(samples);
+    const auto count = static_cast<double>(samples.count());
+    std::size_t cell = 0;
+    for (std::size_t k = 0; k < samples.cells[2]; ++k) {
+        for (std::size_t j = 0; j < samples.cells[1]; ++j) {
+            for (std::size_t i = 0; i < samples.cells[0]; ++i, ++cell) {
+                const double power = values[cell] * values[cell] * modes[0].weight[i] *
+                                     modes[1].weight[j] * modes[2].weight[k] / count;
+                const double magnitude =
+                    std::hypot(modes[0].wave_number[i], modes[1].wave_number[j],
+                               modes[2].wave_number[k]);
+                const auto ring =
+                    static_cast<std::size_t>(std::lround(magnitude / spectrum.ring_width));
+                if (ring >= spectrum.power.size()) {
+                    spectrum.power.resize(ring + 1);
+                    spectrum.moment.resize(ring + 1);
+                }
+                spectrum.power[ring] += power;
+                spectrum.moment[ring] += power * magnitude;
+            }
+        }
+    }
+    return spectrum;
+}
+
+double peak_wavelength(const Spectrum& spectrum) {
+    if (spectrum.power.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+    const auto strongest = std::max_element(spectrum.power.begin() + 1, spectrum.power.end());
+    const auto peak = static_cast<double>(strongest - spectrum.power.begin());
+    double power = 0, moment = 0;
+    for (std::size_t ring = 1; ring < spectrum.power.size(); ++ring) {
+        const auto n = static_cast<double>(ring);
+        if (n < peak / peak_breadth || n > peak * peak_breadth) continue;
+        power += spectrum.power[ring];
+        moment += spectrum.moment[ring];
+    }
+    return power > 0 ? power / moment : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace cascade::measure
