@@ -1,0 +1,53 @@
+// Options whose text is read by a function (internal to the reading of options).
+#pragma once
+
+#include "app/option_values.h"
+#include "core/result.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cascade::option_groups {
+
+/// The value of an option, or CLI11's way to say that it is wrong; parse_options() catches it.
+template <typename T>
+T value_or_throw(Result<T> value, const std::string& option) {
+    if (value) return std::move(*value);
+    const Failure& why = value.error();
+    throw CLI::ValidationError(
+        option, why.hint.empty() ? why.message : fmt::format("{} ({})", why.message, why.hint));
+}
+
+/// An option whose text is read by `parse`, a function to Result<T>, and handed to `store`.
+template <typename Parse, typename Store>
+CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& value,
+                       const std::string& help, Parse parse, Store store) {
+    const std::string name = names.substr(names.find("--"));
+    return app
+        .add_option_function<std::string>(
+            names, [=](const std::string& text) { store(value_or_throw(parse(text), name)); }, help)
+        ->type_name(value);
+}
+
+/// Readers for add_value().
+inline auto whole_number(std::int64_t low, std::int64_t high) {
+    return [=](const std::string& text) { return parse_whole(text, low, high); };
+}
+
+inline Result<std::string> any_text(const std::string& text) {
+    if (text.empty()) return failure("it must not be empty");
+    return text;
+}
+
+inline auto one_of(std::vector<std::string> choices) {
+    return [choices = std::move(choices)](const std::string& text) {
+        return parse_choice(text, choices);
+    };
+}
+
+}  // namespace cascade::option_groups

@@ -1,0 +1,154 @@
+#include "app/option_groups.h"
+
+#include "app/add_value.h"
+#include "app/help.h"
+#include "core/palette.h"
+#include "run/dump.h"
+#include "run/simulation.h"
+
+#include <limits>
+#include <vector>
+
+namespace cascade::option_groups {
+
+namespace {
+
+std::vector<std::string> palette_names() {
+    std::vector<std::string> names;
+    for (const Palette& palette : palettes()) names.emplace_back(palette.name);
+    return names;
+}
+
+}  // namespace
+
+void add_script(CLI::App& app, Options& options, const std::string& help) {
+    app.add_option_function<std::string>(
+           "SCRIPT", [&](const std::string& path) { options.scripts.push_back(path); }, help)
+        ->type_name("");
+}
+
+void add_overrides(CLI::App& app, Overrides& overrides) {
+    const std::string group = "Changes to the script, without editing it";
+    add_value(app, "--grid", "WxH", "Columns and rows; '60' is a line of 60 cells", parse_grid,
+              [&](auto grid) { overrides.grid = grid; })
+        ->group(group);
+    add_value(app, "--seed", "N", "Other random numbers",
+              whole_number(0, std::numeric_limits<std::uint32_t>::max()),
+              [&](auto seed) { overrides.seed = static_cast<std::uint32_t>(seed); })
+        ->group(group);
+    app.add_option("--set", overrides.sets,
+                   "A parameter or setting: ka=1/400, large.ka=1/400;\nmay be given again")
+        ->allow_extra_args(false)
+        ->type_name("NAME=EXPR")
+        ->group(group);
+    add_value(app, "--steps", "N", "At most so many steps in every stage",
+              whole_number(0, std::numeric_limits<std::int64_t>::max()),
+              [&](auto steps) { overrides.steps = steps; })
+        ->group(group);
+    add_value(app, "--until-stage", "NAME", "The last stage that runs", any_text,
+              [&](auto stage) { overrides.until_stage = stage; })
+        ->group(group);
+}
+
+void add_picture_options(CLI::App& app, PictureChanges& picture) {
+    const std::string group = "What the picture shows";
+    add_value(app, "--show", "EXPR", "A species, a parameter, any expression: b, stage1.b,\n"
+              "'a - b'", any_text, [&](auto show) { picture.show = show; })
+        ->group(group);
+    add_value(app, "--palette", "NAME",
+              help::in_lines(palette_names()), one_of(palette_names()),
+              [&](auto palette) { picture.palette = palette; })
+        ->group(group);
+    add_value(app, "--range", "LOW,HIGH", "The values at the palette's two ends; without it the\n"
+              "smallest and the largest", parse_range, [&](auto range) { picture.range = range; })
+        ->group(group);
+    add_value(app, "--scale", "N", "Pixels for the side of a cell (1 to 64)", whole_number(1, 64),
+              [&](auto scale) { picture.scale = static_cast<int>(scale); })
+        ->group(group);
+    add_value(app, "--depth", "BITS", "8 or 16 for each colour", one_of({"8", "16"}),
+              [&](const auto& depth) { picture.depth = depth == "16" ? 16 : 8; })
+        ->group(group);
+    app.add_flag("--space-time", picture.space_time,
+                 "A line of cells over time: a row of pixels for each\ninterval")
+        ->group(group);
+}
+
+void add_files(CLI::App& app, RunRequest& run) {
+    const std::string group = "Files";
+    add_value(app, "-o,--output", "FILE.png", "The picture; without it SCRIPT.png in this folder",
+              parse_png_path, [&](auto path) { run.output = path; })
+        ->group(group);
+    add_value(app, "--sheet", "FILE.png", "All species of all stages in one labelled picture",
+              parse_png_path, [&](auto path) { run.sheet = path; })
+        ->group(group);
+    add_value(app, "--frames", "FOLDER", "A picture at each interval, all in one range", any_text,
+              [&](auto path) { run.frames = path; })
+        ->group(group);
+    add_value(app, "--save", "FOLDER", "Every field as STAGE.NAME.npy, to read or to resume",
+              any_text, [&](auto path) { run.save = path; })
+        ->group(group);
+    add_value(app, "--resume", "FOLDER", "Go on with a run that --save wrote", any_text,
+              [&](auto path) { run.resume = path; })
+        ->group(group);
+}
+
+void add_execution(CLI::App& app, Options& options) {
+    const std::string group = "How it is computed (the results are the same, bit for bit)";
+    SimulationOptions& simulation = options.run.simulation;
+    if (!has_jit()) simulation.backend = BackendKind::interpreter;
+    add_value(app, "--backend", "jit|interp", "Native code by LLVM, or the interpreter",
+              one_of(has_jit() ? std::vector<std::string>{"jit", "interp"}
+                               : std::vector<std::string>{"interp"}),
+              [&](const auto& name) {
+                  simulation.backend =
+                      name == "jit" ? BackendKind::jit : BackendKind::interpreter;
+              })
+        ->group(group);
+    add_value(app, "--threads", "N", "Threads; without it all cores", whole_number(1, 1024),
+              [&](auto threads) { simulation.threads = static_cast<int>(threads); })
+        ->group(group);
+    add_value(app, "--lanes", "4|8|16", "Cells in a vector; without it what the processor has",
+              one_of({"4", "8", "16"}),
+              [&](const auto& lanes) {
+                  simulation.lanes = lanes == "4" ? 4 : lanes == "8" ? 8 : 16;
+              })
+        ->group(group);
+    add_value(app, "--stop-at", "STAGE:STEP", "Stop there as Ctrl-C would", parse_stop_at,
+              [&](auto stop) { options.run.stop_at = stop; })
+        ->group(group);
+    app.add_flag("-q,--quiet", options.quiet, "No progress and no remarks")->group(group);
+}
+
+void add_dump(CLI::App& app, Options& options) {
+    std::vector<std::string> kinds;
+    for (const std::string_view kind : dump_kinds()) kinds.emplace_back(kind);
+    add_value(app, "--dump", "WHAT",
+              "Print what becomes of the script, and stop there:\n" + help::in_lines(kinds),
+              one_of(kinds), [&](auto kind) { options.dump = kind; })
+        ->group("More");
+}
+
+void add_compile(CLI::App& app, Options& options) {
+    const std::string group = "Output";
+    CompileRequest& compile = options.compile;
+    add_value(app, "-o,--output", "FILE.o", "The object file; without it SCRIPT.o in this folder",
+              any_text, [&](auto path) { options.object = path; })
+        ->group(group);
+    add_value(app, "--header", "FILE.h", "The C header; without it beside the object file",
+              any_text, [&](auto path) { options.header = path; })
+        ->group(group);
+    add_value(app, "--stage", "STAGE", "Name or number of the stage; without it the first",
+              any_text, [&](auto stage) { compile.stage = stage; })
+        ->group(group);
+    add_value(app, "--per-cell", "NAMES", "Parameters that get a value for each cell: beta,ka",
+              parse_names, [&](auto names) { compile.per_cell = names; })
+        ->group(group);
+    add_value(app, "--target", "CPU", "A processor such as x86-64-v3; without it this one",
+              any_text, [&](auto target) { compile.target = target; })
+        ->group(group);
+    add_value(app, "--name", "NAME", "The C function's name; without it SCRIPT_STAGE", any_text,
+              [&](auto name) { compile.function_name = name; })
+        ->group(group);
+}
+
+}  // namespace cascade::option_groups

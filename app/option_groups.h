@@ -1,0 +1,21 @@
+// Groups of options that commands have in common (internal to the reading of options: this header
+// includes CLI11, whose headers take seconds to compile).
+#pragma once
+
+#include "app/options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace cascade::option_groups {
+
+void add_script(CLI::App& app, Options& options, const std::string& help);
+void add_overrides(CLI::App& app, Overrides& overrides);
+void add_picture_options(CLI::App& app, PictureChanges& picture);
+void add_files(CLI::App& app, RunRequest& run);
+void add_execution(CLI::App& app, Options& options);
+void add_dump(CLI::App& app, Options& options);
+void add_compile(CLI::App& app, Options& options);
+
+}  // namespace cascade::option_groups
