@@ -91,7 +91,8 @@ struct Block {
 };
 
 /// A value from outside the script (`--set large.ka=1/400`): it replaces the sentence of that name
-/// in one stage, or, where `stage` is empty, in every stage that has such a name.
+/// in one stage, or, where no stage is called so, in every stage of the system of that name, or,
+/// where `stage` is empty, in every stage that has such a name.
 struct Override {
     Word stage;
     Sentence sentence;

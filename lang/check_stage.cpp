@@ -271,6 +271,19 @@ void report_unknown_override(Workspace& work, const ast::Word& name) {
                            did_you_mean(work, name.text, names));
 }
 
+/// `--set gray_scott.feed=…` where no stage is called so: it holds in every stage of that system.
+bool set_in_stages_of_system(const Workspace& work, std::string_view system,
+                             const ast::Sentence* sentence, StageOverrides& result) {
+    bool used = false;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const std::uint32_t its = work.program.stages[i].system;
+        if (its == unknown_system || work.program.systems[its].name != system) continue;
+        result[i].push_back(sentence);
+        used = true;
+    }
+    return used;
+}
+
 StageOverrides distribute(Workspace& work, const ast::Script& script) {
     StageOverrides result(work.program.stages.size());
     for (const ast::Override& change : script.overrides) {
@@ -282,6 +295,7 @@ StageOverrides distribute(Workspace& work, const ast::Script& script) {
                 result[found->second].push_back(sentence);
                 continue;
             }
+            if (set_in_stages_of_system(work, change.stage.text, sentence, result)) continue;
             std::vector<std::string> names;
             for (const Stage& stage : work.program.stages) names.push_back(stage.name);
             work.diagnostics.error(change.stage.span,

@@ -12,6 +12,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const System& system_named(const Program& program, const std::string& name) {
     const auto found = std::find_if(program.systems.begin(), program.systems.end(),
@@ -183,6 +184,22 @@ TEST(CheckProgram, Overrides) {
     EXPECT_THAT(text, HasSubstr("beta: large.beta + large.ka  # uniform"));
     EXPECT_EQ(checked->program->stages[0].iterations, 17);
     EXPECT_EQ(checked->program->stages[1].iterations, 17);
+}
+
+TEST(CheckProgram, OverridesOfASystem) {
+    // A stage of the name comes first; a system of the name means all its stages.
+    const auto checked = check_text(
+        "stage one: turing_spots { ka: 1 }\nstage stripes: turing_spots { ka: 2 }\n",
+        {"turing_spots.ka=3", "stripes.beta=4"});
+    ASSERT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
+    const std::string text = print_program(*checked->program);
+    EXPECT_THAT(text, Not(HasSubstr("ka: 1  #")));
+    EXPECT_THAT(text, Not(HasSubstr("ka: 2  #")));
+    EXPECT_THAT(text, HasSubstr("ka: 3  # uniform"));
+    EXPECT_THAT(text, HasSubstr("beta: 4  # uniform"));
+    // A system that no stage uses is not meant.
+    EXPECT_THAT(check_text("stage one: turing_spots {}", {"autocatalysis.a=1"})->faults(),
+                ElementsAre("1:1: there is no stage 'autocatalysis'"));
 }
 
 TEST(CheckProgram, Domain) {
