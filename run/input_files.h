@@ -24,7 +24,4 @@ private:
 /// a wrong type or a shape other than the grid's is a diagnostic at the path in the script.
 Result<InputFiles> read_input_files(Script& script);
 
-/// Fails if the fields of all stages would not fit into the machine's free memory.
-Result<void> check_memory(const Program& program);
-
 }  // namespace cascade

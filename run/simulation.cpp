@@ -6,6 +6,7 @@
 #include "ir/interpreter.h"
 #include "run/bound_kernel.h"
 #include "run/input_files.h"
+#include "run/memory.h"
 #include "run/not_finite.h"
 #include "solvers/stability.h"
 #if CASCADE_HAS_JIT
@@ -28,9 +29,7 @@ std::string describe_backend() {
 #endif
 }
 
-namespace {
-
-Result<std::unique_ptr<Backend>> make_backend(const SimulationOptions& options) {
+Result<std::shared_ptr<Backend>> make_stepper(const SimulationOptions& options) {
     if (options.backend == BackendKind::interpreter) return make_interpreter();
 #if CASCADE_HAS_JIT
     JitOptions jit;
@@ -41,15 +40,13 @@ Result<std::unique_ptr<Backend>> make_backend(const SimulationOptions& options) 
 #endif
 }
 
-}  // namespace
-
 struct Simulation::Implementation {
     Script* script = nullptr;
     const Program* program = nullptr;
     Grid grid;
     int threads = 1;
     std::unique_ptr<Backend> interpreter;
-    std::unique_ptr<Backend> stepper;
+    std::shared_ptr<Backend> stepper;
     std::unique_ptr<Team> team;
     InputFiles files;
     std::vector<StageState> states;
@@ -151,15 +148,20 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     self.grid = self.program->domain.grid;
     self.threads = options.threads > 0 ? options.threads : hardware_threads();
 
-    if (auto enough = check_memory(*self.program); !enough) return tl::unexpected(enough.error());
+    if (auto enough = check_memory(*self.program, options.memory_limit); !enough) {
+        return tl::unexpected(enough.error());
+    }
     auto files = read_input_files(script);
     if (!files) return tl::unexpected(files.error());
     self.files = std::move(*files);
 
     self.interpreter = make_interpreter();
-    auto stepper = make_backend(options);
-    if (!stepper) return tl::unexpected(stepper.error());
-    self.stepper = std::move(*stepper);
+    self.stepper = options.stepper;
+    if (!self.stepper) {
+        auto stepper = make_stepper(options);
+        if (!stepper) return tl::unexpected(stepper.error());
+        self.stepper = std::move(*stepper);
+    }
     // Evaluating a small grid is over before a second thread has woken up.
     const bool small = self.grid.cell_count() < 65536;
     self.team = std::make_unique<Team>(small ? 1 : self.threads);

@@ -49,7 +49,14 @@ struct SimulationOptions {
     BackendKind backend = BackendKind::jit;
     int lanes = 0;      ///< Vector width of the JIT; 0 takes the host's.
     int threads = 0;    ///< 0 takes all the machine has.
+    /// Takes the steps of several simulations, so that equal kernels are compiled once; none: each
+    /// simulation has one of its own. Its compile() must allow several threads.
+    std::shared_ptr<Backend> stepper;
+    std::uint64_t memory_limit = 0;   ///< Bytes that all fields may take; 0: what is free.
 };
+
+/// What `options` ask for, to be shared by simulations. Fails where this build has no native code.
+Result<std::shared_ptr<Backend>> make_stepper(const SimulationOptions& options);
 
 /// Why a stage ended.
 enum class StageEnd { finished, stopped, cancelled };

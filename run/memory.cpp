@@ -1,0 +1,68 @@
+#include "run/memory.h"
+
+#include "core/plane.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace cascade {
+
+namespace {
+
+/// "3.2 GB", "40.5 MB".
+std::string describe_bytes(double bytes) {
+    return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9)
+                        : fmt::format("{:.1f} MB", bytes / 1e6);
+}
+
+}  // namespace
+
+std::uint64_t available_memory() {
+    std::ifstream meminfo("/proc/meminfo");
+    std::string key, unit;
+    std::uint64_t kibibytes = 0;
+    while (meminfo >> key >> kibibytes) {
+        std::getline(meminfo, unit);
+        if (key == "MemAvailable:") return kibibytes * 1024;
+    }
+    return 0;
+}
+
+double memory_of(const Program& program) {
+    // Two buffers and the kept copy of every species, and every varying parameter, of all stages:
+    // later stages and pictures may read any of them.
+    std::uint64_t planes = 4;
+    for (const Stage& stage : program.stages) {
+        const System& system = program.systems[stage.system];
+        for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+            if (system.is_species(item)) {
+                planes += 3;
+            } else if (!stage.uniform[item]) {
+                planes += 1;
+            }
+        }
+    }
+    const PlaneLayout layout(program.domain.grid);
+    return static_cast<double>(planes) * static_cast<double>(layout.size()) * 4.0;
+}
+
+Result<void> check_memory(const Program& program, std::uint64_t limit) {
+    const double needed = memory_of(program);
+    const auto fails = [&](double bytes, std::string_view what) {
+        return failure(fmt::format("a grid of {} × {} cells needs {} for this script, but {} {}",
+                                   program.domain.grid.width, program.domain.grid.height,
+                                   describe_bytes(needed), describe_bytes(bytes), what),
+                       "use a smaller grid");
+    };
+    if (limit > 0 && needed > static_cast<double>(limit)) {
+        return fails(static_cast<double>(limit), "are the limit (--limit-memory)");
+    }
+    const auto free = static_cast<double>(available_memory());
+    if (free > 0 && needed > free) return fails(free, "are free");
+    return {};
+}
+
+}  // namespace cascade
