@@ -8,6 +8,7 @@
 #include "core/source.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -41,12 +42,18 @@ enum class BinaryOp : std::uint8_t {
 struct Binary { BinaryOp op; ExprId left, right; };
 /// Arguments are Script::arguments[first_argument …], in order.
 struct Call { Word function; std::uint32_t first_argument, argument_count; };
+/// sum(operand over index); `index` is the word `domain` or an index of the system.
+struct Over { Word function; ExprId operand; Word index; };
+/// u[index], [u[index]], large.u[index], u[index]': `base` is the Name, Bracketed, Qualified or
+/// RateOf of the family, which stands directly before the parts of the index.
+struct Indexed { ExprId base, index; };
 /// What could not be read. A message has been given already; later stages stay silent about it.
 struct Garbage {};
 
 struct Expr {
     Span span;
-    std::variant<Number, Text, Name, Bracketed, Qualified, RateOf, Unary, Binary, Call, Garbage>
+    std::variant<Number, Text, Name, Bracketed, Qualified, RateOf, Unary, Binary, Call, Over,
+                 Indexed, Garbage>
         node;
 };
 
@@ -63,13 +70,24 @@ enum class SentenceKind : std::uint8_t {
     rate_term,   ///< name' += e
     at_least,    ///< name >= e
     at_most,     ///< name <= e
+    index,       ///< name: low .. high; the values are the two ends
+};
+
+/// in low .. high [step e], behind the value of a parameter.
+struct Range {
+    Expression low, high;
+    std::optional<Expression> step;
+    Span span;
 };
 
 struct Sentence {
     SentenceKind kind = SentenceKind::value;
     Word name;
+    Word index;                      ///< i of `u[i]: e`: a name or a number; empty without one.
     std::vector<Expression> values;  ///< At least one.
+    std::optional<Range> range;      ///< Of a value only.
     Span span;                       ///< From the name to the end of the last value.
+    std::string doc;                 ///< The text of its doc comments, joined to one line.
 };
 
 enum class BlockKind : std::uint8_t {
@@ -85,9 +103,24 @@ struct Block {
     Word keyword;  ///< `system`, `stage`, `system_name`, …: the block's place in messages.
     Word name;     ///< Of a system or stage; empty for others.
     /// The stage's system; empty where it could not be read. Of a system: the system it is derived
-    /// from. The parser has given a message for both: later stages take the name and are silent.
+    /// from, empty where it is derived from none.
     Word base;
     std::vector<Sentence> sentences;
+    std::string doc;  ///< The text of its doc comments, joined to one line.
+};
+
+/// fn name(parameters) = body
+struct FunctionDefinition {
+    Word name;
+    std::vector<Word> parameters;
+    Expression body;
+    std::string doc;
+};
+
+/// use "file.cascade"
+struct Use {
+    Span span;         ///< Of the text in quotes.
+    std::string path;  ///< As written.
 };
 
 /// A value from outside the script (`--set large.ka=1/400`): it replaces the sentence of that name
@@ -100,6 +133,8 @@ struct Override {
 
 struct Script {
     std::vector<Block> blocks;
+    std::vector<FunctionDefinition> functions;
+    std::vector<Use> uses;
     std::vector<Override> overrides;
     std::vector<Expr> expressions;
     std::vector<ExprId> arguments;

@@ -48,6 +48,28 @@ Workspace workspace_of(Program& program, Diagnostics& diagnostics) {
     return work;
 }
 
+void refuse(Workspace& work, Span span, const char* what) {
+    work.diagnostics.error(span, fmt::format("{} not in this version of the language", what));
+}
+
+/// What the parser reads already and the checker does not.
+void refuse_unfinished(Workspace& work, const ast::Script& script) {
+    for (const auto& function : script.functions) {
+        refuse(work, function.name.span, "functions of your own are");
+    }
+    for (const auto& use : script.uses) refuse(work, use.span, "'use' is");
+    for (const ast::Block& block : script.blocks) {
+        const bool derived = block.kind == ast::BlockKind::system && !block.base.empty();
+        if (derived) refuse(work, block.base.span, "a system from a system is");
+        for (const ast::Sentence& sentence : block.sentences) {
+            const bool family =
+                sentence.kind == ast::SentenceKind::index || !sentence.index.empty();
+            if (family) refuse(work, sentence.name.span, "families are");
+            if (sentence.range) refuse(work, sentence.range->span, "ranges are");
+        }
+    }
+}
+
 }  // namespace
 
 namespace checking {
@@ -80,6 +102,7 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
     {
         Workspace work{program, own, {}, {}, {}, {}, {}, 0};
         check_built_in_systems(work, sources);
+        refuse_unfinished(work, script);
         for (const ast::Block& block : script.blocks) {
             if (block.kind != ast::BlockKind::system) continue;
             checking::check_system(work, script, block, false);
@@ -128,7 +151,7 @@ std::vector<std::string> known_names(const Program& program) {
                                 "x", "y", "sx", "sy", "t", "step", "pi", "and", "or", "not"};
     for (std::size_t i = 0; i <= static_cast<std::size_t>(Function::mix); ++i) {
         const FunctionInfo& row = info(static_cast<Function>(i));
-        if (!row.is_operator) names.emplace(row.spelling);
+        if (!row.is_operator && !row.is_aggregate) names.emplace(row.spelling);
     }
     for (const System& system : program.systems) {
         names.insert(system.name);

@@ -21,7 +21,9 @@ struct Part {
     double value = 0;
 };
 
-constexpr std::array<std::string_view, 5> later_functions{"grad", "div", "attr", "sum", "integral"};
+constexpr std::array<std::string_view, 4> later_functions{"grad", "div", "attr", "integral"};
+/// What is taken over something, as in sum(e over i).
+constexpr std::array<std::string_view, 3> only_over{"sum", "mean", "product"};
 
 std::string plural(int count) {
     return count == 1 ? std::string("1 value") : fmt::format("{} values", count);
@@ -98,6 +100,8 @@ private:
     void visit(const ast::Unary& unary);
     void visit(const ast::Binary& binary);
     void visit(const ast::Call& call);
+    void visit(const ast::Over& over);
+    void visit(const ast::Indexed& indexed);
     void visit(const ast::Garbage&) { parts_.back().faulty = true; }
 
     void take(std::optional<Node> node);
@@ -232,16 +236,38 @@ void ExpressionChecker::visit(const ast::Call& call) {
     apply(*function, operands, static_cast<int>(call.argument_count));
 }
 
+/// mean(e over domain). Aggregates over an index have been written out before.
+void ExpressionChecker::visit(const ast::Over& over) {
+    const auto function = function_of(fmt::format("{} over domain", over.function.text));
+    if (!function || over.index.text != "domain") {
+        return fault(over.function.span,
+                     fmt::format("{} cannot be taken over the domain", over.function.text),
+                     "mean, sum, min and max can");
+    }
+    if (!belongs_here(*function, over.function.span)) return;
+    // Until the lowering knows how to make them.
+    return fault(over.function.span, "aggregates over the domain are not in this version of the language");
+    apply(*function, {part_of(over.operand), 0, 0, 0}, 1);
+}
+
+void ExpressionChecker::visit(const ast::Indexed&) {
+    fault(formula_.nodes.back().span, "families are not in this version of the language");
+}
+
 void ExpressionChecker::unknown_function(const ast::Word& name) {
     if (std::find(later_functions.begin(), later_functions.end(), name.text) !=
         later_functions.end()) {
         return fault(name.span,
                      fmt::format("'{}' is not in this version of the language", name.text));
     }
+    if (std::find(only_over.begin(), only_over.end(), name.text) != only_over.end()) {
+        return fault(name.span, fmt::format("{} is taken over something", name.text),
+                     fmt::format("write {0}(e over i) or {0}(e over domain)", name.text));
+    }
     std::vector<std::string> names;
     for (std::size_t i = 0; i <= static_cast<std::size_t>(Function::mix); ++i) {
         const FunctionInfo& row = info(static_cast<Function>(i));
-        if (!row.is_operator) names.emplace_back(row.spelling);
+        if (!row.is_operator && !row.is_aggregate) names.emplace_back(row.spelling);
     }
     std::string hint = did_you_mean(work_, name.text, names);
     fault(name.span, fmt::format("there is no function '{}'", name.text), std::move(hint));
@@ -256,11 +282,13 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
         fault(span, fmt::format("{} cannot stand here", row.spelling), where);
         return false;
     };
-    const bool varies = function == Function::disc || row.places == Places::values ||
+    const bool aggregate = row.is_aggregate;
+    const bool varies = aggregate || function == Function::disc || row.places == Places::values ||
                         row.places == Places::noisy || row.places == Places::rates;
     if (place == Place::constant && varies) {
-        fault(span, fmt::format("{} must be one number, but {} is varying by cell",
-                                scope_.subject, row.spelling));
+        fault(span, fmt::format("{} must be one number, but {} is {}", scope_.subject,
+                                row.spelling,
+                                aggregate ? "known only in a run" : "varying by cell"));
         return false;
     }
     if (place == Place::bound && varies) {

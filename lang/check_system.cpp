@@ -125,6 +125,7 @@ void SystemChecker::declare(const ast::Sentence& sentence) {
             system().definitions.push_back(
                 {std::string(sentence.name.text), sentence.name.span, {}});
             return;
+        case ast::SentenceKind::index: return;
         case ast::SentenceKind::rate:
         case ast::SentenceKind::rate_term: rate_sentences_.push_back(&sentence); return;
         case ast::SentenceKind::at_least:

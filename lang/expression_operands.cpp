@@ -119,6 +119,9 @@ ExpressionParser::Progress ExpressionParser::read_bracketed() {
     const Token open = cursor_.take();
     cursor_.skip_newlines();
     const Token inner = cursor_.peek();
+    if (inner.kind == TokenKind::name && cursor_.kind(1) == TokenKind::open_square) {
+        return read_own_member();
+    }
     if (inner.kind == TokenKind::name) {
         const bool on_next_line = cursor_.kind(1) == TokenKind::newline;
         if (cursor_.kind(on_next_line ? 2 : 1) == TokenKind::close_square) {
@@ -147,6 +150,16 @@ ExpressionParser::Progress ExpressionParser::read_bracketed() {
         cursor_.error(whole, "'[ ]' holds one name of this stage", "( ) groups an expression");
     }
     push_operand(whole, ast::Garbage{});
+    return Progress::going_on;
+}
+
+/// [name[index]]: the brackets around are open; the index follows.
+ExpressionParser::Progress ExpressionParser::read_own_member() {
+    const Token outer = cursor_.previous();
+    const Token name = cursor_.take();
+    push_operand(join(outer.span, name.span), ast::Bracketed{cursor_.word(name)});
+    push_bracket(PendingKind::index, cursor_.take(), outer.span);
+    pending_.back().is_own = true;
     return Progress::going_on;
 }
 

@@ -40,6 +40,10 @@ std::optional<BinaryToken> binary_of(TokenKind kind) {
 ExpressionParser::Progress ExpressionParser::read_operator() {
     const bool on_new_line = open_brackets_ > 0 && cursor_.take_if(TokenKind::newline);
     const Token token = cursor_.peek();
+    if (open_brackets_ == 0 && token.kind == TokenKind::name && !end_word_.empty() &&
+        cursor_.at_name(end_word_)) {
+        return Progress::finished;
+    }
     if (token.kind == TokenKind::assign) {  // Read on as the comparison that was meant.
         cursor_.error(token.span, "'=' inside an expression", "write '==' to compare");
     }
@@ -51,6 +55,16 @@ ExpressionParser::Progress ExpressionParser::read_operator() {
         case TokenKind::comma: return read_comma();
         case TokenKind::close_round: return read_close_round();
         case TokenKind::close_square: return read_close_round();
+        case TokenKind::open_square:
+            if (!begins_index()) break;
+            push_bracket(PendingKind::index, cursor_.take(), {});
+            return Progress::going_on;
+        case TokenKind::name:
+            if (open_brackets_ > 0 && cursor_.at_name("over")) return read_over();
+            break;
+        case TokenKind::dots:
+            if (open_brackets_ == 0) return Progress::finished;
+            break;
         case TokenKind::garbage: return fail_silently();
         case TokenKind::newline:
         case TokenKind::semicolon:
@@ -59,8 +73,80 @@ ExpressionParser::Progress ExpressionParser::read_operator() {
             if (open_brackets_ == 0) return Progress::finished;
             if (on_new_line) cursor_.step_back();
             return unclosed();
-        default: return unexpected_operator(on_new_line);
+        default: break;
     }
+    return unexpected_operator(on_new_line);
+}
+
+/// Does a '[' here stand directly behind a name, as in u[i]? Behind a blank it is a new operand.
+bool ExpressionParser::begins_index() const {
+    const Token& before = cursor_.previous();
+    return before.kind == TokenKind::name && before.span.end == cursor_.peek().span.begin;
+}
+
+/// u[…]: the index is complete. A prime behind it makes the member's rate.
+ExpressionParser::Progress ExpressionParser::close_index() {
+    const Token close = cursor_.take();
+    const Pending open = pending_.back();
+    pending_.pop_back();
+    --open_brackets_;
+    const Operand index = operands_.back();
+    operands_.pop_back();
+    const Operand base = operands_.back();
+    operands_.pop_back();
+    Span whole = join(base.outer, close.span);
+    if (open.is_own) {
+        cursor_.skip_newlines();
+        if (!cursor_.at(TokenKind::close_square)) {
+            return fail(open.detail, "this '[' is never closed",
+                        "the member of a family in this stage is written [u[i]]");
+        }
+        whole = join(whole, cursor_.take().span);
+    } else if (cursor_.at(TokenKind::prime)) {
+        ast::Expr& family = script_.expressions[base.id];
+        const auto* name = std::get_if<ast::Name>(&family.node);
+        if (name == nullptr) return unexpected_operator(false);
+        const Span prime = cursor_.take().span;
+        whole = join(whole, prime);
+        family.node = ast::RateOf{ast::Word{family.span, name->name}};
+    }
+    push_operand(whole, ast::Indexed{base.id, index.id});
+    return Progress::going_on;
+}
+
+/// sum(e over i): the word `over` is here, the operand is complete.
+ExpressionParser::Progress ExpressionParser::read_over() {
+    reduce_above(0);
+    const Token over = cursor_.peek();
+    const Pending open = pending_.back();
+    const std::string form = "write sum(e over i) or mean(e over domain)";
+    if (open.kind != PendingKind::call) {
+        return fail(over.span, "'over' stands inside a function's brackets", form);
+    }
+    if (open.argument_count > 0) {
+        return fail(over.span, "'over' stands behind one expression only", form);
+    }
+    cursor_.take();
+    cursor_.skip_newlines_in_brackets();
+    if (!cursor_.at(TokenKind::name)) {
+        if (cursor_.at(TokenKind::garbage)) return fail_silently();
+        return fail(over.span, "'over' names an index or the domain", form);
+    }
+    const ast::Word index = cursor_.word(cursor_.take());
+    cursor_.skip_newlines_in_brackets();
+    if (!cursor_.at(TokenKind::close_round)) {
+        if (cursor_.at(TokenKind::garbage)) return fail_silently();
+        return fail(index.span,
+                    fmt::format("a ')' is missing after 'over {}'", shortened(index.text)), form);
+    }
+    const Token close = cursor_.take();
+    pending_.pop_back();
+    --open_brackets_;
+    const Operand operand = operands_.back();
+    operands_.pop_back();
+    push_operand(join(open.detail, close.span),
+                 ast::Over{{open.detail, cursor_.text(open.detail)}, operand.id, index});
+    return Progress::going_on;
 }
 
 /// Closes the innermost bracket; a `]` in the place of a `)` does so with a message.
@@ -72,6 +158,11 @@ ExpressionParser::Progress ExpressionParser::read_close_round() {
     const bool is_empty_call = expects_operand_;
     reduce_above(0);
     const Pending open = pending_.back();
+    if (open.kind == PendingKind::index) {
+        if (close.kind == TokenKind::close_square) return close_index();
+        return fail(open.token.span, "this '[' is never closed",
+                    "a ']' is missing before the ')'");
+    }
     if (close.kind == TokenKind::close_square) {
         cursor_.error({Severity::error,
                        open.token.span,
@@ -104,6 +195,9 @@ ExpressionParser::Progress ExpressionParser::read_comma() {
     if (open_brackets_ == 0) return Progress::finished;
     reduce_above(0);
     Pending& open = pending_.back();
+    if (open.kind == PendingKind::index) {
+        return fail(cursor_.peek().span, "a family has one index", "write u[i]");
+    }
     if (open.kind == PendingKind::group) {
         return fail(cursor_.peek().span, "',' separates the arguments of a function",
                     "the name of a function is missing before '('");
@@ -126,6 +220,7 @@ ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_lin
             return fail(token.span, "'.' stands between the name of a stage and one of its names",
                         "write stage.p");
         case TokenKind::colon:
+        case TokenKind::dots:
         case TokenKind::plus_assign:
         case TokenKind::open_curly:
             return fail(token.span,
@@ -152,7 +247,8 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
         return Progress::finished;
     }
     if (cursor_.at_name("over")) {
-        return fail(here.span, "'over' is not in this version of the language");
+        return fail(here.span, "'over' stands inside a function's brackets",
+                    "write sum(e over i) or mean(e over domain)");
     }
     std::string hint;
     const Span both = join(before.span, here.span);

@@ -9,8 +9,9 @@
 
 namespace cascade {
 
-ast::Expression ExpressionParser::parse(const std::string& owner) {
+ast::Expression ExpressionParser::parse(const std::string& owner, std::string_view end_word) {
     owner_ = owner;
+    end_word_ = end_word;
     first_ = static_cast<ast::ExprId>(script_.expressions.size());
     first_argument_ = static_cast<std::uint32_t>(script_.arguments.size());
     pending_.clear();
@@ -134,8 +135,11 @@ ExpressionParser::Progress ExpressionParser::unclosed() {
         if (!pending_[k].is_bracket()) continue;
         // Behind a text that is never closed, nothing says that the bracket was forgotten too.
         if (cursor_.lost_in_text(pending_[k].token, "")) break;
-        cursor_.error(pending_[k].token.span, "this '(' is never closed",
-                      "a ')' is missing before the sentence ends");
+        const bool is_index = pending_[k].kind == PendingKind::index;
+        cursor_.error(pending_[k].token.span,
+                      is_index ? "this '[' is never closed" : "this '(' is never closed",
+                      fmt::format("a '{}' is missing before the sentence ends",
+                                  is_index ? ']' : ')'));
         break;
     }
     cursor_.skip_sentence();

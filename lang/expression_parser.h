@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cascade {
@@ -22,11 +23,12 @@ public:
     /// Reads one expression and leaves the cursor at what ends it: a line end, `;`, `}`, `,` or the
     /// end of the text. Where it cannot be read, a message is given, the cursor goes to the end of
     /// the sentence, and the expression is one Garbage. `owner` says in messages whose value is
-    /// missing where there is nothing: `the value of 'ka'`.
-    ast::Expression parse(const std::string& owner);
+    /// missing where there is nothing: `the value of 'ka'`. Outside of brackets the expression
+    /// ends at `..` too, and at the word `end_word` where an operator could stand.
+    ast::Expression parse(const std::string& owner, std::string_view end_word = "");
 
 private:
-    enum class PendingKind : std::uint8_t { binary, unary, group, call };
+    enum class PendingKind : std::uint8_t { binary, unary, group, call, index };
     /// A comparison whose left side is a comparison, such as the second of `0 < a < 4`.
     enum class Chain : std::uint8_t { none, to_report, reported };
     enum class Progress : std::uint8_t { going_on, finished, failed };
@@ -41,8 +43,10 @@ private:
         Token token;                       ///< The operator or the bracket.
         Span detail;                       ///< Name of a call; middle operand of a chain.
         std::uint32_t argument_count = 0;  ///< Of a call: complete ones so far.
+        bool is_own = false;               ///< Of an index: the inner bracket of [u[i]].
         bool is_bracket() const {
-            return kind == PendingKind::group || kind == PendingKind::call;
+            return kind == PendingKind::group || kind == PendingKind::call ||
+                   kind == PendingKind::index;
         }
     };
     /// A complete operand; `outer` is its place with the brackets around it.
@@ -55,13 +59,17 @@ private:
     Progress read_name();
     Progress read_number();
     Progress read_bracketed();
+    Progress read_own_member();
     Progress read_not();
     Progress read_text_in_primes();
     Progress missing_operand();
 
     Progress read_operator();
     Progress read_close_round();
+    Progress close_index();
     Progress read_comma();
+    Progress read_over();
+    bool begins_index() const;
     Progress unexpected_operator(bool on_new_line);
     Progress missing_operator(bool on_new_line);
     Progress unclosed();
@@ -80,6 +88,7 @@ private:
     TokenCursor& cursor_;
     ast::Script& script_;
     std::string owner_;
+    std::string_view end_word_;
     ast::ExprId first_ = 0;
     std::uint32_t first_argument_ = 0;
     std::vector<Pending> pending_;

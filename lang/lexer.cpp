@@ -21,8 +21,10 @@ bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
 class Lexer {
 public:
-    Lexer(SourceId source, const Sources& sources, Diagnostics& diagnostics)
-        : source_(source), text_(sources[source].text()), diagnostics_(diagnostics) {}
+    Lexer(SourceId source, const Sources& sources, Diagnostics& diagnostics,
+          std::vector<Span>* docs)
+        : source_(source), text_(sources[source].text()), diagnostics_(diagnostics),
+          docs_(docs) {}
 
     std::vector<Token> run() {
         report_unreadable_bytes();
@@ -64,6 +66,7 @@ private:
     void skip_line() {
         while (offset_ < text_.size() && !is_line_end(text_[offset_])) ++offset_;
     }
+    void skip_comment();
     void skip_foreign_comment();
     void read_name();
     void read_bad_name(std::size_t begin);
@@ -77,6 +80,7 @@ private:
     SourceId source_;
     std::string_view text_;
     Diagnostics& diagnostics_;
+    std::vector<Span>* docs_;
     std::vector<Token> tokens_;
     std::size_t offset_ = 0;
 };
@@ -139,7 +143,7 @@ void Lexer::read_token() {
     } else if (is_line_end(c)) {
         read_line_end();
     } else if (c == '#') {
-        skip_line();
+        skip_comment();
     } else if (is_name_start(c)) {
         read_name();
     } else if (is_digit(c) || (c == '.' && is_digit(at(offset_ + 1)))) {
@@ -161,6 +165,13 @@ void Lexer::read_line_end() {
     } else {
         push(TokenKind::newline, offset_, offset_ + size);
     }
+}
+
+void Lexer::skip_comment() {
+    const std::size_t begin = offset_;
+    skip_line();
+    const bool is_doc = at(begin + 1) == '#' && at(begin + 2) != '#';
+    if (docs_ != nullptr && is_doc) docs_->push_back(span(begin, offset_));
 }
 
 void Lexer::skip_foreign_comment() {
@@ -217,7 +228,7 @@ void Lexer::read_number() {
     const std::size_t begin = offset_;
     std::size_t end = begin;
     while (is_digit(at(end))) ++end;
-    if (at(end) == '.') ++end;
+    if (at(end) == '.' && at(end + 1) != '.') ++end;  // Two dots are a range: 1..3.
     while (is_digit(at(end))) ++end;
     if (at(end) == 'e' || at(end) == 'E') {
         const std::size_t sign = at(end + 1) == '+' || at(end + 1) == '-' ? 1 : 0;
@@ -348,8 +359,9 @@ void Lexer::read_other() {
 
 }  // namespace
 
-std::vector<Token> lex(SourceId source, const Sources& sources, Diagnostics& diagnostics) {
-    return Lexer(source, sources, diagnostics).run();
+std::vector<Token> lex(SourceId source, const Sources& sources, Diagnostics& diagnostics,
+                       std::vector<Span>* docs) {
+    return Lexer(source, sources, diagnostics, docs).run();
 }
 
 }  // namespace cascade

@@ -16,7 +16,8 @@ struct Operator {
 inline constexpr Operator operators[] = {
     {"+=", TokenKind::plus_assign},   {"==", TokenKind::equal},
     {"!=", TokenKind::not_equal},     {"<=", TokenKind::less_equal},
-    {">=", TokenKind::greater_equal}, {":", TokenKind::colon},
+    {">=", TokenKind::greater_equal}, {"..", TokenKind::dots},
+    {":", TokenKind::colon},
     {";", TokenKind::semicolon},      {",", TokenKind::comma},
     {".", TokenKind::dot},            {"'", TokenKind::prime},
     {"(", TokenKind::open_round},     {")", TokenKind::close_round},

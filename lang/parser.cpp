@@ -36,6 +36,8 @@ ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnost
     }
     script.expressions.reserve(cursor.token_count());
     ScriptParser(cursor, script).parse_script();
+    // What could not be read may be what a doc comment belongs to.
+    if (diagnostics.error_count() == errors_before) cursor.report_lost_docs();
     return script;
 }
 

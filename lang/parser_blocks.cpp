@@ -37,7 +37,7 @@ void ScriptParser::parse_item() {
     }
     if (cursor_.begins_block()) return parse_block();
     if (begins_classic_stage()) return parse_classic_stage();
-    if (refuse_later_word()) return;
+    if (parse_function_or_use()) return;
     if (!in_classic_stage_) return parse_outside_sentence();
     if (auto sentence = parse_sentence()) {
         script_.blocks.back().sentences.push_back(std::move(*sentence));
@@ -48,6 +48,7 @@ void ScriptParser::parse_block() {
     in_classic_stage_ = false;
     outside_reported_ = false;
     ast::Block block;
+    block.doc = docs_before();
     block.keyword = cursor_.word(cursor_.take());
     block.kind = kind_of_keyword(block.keyword.text);
     if (block.kind == ast::BlockKind::system) {
@@ -61,7 +62,7 @@ void ScriptParser::parse_block() {
     script_.blocks.push_back(std::move(block));
 }
 
-/// NAME, or NAME: BASE, which comes with a later version.
+/// NAME, or NAME: BASE.
 void ScriptParser::parse_header_of_system(ast::Block& block) {
     if (cursor_.at(TokenKind::name)) {
         block.name = cursor_.word(cursor_.take());
@@ -70,11 +71,13 @@ void ScriptParser::parse_header_of_system(ast::Block& block) {
     }
     if (!cursor_.at(TokenKind::colon)) return;
     const Token colon = cursor_.take();
-    if (cursor_.at(TokenKind::name)) block.base = cursor_.word(cursor_.take());
-    if (block.name.empty()) return;  // `system: NAME {` has had its message.
-    cursor_.error(join(colon.span, cursor_.previous().span),
-                  "a system from a system is not in this version of the language",
-                  "write its sentences out");
+    if (cursor_.at(TokenKind::name)) {
+        const ast::Word base = cursor_.word(cursor_.take());
+        if (!block.name.empty()) block.base = base;  // `system: NAME {` has had its message.
+    } else if (!cursor_.at(TokenKind::garbage)) {
+        cursor_.error(colon.span, "the name of a system is missing after ':'",
+                      "write 'system NAME: SYSTEM {'");
+    }
 }
 
 /// NAME: SYSTEM
@@ -119,6 +122,7 @@ void ScriptParser::parse_body(ast::Block& block) {
     const Token open = cursor_.peek();
     if (is_open) {
         cursor_.take();
+        add_docs(block.doc, docs_behind(block.keyword.span.begin));
     } else if (cursor_.at(TokenKind::garbage)) {
         cursor_.skip_sentence();
     } else {
@@ -133,7 +137,7 @@ void ScriptParser::parse_body(ast::Block& block) {
     while (!cursor_.at_end() && !cursor_.begins_block() && !begins_classic_stage()) {
         if (cursor_.take_if(TokenKind::close_curly)) return;
         if (cursor_.take_if(TokenKind::newline) || cursor_.take_if(TokenKind::semicolon)) continue;
-        if (refuse_later_word()) continue;
+        if (refuse_function_or_use()) continue;
         if (auto sentence = parse_sentence()) block.sentences.push_back(std::move(*sentence));
     }
     if (is_open && !cursor_.lost_in_text(open, "}")) report_unclosed(open, block);
@@ -156,10 +160,12 @@ void ScriptParser::report_unclosed(const Token& open, const ast::Block& block) {
 void ScriptParser::parse_classic_stage() {
     ast::Block block;
     block.kind = ast::BlockKind::classic_stage;
+    block.doc = docs_before();
     block.keyword = cursor_.word(cursor_.take());
     in_classic_stage_ = true;
     outside_reported_ = false;
     parse_base_of_classic_stage(block);
+    add_docs(block.doc, docs_behind(block.keyword.span.begin));
     script_.blocks.push_back(std::move(block));
 }
 
@@ -204,19 +210,6 @@ void ScriptParser::parse_outside_sentence() {
                               cursor_.describe({TokenKind::name, sentence->name.span})),
                   is_near ? "did you mean 'system_name'?"
                           : "a stage begins with 'system_name: SYSTEM'");
-}
-
-/// `fn` and `use` are kept for later versions: told once, and passed over with their block.
-bool ScriptParser::refuse_later_word() {
-    const bool is_function = cursor_.at_name("fn") && cursor_.kind(1) == TokenKind::name;
-    const bool is_use = cursor_.at_name("use") && (cursor_.kind(1) == TokenKind::name ||
-                                                   cursor_.kind(1) == TokenKind::text);
-    if (!is_function && !is_use) return false;
-    const Token word = cursor_.take();
-    cursor_.error(word.span, fmt::format("{} is not in this version of the language",
-                                         cursor_.describe(word)));
-    cursor_.skip_sentence();
-    return true;
 }
 
 }  // namespace cascade

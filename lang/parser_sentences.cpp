@@ -17,11 +17,49 @@ std::optional<ast::Sentence> ScriptParser::parse_sentence() {
         return std::nullopt;
     }
     ast::Sentence sentence;
+    sentence.doc = docs_before();
     sentence.name = cursor_.word(cursor_.take());
+    if (!parse_index(sentence)) return std::nullopt;
     if (!parse_relation(sentence)) return std::nullopt;
     parse_values(sentence);
     sentence.span = join(sentence.name.span, cursor_.previous().span);
+    add_docs(sentence.doc, docs_behind(sentence.name.span.begin));
     return sentence;
+}
+
+std::string ScriptParser::docs_before() {
+    return cursor_.take_docs(cursor_.taken_up_to(), cursor_.peek().span.begin);
+}
+
+std::string ScriptParser::docs_behind(std::uint32_t begin) {
+    const bool is_last = cursor_.at(TokenKind::semicolon) && cursor_.kind(1) == TokenKind::newline;
+    return cursor_.take_docs(begin, cursor_.peek(is_last ? 1 : 0).span.begin);
+}
+
+void ScriptParser::add_docs(std::string& doc, const std::string& more) {
+    if (!doc.empty() && !more.empty()) doc += ' ';
+    doc += more;
+}
+
+/// The `[i]` of `u[i]: e`, if there is one. False, with a message, if it cannot be read.
+bool ScriptParser::parse_index(ast::Sentence& sentence) {
+    const bool is_index = cursor_.at(TokenKind::open_square) &&
+                          cursor_.peek().span.begin == sentence.name.span.end;
+    if (!is_index) return true;
+    const Token open = cursor_.take();
+    const bool is_plain = cursor_.at(TokenKind::name) || cursor_.at(TokenKind::number);
+    if (is_plain && cursor_.kind(1) == TokenKind::close_square) {
+        sentence.index = cursor_.word(cursor_.take());
+        cursor_.take();
+        return true;
+    }
+    if (!cursor_.at(TokenKind::garbage)) {
+        cursor_.error(join(sentence.name.span, open.span),
+                      "the index that a sentence sets is a name or a whole number",
+                      fmt::format("write {0}[i] or {0}[1]", shortened(sentence.name.text)));
+    }
+    cursor_.skip_sentence(1);
+    return false;
 }
 
 /// What begins here is no sentence; always false.
@@ -128,6 +166,11 @@ bool ScriptParser::report_missing_colon(const ast::Sentence& sentence) {
     }
     cursor_.error(name.span, fmt::format("':' is missing after {}", quoted),
                   "a sentence is 'name: expression'");
+    if (cursor_.at(TokenKind::open_square) && cursor_.kind(2) == TokenKind::close_square &&
+        cursor_.kind(3) != TokenKind::newline) {
+        cursor_.skip_sentence();  // `u [i]: e`: what follows the name is no value.
+        return false;
+    }
     switch (cursor_.kind()) {
         case TokenKind::number:
         case TokenKind::name:
@@ -158,13 +201,9 @@ void ScriptParser::parse_values(ast::Sentence& sentence) {
                         ? "rate"
                         : "bound",
                     cursor_.describe({TokenKind::name, sentence.name.span}));
-    // The line goes on behind an operator; ':' is none.
-    if (wants_operand(cursor_.previous().kind) && cursor_.at(TokenKind::newline) &&
-        !cursor_.begins_sentence(1) && cursor_.kind(1) != TokenKind::close_curly) {
-        cursor_.take();
-    }
     cursor_.mute(colon_is_missing);
-    sentence.values.push_back(expressions_.parse(owner));
+    sentence.values.push_back(parse_behind_operator(owner, "in"));
+    if (cursor_.at(TokenKind::dots)) parse_end_of_index(sentence);
     while (cursor_.at(TokenKind::comma)) {
         const Token comma = cursor_.take();
         if (sentence.kind != ast::SentenceKind::value) {
@@ -173,9 +212,67 @@ void ScriptParser::parse_values(ast::Sentence& sentence) {
             break;
         }
         if (cursor_.at(TokenKind::newline) && !cursor_.begins_sentence(1)) cursor_.take();
-        sentence.values.push_back(expressions_.parse(owner));
+        sentence.values.push_back(expressions_.parse(owner, "in"));
+    }
+    if (cursor_.at_name("in")) parse_range(sentence);
+    if (cursor_.at(TokenKind::dots)) {
+        cursor_.error(cursor_.peek().span, "'..' has no place here",
+                      "a range is written 1..3, or p: 1 in 0 .. 2");
+        cursor_.skip_sentence();
     }
     cursor_.mute(false);
+}
+
+/// An expression that may begin on the next line where an operator is the last word of this one.
+/// The ':' is none.
+ast::Expression ScriptParser::parse_behind_operator(const std::string& owner,
+                                                    std::string_view end_word) {
+    const bool goes_on = wants_operand(cursor_.previous().kind) &&
+                         cursor_.at(TokenKind::newline) && !cursor_.begins_sentence(1) &&
+                         cursor_.kind(1) != TokenKind::close_curly;
+    if (goes_on) cursor_.take();
+    return expressions_.parse(owner, end_word);
+}
+
+/// The `.. high` of `i: low .. high`.
+void ScriptParser::parse_end_of_index(ast::Sentence& sentence) {
+    const Token dots = cursor_.take();
+    if (sentence.kind != ast::SentenceKind::value || !sentence.index.empty()) {
+        cursor_.error(dots.span, "a range declares an index", "write i: 1..3");
+        cursor_.skip_sentence();
+        return;
+    }
+    sentence.kind = ast::SentenceKind::index;
+    sentence.values.push_back(expressions_.parse("the end of the range"));
+}
+
+/// The `in low .. high [step e]` behind a value.
+void ScriptParser::parse_range(ast::Sentence& sentence) {
+    const Token word = cursor_.take();
+    const std::string form = "write p: 1 in 0 .. 2";
+    if (sentence.kind != ast::SentenceKind::value || sentence.values.size() != 1) {
+        cursor_.error(word.span, "only the value of a parameter has a range", form);
+        cursor_.skip_sentence();
+        return;
+    }
+    ast::Range range;
+    range.low = expressions_.parse("the lower end of the range");
+    if (!cursor_.at(TokenKind::dots)) {
+        const auto& low = script_.expressions[range.low.root].node;
+        if (!std::holds_alternative<ast::Garbage>(low)) {
+            cursor_.error(word.span, "a range has two ends with '..' between them", form);
+        }
+        cursor_.skip_sentence();
+        return;
+    }
+    cursor_.take();
+    range.high = expressions_.parse("the upper end of the range", "step");
+    if (cursor_.at_name("step")) {
+        cursor_.take();
+        range.step = expressions_.parse("the step of the range");
+    }
+    range.span = join(word.span, cursor_.previous().span);
+    sentence.range = range;
 }
 
 }  // namespace cascade

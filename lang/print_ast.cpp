@@ -85,6 +85,10 @@ private:
         const auto first = script_.arguments.begin() + node.first_argument;
         begin(node.function.text, {first, first + node.argument_count});
     }
+    void print_head(const ast::Over& node) {
+        begin(fmt::format("{} over {}", node.function.text, node.index.text), {node.operand});
+    }
+    void print_head(const ast::Indexed& node) { begin("member", {node.base, node.index}); }
     void print_head(const ast::Garbage&) { text_ += "<unreadable>"; }
 
     const ast::Script& script_;
@@ -93,15 +97,34 @@ private:
 };
 
 std::string print_sentence(const ast::Sentence& sentence, ExpressionPrinter& printer) {
-    static constexpr std::array<std::string_view, 6> relations = {":",     " =",  "' =",
-                                                                  "' +=", " >=", " <="};
+    static constexpr std::array<std::string_view, 7> relations = {":",   " =",  "' =", "' +=",
+                                                                  " >=", " <=", ":"};
     std::string result(sentence.name.text);
+    if (!sentence.index.empty()) result += fmt::format("[{}]", sentence.index.text);
     result += relations[static_cast<std::size_t>(sentence.kind)];
+    const char* between = sentence.kind == ast::SentenceKind::index ? " .. " : ", ";
     for (const ast::Expression& value : sentence.values) {
-        result += &value == &sentence.values.front() ? " " : ", ";
+        result += &value == &sentence.values.front() ? " " : between;
         result += printer.print(value.root);
     }
+    if (sentence.range) {
+        result += fmt::format(" in {} .. {}", printer.print(sentence.range->low.root),
+                              printer.print(sentence.range->high.root));
+        if (sentence.range->step) {
+            result += fmt::format(" step {}", printer.print(sentence.range->step->root));
+        }
+    }
+    if (!sentence.doc.empty()) result += "  ## " + sentence.doc;
     return result + "\n";
+}
+
+std::string print_function(const ast::FunctionDefinition& function, ExpressionPrinter& printer) {
+    std::string result = fmt::format("fn {}(", function.name.text);
+    for (const ast::Word& parameter : function.parameters) {
+        if (&parameter != &function.parameters.front()) result += ", ";
+        result += parameter.text;
+    }
+    return result + fmt::format(") = {}\n", printer.print(function.body.root));
 }
 
 }  // namespace
@@ -109,6 +132,10 @@ std::string print_sentence(const ast::Sentence& sentence, ExpressionPrinter& pri
 std::string print_ast(const ast::Script& script, const Sources& sources) {
     std::string result;
     ExpressionPrinter printer(script);
+    for (const ast::Use& use : script.uses) result += fmt::format("use \"{}\"\n", use.path);
+    for (const ast::FunctionDefinition& function : script.functions) {
+        result += print_function(function, printer);
+    }
     for (const ast::Block& block : script.blocks) {
         const Span place = block.keyword.span;
         const Location location = sources[place.source].locate(place.begin);

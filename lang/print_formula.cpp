@@ -92,6 +92,15 @@ private:
     }
 
     void write_call(const Node& node) {
+        if (info(node.function).is_aggregate) {
+            const std::string_view spelling = info(node.function).spelling;
+            const std::size_t name = spelling.find(' ');
+            text_ += fmt::format("{}(", spelling.substr(0, name));
+            push(std::string_view(")"));
+            push(spelling.substr(name));
+            push(Part{node.operands[0], 0});
+            return;
+        }
         text_ += info(node.function).spelling;
         text_ += "(";
         push(std::string_view(")"));

@@ -13,6 +13,10 @@ constexpr bool is_operator(std::string_view spelling) {
     return !is_word || spelling == "or" || spelling == "and" || spelling == "not";
 }
 
+constexpr bool is_aggregate(std::string_view spelling) {
+    return spelling.ends_with(" over domain");
+}
+
 constexpr auto any = Places::any;
 constexpr auto rates = Places::rates;
 constexpr auto values = Places::values;
@@ -21,7 +25,8 @@ constexpr auto picture = Places::picture;
 
 constexpr FunctionInfo function_table[] = {
 #define CASCADE_FUNCTION(id, spelling, arity, places, meaning) \
-    {spelling, arity, places, meaning, is_operator(spelling)},
+    {spelling, arity, places, meaning, is_operator(spelling), \
+     is_aggregate(spelling)},
 #include "lang/functions.def"
 #undef CASCADE_FUNCTION
 };

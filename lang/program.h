@@ -29,6 +29,7 @@ struct FunctionInfo {
     Places places;
     std::string_view meaning;
     bool is_operator;   ///< Spelled between or before its operands.
+    bool is_aggregate;  ///< Spelled `mean over domain`, written mean(e over domain).
 };
 const FunctionInfo& info(Function function);
 

@@ -36,8 +36,18 @@ private:
     void parse_classic_stage();
     void parse_base_of_classic_stage(ast::Block& block);
     void parse_outside_sentence();
-    bool refuse_later_word();
     bool begins_classic_stage() const { return cursor_.at_name("system_name"); }
+
+    // `fn` and `use` (parser_functions.cpp).
+    bool begins_function() const {
+        return cursor_.at_name("fn") && cursor_.kind(1) == TokenKind::name;
+    }
+    bool begins_use() const;
+    bool parse_function_or_use();
+    bool refuse_function_or_use();
+    void parse_function();
+    bool parse_parameters(ast::FunctionDefinition& function);
+    void parse_use();
 
     // Sentences (parser_sentences.cpp).
     std::optional<ast::Sentence> parse_sentence();
@@ -47,6 +57,16 @@ private:
     bool begins_misspelt_stage() const;
     bool report_no_sentence();
     void parse_values(ast::Sentence& sentence);
+    bool parse_index(ast::Sentence& sentence);
+    void parse_end_of_index(ast::Sentence& sentence);
+    void parse_range(ast::Sentence& sentence);
+    ast::Expression parse_behind_operator(const std::string& owner, std::string_view end_word);
+
+    /// The doc comments in front of the cursor's token that belong to what begins there.
+    std::string docs_before();
+    /// Those of what began at `begin` and has just been read, and behind it on its line.
+    std::string docs_behind(std::uint32_t begin);
+    static void add_docs(std::string& doc, const std::string& more);
 
     void report_rest(const std::string& what, ast::Expression expression,
                      const std::string& hint);

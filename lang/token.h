@@ -27,6 +27,7 @@ namespace cascade {
     CASCADE_TOKEN(semicolon, ";")                                                         \
     CASCADE_TOKEN(comma, ",")                                                             \
     CASCADE_TOKEN(dot, ".")                                                               \
+    CASCADE_TOKEN(dots, "..")                                                             \
     CASCADE_TOKEN(prime, "'")                                                             \
     CASCADE_TOKEN(open_round, "(")                                                        \
     CASCADE_TOKEN(close_round, ")")                                                       \
@@ -69,7 +70,10 @@ inline constexpr std::size_t most_tokens = 1u << 22;
 /// row are one); comments and blanks are none. Bad input (a stray character, invalid UTF-8, NUL, an
 /// unclosed text, a look-alike such as ’ − × ·) is reported once per run of characters and yields
 /// `garbage`, or for a look-alike the token that was meant, so that one mistake is one message.
-std::vector<Token> lex(SourceId source, const Sources& sources, Diagnostics& diagnostics);
+/// Doc comments (`## text`; `###` begins an ordinary one) are no tokens either: where `docs` is
+/// given their places are added to it, in order.
+std::vector<Token> lex(SourceId source, const Sources& sources, Diagnostics& diagnostics,
+                       std::vector<Span>* docs = nullptr);
 
 /// The tokens, one a line: `3:5 name "ka"`.
 std::string print_tokens(const std::vector<Token>& tokens, const Sources& sources);

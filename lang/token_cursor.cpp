@@ -13,7 +13,10 @@ constexpr std::size_t longest_shown = 40;  // Bytes of a script's words in a mes
 }  // namespace
 
 TokenCursor::TokenCursor(SourceId source, const Sources& sources, Diagnostics& diagnostics)
-    : sources_(sources), diagnostics_(diagnostics), tokens_(lex(source, sources, diagnostics)) {}
+    : sources_(sources), diagnostics_(diagnostics),
+      tokens_(lex(source, sources, diagnostics, &docs_)) {
+    docs_taken_.assign(docs_.size(), false);
+}
 
 const Token& TokenCursor::peek(std::size_t ahead) const {
     return tokens_[std::min(position_ + ahead, tokens_.size() - 1)];
@@ -23,6 +26,12 @@ const Token& TokenCursor::previous() const {
     std::size_t before = position_ == 0 ? 0 : position_ - 1;
     if (before > 0 && tokens_[before].kind == TokenKind::newline) --before;  // One at most.
     return tokens_[before];
+}
+
+std::uint32_t TokenCursor::taken_up_to() const {
+    if (position_ == 0) return 0;
+    const Token& last = tokens_[position_ - 1];
+    return position_ == 1 && last.kind == TokenKind::newline ? 0 : last.span.end;
 }
 
 Token TokenCursor::take() {
@@ -47,6 +56,33 @@ std::string TokenCursor::describe(const Token& token) const {
     const std::string_view word = text(token);
     const bool is_long_text = token.kind == TokenKind::text && word.size() > longest_shown;
     return is_long_text ? "this text" : "'" + shortened(word) + "'";
+}
+
+std::string TokenCursor::take_docs(std::uint32_t begin, std::uint32_t end) {
+    constexpr std::string_view white = " \t\r\n";
+    std::string joined;
+    const auto first = std::lower_bound(
+        docs_.begin(), docs_.end(), begin,
+        [](const Span& doc, std::uint32_t offset) { return doc.begin < offset; });
+    for (auto doc = first; doc != docs_.end() && doc->begin < end; ++doc) {
+        const auto index = static_cast<std::size_t>(doc - docs_.begin());
+        if (docs_taken_[index]) continue;
+        docs_taken_[index] = true;
+        std::string_view words = text(*doc).substr(2);
+        words.remove_prefix(std::min(words.find_first_not_of(white), words.size()));
+        words = words.substr(0, words.find_last_not_of(white) + 1);
+        if (!joined.empty() && !words.empty()) joined += ' ';
+        joined += words;
+    }
+    return joined;
+}
+
+void TokenCursor::report_lost_docs() {
+    for (std::size_t k = 0; k < docs_.size(); ++k) {
+        if (docs_taken_[k]) continue;
+        diagnostics_.warning(docs_[k], "this doc comment belongs to nothing",
+                             "an ordinary comment begins with one '#'");
+    }
 }
 
 bool TokenCursor::at_sentence_end() const {
@@ -87,10 +123,14 @@ bool TokenCursor::begins_block(std::size_t ahead) const {
 
 bool TokenCursor::begins_sentence(std::size_t ahead) const {
     if (kind(ahead) != TokenKind::name) return false;
-    const TokenKind next = kind(ahead + 1);
+    std::size_t relation = ahead + 1;
+    const bool is_member = kind(relation) == TokenKind::open_square &&
+                           kind(relation + 2) == TokenKind::close_square;
+    if (is_member) relation += 3;  // u[i]: …
+    const TokenKind next = kind(relation);
     if (next == TokenKind::colon || next == TokenKind::assign) return true;
     if (next == TokenKind::prime) {
-        const TokenKind behind = kind(ahead + 2);
+        const TokenKind behind = kind(relation + 1);
         return behind == TokenKind::assign || behind == TokenKind::plus_assign;
     }
     return begins_block(ahead);

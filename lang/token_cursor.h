@@ -22,11 +22,18 @@ public:
     bool at_end() const { return at(TokenKind::end_of_text); }
     /// The token taken last that is no line end; the first one before any was taken.
     const Token& previous() const;
+    /// Where the token taken last ends, a line end included; 0 where there was none but line ends.
+    std::uint32_t taken_up_to() const;
     Token take();
     bool take_if(TokenKind kind);
     /// Back to the token taken last.
     void step_back();
     void skip_newlines() { take_if(TokenKind::newline); }
+    /// The same inside brackets: not where the next line begins a sentence, since the bracket's end
+    /// is missing then.
+    void skip_newlines_in_brackets() {
+        if (at(TokenKind::newline) && !begins_sentence(1)) take();
+    }
     std::size_t position() const { return position_; }
     std::size_t token_count() const { return tokens_.size(); }
 
@@ -35,6 +42,12 @@ public:
     ast::Word word(const Token& token) const { return {token.span, text(token)}; }
     /// The token as messages call it: `'beta'`, `the end of the line`. Long ones are cut.
     std::string describe(const Token& token) const;
+
+    /// The text of the doc comments that begin in [begin, end) of the source, joined by blanks,
+    /// without those that were taken before.
+    std::string take_docs(std::uint32_t begin, std::uint32_t end);
+    /// Warns of doc comments that nothing has taken.
+    void report_lost_docs();
 
     /// Line end, `;`, `}` or the end of the text.
     bool at_sentence_end() const;
@@ -63,6 +76,8 @@ private:
 
     const Sources& sources_;
     Diagnostics& diagnostics_;
+    std::vector<Span> docs_;        ///< Doc comments, in order.
+    std::vector<bool> docs_taken_;  ///< For each of them.
     std::vector<Token> tokens_;
     std::size_t position_ = 0;
     bool muted_ = false;

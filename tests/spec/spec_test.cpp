@@ -141,10 +141,15 @@ std::string_view word_of(Places places) {
     return "";
 }
 
-/// How functions.md begins the row of a function: `a + b`, `not a`, `-a`, `name(`.
+/// How functions.md begins the row of a function: `a + b`, `not a`, `-a`, `name(`,
+/// `name(e over domain)`.
 std::string beginning_of_row(Function function) {
     const FunctionInfo& row = info(function);
     const std::string spelling(row.spelling);
+    if (row.is_aggregate) {
+        const std::size_t name = spelling.find(' ');
+        return "`" + spelling.substr(0, name) + "(e" + spelling.substr(name) + ")`";
+    }
     if (!row.is_operator) return "`" + spelling + "(";
     if (row.arity == 2) return "`a " + spelling + " b`";
     return function == Function::logical_not ? "`not a`" : "`" + spelling + "a`";

@@ -58,6 +58,7 @@ TEST(Lexer, SplitsASentence) {
 TEST(Lexer, ReadsNumbers) {
     EXPECT_EQ(tokens_of("1 1.5 .25 4. 1e-3 2.5E+10 1/8"), "1 1.5 .25 4. 1e-3 2.5E+10 1 / 8");
     EXPECT_EQ(tokens_of("stage1.p"), "stage1 . p");
+    EXPECT_EQ(tokens_of("1..3 1. .. .5 0 ..1.5"), "1 .. 3 1. .. .5 0 .. 1.5");
 }
 
 TEST(Lexer, ReadsTexts) {
