@@ -52,12 +52,30 @@ public:
     ValueId clamp_below(ValueId x, ValueId bound);
     ValueId clamp_above(ValueId x, ValueId bound);
 
-    // Elementary functions (ir/elementary.cpp).
+    // Elementary functions (ir/elementary.cpp, trigonometric.cpp, inverse_trigonometric.cpp,
+    // roots.cpp, rounding.cpp).
     ValueId exponential(ValueId x);
     ValueId logarithm(ValueId x);
     ValueId sine(ValueId x);
     ValueId cosine(ValueId x);
+    ValueId tangent(ValueId x);
+    ValueId arc_sine(ValueId x);
+    ValueId arc_cosine(ValueId x);
+    /// The angle of the point (x, y), −π … π; of (x, 1) the arc tangent of y.
+    ValueId arc_tangent(ValueId y, ValueId x);
+    ValueId hyperbolic_sine(ValueId x);
+    ValueId hyperbolic_cosine(ValueId x);
     ValueId hyperbolic_tangent(ValueId x);
+    ValueId cube_root(ValueId x);
+    ValueId hypotenuse(ValueId x, ValueId y);
+    ValueId sign_of(ValueId x);          ///< −1, 1, or x where it is zero or NaN.
+    ValueId round_to_even(ValueId x);    ///< The nearest whole number, ties to even.
+    ValueId round_down(ValueId x);
+    ValueId round_up(ValueId x);
+    /// x − y · floor(x / y), of the sign of y; NaN where |x / y| is 2^24 or more.
+    ValueId modulus(ValueId x, ValueId y);
+    /// 0 up to `low`, 1 from `high` on, between them 3 t² − 2 t³.
+    ValueId smooth_step(ValueId low, ValueId high, ValueId x);
     /// x^y. A constant integer y of at most 64 in magnitude becomes multiplications by repeated
     /// squaring (the order is in the spec), 1/x^n for negative ones; others go through log and exp.
     ValueId power(ValueId x, ValueId y);

@@ -1,4 +1,4 @@
-// sin and cos, expanded into operations of the table.
+// sin, cos and tan, expanded into operations of the table.
 //
 // The angle is brought to |r| ≤ π/4 by taking off n quarter turns; π/2 is split into four pieces of
 // 11 bits, whose products with n are exact, and a rest. What rounding loses is carried along as a
@@ -73,9 +73,14 @@ SineAndCosine of_small_angle(Sum r) {
     return {sine, cosine};
 }
 
-/// Sine (turned = 0) or cosine (turned = 1) of an angle that is not negative, as the sine of the
-/// angle and `turned` quarter turns.
-Expression sine_of(Expression angle, std::uint32_t turned) {
+/// Sine and cosine of what is left of an angle without a number of quarter turns.
+struct Reduced {
+    SineAndCosine rest;
+    Expression quarter_turns;  ///< As a word.
+};
+
+/// Of an angle that is not negative.
+Reduced reduce(Expression angle) {
     const Expression turns = round_to_whole(angle * (quarter_turns_per_radian / many)).number;
     const Expression whole = (largest_direct_angle < angle).choose(turns, angle.number(0.0f));
     const Sum large = take_off(angle, whole, many);
@@ -83,14 +88,23 @@ Expression sine_of(Expression angle, std::uint32_t turned) {
     const Sum rest = take_off(large.head, n.number, 1.0f);
     const Expression tail = rest.tail + large.tail;
     const Expression head = rest.head + tail;
-    const auto [sine, cosine] = of_small_angle({head, (rest.head - head) + tail});
+    return {of_small_angle({head, (rest.head - head) + tail}), n.word};
+}
 
-    const Expression quadrant = n.word.plus_word(turned);
-    const Expression is_odd = quadrant.and_word(1).to_number();
-    const Expression sign = quadrant.and_word(2).shifted_left(30);
-    const Expression value = is_odd.choose(cosine, sine).binary(Op::bits_xor, sign);
+Expression nan_if_too_large(Expression angle, Expression value) {
     const Expression is_angle = angle.binary(Op::less_equal, angle.number(largest_angle));
     return is_angle.choose(value, angle.number(nan));
+}
+
+/// Sine (turned = 0) or cosine (turned = 1) of an angle that is not negative, as the sine of the
+/// angle and `turned` quarter turns.
+Expression sine_of(Expression angle, std::uint32_t turned) {
+    const auto [rest, quarter_turns] = reduce(angle);
+    const Expression quadrant = quarter_turns.plus_word(turned);
+    const Expression is_odd = quadrant.and_word(1).to_number();
+    const Expression sign = quadrant.and_word(2).shifted_left(30);
+    const Expression value = is_odd.choose(rest.cosine, rest.sine).binary(Op::bits_xor, sign);
+    return nan_if_too_large(angle, value);
 }
 
 }  // namespace
@@ -103,6 +117,19 @@ ValueId KernelBuilder::sine(ValueId argument) {
 
 ValueId KernelBuilder::cosine(ValueId argument) {
     return sine_of(Expression(*this, argument).absolute(), 1).id();
+}
+
+/// sin / cos, and −cos / sin after an odd number of quarter turns.
+ValueId KernelBuilder::tangent(ValueId argument) {
+    const Expression x(*this, argument);
+    const Expression angle = x.absolute();
+    const auto [rest, quarter_turns] = reduce(angle);
+    const Expression is_odd = quarter_turns.and_word(1).to_number();
+    const Expression quotient =
+        is_odd.choose(rest.cosine, rest.sine) / is_odd.choose(rest.sine, rest.cosine);
+    const Expression sign = quarter_turns.and_word(1).shifted_left(31);
+    const Expression value = nan_if_too_large(angle, quotient.binary(Op::bits_xor, sign));
+    return value.binary(Op::bits_xor, x.and_word(0x80000000)).id();
 }
 
 }  // namespace cascade

@@ -149,7 +149,7 @@ std::vector<std::string> known_names(const Program& program) {
                                 "boundary", "seed", "color", "periodic", "noflux",
                                 "iterations", "interval", "frozen", "speed", "show",
                                 "x", "y", "sx", "sy", "t", "step", "pi", "and", "or", "not"};
-    for (std::size_t i = 0; i <= static_cast<std::size_t>(Function::mix); ++i) {
+    for (std::size_t i = 0; i < function_count; ++i) {
         const FunctionInfo& row = info(static_cast<Function>(i));
         if (!row.is_operator && !row.is_aggregate) names.emplace(row.spelling);
     }

@@ -3,6 +3,8 @@
 
 #include "lang/check_names.h"
 
+#include <span>
+
 namespace cascade::checking {
 
 /// A checked expression, and its value where it is made of numbers alone.
@@ -28,6 +30,7 @@ std::optional<double> check_constant(Workspace& work, const ast::Script& script,
                                      ast::Expression expression, std::string_view subject);
 
 /// The value of a function or operator of numbers; nothing where it has none (lap, random, …).
-std::optional<double> fold(Function function, double a, double b, double c);
+/// There are at least three numbers, the first of which are the operands.
+std::optional<double> fold(Function function, std::span<const double> operands);
 
 }  // namespace cascade::checking

@@ -235,8 +235,7 @@ void StageChecker::find_uniform() {
             }
             case NodeKind::builtin: return true;
             case NodeKind::call:
-                return node.function == Function::random || node.function == Function::disc ||
-                       node.function == Function::field;
+                return varies_by_cell(node.function);
             default: return false;
         }
     };

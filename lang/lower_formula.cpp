@@ -50,10 +50,17 @@ Value KernelAssembly::call(const Node& node, const Cursor& cursor) {
         case Function::field: {
             return {file(cursor.formula.nodes[node.operands[0]].index)};
         }
+        case Function::clamp:
+            return {builder_.minimum(
+                builder_.maximum(cursor.number(node, 0), cursor.number(node, 1)),
+                cursor.number(node, 2))};
+        case Function::smoothstep:
+            return {builder_.smooth_step(cursor.number(node, 0), cursor.number(node, 1),
+                                         cursor.number(node, 2))};
         default: break;
     }
     const ValueId a = cursor.number(node, 0);
-    if (info(node.function).arity == 1) return {elementary(node.function, a)};
+    if (operand_count(node) == 1) return {elementary(node.function, a)};
     return {operation(node.function, a, cursor.number(node, 1))};
 }
 
@@ -88,7 +95,18 @@ ValueId KernelAssembly::elementary(Function function, ValueId a) {
         case Function::log: return builder_.logarithm(a);
         case Function::sin: return builder_.sine(a);
         case Function::cos: return builder_.cosine(a);
+        case Function::tan: return builder_.tangent(a);
+        case Function::asin: return builder_.arc_sine(a);
+        case Function::acos: return builder_.arc_cosine(a);
+        case Function::atan: return builder_.arc_tangent(a, builder_.number(1));
+        case Function::sinh: return builder_.hyperbolic_sine(a);
+        case Function::cosh: return builder_.hyperbolic_cosine(a);
         case Function::tanh: return builder_.hyperbolic_tangent(a);
+        case Function::cbrt: return builder_.cube_root(a);
+        case Function::sign: return builder_.sign_of(a);
+        case Function::floor: return builder_.round_down(a);
+        case Function::ceil: return builder_.round_up(a);
+        case Function::round: return builder_.round_to_even(a);
         default: break;
     }
     CHECK(false, "lowering: every function of one number has a meaning");
@@ -108,7 +126,12 @@ ValueId KernelAssembly::operation(Function function, ValueId a, ValueId b) {
         case Function::subtract: return builder_.subtract(a, b);
         case Function::multiply: return builder_.multiply(a, b);
         case Function::divide: return builder_.divide(a, b);
+        case Function::pow:
         case Function::power: return builder_.power(a, b);
+        case Function::atan2: return builder_.arc_tangent(a, b);
+        case Function::hypot: return builder_.hypotenuse(a, b);
+        case Function::mod: return builder_.modulus(a, b);
+        case Function::step: return builder_.apply(Op::less_equal, a, b);
         case Function::min: return builder_.minimum(a, b);
         case Function::max: return builder_.maximum(a, b);
         default: break;

@@ -76,7 +76,7 @@ private:
         if (brackets) text_ += "(";
         if (brackets) push(std::string_view(")"));
         const std::string_view spelling = info(node.function).spelling;
-        if (info(node.function).arity == 1) {
+        if (operand_count(node) == 1) {
             text_ += spelling;
             if (node.function == Function::logical_not) text_ += " ";
             push(Part{node.operands[0], own});
@@ -104,8 +104,8 @@ private:
         text_ += info(node.function).spelling;
         text_ += "(";
         push(std::string_view(")"));
-        for (int i = info(node.function).arity; i > 0; --i) {
-            push(Part{node.operands[static_cast<std::size_t>(i - 1)], 0});
+        for (std::size_t i = operand_count(node); i > 0; --i) {
+            push(Part{node.operands[i - 1], 0});
             if (i > 1) push(std::string_view(", "));
         }
     }

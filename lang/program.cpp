@@ -3,6 +3,8 @@
 
 #include "core/check.h"
 
+#include <algorithm>
+
 namespace cascade {
 
 namespace {
@@ -18,6 +20,7 @@ constexpr bool is_aggregate(std::string_view spelling) {
 }
 
 constexpr auto any = Places::any;
+constexpr auto cells = Places::cells;
 constexpr auto rates = Places::rates;
 constexpr auto values = Places::values;
 constexpr auto noisy = Places::noisy;
@@ -35,6 +38,25 @@ constexpr FunctionInfo function_table[] = {
 
 const FunctionInfo& info(Function function) {
     return function_table[static_cast<std::size_t>(function)];
+}
+
+std::optional<Function> function_named(std::string_view name) {
+    for (std::size_t i = 0; i < function_count; ++i) {
+        const FunctionInfo& row = function_table[i];
+        if (!row.is_operator && row.spelling == name) return static_cast<Function>(i);
+    }
+    return std::nullopt;
+}
+
+bool varies_by_cell(Function function) {
+    const Places places = info(function).places;
+    return places != Places::any && places != Places::picture;
+}
+
+std::size_t operand_count(const Node& call) {
+    const Arity arity = info(call.function).arity;
+    return std::max(static_cast<std::size_t>(call.operand_count),
+                    static_cast<std::size_t>(arity.least));
 }
 
 std::string_view System::item_name(std::uint32_t item) const {

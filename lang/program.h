@@ -21,17 +21,46 @@ enum class Function : std::uint8_t {
 #undef CASCADE_FUNCTION
 };
 
-enum class Places : std::uint8_t { any, rates, values, noisy, picture };
+inline constexpr std::size_t function_count = 0
+#define CASCADE_FUNCTION(id, spelling, arity, places, meaning) +1
+#include "lang/functions.def"
+#undef CASCADE_FUNCTION
+    ;
+
+enum class Places : std::uint8_t { any, cells, rates, values, noisy, picture };
+
+/// How many values a function takes: one number, or one of two.
+struct Arity {
+    int least;
+    int most;
+
+    constexpr Arity(int count) : least(count), most(count) {}
+    constexpr Arity(int fewer, int more) : least(fewer), most(more) {}
+    constexpr bool takes(std::size_t count) const {
+        return count == static_cast<std::size_t>(least) || count == static_cast<std::size_t>(most);
+    }
+};
+constexpr Arity either(int fewer, int more) { return {fewer, more}; }
+
+/// The most values that a function takes.
+inline constexpr std::size_t most_operands = 6;
+using Operands = std::array<std::uint32_t, most_operands>;
 
 struct FunctionInfo {
     std::string_view spelling;
-    int arity;
+    Arity arity;
     Places places;
     std::string_view meaning;
     bool is_operator;   ///< Spelled between or before its operands.
     bool is_aggregate;  ///< Spelled `mean over domain`, written mean(e over domain).
 };
 const FunctionInfo& info(Function function);
+
+/// The function of a name that is called; nothing for operators and unknown names.
+std::optional<Function> function_named(std::string_view name);
+
+/// Whether the value differs from cell to cell whatever the operands are.
+bool varies_by_cell(Function function);
 
 /// Values that every expression may read. `pi` is folded into a number.
 enum class Builtin : std::uint8_t { x, y, sx, sy, t, step };
@@ -58,8 +87,12 @@ struct Node {
     double number = 0;
     std::uint32_t index = 0;
     std::uint32_t stage = 0;
-    std::array<std::uint32_t, 4> operands{};
+    Operands operands{};
+    std::uint8_t operand_count = 0;  ///< Of a call that may have more or fewer; see operand_count.
 };
+
+/// How many operands a call has.
+std::size_t operand_count(const Node& call);
 
 /// A checked expression: parts in order, the whole last. Never empty.
 struct Formula {

@@ -14,7 +14,7 @@ namespace {
 
 struct FunctionRow {
     std::string_view spelling;
-    int arity;
+    Arity arity;
     Places places;
 };
 
@@ -73,9 +73,12 @@ private:
         if (row.spelling == "/") {
             return fmt::format("({}) / (0.75 + {})", expression(place, depth - 1), leaf(place));
         }
+        if (row.spelling == "mod") {
+            return fmt::format("mod({}, 0.75 + {})", expression(place, depth - 1), leaf(place));
+        }
         if (row.spelling == "lap") return fmt::format("lap({})", stream_.pick<std::string>(species_));
         std::string arguments = expression(place, depth - 1);
-        if (!is_word(row.spelling) && row.arity == 1) {
+        if (!is_word(row.spelling) && row.arity.most == 1) {
             return fmt::format("({} ({}))", row.spelling, arguments);
         }
         if (!is_word(row.spelling)) {
@@ -84,13 +87,15 @@ private:
                                           : expression(place, depth - 1);
             return fmt::format("(({}) {} ({}))", arguments, row.spelling, right);
         }
-        for (int k = 1; k < row.arity; ++k) arguments += ", " + expression(place, depth - 1);
+        const int count = stream_.chance(50) ? row.arity.least : row.arity.most;
+        for (int k = 1; k < count; ++k) arguments += ", " + expression(place, depth - 1);
         return fmt::format("{}({})", row.spelling, arguments);
     }
 
     bool fits(const FunctionRow& row, Place place) const {
         switch (row.places) {
-            case Places::any: return row.spelling != "mix";
+            case Places::any:
+            case Places::cells: return true;
             case Places::rates: return place == Place::rate && !species_.empty();
             case Places::noisy: return true;
             case Places::values:

@@ -102,7 +102,7 @@ private:
     void composed() {
         const ValueId a = operand().id;
         const ValueId b = operand().id;
-        switch (stream_.below(12)) {
+        switch (stream_.below(25)) {
             case 0: return keep(builder_.exponential(a), false);
             case 1: return keep(builder_.logarithm(a), false);
             case 2: return keep(builder_.sine(a), false);
@@ -117,6 +117,19 @@ private:
             case 8: return keep(builder_.minimum(a, b), false);
             case 9: return keep(builder_.maximum(a, b), false);
             case 10: return keep(builder_.clamp_below(a, b), false);
+            case 11: return keep(builder_.tangent(a), false);
+            case 12: return keep(builder_.arc_sine(a), false);
+            case 13: return keep(builder_.arc_cosine(a), false);
+            case 14: return keep(builder_.arc_tangent(a, b), false);
+            case 15: return keep(builder_.hyperbolic_sine(a), false);
+            case 16: return keep(builder_.hyperbolic_cosine(a), false);
+            case 17: return keep(builder_.cube_root(a), false);
+            case 18: return keep(builder_.hypotenuse(a, b), false);
+            case 19: return keep(builder_.sign_of(a), false);
+            case 20: return keep(builder_.round_to_even(a), false);
+            case 21: return keep(builder_.round_up(a), false);
+            case 22: return keep(builder_.modulus(a, b), false);
+            case 23: return keep(builder_.smooth_step(a, b, operand().id), false);
             default: return keep(builder_.clamp_above(a, b), false);
         }
     }

@@ -1,4 +1,4 @@
-// exp, log, sin, cos, tanh against the C library in double precision, whose error is 2^−29 of ours.
+// Functions of one number against the C library in double precision, whose error is 2^−29 of ours.
 #include "tests/support/random_stream.h"
 #include "tests/unit/ir/number_function.h"
 
@@ -34,8 +34,21 @@ constexpr Function cos_function = {"cos", &KernelBuilder::cosine,
                                    [](double x) { return std::cos(x); }, 0.8, 8192};
 constexpr Function tanh_function = {"tanh", &KernelBuilder::hyperbolic_tangent,
                                     [](double x) { return std::tanh(x); }, 1.5, infinity};
-constexpr Function functions[] = {exp_function, log_function, sin_function, cos_function,
-                                  tanh_function};
+constexpr Function tan_function = {"tan", &KernelBuilder::tangent,
+                                   [](double x) { return std::tan(x); }, 2.2, 8192};
+constexpr Function asin_function = {"asin", &KernelBuilder::arc_sine,
+                                    [](double x) { return std::asin(x); }, 1.1, infinity};
+constexpr Function acos_function = {"acos", &KernelBuilder::arc_cosine,
+                                    [](double x) { return std::acos(x); }, 1.1, infinity};
+constexpr Function sinh_function = {"sinh", &KernelBuilder::hyperbolic_sine,
+                                    [](double x) { return std::sinh(x); }, 2.0, infinity};
+constexpr Function cosh_function = {"cosh", &KernelBuilder::hyperbolic_cosine,
+                                    [](double x) { return std::cosh(x); }, 2.0, infinity};
+constexpr Function cbrt_function = {"cbrt", &KernelBuilder::cube_root,
+                                    [](double x) { return std::cbrt(x); }, 0.6, infinity};
+constexpr Function functions[] = {exp_function,  log_function,  sin_function,  cos_function,
+                                  tanh_function, tan_function,  asin_function, acos_function,
+                                  sinh_function, cosh_function, cbrt_function};
 
 std::vector<float> values_of(const Function& function, const std::vector<float>& x) {
     return apply_to_all(
@@ -98,6 +111,7 @@ TEST(Elementary, AccurateBesideMultiplesOfAQuarterTurn) {
     }
     expect_accurate(sin_function, x);
     expect_accurate(cos_function, x);
+    expect_accurate(tan_function, x);
 }
 
 TEST(Elementary, LargeAnglesHaveASmallAbsoluteError) {
@@ -150,7 +164,8 @@ TEST(Elementary, LogarithmAtItsEnds) {
 }
 
 TEST(Elementary, OddFunctionsKeepTheSignOfZero) {
-    for (const Function& function : {sin_function, tanh_function}) {
+    for (const Function& function : {sin_function, tanh_function, tan_function, asin_function,
+                                     sinh_function, cbrt_function}) {
         EXPECT_EQ(to_bits(value_of(function, 0.0f)), 0u) << function.name;
         EXPECT_EQ(to_bits(value_of(function, -0.0f)), 0x80000000u) << function.name;
         EXPECT_EQ(to_bits(value_of(function, to_number(0x80000001))), 0x80000000u) << function.name;
@@ -164,6 +179,10 @@ TEST(Elementary, SymmetriesAreExact) {
         EXPECT_EQ(value_of(sin_function, -x), -value_of(sin_function, x));
         EXPECT_EQ(value_of(cos_function, -x), value_of(cos_function, x));
         EXPECT_EQ(value_of(tanh_function, -x), -value_of(tanh_function, x));
+        EXPECT_EQ(value_of(tan_function, -x), -value_of(tan_function, x));
+        EXPECT_EQ(value_of(sinh_function, -x), -value_of(sinh_function, x));
+        EXPECT_EQ(value_of(cosh_function, -x), value_of(cosh_function, x));
+        EXPECT_EQ(value_of(cbrt_function, -x), -value_of(cbrt_function, x));
     }
 }
 
@@ -172,6 +191,42 @@ TEST(Elementary, TangentReachesOne) {
     EXPECT_EQ(value_of(tanh_function, -infinity), -1);
     EXPECT_EQ(value_of(tanh_function, 50), 1);
     EXPECT_TRUE(std::isnan(value_of(tanh_function, nan)));
+}
+
+TEST(Elementary, HyperbolicFunctionsAtTheirEnds) {
+    // cosh reaches the largest number at 89.41598628…
+    for (const Function& function : {sinh_function, cosh_function}) {
+        EXPECT_LT(value_of(function, 89.4159f), infinity) << function.name;
+        EXPECT_EQ(value_of(function, 89.4161f), infinity) << function.name;
+        EXPECT_EQ(value_of(function, infinity), infinity) << function.name;
+        EXPECT_TRUE(std::isnan(value_of(function, nan))) << function.name;
+    }
+    EXPECT_EQ(value_of(sinh_function, -infinity), -infinity);
+    EXPECT_EQ(value_of(cosh_function, -infinity), infinity);
+    EXPECT_EQ(value_of(cosh_function, 0), 1);
+}
+
+TEST(Elementary, InverseFunctionsAtTheirEnds) {
+    EXPECT_EQ(value_of(asin_function, 1), 0x1.921fb6p+0f);
+    EXPECT_EQ(value_of(asin_function, -1), -0x1.921fb6p+0f);
+    EXPECT_EQ(to_bits(value_of(acos_function, 1)), 0u);
+    EXPECT_EQ(value_of(acos_function, -1), 0x1.921fb6p+1f);
+    EXPECT_EQ(value_of(acos_function, 0), 0x1.921fb6p+0f);
+    for (const Function& function : {asin_function, acos_function}) {
+        for (const float x : {1.0000001f, -1.0000001f, infinity, -infinity, nan}) {
+            EXPECT_TRUE(std::isnan(value_of(function, x))) << function.name << " " << x;
+        }
+    }
+}
+
+TEST(Elementary, CubesHaveExactRoots) {
+    for (int k = -200; k <= 200; ++k) {
+        const auto root = static_cast<float>(k);
+        EXPECT_EQ(value_of(cbrt_function, root * root * root), root);
+    }
+    EXPECT_EQ(value_of(cbrt_function, infinity), infinity);
+    EXPECT_EQ(value_of(cbrt_function, -infinity), -infinity);
+    EXPECT_TRUE(std::isnan(value_of(cbrt_function, nan)));
 }
 
 TEST(Elementary, ConstantsFoldToTheSameBits) {

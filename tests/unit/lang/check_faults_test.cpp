@@ -117,6 +117,21 @@ TEST(CheckFaults, SeveralAtOnce) {
 TEST(CheckFaults, ArgumentsAndTypes) {
     EXPECT_THAT(stage_faults("ka: min(1, 2, 3)"),
                 ElementsAre("2:5: min takes 2 values, not 3 | the smaller; NaN if one is NaN"));
+    EXPECT_THAT(stage_faults("ka: min(1) + max(b)"),
+                ElementsAre("2:5: min takes 2 values, not 1 | "
+                            "over all cells it is min(e over domain)",
+                            "2:14: max takes 2 values, not 1 | "
+                            "over all cells it is max(e over domain)",
+                            "2:18: 'b' reads the previous stage, but this is the first stage | "
+                            "[b] is the 'b' of this stage"));
+    EXPECT_THAT(stage_faults("ka: mod(1, 0)"), ElementsAre("2:12: division by zero"));
+    EXPECT_THAT(stage_faults("ka: mod(1, 2 - cos(0) * 2)"),
+                ElementsAre("2:14: division by zero"));
+    EXPECT_THAT(stage_faults("iterations: step"),
+                ElementsAre("2:13: iterations must be one number | "
+                            "only numbers, operators and functions of them can stand here"));
+    EXPECT_THAT(stage_faults("iterations: disc(0, 0, 1)"),
+                ElementsAre("2:13: iterations must be one number, but disc is varying by cell"));
     EXPECT_THAT(stage_faults("ka: lap(1)"),
                 ElementsAre("2:5: lap cannot stand here | "
                             "it belongs in rates and definitions of a system"));

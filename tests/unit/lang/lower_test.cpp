@@ -65,6 +65,13 @@ TEST(Lower, OperatorsAndFunctions) {
         {"(1 and 0) + (1 or 0) + (not 1)", 1.0f},
         {"if(2, 3, 4) + if(0, 10, 20)", 23.0f},
         {"min(3, 2) + 10 * max(3, 2)", 32.0f},
+        {"clamp(5, 1, 3) + 10 * clamp(0, 1, 3) + 100 * clamp(2, 1, 3)", 213.0f},
+        {"mix(1, 3, 0.25)", 1.5f},
+        {"step(2, 1) + 10 * step(2, 2) + 100 * step(2, 3)", 110.0f},
+        {"smoothstep(1, 3, 2)", 0.5f},
+        {"mod(-7, 3) + 10 * floor(-0.5) + 100 * ceil(0.5) + 1000 * round(2.5)", 2092.0f},
+        {"sign(-3) + 10 * pow(2, 3) + 100 * hypot(3, 4) + 1000 * cbrt(27)", 3579.0f},
+        {"tan(0) + asin(0) + acos(1) + atan(0) + atan2(0, 1) + sinh(0) + cosh(0)", 1.0f},
         {"abs(-3) + sqrt(16)", 7.0f},
     };
     for (const auto& [text, value] : cases) EXPECT_EQ(Values("", text).number(), value) << text;

@@ -1,0 +1,90 @@
+// Whole numbers and steps, expanded into operations of the table. All are exact but `modulus`,
+// which is rounded once, and `smooth_step`.
+#include "ir/expression.h"
+
+#include <limits>
+
+namespace cascade {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+// From here on all numbers are whole.
+constexpr float all_whole = 0x1p23f;
+
+Expression whole_nearest(Expression x) {
+    const Expression a = x.absolute();
+    const Expression rounded = (a + all_whole) - all_whole;
+    const Expression with_sign = rounded.binary(Op::bits_or, x.and_word(0x80000000));
+    return (a < all_whole).choose(with_sign, x);
+}
+
+Expression whole_below(Expression x) {
+    const Expression nearest = whole_nearest(x);
+    return (x < nearest).choose(nearest - 1.0f, nearest);
+}
+
+/// What the rounded product q · b lacks of the exact one (T. J. Dekker, Numerische Mathematik 18,
+/// 1971).
+Expression product_error(Expression q, Expression b, Expression product) {
+    const Expression q_head = q.head();
+    const Expression q_tail = q - q_head;
+    const Expression b_head = b.head();
+    const Expression b_tail = b - b_head;
+    const Expression crossed = (q_head * b_head - product) + q_head * b_tail;
+    return (crossed + q_tail * b_head) + q_tail * b_tail;
+}
+
+Expression differ_in_sign(Expression a, Expression b) {
+    const Expression negative = a < 0.0f;
+    return both(negative.binary(Op::not_equal, b < 0.0f), !equals(a, 0.0f));
+}
+
+}  // namespace
+
+ValueId KernelBuilder::round_to_even(ValueId argument) {
+    return whole_nearest(Expression(*this, argument)).id();
+}
+
+ValueId KernelBuilder::round_down(ValueId argument) {
+    return whole_below(Expression(*this, argument)).id();
+}
+
+ValueId KernelBuilder::round_up(ValueId argument) {
+    const Expression x(*this, argument);
+    return whole_below(x.unary(Op::negate)).unary(Op::negate).id();
+}
+
+ValueId KernelBuilder::sign_of(ValueId argument) {
+    const Expression x(*this, argument);
+    // The product makes a denormal number the zero that it counts as.
+    const Expression zero_or_nan = x * 1.0f;
+    return (x < 0.0f).choose(-1.0f, (0.0f < x).choose(1.0f, zero_or_nan)).id();
+}
+
+ValueId KernelBuilder::modulus(ValueId x, ValueId y) {
+    const Expression a(*this, x);
+    const Expression b(*this, y);
+    const Expression quotient = a / b;
+    const Expression q = whole_below(quotient);
+    const Expression product = q * b;
+    const Expression rest = (a - product) - product_error(q, b, product);
+    // A quotient that was rounded up to a whole number leaves a small rest of the other sign.
+    const Expression moved = differ_in_sign(rest, b).choose(rest + b, rest);
+    const Expression is_meaningful = quotient.absolute() < 0x1p24f;
+    const Expression finite = is_meaningful.choose(moved, a.number(nan));
+    const Expression of_infinite = differ_in_sign(a, b).choose(b, a);
+    const Expression is_infinite = both(equals(b.absolute(), infinity), a.absolute() < infinity);
+    return is_infinite.choose(of_infinite, finite).id();
+}
+
+ValueId KernelBuilder::smooth_step(ValueId low, ValueId high, ValueId argument) {
+    const Expression from(*this, low);
+    const Expression position = (Expression(*this, argument) - from) /
+                                (Expression(*this, high) - from);
+    const Expression t = position.clamped(0.0f, 1.0f);
+    return ((t * t) * (3.0f - t * 2.0f)).id();
+}
+
+}  // namespace cascade

@@ -1,0 +1,219 @@
+// Calls: how many arguments, where a function may stand, what types it takes, what is known now.
+#include "core/palette.h"
+#include "lang/expression_checker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> later_functions{"grad", "div", "attr", "integral"};
+/// What is taken over something, as in sum(e over i).
+constexpr std::array<std::string_view, 3> only_over{"sum", "mean", "product"};
+
+std::string number_of_values(Arity arity) {
+    if (arity.least != arity.most) {
+        return fmt::format("{} or {} values", arity.least, arity.most);
+    }
+    return arity.least == 1 ? std::string("1 value") : fmt::format("{} values", arity.least);
+}
+
+}  // namespace
+
+void ExpressionChecker::visit(const ast::Call& call) {
+    const auto function = function_named(call.function.text);
+    if (!function) return unknown_function(call.function);
+    if (!info(*function).arity.takes(call.argument_count)) {
+        return wrong_count(*function, call.argument_count);
+    }
+    if (!belongs_here(*function, call.function.span)) return;
+    Operands operands{};
+    for (std::uint32_t i = 0; i < call.argument_count; ++i) {
+        operands[i] = part_of(script_.arguments[call.first_argument + i]);
+    }
+    apply(*function, operands, call.argument_count);
+}
+
+/// mean(e over domain). Aggregates over an index have been written out before.
+void ExpressionChecker::visit(const ast::Over& over) {
+    const auto function = function_named(fmt::format("{} over domain", over.function.text));
+    if (!function || over.index.text != "domain") {
+        return fault(over.function.span,
+                     fmt::format("{} cannot be taken over the domain", over.function.text),
+                     "mean, sum, min and max can");
+    }
+    if (!belongs_here(*function, over.function.span)) return;
+    // Until the lowering knows how to make them.
+    return fault(over.function.span,
+                 "aggregates over the domain are not in this version of the language");
+    apply(*function, {part_of(over.operand)}, 1);
+}
+
+void ExpressionChecker::visit(const ast::Indexed&) {
+    fault(formula_.nodes.back().span, "families are not in this version of the language");
+}
+
+void ExpressionChecker::wrong_count(Function function, std::size_t count) {
+    const FunctionInfo& row = info(function);
+    std::string hint(row.meaning);
+    if (count == 1 && (function == Function::min || function == Function::max)) {
+        hint = fmt::format("over all cells it is {}(e over domain)", row.spelling);
+    }
+    fault(formula_.nodes.back().span,
+          fmt::format("{} takes {}, not {}", row.spelling, number_of_values(row.arity), count),
+          std::move(hint));
+}
+
+void ExpressionChecker::unknown_function(const ast::Word& name) {
+    if (std::find(later_functions.begin(), later_functions.end(), name.text) !=
+        later_functions.end()) {
+        return fault(name.span,
+                     fmt::format("'{}' is not in this version of the language", name.text));
+    }
+    if (std::find(only_over.begin(), only_over.end(), name.text) != only_over.end()) {
+        return fault(name.span, fmt::format("{} is taken over something", name.text),
+                     fmt::format("write {0}(e over i) or {0}(e over domain)", name.text));
+    }
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < function_count; ++i) {
+        const FunctionInfo& row = info(static_cast<Function>(i));
+        if (!row.is_operator && !row.is_aggregate) names.emplace_back(row.spelling);
+    }
+    std::string hint = did_you_mean(work_, name.text, names);
+    fault(name.span, fmt::format("there is no function '{}'", name.text), std::move(hint));
+}
+
+bool ExpressionChecker::belongs_here(Function function, Span span) {
+    const FunctionInfo& row = info(function);
+    const Place place = scope_.place;
+    const bool at_step = place == Place::rate;
+    const bool at_start = place == Place::value;
+    const auto refuse = [&](const char* where) {
+        fault(span, fmt::format("{} cannot stand here", row.spelling), where);
+        return false;
+    };
+    const bool varies = row.is_aggregate || varies_by_cell(function);
+    if (place == Place::constant && varies) {
+        fault(span, fmt::format("{} must be one number, but {} is {}", scope_.subject,
+                                row.spelling,
+                                row.is_aggregate ? "known only in a run" : "varying by cell"));
+        return false;
+    }
+    if (place == Place::bound && varies) {
+        return refuse("a bound is made of numbers and parameters only");
+    }
+    switch (row.places) {
+        case Places::any:
+        case Places::cells: return true;
+        case Places::rates:
+            return at_step || refuse("it belongs in rates and definitions of a system");
+        case Places::values: return at_start || refuse("it belongs in values (name: …)");
+        case Places::noisy:
+            return at_start || at_step || refuse("pictures have no randomness of their own");
+        case Places::picture:
+            return place == Place::picture || refuse("colours belong in pictures");
+    }
+    return true;
+}
+
+void ExpressionChecker::apply(Function function, const Operands& operands, std::size_t count) {
+    Node& node = formula_.nodes.back();
+    node.kind = NodeKind::call;
+    node.function = function;
+    node.operands = operands;
+    node.operand_count = static_cast<std::uint8_t>(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (parts_[operands[i]].faulty) parts_.back().faulty = true;
+    }
+    if (parts_.back().faulty) return;
+    check_types(node);
+    if (!parts_.back().faulty) fold_constants(node);
+}
+
+void ExpressionChecker::need(std::uint32_t part, ValueType type) {
+    const Node& operand = formula_.nodes[part];
+    if (operand.type == type || parts_.back().faulty) return;
+    if (type == ValueType::text) {
+        return fault(operand.span, "a text in quotes is expected here");
+    }
+    fault(operand.span, operand.type == ValueType::colour ? "a colour is no number"
+                                                          : "a text is no number");
+}
+
+void ExpressionChecker::check_types(const Node& node) {
+    const auto& operands = node.operands;
+    switch (node.function) {
+        case Function::if_:
+            need(operands[0], ValueType::number);
+            return check_choice(formula_.nodes.back(), operands[1], operands[2]);
+        case Function::mix:
+            need(operands[2], ValueType::number);
+            return check_choice(formula_.nodes.back(), operands[0], operands[1]);
+        case Function::palette: return check_palette(node);
+        case Function::field: return need(operands[0], ValueType::text);
+        case Function::lap: return check_species(node);
+        default: break;
+    }
+    for (std::size_t i = 0; i < node.operand_count; ++i) need(operands[i], ValueType::number);
+    if (node.function == Function::rgb) formula_.nodes.back().type = ValueType::colour;
+}
+
+void ExpressionChecker::check_choice(Node& node, std::uint32_t a, std::uint32_t b) {
+    const ValueType type = formula_.nodes[a].type;
+    if (type != formula_.nodes[b].type && !parts_.back().faulty) {
+        return fault(formula_.nodes[b].span,
+                     fmt::format("{} chooses between two numbers or two colours",
+                                 info(node.function).spelling));
+    }
+    node.type = type;
+}
+
+void ExpressionChecker::check_palette(const Node& node) {
+    for (std::size_t i = 0; i < 3; ++i) need(node.operands[i], ValueType::number);
+    need(node.operands[3], ValueType::text);
+    if (parts_.back().faulty) return;
+    const Node& text = formula_.nodes[node.operands[3]];
+    const std::string& name = work_.program.texts[text.index];
+    if (find_palette(name) == nullptr) {
+        std::vector<std::string> names;
+        for (const Palette& palette : palettes()) names.emplace_back(palette.name);
+        std::string hint = did_you_mean(work_, name, names);
+        if (hint.empty()) hint = "palettes are " + list_names(names);
+        return fault(text.span, fmt::format("there is no palette '{}'", name), std::move(hint));
+    }
+    formula_.nodes.back().type = ValueType::colour;
+}
+
+void ExpressionChecker::check_species(const Node& node) {
+    const Node& operand = formula_.nodes[node.operands[0]];
+    const System& system = work_.program.systems[scope_.system];
+    if (operand.kind == NodeKind::own && system.is_species(operand.index)) return;
+    fault(operand.span, fmt::format("{} takes a species", info(node.function).spelling),
+          "expressions and parameters come in a later version of the language");
+}
+
+void ExpressionChecker::fold_constants(const Node& node) {
+    std::array<double, most_operands> values{};
+    bool constant = true;
+    for (std::size_t i = 0; i < node.operand_count; ++i) {
+        const Part& part = parts_[node.operands[i]];
+        constant = constant && part.constant;
+        values[i] = part.value;
+    }
+    // Numbers are flushed to zero where a float is denormal, so such a divisor is zero as well.
+    const bool divides = node.function == Function::divide || node.function == Function::mod;
+    if (divides && parts_[node.operands[1]].constant &&
+        std::abs(values[1]) < static_cast<double>(FLT_MIN)) {
+        return fault(formula_.nodes[node.operands[1]].span, "division by zero");
+    }
+    if (!constant) return;
+    const auto value = fold(node.function, values);
+    if (value) parts_.back() = {false, true, *value};
+}
+
+}  // namespace cascade::checking
