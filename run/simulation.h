@@ -51,7 +51,7 @@ struct SimulationOptions {
     int threads = 0;    ///< 0 takes all the machine has.
     /// Takes the steps of several simulations, so that equal kernels are compiled once; none: each
     /// simulation has one of its own. Its compile() must allow several threads.
-    std::shared_ptr<Backend> stepper;
+    std::shared_ptr<Backend> stepper = nullptr;
     std::uint64_t memory_limit = 0;   ///< Bytes that all fields may take; 0: what is free.
 };
 

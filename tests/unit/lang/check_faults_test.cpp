@@ -126,7 +126,7 @@ TEST(CheckFaults, ArgumentsAndTypes) {
                             "[b] is the 'b' of this stage"));
     EXPECT_THAT(stage_faults("ka: mod(1, 0)"), ElementsAre("2:12: division by zero"));
     EXPECT_THAT(stage_faults("ka: mod(1, 2 - cos(0) * 2)"),
-                ElementsAre("2:14: division by zero"));
+                ElementsAre("2:12: division by zero"));
     EXPECT_THAT(stage_faults("iterations: step"),
                 ElementsAre("2:13: iterations must be one number | "
                             "only numbers, operators and functions of them can stand here"));
