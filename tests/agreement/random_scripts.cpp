@@ -93,6 +93,7 @@ private:
     }
 
     bool fits(const FunctionRow& row, Place place) const {
+        if (row.spelling.find(" over ") != std::string_view::npos) return false;
         switch (row.places) {
             case Places::any:
             case Places::cells: return true;
