@@ -167,7 +167,7 @@ int compile_command(const Options& options, Console& console) {
 }
 
 int systems_command(const Options& options, Console& console) {
-    // A script with nothing of its own has the built-in systems.
+    // A script with nothing of its own has the whole library.
     LoadedFile file{load_script("<built in>", "domain { grid: 64, 64 }", "."), ""};
     if (!options.scripts.empty()) {
         auto given = load(options.scripts[0], {}, console);

@@ -3,7 +3,7 @@
 
 #include "core/check.h"
 #include "lang/check_blocks.h"
-#include "lang/parse.h"
+#include "lang/library.h"
 
 #include <fmt/format.h>
 
@@ -16,24 +16,12 @@ namespace {
 
 using checking::Workspace;
 
-/// The source of a built-in system; an equal one from an earlier check is used again.
-SourceId source_of(std::string_view name, std::string_view text, Sources& sources) {
-    for (SourceId id = 0; id < sources.size(); ++id) {
-        if (sources[id].name() == name && sources[id].text() == text) return id;
+/// The systems of the library that the script names. `library` keeps what was parsed.
+void check_library(Workspace& work, const std::vector<LibraryScript>& library) {
+    for (const LibraryScript& each : library) {
+        checking::check_system(work, each.script, each.script.blocks[each.block], true);
     }
-    return sources.add(std::string(name), std::string(text));
-}
-
-void check_built_in_systems(Workspace& work, Sources& sources) {
-    for (const auto& [name, text] : built_in_system_texts()) {
-        const SourceId source = source_of(name, text, sources);
-        const ast::Script script = parse(source, sources, work.diagnostics);
-        for (const ast::Block& block : script.blocks) {
-            CHECK(block.kind == ast::BlockKind::system, "a built-in text holds systems only");
-            checking::check_system(work, script, block, true);
-        }
-    }
-    CHECK(!work.diagnostics.has_errors(), "the built-in systems are sound");
+    CHECK(!work.diagnostics.has_errors(), "the systems of the library are sound");
 }
 
 /// The workspace of a program that is checked already.
@@ -101,7 +89,8 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
     Diagnostics own;
     {
         Workspace work{program, own, {}, {}, {}, {}, {}, 0};
-        check_built_in_systems(work, sources);
+        const std::vector<LibraryScript> library = read_library(script, sources, own);
+        check_library(work, library);
         refuse_unfinished(work, script);
         for (const ast::Block& block : script.blocks) {
             if (block.kind != ast::BlockKind::system) continue;
@@ -153,6 +142,7 @@ std::vector<std::string> known_names(const Program& program) {
         const FunctionInfo& row = info(static_cast<Function>(i));
         if (!row.is_operator && !row.is_aggregate) names.emplace(row.spelling);
     }
+    for (const LibraryText& text : library_texts()) names.emplace(text.system_name());
     for (const System& system : program.systems) {
         names.insert(system.name);
         for (const Quantity& quantity : system.quantities) names.insert(quantity.name);

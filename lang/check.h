@@ -6,19 +6,13 @@
 #include "lang/program.h"
 
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 namespace cascade {
 
-/// The systems that come with Cascade, as (file name, text): lang/systems/*.cascade, embedded in
-/// the binary at build time. check() adds them to `sources` and to every program.
-std::span<const std::pair<std::string_view, std::string_view>> built_in_system_texts();
-
-/// Resolves and checks everything. On errors the result is empty and `diagnostics` says why; there
+/// Resolves and checks everything; the systems of the library that the script names are added to
+/// `sources` and to the program (lang/library.h). On errors the result is empty and `diagnostics` says why; there
 /// may be warnings beside a result. Does not touch files: the paths in `field("a.npy")` are only
 /// collected. A script without stages is fine here (`systems`, the prompt); run refuses it.
 std::optional<Program> check(const ast::Script& script, Sources& sources,

@@ -2,6 +2,7 @@
 // are the same in all cells.
 #include "lang/check_blocks.h"
 #include "lang/check_circles.h"
+#include "lang/library.h"
 
 #include <fmt/format.h>
 
@@ -319,15 +320,16 @@ std::uint32_t find_system(Workspace& work, const ast::Word& name) {
     if (name.empty()) return unknown_system;
     std::vector<std::string> names;
     if (!is_hopeless(work)) {
-        for (const System& system : work.program.systems) names.push_back(system.name);
+        for (const LibraryText& text : library_texts()) names.emplace_back(text.system_name());
+        for (const System& system : work.program.systems) {
+            if (!system.built_in) names.push_back(system.name);
+        }
     }
     Diagnostic diagnostic;
     diagnostic.span = name.span;
     diagnostic.message = fmt::format("there is no system '{}'", name.text);
     diagnostic.hint = did_you_mean(work, name.text, names);
-    std::sort(names.begin(), names.end());
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    diagnostic.notes.push_back({std::nullopt, "systems are " + list_names(names)});
+    diagnostic.notes.push_back({std::nullopt, "'cascade systems' lists those of the library"});
     work.diagnostics.add(std::move(diagnostic));
     return unknown_system;
 }

@@ -326,9 +326,7 @@ void check_system(Workspace& work, const ast::Script& script, const ast::Block& 
     if (!is_new && !block.name.empty()) {
         const System& first = work.program.systems[found->second];
         if (first.built_in) {
-            work.diagnostics.error(block.name.span,
-                                   fmt::format("'{}' is a built-in system", system.name),
-                                   "choose another name");
+            found->second = index;  // The script's own takes the place of the library's.
         } else {
             report_twice(work, block.name.span, first.span,
                          fmt::format("there are two systems '{}'", system.name));

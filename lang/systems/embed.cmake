@@ -1,4 +1,4 @@
-# The built-in systems are Cascade texts; this turns them into one C++ file of raw strings. It runs
+# The systems of the library are Cascade texts; this turns them into one C++ file of raw strings. It runs
 # when CMake configures, which a change of a text or a new text brings about.
 file(GLOB built_in_systems CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lang/systems/*.cascade)
 list(SORT built_in_systems)
@@ -15,7 +15,7 @@ endforeach()
 set(built_in_source ${PROJECT_BINARY_DIR}/lang/built_in_systems.cpp)
 file(CONFIGURE OUTPUT ${built_in_source} @ONLY CONTENT [[
 // Made by lang/systems/embed.cmake from lang/systems/*.cascade.
-#include "lang/check.h"
+#include "lang/library.h"
 
 #include <array>
 
@@ -23,14 +23,12 @@ namespace cascade {
 
 namespace {
 
-using Text = std::pair<std::string_view, std::string_view>;
-
-constexpr auto texts = std::to_array<Text>({
+constexpr auto texts = std::to_array<LibraryText>({
 @built_in_entries@});
 
 }  // namespace
 
-std::span<const Text> built_in_system_texts() { return texts; }
+std::span<const LibraryText> library_texts() { return texts; }
 
 }  // namespace cascade
 ]])

@@ -194,8 +194,8 @@ TEST(CheckFaults, Twice) {
     EXPECT_THAT(system_faults("a' += 3"), IsEmpty());
     EXPECT_THAT(faults("system s { a: 1; a' = a }\nsystem s { a: 1; a' = a }"),
                 ElementsAre("2:8: there are two systems 's'"));
-    EXPECT_THAT(faults("system stripes { a: 1; a' = a }"),
-                ElementsAre("1:8: 'stripes' is a built-in system | choose another name"));
+    EXPECT_THAT(faults("system stripes { a: 1; a' = a }\nsystem stripes { a: 1; a' = a }"),
+                ElementsAre("2:8: there are two systems 'stripes'"));
     EXPECT_THAT(faults("stage s: stripes {}\nstage s: stripes {}"),
                 ElementsAre("2:7: there are two stages 's'"));
     EXPECT_THAT(faults("domain { seed: 1 }\ndomain { seed: 2 }"),

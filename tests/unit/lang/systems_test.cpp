@@ -90,19 +90,6 @@ std::unique_ptr<Checked> stage_of(const Case& system, const std::string& sentenc
     return checked;
 }
 
-TEST(Systems, AreThree) {
-    std::vector<std::string_view> names;
-    for (const auto& [name, text] : built_in_system_texts()) {
-        names.push_back(name);
-        EXPECT_FALSE(text.empty());
-    }
-    EXPECT_THAT(names, ElementsAre("autocatalysis.cascade", "stripes.cascade",
-                                   "turing_spots.cascade"));
-    const auto checked = check_text("system_name: stripes\n");
-    ASSERT_TRUE(checked->program);
-    for (const System& system : checked->program->systems) EXPECT_TRUE(system.built_in);
-}
-
 TEST(Systems, HaveTheNamesOfTheListings) {
     for (const Case& each : cases()) {
         const auto checked = stage_of(each, "");

@@ -1,0 +1,66 @@
+// The library of systems: what a script pays for, and what it may replace.
+#include "lang/library.h"
+
+#include "check_helpers.h"
+
+#include <fmt/format.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace cascade::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+std::vector<std::string> system_names(const std::string& script) {
+    const auto checked = check_text(script);
+    EXPECT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
+    std::vector<std::string> names;
+    if (!checked->program) return names;
+    for (const System& system : checked->program->systems) names.push_back(system.name);
+    return names;
+}
+
+TEST(Library, IsInOrderAndFoundByName) {
+    const auto texts = library_texts();
+    ASSERT_GE(texts.size(), 3u);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        EXPECT_LT(i == 0 ? "" : texts[i - 1].system_name(), texts[i].system_name());
+        EXPECT_EQ(find_library_text(texts[i].system_name()), &texts[i]);
+    }
+    EXPECT_EQ(find_library_text("no_such_system"), nullptr);
+    EXPECT_EQ(find_library_text(""), nullptr);
+}
+
+/// Each text is a script of its own too, as `cascade run` takes it.
+TEST(Library, TextsAreSoundScripts) {
+    for (const LibraryText& each : library_texts()) {
+        const auto checked = check_text(std::string(each.text));
+        EXPECT_TRUE(checked->program) << each.file_name;
+        EXPECT_THAT(checked->faults(), IsEmpty()) << each.file_name;
+    }
+}
+
+TEST(Library, IsReadByNeed) {
+    EXPECT_THAT(system_names("system_name: stripes\n"), ElementsAre("stripes"));
+    EXPECT_THAT(system_names("stage a: stripes {}\nstage b: turing_spots {}\nstage c: stripes {}"),
+                ElementsAre("stripes", "turing_spots"));
+    EXPECT_THAT(system_names("system mine { a: 1; a' = a }"), ElementsAre("mine"));
+    EXPECT_EQ(system_names("domain { grid: 8, 8 }").size(), library_texts().size());
+}
+
+TEST(Library, GivesWayToTheScriptsOwn) {
+    EXPECT_THAT(system_names("system stripes { q: 1; q' = q }\nstage s: stripes { q: 2 }"),
+                ElementsAre("stripes"));
+}
+
+TEST(Library, IsSearchedForNearNames) {
+    EXPECT_THAT(check_text("system_name: turing_spot")->faults(),
+                ElementsAre("1:14: there is no system 'turing_spot' | "
+                            "did you mean 'turing_spots'?"));
+}
+
+}  // namespace
+}  // namespace cascade::testing
