@@ -1,62 +1,113 @@
-// The plane: a grid of cells and how a field of it lies in memory.
+// The grid of cells and how a field of it lies in memory.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace cascade {
 
-/// What a cell at the side of the grid sees beyond it.
+/// What a cell at the side of the grid sees beyond it, where no species says otherwise.
 enum class Boundary {
     periodic,  ///< The cell of the opposite side.
     no_flux,   ///< Itself: nothing flows through the side.
 };
 
-/// Which neighbours a Laplacian reads. An axis of one cell has no neighbours along it, so a grid
-/// of W × 1 or 1 × H cells is one-dimensional.
-enum class Stencil {
-    row,     ///< W, E: (E + W) − 2c.
-    column,  ///< N, S: (N + S) − 2c.
-    plane,   ///< ((N + S) + E) + W − 4c.
+/// The boundary along each axis; one for all converts.
+struct Boundaries {
+    Boundary x = Boundary::periodic;
+    Boundary y = Boundary::periodic;
+    Boundary z = Boundary::periodic;
+
+    constexpr Boundaries() = default;
+    constexpr Boundaries(Boundary all) : x(all), y(all), z(all) {}  // NOLINT: a number of words for one.
+    constexpr Boundaries(Boundary along_x, Boundary along_y, Boundary along_z)
+        : x(along_x), y(along_y), z(along_z) {}
+
+    friend bool operator==(const Boundaries&, const Boundaries&) = default;
 };
 
-/// A grid of width × height square cells. N is the row above (j − 1), E the next column (i + 1).
+/// Which neighbours cells have: those along the axes of more than one cell. An axis of one cell has
+/// no neighbours along it, so a grid of W × 1 or 1 × H cells is one-dimensional. The order of a
+/// Laplacian's sum is ((((N + S) + E) + W) + U) + D − 2·axes·c, without the absent pairs.
+struct Stencil {
+    bool x = true;   ///< W and E, the columns before and behind.
+    bool y = true;   ///< N and S, the rows above and below.
+    bool z = false;  ///< U and D, the slices before and behind.
+
+    /// The usual ones by name.
+    static const Stencil row, column, plane, volume;
+
+    constexpr int axes() const { return int{x} + int{y} + int{z}; }
+    /// A number for each stencil, 0 to 7.
+    constexpr unsigned number() const { return unsigned{x} + 2u * unsigned{y} + 4u * unsigned{z}; }
+    friend constexpr bool operator==(const Stencil&, const Stencil&) = default;
+};
+
+inline constexpr Stencil Stencil::row{true, false, false};
+inline constexpr Stencil Stencil::column{false, true, false};
+inline constexpr Stencil Stencil::plane{true, true, false};
+inline constexpr Stencil Stencil::volume{true, true, true};
+
+/// A grid of width × height × depth cells, squares or cubes of side `spacing`. N is the row above
+/// (j − 1), E the next column (i + 1), D the next slice (k + 1).
 struct Grid {
     std::int64_t width = 64;
     std::int64_t height = 64;
-    Boundary boundary = Boundary::periodic;
+    Boundaries boundary = {};
+    std::int64_t depth = 1;
+    double spacing = 1;  ///< In the user's unit of length; above 0.
 
-    std::int64_t cell_count() const { return width * height; }
-    std::int64_t longest_side() const { return width > height ? width : height; }
+    std::int64_t cell_count() const { return width * height * depth; }
+    std::int64_t longest_side() const { return std::max({width, height, depth}); }
+    /// A grid of one cell has the stencil of a row, whose two neighbours are the cell itself.
     Stencil stencil() const {
-        if (height == 1) return Stencil::row;
-        return width == 1 ? Stencil::column : Stencil::plane;
+        return {width > 1 || (height == 1 && depth == 1), height > 1, depth > 1};
     }
     friend bool operator==(const Grid&, const Grid&) = default;
 };
 
-/// How a plane of elements lies in memory: `height` rows with one halo row above and below; each
-/// row starts on a multiple of `row_pad` elements and has `row_pad` elements before and at least
-/// `row_pad` behind it, so that a vector may be read or written at the end of a row without
-/// touching another row's cells. Columns −1 and `width`, rows −1 and `height` are the halo.
+/// How a plane of elements lies in memory: slices one behind the other, in each `height` rows with
+/// one halo row above and below. A row starts on a multiple of `row_pad` elements and has `row_pad`
+/// elements before and at least `row_pad` behind it, so that a vector may be read or written at the
+/// end of a row without touching another row's cells. Columns −1 and `width`, rows −1 and `height`
+/// are the halo, edges and corners included; a grid of more than one slice has the halo slices −1
+/// and `depth` as well, while one of a single slice has none.
+///
+/// Rows are numbered through all slices: row r of [0, row_count()) is row r % height of slice
+/// r / height.
 struct PlaneLayout {
     static constexpr std::int64_t row_pad = 16;
 
     std::int64_t width = 0;
     std::int64_t height = 0;
-    std::int64_t stride = 0;  ///< Elements from a row to the next; a multiple of `row_pad`.
+    std::int64_t depth = 0;
+    std::int64_t stride = 0;        ///< Elements from a row to the next; a multiple of `row_pad`.
+    std::int64_t slice_stride = 0;  ///< Elements from a slice to the next; a multiple of `stride`.
 
     PlaneLayout() = default;
     explicit PlaneLayout(const Grid& grid)
         : width(grid.width),
           height(grid.height),
-          stride((grid.width + row_pad - 1) / row_pad * row_pad + 2 * row_pad) {}
+          depth(grid.depth),
+          stride((grid.width + row_pad - 1) / row_pad * row_pad + 2 * row_pad),
+          slice_stride((grid.height + 2) * stride) {}
 
-    /// Element number of cell (column i, row j), counted from the start of the allocation.
-    std::int64_t offset(std::int64_t i, std::int64_t j) const {
-        return (j + 1) * stride + row_pad + i;
+    bool has_halo_slices() const { return depth > 1; }
+    std::int64_t row_count() const { return height * depth; }
+    /// Rows of memory from a slice to the next.
+    std::int64_t slice_rows() const { return height + 2; }
+
+    /// Elements from cell (0, 0, 0) to the first cell of a row that is numbered through all slices.
+    std::int64_t row_start(std::int64_t row) const {
+        if (depth <= 1) return row * stride;
+        return row / height * slice_stride + row % height * stride;
+    }
+    /// Element number of cell (column i, row j, slice k), from the start of the allocation.
+    std::int64_t offset(std::int64_t i, std::int64_t j, std::int64_t k = 0) const {
+        return (k + (has_halo_slices() ? 1 : 0)) * slice_stride + (j + 1) * stride + row_pad + i;
     }
     /// Elements to allocate.
-    std::int64_t size() const { return (height + 2) * stride; }
+    std::int64_t size() const { return (depth + (has_halo_slices() ? 2 : 0)) * slice_stride; }
 
     friend bool operator==(const PlaneLayout&, const PlaneLayout&) = default;
 };

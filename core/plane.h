@@ -29,13 +29,20 @@ public:
     bool empty() const { return !data_; }
     const PlaneLayout& layout() const { return layout_; }
 
-    /// Address of cell (0, 0); cell (i, j) is at `origin() + j * layout().stride + i`.
+    /// Address of cell (0, 0, 0); cell (i, j) of slice k is at
+    /// `origin() + k * layout().slice_stride + j * layout().stride + i`.
     T* origin() { return data_.get() + layout_.offset(0, 0); }
     const T* origin() const { return data_.get() + layout_.offset(0, 0); }
-    T* row(std::int64_t j) { return origin() + j * layout_.stride; }
-    const T* row(std::int64_t j) const { return origin() + j * layout_.stride; }
-    T& at(std::int64_t i, std::int64_t j) { return row(j)[i]; }
-    T at(std::int64_t i, std::int64_t j) const { return row(j)[i]; }
+    /// A row by its number through all slices, 0 … layout().row_count() − 1.
+    T* row(std::int64_t number) { return origin() + layout_.row_start(number); }
+    const T* row(std::int64_t number) const { return origin() + layout_.row_start(number); }
+    /// A cell, which may be one of the halo.
+    T& at(std::int64_t i, std::int64_t j, std::int64_t k = 0) {
+        return data_[static_cast<std::size_t>(layout_.offset(i, j, k))];
+    }
+    T at(std::int64_t i, std::int64_t j, std::int64_t k = 0) const {
+        return data_[static_cast<std::size_t>(layout_.offset(i, j, k))];
+    }
 
     Plane clone() const {
         Plane copy(layout_);
@@ -58,21 +65,15 @@ private:
 using Field = Plane<float>;         ///< A species, or a parameter that varies over the surface.
 using Mask = Plane<std::uint8_t>;   ///< 1 where a cell is frozen, else 0.
 
-/// Fills the halo of a field: rows −1 and height, columns −1 and width, by the grid's boundary.
-/// Corners are left alone: no stencil reads them.
-void fill_halo(float* origin, const PlaneLayout& layout, Boundary boundary);
+/// Fills the halo of a field, edges and corners included: columns −1 and width, rows −1 and height
+/// and, where there is more than one slice, slices −1 and depth, by the boundary along each axis.
+/// Columns come first, then rows with the halo columns, then slices with both.
+void fill_halo(float* origin, const PlaneLayout& layout, const Boundaries& boundary);
 
-/// The same for the columns of rows [begin, end) only, so that threads can share the work.
-void fill_halo_columns(float* origin, const PlaneLayout& layout, Boundary boundary,
-                       std::int64_t begin, std::int64_t end);
-
-/// The same for rows −1 and height only (cells 0 … width − 1 of them).
-void fill_halo_rows(float* origin, const PlaneLayout& layout, Boundary boundary);
-
-/// All of the halo whose values come from rows [begin, end): their columns and, where row 0 or the
-/// last row is among them, the halo row that copies it. Threads that call it on parts of the rows
-/// have filled the whole halo together, without reading each other's rows.
-void fill_halo_from_rows(float* origin, const PlaneLayout& layout, Boundary boundary,
+/// All of the halo whose values come from rows [begin, end), numbered through all slices. Threads
+/// that call it on parts of the rows have filled the whole halo together, without reading each
+/// other's rows.
+void fill_halo_from_rows(float* origin, const PlaneLayout& layout, const Boundaries& boundary,
                          std::int64_t begin, std::int64_t end);
 
 }  // namespace cascade

@@ -15,8 +15,8 @@
 
 namespace cascade {
 
-/// Where a kernel finds and puts its values. Pointers are to cell (0, 0) of planes of one layout;
-/// a field read by `laplacian` has its halo filled. Outputs overlap nothing else. A kernel may
+/// Where a kernel finds and puts its values. Pointers are to cell (0, 0, 0) of planes of one layout;
+/// a field read by `laplacian` or `neighbour` has its halo filled. Outputs overlap nothing else. A kernel may
 /// write any values into an output row beyond its last cell, up to the next multiple of
 /// PlaneLayout::row_pad (so halo column `width` may hold garbage afterwards); cells of
 /// other rows and columns < 0 never.
@@ -33,6 +33,7 @@ struct KernelArguments {
 class Kernel {
 public:
     virtual ~Kernel() = default;
+    /// Computes rows, numbered through all slices.
     virtual void run(const KernelArguments& arguments, RowRange rows) const = 0;
 };
 
@@ -43,6 +44,7 @@ class Backend {
 public:
     virtual ~Backend() = default;
     virtual std::string_view name() const = 0;  ///< "interp" or "jit".
+    /// `stencil` is that of every grid that the kernel will run on.
     virtual Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) = 0;
 };
 

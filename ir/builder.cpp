@@ -63,10 +63,19 @@ std::uint32_t KernelBuilder::uniform_slot(const std::string& name) {
 
 ValueId KernelBuilder::field(std::uint32_t slot) { return emit({Op::field, {}, slot}); }
 ValueId KernelBuilder::laplacian(std::uint32_t slot) { return emit({Op::laplacian, {}, slot}); }
+ValueId KernelBuilder::neighbour(std::uint32_t slot, int dx, int dy, int dz) {
+    for (const int offset : {dx, dy, dz}) {
+        CHECK(-1 <= offset && offset <= 1, "builder: a neighbour is at most one cell away");
+    }
+    if (dx == 0 && dy == 0 && dz == 0) return field(slot);
+    return emit({Op::neighbour, {}, Neighbour{slot, dx, dy, dz}.payload()});
+}
+
 ValueId KernelBuilder::mask(std::uint32_t slot) { return emit({Op::mask, {}, slot}); }
 ValueId KernelBuilder::uniform(std::uint32_t slot) { return emit({Op::uniform, {}, slot}); }
 ValueId KernelBuilder::cell_column() { return emit({Op::cell_column, {}, 0}); }
 ValueId KernelBuilder::cell_row() { return emit({Op::cell_row, {}, 0}); }
+ValueId KernelBuilder::cell_slice() { return emit({Op::cell_slice, {}, 0}); }
 
 ValueId KernelBuilder::apply(Op op, ValueId a) {
     CHECK(info(op).arity == 1, "builder: the operation takes one operand");

@@ -29,10 +29,13 @@ public:
     std::uint32_t uniform_slot(const std::string& name);
     ValueId field(std::uint32_t slot);
     ValueId laplacian(std::uint32_t slot);
+    /// The value of a field in a cell around, each offset −1, 0 or 1; the cell's own where all are 0.
+    ValueId neighbour(std::uint32_t slot, int dx, int dy, int dz = 0);
     ValueId mask(std::uint32_t slot);
     ValueId uniform(std::uint32_t slot);
     ValueId cell_column();
     ValueId cell_row();
+    ValueId cell_slice();
 
     /// Any operation of the table without payload, by its operands.
     ValueId apply(Op op, ValueId a);

@@ -37,6 +37,11 @@ std::string payload_text(const CellKernel& kernel, const Instruction& instructio
         case PayloadKind::bits:
             return fmt::format(" 0x{:08x}  # {}", payload, to_number(payload));
         case PayloadKind::field: return slot_text(kernel.field_names, payload);
+        case PayloadKind::neighbour: {
+            const Neighbour at = Neighbour::of(payload);
+            return fmt::format("{} at ({}, {}, {})", slot_text(kernel.field_names, at.slot), at.dx,
+                               at.dy, at.dz);
+        }
         case PayloadKind::mask: return slot_text(kernel.mask_names, payload);
         case PayloadKind::uniform: return slot_text(kernel.uniform_names, payload);
     }
@@ -45,7 +50,8 @@ std::string payload_text(const CellKernel& kernel, const Instruction& instructio
 
 std::size_t slot_count(const CellKernel& kernel, PayloadKind kind) {
     switch (kind) {
-        case PayloadKind::field: return kernel.field_names.size();
+        case PayloadKind::field:
+        case PayloadKind::neighbour: return kernel.field_names.size();
         case PayloadKind::mask: return kernel.mask_names.size();
         case PayloadKind::uniform: return kernel.uniform_names.size();
         default: return 0;
@@ -58,9 +64,15 @@ std::string verify_payload(const CellKernel& kernel, const Instruction& instruct
     if (kind == PayloadKind::none) {
         return instruction.payload == 0 ? "" : "has a payload but takes none";
     }
+    std::uint32_t slot = instruction.payload;
+    if (kind == PayloadKind::neighbour) {
+        const std::uint32_t offset = slot % Neighbour::offset_count;
+        if (offset > Neighbour::last_offset) return "reads farther than the next cell";
+        if (offset == Neighbour::own_offset) return "reads the cell itself as a neighbour";
+        slot = Neighbour::of(slot).slot;
+    }
     const std::size_t slots = slot_count(kernel, kind);
-    if (instruction.payload < slots) return "";
-    return fmt::format("names slot {} of {}", instruction.payload, slots);
+    return slot < slots ? "" : fmt::format("names slot {} of {}", slot, slots);
 }
 
 std::string verify_shift(const CellKernel& kernel, const Instruction& instruction) {
@@ -97,6 +109,9 @@ const OpInfo& info(Op op) {
 bool CellKernel::reads_neighbours(std::uint32_t field_slot) const {
     for (const Instruction& instruction : code) {
         if (instruction.op == Op::laplacian && instruction.payload == field_slot) return true;
+        if (instruction.op == Op::neighbour && Neighbour::of(instruction.payload).slot == field_slot) {
+            return true;
+        }
     }
     return false;
 }

@@ -21,7 +21,7 @@ enum class Op : std::uint8_t {
 #undef CASCADE_OPERATION
 };
 
-enum class PayloadKind : std::uint8_t { none, bits, field, mask, uniform };
+enum class PayloadKind : std::uint8_t { none, bits, field, neighbour, mask, uniform };
 
 /// A row of the table.
 struct OpInfo {
@@ -59,6 +59,25 @@ struct Instruction {
     friend bool operator==(const Instruction&, const Instruction&) = default;
 };
 
+/// What a `neighbour` reads: the value of a field, `dx` columns, `dy` rows and `dz` slices away. Each
+/// is −1, 0 or 1, and not all are 0. Along an axis of one cell there are no neighbours: executors
+/// take the offset along it for 0.
+struct Neighbour {
+    std::uint32_t slot = 0;  ///< Below 2^27.
+    int dx = 0, dy = 0, dz = 0;
+
+    static constexpr std::uint32_t offset_count = 32, last_offset = 26, own_offset = 13;
+
+    /// As a payload: 32 · slot + (dx + 1) + 3 (dy + 1) + 9 (dz + 1).
+    constexpr std::uint32_t payload() const {
+        return offset_count * slot + static_cast<std::uint32_t>(dx + 1 + 3 * (dy + 1) + 9 * (dz + 1));
+    }
+    static constexpr Neighbour of(std::uint32_t payload) {
+        const int offset = static_cast<int>(payload % offset_count);
+        return {payload / offset_count, offset % 3 - 1, offset / 3 % 3 - 1, offset / 9 - 1};
+    }
+};
+
 /// The program of one cell. `results[k]` is the value that is stored in output field k.
 /// The slot names serve dumps and messages; slot numbers are their positions.
 struct CellKernel {
@@ -69,7 +88,8 @@ struct CellKernel {
     std::vector<std::string> uniform_names;
     std::vector<std::string> result_names;
 
-    /// True if some instruction is a laplacian of this field slot (its halo must be filled).
+    /// True if some instruction is a laplacian or a neighbour of this field slot (its halo must be
+    /// filled).
     bool reads_neighbours(std::uint32_t field_slot) const;
 };
 

@@ -25,6 +25,7 @@ struct Place {
         nowhere,   ///< Of operands that an operation does not have.
         scalar,    ///< The same in all cells: `index` counts scalars.
         field,     ///< In memory: `index` is a field slot.
+        beside,    ///< In memory: `index` is the payload of a neighbour.
         vector,    ///< In a register: `index` counts registers.
     };
     Kind kind = Kind::nowhere;
@@ -95,6 +96,8 @@ private:
             place_scalar(id);
         } else if (kernel_.code[id].op == Op::field) {
             places_[id] = {Place::Kind::field, kernel_.code[id].payload};
+        } else if (kernel_.code[id].op == Op::neighbour) {
+            places_[id] = {Place::Kind::beside, kernel_.code[id].payload};
         } else {
             place_vector(id);
         }
@@ -164,10 +167,13 @@ public:
     }
 
     void run(RowRange rows) {
-        for (row_ = rows.begin; row_ < rows.end; ++row_) {
-            for (column_ = 0; column_ < arguments_.layout.width; column_ += block_cells) {
-                count_ = std::min(block_cells, arguments_.layout.width - column_);
-                offset_ = row_ * arguments_.layout.stride + column_;
+        const PlaneLayout& layout = arguments_.layout;
+        for (std::int64_t number = rows.begin; number < rows.end; ++number) {
+            row_ = number % layout.height;
+            slice_ = number / layout.height;
+            for (column_ = 0; column_ < layout.width; column_ += block_cells) {
+                count_ = std::min(block_cells, layout.width - column_);
+                offset_ = layout.row_start(number) + column_;
                 for (const BlockStep& step : plan_.block_steps) compute(step);
                 for (std::size_t k = 0; k < plan_.results.size(); ++k) store(k);
             }
@@ -194,10 +200,19 @@ private:
         switch (place.kind) {
             case Place::Kind::scalar: return scalars_.data() + place.index;
             case Place::Kind::field: return arguments_.fields[place.index] + offset_;
+            case Place::Kind::beside: return beside(Neighbour::of(place.index));
             case Place::Kind::vector: return register_of(place.index);
             case Place::Kind::nowhere: return nullptr;
         }
         return nullptr;
+    }
+
+    const float* beside(Neighbour at) const {
+        std::int64_t offset = offset_;
+        if (stencil_.x) offset += at.dx;
+        if (stencil_.y) offset += at.dy * arguments_.layout.stride;
+        if (stencil_.z) offset += at.dz * arguments_.layout.slice_stride;
+        return arguments_.fields[at.slot] + offset;
     }
 
     void compute(const BlockStep& step) {
@@ -218,31 +233,38 @@ private:
             case Op::cell_row:
                 std::fill_n(out, count_, to_number(static_cast<std::uint32_t>(row_)));
                 break;
+            case Op::cell_slice:
+                std::fill_n(out, count_, to_number(static_cast<std::uint32_t>(slice_)));
+                break;
             default: CHECK(false, "interpreter: every source has its loop");
         }
     }
 
+    // The order of the sums is the specification's: ((((N + S) + E) + W) + U) + D.
     void laplacian(float* __restrict out, const float* c) const {
-        const float* north = c - arguments_.layout.stride;
-        const float* south = c + arguments_.layout.stride;
         const std::int64_t count = count_;
-        switch (stencil_) {
-            case Stencil::plane:
-                for (std::int64_t i = 0; i < count; ++i) {
-                    out[i] = (((north[i] + south[i]) + c[i + 1]) + c[i - 1]) - 4.0f * c[i];
-                }
-                break;
-            case Stencil::row:
-                for (std::int64_t i = 0; i < count; ++i) {
-                    out[i] = (c[i + 1] + c[i - 1]) - 2.0f * c[i];
-                }
-                break;
-            case Stencil::column:
-                for (std::int64_t i = 0; i < count; ++i) {
-                    out[i] = (north[i] + south[i]) - 2.0f * c[i];
-                }
-                break;
+        if (stencil_ == Stencil::plane) {
+            const float* north = c - arguments_.layout.stride;
+            const float* south = c + arguments_.layout.stride;
+            for (std::int64_t i = 0; i < count; ++i) {
+                out[i] = (((north[i] + south[i]) + c[i + 1]) + c[i - 1]) - 4.0f * c[i];
+            }
+            return;
         }
+        // Other grids one pair after the other.
+        bool is_first = true;
+        const auto add_pair = [&](const float* first, const float* second) {
+            for (std::int64_t i = 0; i < count; ++i) {
+                out[i] = is_first ? first[i] + second[i] : (out[i] + first[i]) + second[i];
+            }
+            is_first = false;
+        };
+        const std::int64_t row = arguments_.layout.stride, slice = arguments_.layout.slice_stride;
+        if (stencil_.y) add_pair(c - row, c + row);
+        if (stencil_.x) add_pair(c + 1, c - 1);
+        if (stencil_.z) add_pair(c - slice, c + slice);
+        const auto neighbours = static_cast<float>(2 * stencil_.axes());
+        for (std::int64_t i = 0; i < count; ++i) out[i] -= neighbours * c[i];
     }
 
     void mask(float* __restrict out, const std::uint8_t* bytes) const {
@@ -264,10 +286,11 @@ private:
     const KernelArguments& arguments_;
     std::vector<float> scalars_;
     std::vector<float> registers_;
-    std::int64_t row_ = 0;
+    std::int64_t row_ = 0;     ///< In its slice.
+    std::int64_t slice_ = 0;
     std::int64_t column_ = 0;  ///< Of the block's first cell.
     std::int64_t count_ = 0;   ///< Cells of the block.
-    std::int64_t offset_ = 0;  ///< Of the block's first cell from cell (0, 0), in elements.
+    std::int64_t offset_ = 0;  ///< Of the block's first cell from cell (0, 0, 0), in elements.
 };
 
 class InterpretedKernel : public Kernel {

@@ -15,7 +15,7 @@ namespace cascade {
 
 /// True for the operations that depend on their operands alone.
 constexpr bool is_function_of_operands(Op op) { return op >= Op::add; }
-static_assert(static_cast<int>(Op::add) == static_cast<int>(Op::cell_row) + 1,
+static_assert(static_cast<int>(Op::add) == static_cast<int>(Op::cell_slice) + 1,
               "the sources come first in the table");
 
 template <Op op>

@@ -177,10 +177,12 @@ BodyScope::Forms BodyScope::emit(const Instruction& instruction) {
         case Op::constant:
         case Op::field:
         case Op::laplacian:
+        case Op::neighbour:
         case Op::mask:
         case Op::uniform:
         case Op::cell_column:
-        case Op::cell_row: return emit_source(instruction);
+        case Op::cell_row:
+        case Op::cell_slice: return emit_source(instruction);
         case Op::add:
         case Op::subtract:
         case Op::multiply:
@@ -223,6 +225,10 @@ BodyScope::Forms BodyScope::emit_source(const Instruction& instruction) {
             value.may_be_denormal = true;
             break;
         case Op::laplacian: value.number = lane_.laplacian(instruction.payload); break;
+        case Op::neighbour:
+            value.number = lane_.neighbour(Neighbour::of(instruction.payload));
+            value.may_be_denormal = true;
+            break;
         case Op::mask:
             value.truth = lane_.mask(instruction.payload);
             value.is_boolean = value.is_choice = true;
@@ -232,7 +238,9 @@ BodyScope::Forms BodyScope::emit_source(const Instruction& instruction) {
             value.may_be_denormal = true;
             break;
         default:
-            value.bits = instruction.op == Op::cell_row ? lane_.cell_row() : lane_.cell_column();
+            value.bits = instruction.op == Op::cell_row     ? lane_.cell_row()
+                         : instruction.op == Op::cell_slice ? lane_.cell_slice()
+                                                            : lane_.cell_column();
             value.may_be_denormal = true;
             break;
     }

@@ -48,9 +48,11 @@ public:
     virtual llvm::Value* hidden(std::uint32_t word);     ///< <N x float>, a hidden constant
     // Of the row.
     virtual llvm::Value* cell_row();                     ///< <N x i32>
+    virtual llvm::Value* cell_slice();                   ///< <N x i32>
     // Of the cells.
     virtual llvm::Value* field(std::uint32_t slot);      ///< <N x float>
     virtual llvm::Value* laplacian(std::uint32_t slot);  ///< <N x float>
+    virtual llvm::Value* neighbour(Neighbour at);        ///< <N x float>
     virtual llvm::Value* mask(std::uint32_t slot);       ///< <N x i1>
     virtual llvm::Value* cell_column();                  ///< <N x i32>
 };

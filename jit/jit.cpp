@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <llvm/Config/llvm-config.h>
 
+#include <algorithm>
 #include <mutex>
 #include <unordered_map>
 
@@ -17,8 +18,9 @@ namespace {
 
 class NativeKernel final : public Kernel {
 public:
-    NativeKernel(const CellKernel& kernel, std::unique_ptr<LoadedFunction> function)
-        : fields_(kernel.field_names.size()),
+    NativeKernel(const CellKernel& kernel, Stencil stencil, std::unique_ptr<LoadedFunction> function)
+        : stencil_(stencil),
+          fields_(kernel.field_names.size()),
           masks_(kernel.mask_names.size()),
           uniforms_(kernel.uniform_names.size()),
           results_(kernel.results.size()),
@@ -28,15 +30,35 @@ public:
         CHECK(arguments.fields.size() >= fields_ && arguments.masks.size() >= masks_ &&
                   arguments.uniforms.size() >= uniforms_ && arguments.results.size() >= results_,
               "a kernel is given all its planes and numbers");
-        CHECK(rows.empty() || (rows.begin >= 0 && rows.end <= arguments.layout.height),
+        CHECK(rows.empty() || (rows.begin >= 0 && rows.end <= arguments.layout.row_count()),
               "rows to compute are rows of the plane");
-        if (arguments.layout.width <= 0) return;
+        const PlaneLayout& layout = arguments.layout;
+        if (layout.width <= 0) return;
+        CHECK(stencil_.z == (layout.depth > 1), "a kernel runs on grids of its stencil");
+        if (stencil_.z) return run_slices(arguments, rows);
         function_->address(arguments.fields.data(), arguments.masks.data(),
-                           arguments.uniforms.data(), arguments.results.data(),
-                           arguments.layout.width, arguments.layout.stride, rows.begin, rows.end);
+                           arguments.uniforms.data(), arguments.results.data(), layout.width,
+                           layout.stride, rows.begin, rows.end);
     }
 
 private:
+    /// One call for each slice that has some of the rows.
+    void run_slices(const KernelArguments& arguments, RowRange rows) const {
+        const PlaneLayout& layout = arguments.layout;
+        while (!rows.empty()) {
+            const std::int64_t slice = rows.begin / layout.height;
+            const std::int64_t end = std::min(rows.end, (slice + 1) * layout.height);
+            // From numbers through the cells to numbers of rows in memory.
+            const std::int64_t halo_rows = slice * (layout.slice_rows() - layout.height);
+            function_->volume_address(arguments.fields.data(), arguments.masks.data(),
+                                      arguments.uniforms.data(), arguments.results.data(),
+                                      layout.width, layout.stride, rows.begin + halo_rows,
+                                      end + halo_rows, layout.slice_rows(), slice);
+            rows.begin = end;
+        }
+    }
+
+    Stencil stencil_;
     std::size_t fields_, masks_, uniforms_, results_;
     std::unique_ptr<LoadedFunction> function_;
 };
@@ -70,7 +92,7 @@ public:
 
     Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) override {
         const std::lock_guard lock(mutex_);
-        const std::uint64_t key = hash(kernel) * 4 + static_cast<std::uint64_t>(stencil);
+        const std::uint64_t key = hash(kernel) * 8 + stencil.number();
         const auto [first, last] = known_.equal_range(key);
         for (auto found = first; found != last; ++found) {
             if (found->second.is(kernel, stencil)) return found->second.compiled;
@@ -91,7 +113,7 @@ private:
         if (!object) return tl::unexpected(object.error());
         auto function = session_->load({object->data(), object->size()}, function_name);
         if (!function) return tl::unexpected(function.error());
-        return std::make_shared<NativeKernel>(kernel, std::move(*function));
+        return std::make_shared<NativeKernel>(kernel, stencil, std::move(*function));
     }
 
     std::mutex mutex_;

@@ -42,6 +42,8 @@ struct ObjectOptions {
 ///               const float *uniforms, float *const *results,
 ///               int64_t width, int64_t stride, int64_t row_begin, int64_t row_end);
 ///
+/// (and for grids of several slices `int64_t slice_rows, int64_t slice` behind: row j of slice k is
+/// then row k * slice_rows + j, slice_rows is the height plus 2, and a call stays in one slice)
 /// that computes rows [row_begin, row_end): the same code and ABI as the JIT's own kernels. It
 /// calls nothing. Planes are laid out as in PlaneLayout: pointers are to cell (0, 0), of floats
 /// aligned to 64 bytes and of masks to 16; `stride` is a multiple of 16 elements, with 16 or more

@@ -12,9 +12,11 @@ Level level_of_source(Op op) {
     switch (op) {
         case Op::field:
         case Op::laplacian:
+        case Op::neighbour:
         case Op::mask:
         case Op::cell_column: return Level::cell;
-        case Op::cell_row: return Level::row;
+        case Op::cell_row:
+        case Op::cell_slice: return Level::row;
         default: return Level::call;
     }
 }
@@ -29,8 +31,10 @@ llvm::Value* not_here() {
 llvm::Value* Lane::uniform(std::uint32_t) { return not_here(); }
 llvm::Value* Lane::hidden(std::uint32_t) { return not_here(); }
 llvm::Value* Lane::cell_row() { return not_here(); }
+llvm::Value* Lane::cell_slice() { return not_here(); }
 llvm::Value* Lane::field(std::uint32_t) { return not_here(); }
 llvm::Value* Lane::laplacian(std::uint32_t) { return not_here(); }
+llvm::Value* Lane::neighbour(Neighbour) { return not_here(); }
 llvm::Value* Lane::mask(std::uint32_t) { return not_here(); }
 llvm::Value* Lane::cell_column() { return not_here(); }
 

@@ -17,11 +17,18 @@ using GridFunction = void(const float* const* fields, const std::uint8_t* const*
                           const float* uniforms, float* const* results, std::int64_t width,
                           std::int64_t stride, std::int64_t row_begin, std::int64_t row_end);
 
+/// The same of grids of several slices.
+using VolumeFunction = void(const float* const* fields, const std::uint8_t* const* masks,
+                            const float* uniforms, float* const* results, std::int64_t width,
+                            std::int64_t stride, std::int64_t row_begin, std::int64_t row_end,
+                            std::int64_t slice_rows, std::int64_t slice);
+
 /// A loaded function; its memory is freed with it.
 class LoadedFunction {
 public:
     virtual ~LoadedFunction() = default;
-    GridFunction* address = nullptr;
+    GridFunction* address = nullptr;           ///< Of a kernel for grids of one slice,
+    VolumeFunction* volume_address = nullptr;  ///< and for others: the caller knows which it is.
 };
 
 /// Links and loads object files. Safe to use by one thread at a time; functions that it loaded keep

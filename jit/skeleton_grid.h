@@ -6,8 +6,11 @@
 //               const float *uniforms, float *const *results,
 //               int64_t width, int64_t stride, int64_t row_begin, int64_t row_end);
 //
-// Pointers are to cell (0, 0) of planes in the layout of PlaneLayout. Rows [row_begin, row_end) are
-// computed in vectors of `lanes` cells; the last vector of a row may run into its padding, at most
+// and for grids of several slices two more arguments, `int64_t slice_rows, int64_t slice`.
+//
+// Pointers are to cell (0, 0, 0) of planes in the layout of PlaneLayout. Rows are rows of memory:
+// row j of slice k is row k * slice_rows + j, and a call stays within one slice, so that the loops
+// are those of a plane. Rows [row_begin, row_end) are computed in vectors of `lanes` cells; the last vector of a row may run into its padding, at most
 // to the next multiple of PlaneLayout::row_pad. Neighbours are read up to one vector beside that.
 #pragma once
 

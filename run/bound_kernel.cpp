@@ -52,7 +52,7 @@ std::vector<Field> run_once(const Kernel& kernel, const BoundKernel& bound,
     }
     const KernelArguments arguments{fields, masks, uniforms, outputs, layout};
     team.run([&](int index) {
-        const RowRange rows = split_rows(on.height, index, team.size());
+        const RowRange rows = split_rows(layout.row_count(), index, team.size());
         const FlushDenormals environment;
         if (!rows.empty()) kernel.run(arguments, rows);
     });
@@ -93,8 +93,8 @@ Mask to_mask(const Field& field) {
     const PlaneLayout& layout = field.layout();
     Mask mask(layout);
     const FlushDenormals environment;
-    for (std::int64_t j = 0; j < layout.height; ++j) {
-        for (std::int64_t i = 0; i < layout.width; ++i) mask.at(i, j) = field.at(i, j) != 0.0F;
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+        for (std::int64_t i = 0; i < layout.width; ++i) mask.row(row)[i] = field.row(row)[i] != 0.0F;
     }
     return mask;
 }
@@ -102,9 +102,9 @@ Mask to_mask(const Field& field) {
 float smallest(const Field& field) {
     const PlaneLayout& layout = field.layout();
     float least = INFINITY;
-    for (std::int64_t j = 0; j < layout.height; ++j) {
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
         for (std::int64_t i = 0; i < layout.width; ++i) {
-            const float value = field.at(i, j);
+            const float value = field.row(row)[i];
             if (std::isnan(value)) return value;
             least = value < least ? value : least;
         }

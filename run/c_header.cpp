@@ -53,12 +53,10 @@ std::vector<std::size_t> halo_slots(const BoundKernel& bound) {
 }
 
 std::string stencil_words(Stencil stencil) {
-    switch (stencil) {
-        case Stencil::row: return "(E + W) - 2c, one row of cells";
-        case Stencil::column: return "(N + S) - 2c, one column of cells";
-        case Stencil::plane: return "((N + S) + E) + W - 4c";
-    }
-    CHECK(false, "every stencil has words");
+    const char* neighbours[] = {"", "(E + W)",     "(N + S)",       "((N + S) + E) + W",
+                                "(U + D)", "((E + W) + U) + D", "((N + S) + U) + D",
+                                "((((N + S) + E) + W) + U) + D"};
+    return fmt::format("{} - {}c", neighbours[stencil.number()], 2 * stencil.axes());
 }
 
 std::string introduction(const Program& program, std::uint32_t stage, const BoundKernel& bound,

@@ -29,11 +29,12 @@ bool rows_are_finite(const Field& field, RowRange rows) {
 }
 
 std::optional<CellPlace> first_not_finite(const Field& field) {
-    for (std::int64_t j = 0; j < field.layout().height; ++j) {
-        if (row_is_finite(field.row(j), field.layout().width)) continue;
+    const PlaneLayout& layout = field.layout();
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+        if (row_is_finite(field.row(row), layout.width)) continue;
         std::int64_t column = 0;
-        while (row_is_finite(field.row(j) + column, 1)) ++column;
-        return CellPlace{column, j};
+        while (row_is_finite(field.row(row) + column, 1)) ++column;
+        return CellPlace{column, row % layout.height, row / layout.height};
     }
     return std::nullopt;
 }

@@ -53,8 +53,8 @@ class Jacobian {
 public:
     Jacobian(const StepProblem& rates, std::span<const Field> species, const Mask* frozen)
         : rates_(rates), layout_(rates.grid), state_(species), moves_(layout_) {
-        for_each_cell([&](std::size_t, std::int64_t i, std::int64_t j) {
-            moves_.at(i, j) = frozen && frozen->at(i, j) ? 0.0f : 1.0f;
+        for_each_cell([&](std::size_t, std::int64_t i, std::int64_t row) {
+            moves_.row(row)[i] = frozen && frozen->row(row)[i] ? 0.0f : 1.0f;
         });
         for (const Field& field : species) {
             CHECK(field.layout() == layout_, "species lie as the grid says");
@@ -87,30 +87,30 @@ public:
     Vector start() const {
         Vector v(size());
         for (std::size_t k = 0; k < state_.size(); ++k) {
-            for_each_cell([&](std::size_t n, std::int64_t i, std::int64_t j) {
+            for_each_cell([&](std::size_t n, std::int64_t i, std::int64_t row) {
                 const std::size_t entry = k * cells() + n;
-                v[entry] = noise(entry) * moves_.at(i, j);
+                v[entry] = noise(entry) * moves_.row(row)[i];
             });
         }
         return v;
     }
 
 private:
-    std::size_t cells() const { return static_cast<std::size_t>(layout_.width * layout_.height); }
+    std::size_t cells() const { return static_cast<std::size_t>(layout_.width * layout_.row_count()); }
 
+    /// `visit(n, i, row)`: cell n is in column i of the row, which is numbered through all slices.
     template <typename Visit>
     void for_each_cell(Visit visit) const {
         std::size_t n = 0;
-        for (std::int64_t j = 0; j < layout_.height; ++j) {
-            for (std::int64_t i = 0; i < layout_.width; ++i) visit(n++, i, j);
+        for (std::int64_t row = 0; row < layout_.row_count(); ++row) {
+            for (std::int64_t i = 0; i < layout_.width; ++i) visit(n++, i, row);
         }
     }
 
-
     double root_mean_square(const Field& field) const {
         double squares = 0;
-        for_each_cell([&](std::size_t, std::int64_t i, std::int64_t j) {
-            squares += static_cast<double>(field.at(i, j)) * field.at(i, j);
+        for_each_cell([&](std::size_t, std::int64_t i, std::int64_t row) {
+            squares += static_cast<double>(field.row(row)[i]) * field.row(row)[i];
         });
         return std::sqrt(squares / static_cast<double>(cells()));
     }
@@ -120,18 +120,18 @@ private:
         for (std::size_t k = 0; k < state_.size(); ++k) {
             const double* entries = v.data() + k * cells();
             const double scaled_step = step * scales_[k];
-            for_each_cell([&](std::size_t n, std::int64_t i, std::int64_t j) {
-                moved_[k].at(i, j) =
-                    static_cast<float>(state_[k].at(i, j) + scaled_step * entries[n]);
+            for_each_cell([&](std::size_t n, std::int64_t i, std::int64_t row) {
+                moved_[k].row(row)[i] =
+                    static_cast<float>(state_[k].row(row)[i] + scaled_step * entries[n]);
             });
         }
         run_kernel();
         for (std::size_t k = 0; k < state_.size(); ++k) {
             double* entries = sum.data() + k * cells();
             const double scaled_weight = weight / scales_[k];
-            for_each_cell([&](std::size_t n, std::int64_t i, std::int64_t j) {
+            for_each_cell([&](std::size_t n, std::int64_t i, std::int64_t row) {
                 // Not a product: a frozen cell may have any rate, even an infinite one.
-                if (moves_.at(i, j) != 0) entries[n] += scaled_weight * rates_of_[k].at(i, j);
+                if (moves_.row(row)[i] != 0) entries[n] += scaled_weight * rates_of_[k].row(row)[i];
             });
         }
     }
@@ -150,7 +150,7 @@ private:
         for (Field& field : rates_of_) outputs.push_back(field.origin());
         const FlushDenormals environment;
         rates_.step->run({inputs, rates_.masks, rates_.uniforms, outputs, layout_},
-                         {0, layout_.height});
+                         {0, layout_.row_count()});
     }
 
     const StepProblem& rates_;

@@ -15,7 +15,7 @@ constexpr std::int64_t least_values_per_thread = 16384;
 
 int worthwhile_threads(const Grid& grid, std::size_t species, int most) {
     const std::int64_t values = grid.cell_count() * static_cast<std::int64_t>(species);
-    const std::int64_t worth = std::min(values / least_values_per_thread, grid.height);
+    const std::int64_t worth = std::min(values / least_values_per_thread, grid.height * grid.depth);
     return static_cast<int>(std::clamp<std::int64_t>(worth, 1, std::max(most, 1)));
 }
 
@@ -49,7 +49,7 @@ void Stepper::use_threads(int threads) {
     workers_.resize(static_cast<std::size_t>(threads));
     for (int index = 0; index < threads; ++index) {
         Worker& worker = workers_[static_cast<std::size_t>(index)];
-        worker.rows = split_rows(layout_.height, index, threads);
+        worker.rows = split_rows(layout_.row_count(), index, threads);
         worker.uniforms = problem_.uniforms;
     }
 }

@@ -25,10 +25,10 @@ Field hostile_field(RandomStream& stream, const Grid& grid) {
     fill_with(field, untouched);
     // A field of trouble alone would make every laplacian NaN.
     const int trouble_percent = stream.chance(50) ? 5 : 40;
-    for (std::int64_t j = 0; j < grid.height; ++j) {
+    for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
         for (std::int64_t i = 0; i < grid.width; ++i) {
             const bool is_trouble = stream.chance(trouble_percent);
-            field.at(i, j) =
+            field.row(row)[i] =
                 is_trouble ? to_number(hostile_word(stream)) : stream.symmetric() * 8.0f;
         }
     }
@@ -38,8 +38,8 @@ Field hostile_field(RandomStream& stream, const Grid& grid) {
 
 Mask random_mask(RandomStream& stream, const Grid& grid) {
     Mask mask{PlaneLayout(grid)};
-    for (std::int64_t j = 0; j < grid.height; ++j) {
-        for (std::int64_t i = 0; i < grid.width; ++i) mask.at(i, j) = stream.chance(40) ? 1 : 0;
+    for (std::int64_t row = 0; row < mask.layout().row_count(); ++row) {
+        for (std::int64_t i = 0; i < grid.width; ++i) mask.row(row)[i] = stream.chance(40) ? 1 : 0;
     }
     return mask;
 }
@@ -62,7 +62,7 @@ HostileInputs::HostileInputs(const CellKernel& kernel, const Grid& grid, std::ui
 }
 
 std::vector<Field> HostileInputs::run(const Kernel& kernel) const {
-    return run(kernel, {0, grid_.height});
+    return run(kernel, {0, PlaneLayout(grid_).row_count()});
 }
 
 std::vector<Field> HostileInputs::run(const Kernel& kernel, RowRange rows) const {
@@ -94,10 +94,10 @@ std::string same_bits(const std::vector<Field>& a, const std::vector<Field>& b) 
     for (std::size_t k = 0; k < a.size(); ++k) {
         const PlaneLayout& layout = a[k].layout();
         if (!(layout == b[k].layout())) return fmt::format("result {}: other layout", k);
-        for (std::int64_t j = 0; j < layout.height; ++j) {
+        for (std::int64_t j = 0; j < layout.row_count(); ++j) {
             for (std::int64_t i = 0; i < layout.width; ++i) {
-                const std::uint32_t x = to_bits(a[k].at(i, j));
-                const std::uint32_t y = to_bits(b[k].at(i, j));
+                const std::uint32_t x = to_bits(a[k].row(j)[i]);
+                const std::uint32_t y = to_bits(b[k].row(j)[i]);
                 if (x == y || (is_nan(x) && is_nan(y))) continue;
                 return fmt::format("result {}, column {}, row {}: 0x{:08x} ({}) and 0x{:08x} ({})",
                                    k, i, j, x, to_number(x), y, to_number(y));
@@ -112,24 +112,39 @@ std::string stray_writes(const std::vector<Field>& results, RowRange rows) {
         const PlaneLayout& layout = results[k].layout();
         const std::int64_t pad = PlaneLayout::row_pad;
         const std::int64_t end = (layout.width + pad - 1) / pad * pad;
-        for (std::int64_t j = -1; j <= layout.height; ++j) {
-            const bool is_computed = rows.begin <= j && j < rows.end;
+        const std::int64_t halo = layout.has_halo_slices() ? 1 : 0;
+        for (std::int64_t row = -layout.slice_rows() * halo - 1;
+             row <= layout.slice_rows() * (layout.depth - 1 + halo) + layout.height; ++row) {
+            // Rows of memory, those of the halo among them.
+            const std::int64_t slice = (row + 1 + layout.slice_rows()) / layout.slice_rows() - 1;
+            const std::int64_t j = row - slice * layout.slice_rows();
+            const std::int64_t number = slice * layout.height + j;
+            const bool is_computed =
+                0 <= j && j < layout.height && rows.begin <= number && number < rows.end;
             for (std::int64_t i = -pad; i < layout.stride - pad; ++i) {
                 if (is_computed && 0 <= i && i < end) continue;
-                if (to_bits(results[k].at(i, j)) == untouched) continue;
-                return fmt::format("result {}: column {}, row {} was written", k, i, j);
+                if (to_bits(results[k].at(i, j, slice)) == untouched) continue;
+                return fmt::format("result {}: column {}, row {}, slice {} was written", k, i, j,
+                                   slice);
             }
         }
     }
     return "";
 }
 
-Grid random_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t max_height) {
+Grid random_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t max_height,
+                 std::int64_t max_depth) {
     RandomStream stream(seed);
     Grid grid;
     grid.width = 1 + stream.below(static_cast<std::uint64_t>(max_width));
     grid.height = 1 + stream.below(static_cast<std::uint64_t>(max_height));
-    grid.boundary = stream.chance(50) ? Boundary::periodic : Boundary::no_flux;
+    const auto boundary = [&] {
+        return stream.chance(50) ? Boundary::periodic : Boundary::no_flux;
+    };
+    grid.boundary = {boundary(), boundary(), boundary()};
+    if (max_depth > 1 && stream.chance(60)) {
+        grid.depth = 1 + stream.below(static_cast<std::uint64_t>(max_depth));
+    }
     return grid;
 }
 

@@ -42,7 +42,9 @@ std::string same_bits(const std::vector<Field>& a, const std::vector<Field>& b);
 /// made by HostileInputs::run.
 std::string stray_writes(const std::vector<Field>& results, RowRange rows);
 
-/// A grid of 1 … max_width × 1 … max_height cells with one of the boundaries.
-Grid random_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t max_height);
+/// A grid of 1 … max_width × 1 … max_height cells, more than half of the time of up to max_depth
+/// slices, with any boundary along each axis.
+Grid random_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t max_height,
+                 std::int64_t max_depth = 1);
 
 }  // namespace cascade::testing

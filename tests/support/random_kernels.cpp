@@ -76,6 +76,14 @@ private:
                 if (!options_.laplacians) return keep(field(which), false);
                 return keep(builder_.laplacian(builder_.field_slot(fmt::format("f{}", which))),
                             false);
+            case Op::neighbour: {
+                if (!options_.laplacians) return keep(field(which), false);
+                const auto offset = [&] { return static_cast<int>(stream_.below(3)) - 1; };
+                const int dx = offset(), dy = offset(), dz = offset();
+                return keep(builder_.neighbour(builder_.field_slot(fmt::format("f{}", which)), dx,
+                                               dy, dz),
+                            false);
+            }
             case Op::mask:
                 return keep(builder_.mask(builder_.mask_slot(fmt::format("m{}", which))), true);
             case Op::uniform:
@@ -83,6 +91,7 @@ private:
                             false);
             case Op::cell_column: return keep(builder_.cell_column(), true);
             case Op::cell_row: return keep(builder_.cell_row(), true);
+            case Op::cell_slice: return keep(builder_.cell_slice(), true);
             default: return keep(builder_.word(hostile_word(stream_)), true);
         }
     }

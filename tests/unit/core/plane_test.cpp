@@ -1,6 +1,7 @@
 // Layout and halo of planes.
 #include "core/plane.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
@@ -11,89 +12,116 @@
 namespace cascade {
 namespace {
 
-struct PlaneCase {
-    std::int64_t width, height;
-};
+constexpr Boundary either[] = {Boundary::periodic, Boundary::no_flux};
 
-class Halo : public ::testing::TestWithParam<PlaneCase> {
-protected:
-    Grid grid(Boundary boundary) const { return {GetParam().width, GetParam().height, boundary}; }
+float number(std::int64_t i, std::int64_t j, std::int64_t k) {
+    return static_cast<float>(100000 * k + 1000 * j + i + 1);
+}
 
-    /// Cells hold distinct numbers, everything else NaN.
-    static Field numbered(const Grid& grid) {
-        Field field{PlaneLayout(grid)};
-        float* begin = field.origin() - field.layout().offset(0, 0);
-        std::fill_n(begin, field.layout().size(), std::numeric_limits<float>::quiet_NaN());
+/// Cells hold distinct numbers, everything else NaN.
+Field numbered(const Grid& grid) {
+    Field field{PlaneLayout(grid)};
+    float* begin = field.origin() - field.layout().offset(0, 0);
+    std::fill_n(begin, field.layout().size(), std::numeric_limits<float>::quiet_NaN());
+    for (std::int64_t k = 0; k < grid.depth; ++k) {
         for (std::int64_t j = 0; j < grid.height; ++j) {
-            for (std::int64_t i = 0; i < grid.width; ++i) field.at(i, j) = number(i, j);
+            for (std::int64_t i = 0; i < grid.width; ++i) field.at(i, j, k) = number(i, j, k);
         }
-        return field;
     }
-    static float number(std::int64_t i, std::int64_t j) {
-        return static_cast<float>(1000 * j + i + 1);
-    }
+    return field;
+}
 
-    /// All of memory is as the boundary says: halo cells that a stencil reads, and nothing else
-    /// written.
-    static void expect_filled(const Field& field, const Grid& grid) {
-        const auto beyond = [&](std::int64_t i, std::int64_t n) {
-            if (grid.boundary == Boundary::periodic) return (i + n) % n;
-            return i < 0 ? 0 : (i == n ? n - 1 : i);
-        };
-        const std::int64_t pad = PlaneLayout::row_pad;
+/// The cell that stands at place i of an axis of n cells.
+std::int64_t beyond(Boundary boundary, std::int64_t i, std::int64_t n) {
+    if (boundary == Boundary::periodic) return (i + n) % n;
+    return i < 0 ? 0 : (i == n ? n - 1 : i);
+}
+
+/// All of memory is as the boundary says: the halo with its edges and corners, and nothing else
+/// written.
+void expect_filled(const Field& field, const Grid& grid) {
+    const std::int64_t pad = PlaneLayout::row_pad;
+    const std::int64_t halo = grid.depth > 1 ? 1 : 0;
+    for (std::int64_t k = -halo; k < grid.depth + halo; ++k) {
         for (std::int64_t j = -1; j <= grid.height; ++j) {
             for (std::int64_t i = -pad; i < field.layout().stride - pad; ++i) {
-                const bool row_inside = 0 <= j && j < grid.height;
-                const bool column_inside = 0 <= i && i < grid.width;
-                const bool near = -1 <= i && i <= grid.width;
-                if ((row_inside && near) || column_inside) {
-                    ASSERT_EQ(field.at(i, j), number(beyond(i, grid.width), beyond(j, grid.height)))
-                        << "column " << i << ", row " << j;
+                if (-1 <= i && i <= grid.width) {
+                    ASSERT_EQ(field.at(i, j, k), number(beyond(grid.boundary.x, i, grid.width),
+                                                        beyond(grid.boundary.y, j, grid.height),
+                                                        beyond(grid.boundary.z, k, grid.depth)))
+                        << "column " << i << ", row " << j << ", slice " << k;
                 } else {
-                    ASSERT_TRUE(std::isnan(field.at(i, j))) << "column " << i << ", row " << j;
+                    ASSERT_TRUE(std::isnan(field.at(i, j, k)))
+                        << "column " << i << ", row " << j << ", slice " << k;
                 }
             }
         }
     }
+}
+
+struct PlaneCase {
+    std::int64_t width, height, depth = 1;
+};
+
+class Halo : public ::testing::TestWithParam<PlaneCase> {
+protected:
+    /// The grid with every mixture of boundaries.
+    static std::vector<Grid> grids() {
+        std::vector<Grid> all;
+        for (const Boundary x : either) {
+            for (const Boundary y : either) {
+                for (const Boundary z : either) {
+                    all.push_back({GetParam().width, GetParam().height, {x, y, z},
+                                   GetParam().depth});
+                }
+            }
+        }
+        return all;
+    }
 };
 
 TEST_P(Halo, WholeFill) {
-    for (const Boundary boundary : {Boundary::periodic, Boundary::no_flux}) {
-        Field field = numbered(grid(boundary));
-        fill_halo(field.origin(), field.layout(), boundary);
-        expect_filled(field, grid(boundary));
-    }
-}
-
-TEST_P(Halo, ColumnsAndRowsMakeTheWhole) {
-    for (const Boundary boundary : {Boundary::periodic, Boundary::no_flux}) {
-        Field field = numbered(grid(boundary));
-        const std::int64_t middle = grid(boundary).height / 2;
-        fill_halo_columns(field.origin(), field.layout(), boundary, middle, grid(boundary).height);
-        fill_halo_rows(field.origin(), field.layout(), boundary);
-        fill_halo_columns(field.origin(), field.layout(), boundary, 0, middle);
-        expect_filled(field, grid(boundary));
+    for (const Grid& grid : grids()) {
+        Field field = numbered(grid);
+        fill_halo(field.origin(), field.layout(), grid.boundary);
+        expect_filled(field, grid);
     }
 }
 
 TEST_P(Halo, PartsOfTheRowsMakeTheWhole) {
-    for (const Boundary boundary : {Boundary::periodic, Boundary::no_flux}) {
-        Field field = numbered(grid(boundary));
-        const std::int64_t height = grid(boundary).height, middle = height / 3;
-        fill_halo_from_rows(field.origin(), field.layout(), boundary, middle, height);
-        fill_halo_from_rows(field.origin(), field.layout(), boundary, 0, middle);
-        expect_filled(field, grid(boundary));
+    for (const Grid& grid : grids()) {
+        Field field = numbered(grid);
+        const std::int64_t rows = field.layout().row_count(), middle = (rows + 1) / 3;
+        const auto part = [&](std::int64_t begin, std::int64_t end) {
+            fill_halo_from_rows(field.origin(), field.layout(), grid.boundary, begin, end);
+        };
+        part(middle, rows);
+        part(middle, middle);
+        part(0, middle);
+        expect_filled(field, grid);
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Halo,
                          ::testing::Values(PlaneCase{1, 1}, PlaneCase{2, 2}, PlaneCase{1, 9},
                                            PlaneCase{16, 1}, PlaneCase{15, 4}, PlaneCase{17, 3},
-                                           PlaneCase{64, 64}),
+                                           PlaneCase{64, 64}, PlaneCase{5, 4, 3},
+                                           PlaneCase{1, 1, 2}, PlaneCase{16, 1, 5},
+                                           PlaneCase{1, 3, 2}, PlaneCase{17, 9, 6}),
                          [](const auto& tested) {
                              return std::to_string(tested.param.width) + "x" +
-                                    std::to_string(tested.param.height);
+                                    std::to_string(tested.param.height) + "x" +
+                                    std::to_string(tested.param.depth);
                          });
+
+TEST(PlaneLayout, RowsGoThroughAllSlices) {
+    Field field = numbered(Grid{5, 4, {}, 3});
+    for (std::int64_t row = 0; row < 12; ++row) {
+        EXPECT_EQ(field.row(row)[2], number(2, row % 4, row / 4)) << row;
+    }
+    EXPECT_EQ(PlaneLayout(Grid{5, 4}).size(), 6 * PlaneLayout(Grid{5, 4}).stride)
+        << "a plane has no halo slices";
+}
 
 TEST(PlaneLayout, RowsAreAlignedAndHaveRoomForAVector) {
     for (std::int64_t width = 1; width < 70; ++width) {

@@ -35,6 +35,27 @@ TEST(Print, Golden) {
               "result a = %8\n");
 }
 
+TEST(Print, Neighbours) {
+    KernelBuilder builder;
+    builder.field_slot("other");
+    builder.result("r", builder.neighbour(builder.field_slot("a"), 1, -1, 0));
+    EXPECT_EQ(print(std::move(builder).finish()), "%0 = neighbour a at (1, -1, 0)\nresult r = %0\n");
+}
+
+TEST(Verify, Neighbours) {
+    KernelBuilder builder;
+    builder.result("r", builder.neighbour(builder.field_slot("a"), 1, 1, 1));
+    CellKernel kernel = std::move(builder).finish();
+    EXPECT_EQ(verify(kernel), "");
+    EXPECT_TRUE(kernel.reads_neighbours(0));
+    kernel.code[0].payload = 27;
+    EXPECT_THAT(verify(kernel), HasSubstr("farther"));
+    kernel.code[0].payload = 13;
+    EXPECT_THAT(verify(kernel), HasSubstr("itself"));
+    kernel.code[0].payload = Neighbour{1, 1, 0, 0}.payload();
+    EXPECT_THAT(verify(kernel), HasSubstr("slot 1 of 1"));
+}
+
 TEST(ReadsNeighbours, OfLaplaciansOnly) {
     KernelBuilder builder;
     const ValueId here = builder.field(builder.field_slot("here"));

@@ -9,6 +9,7 @@
 #include "tests/support/random_stream.h"
 #include "tests/unit/ir/operation_oracle.h"
 
+#include <array>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -34,12 +35,12 @@ private:
 
         void run(const KernelArguments& arguments, RowRange rows) const override {
             std::vector<std::uint32_t> words(kernel_.code.size());
-            for (std::int64_t j = rows.begin; j < rows.end; ++j) {
+            for (std::int64_t row = rows.begin; row < rows.end; ++row) {
                 for (std::int64_t i = 0; i < arguments.layout.width; ++i) {
                     for (std::size_t id = 0; id < words.size(); ++id) {
-                        words[id] = word(arguments, i, j, kernel_.code[id], words);
+                        words[id] = word(arguments, i, row, kernel_.code[id], words);
                     }
-                    const std::int64_t at = j * arguments.layout.stride + i;
+                    const std::int64_t at = arguments.layout.row_start(row) + i;
                     for (std::size_t k = 0; k < kernel_.results.size(); ++k) {
                         arguments.results[k][at] = to_number(words[kernel_.results[k]]);
                     }
@@ -48,41 +49,53 @@ private:
         }
 
     private:
-        std::uint32_t word(const KernelArguments& arguments, std::int64_t i, std::int64_t j,
+        std::uint32_t word(const KernelArguments& arguments, std::int64_t i, std::int64_t row,
                            const Instruction& instruction,
                            const std::vector<std::uint32_t>& words) const {
             const std::uint32_t slot = instruction.payload;
-            const std::int64_t at = j * arguments.layout.stride + i;
+            const PlaneLayout& layout = arguments.layout;
+            const std::int64_t at = layout.row_start(row) + i;
             switch (instruction.op) {
                 case Op::constant: return slot;
                 case Op::field: return to_bits(arguments.fields[slot][at]);
                 case Op::laplacian:
-                    return laplacian(arguments.fields[slot] + at, arguments.layout.stride);
+                    return laplacian(arguments.fields[slot] + at, layout);
+                case Op::neighbour: {
+                    const Neighbour beside = Neighbour::of(slot);
+                    return to_bits(arguments.fields[beside.slot]
+                                                   [at + step(layout, beside.dx, beside.dy, beside.dz)]);
+                }
                 case Op::mask: return testing::truth(arguments.masks[slot][at] != 0);
                 case Op::uniform: return to_bits(arguments.uniforms[slot]);
                 case Op::cell_column: return static_cast<std::uint32_t>(i);
-                case Op::cell_row: return static_cast<std::uint32_t>(j);
+                case Op::cell_row: return static_cast<std::uint32_t>(row % layout.height);
+                case Op::cell_slice: return static_cast<std::uint32_t>(row / layout.height);
                 default: break;
             }
             const auto [a, b, c] = instruction.operands;
             return oracle(instruction.op, words[a], words[b], words[c]);
         }
 
-        std::uint32_t laplacian(const float* cell, std::int64_t stride) const {
-            const auto sum = [](std::uint32_t a, std::uint32_t b) {
-                return oracle(Op::add, a, b, 0);
-            };
-            const std::uint32_t east_west = sum(to_bits(cell[1]), to_bits(cell[-1]));
-            const std::uint32_t north_south = sum(to_bits(cell[-stride]), to_bits(cell[stride]));
-            const std::uint32_t all =
-                sum(sum(north_south, to_bits(cell[1])), to_bits(cell[-1]));
-            const bool is_plane = stencil_ == Stencil::plane;
-            const std::uint32_t own =
-                oracle(Op::multiply, to_bits(is_plane ? 4.0f : 2.0f), to_bits(cell[0]), 0);
-            const std::uint32_t others = is_plane                   ? all
-                                         : stencil_ == Stencil::row ? east_west
-                                                                    : north_south;
-            return oracle(Op::subtract, others, own, 0);
+        /// Elements to a neighbour; along an axis of one cell there is none but the cell itself.
+        std::int64_t step(const PlaneLayout& layout, int dx, int dy, int dz) const {
+            return (stencil_.x ? dx : 0) + (stencil_.y ? dy * layout.stride : 0) +
+                   (stencil_.z ? dz * layout.slice_stride : 0);
+        }
+
+        std::uint32_t laplacian(const float* cell, const PlaneLayout& layout) const {
+            std::vector<std::int64_t> neighbours;
+            if (stencil_.y) neighbours.insert(neighbours.end(), {-layout.stride, layout.stride});
+            if (stencil_.x) neighbours.insert(neighbours.end(), {1, -1});
+            if (stencil_.z) {
+                neighbours.insert(neighbours.end(), {-layout.slice_stride, layout.slice_stride});
+            }
+            std::uint32_t sum = to_bits(cell[neighbours[0]]);
+            for (std::size_t k = 1; k < neighbours.size(); ++k) {
+                sum = oracle(Op::add, sum, to_bits(cell[neighbours[k]]), 0);
+            }
+            const auto count = static_cast<float>(neighbours.size());
+            return oracle(Op::subtract, sum,
+                          oracle(Op::multiply, to_bits(count), to_bits(cell[0]), 0), 0);
         }
 
         CellKernel kernel_;
@@ -98,12 +111,12 @@ TEST(Interpreter, RandomKernelsAgainstCellByCell) {
         const CellKernel kernel = testing::random_kernel(seed);
         ASSERT_EQ(verify(kernel), "") << "seed " << seed;
         counts.add(kernel);
-        const Grid grid = testing::random_grid(seed, seed % 20 == 0 ? 600 : 67, 5);
+        const Grid grid = testing::random_grid(seed, seed % 20 == 0 ? 600 : 67, 5, 3);
         const auto expected = testing::run_kernel(reference, kernel, grid, seed);
         const auto actual = testing::run_kernel(*interpreter, kernel, grid, seed);
         ASSERT_EQ(testing::same_bits(expected, actual), "")
             << "seed " << seed << "\n" << print(kernel);
-        ASSERT_EQ(testing::stray_writes(actual, {0, grid.height}), "") << "seed " << seed;
+        ASSERT_EQ(testing::stray_writes(actual, {0, PlaneLayout(grid).row_count()}), "") << "seed " << seed;
     }
     EXPECT_EQ(counts.missing(), "") << counts.report();
 }
@@ -145,7 +158,7 @@ std::vector<Field> run_on(const CellKernel& kernel, Field& field, const Grid& gr
     const KernelPointer compiled = *make_interpreter()->compile(kernel, grid.stencil());
     compiled->run({fields, {}, std::span(uniforms).first(kernel.uniform_names.size()), targets,
                    field.layout()},
-                  {0, grid.height});
+                  {0, field.layout().row_count()});
     return results;
 }
 
@@ -188,6 +201,77 @@ TEST(Laplacian, OnLines) {
         EXPECT_EQ(cell(results[0], 0), 1) << "mirror: 1 + 0 − 2 · 0";
         for (std::int64_t k = 1; k < 4; ++k) EXPECT_EQ(cell(results[0], k), 2);
         EXPECT_EQ(cell(results[0], 4), -7) << "mirror: 16 + 9 − 2 · 16";
+    }
+}
+
+// ((((N + S) + E) + W) + U) + D − 6c: what is lost by rounding shows the order.
+TEST(Laplacian, OfAVolumeHasTheOrderOfTheSpecification) {
+    KernelBuilder builder;
+    builder.result("r", builder.laplacian(builder.field_slot("a")));
+    const CellKernel kernel = std::move(builder).finish();
+    const Grid grid{3, 3, Boundary::periodic, 3};
+    Field field{PlaneLayout(grid)};
+    testing::RandomStream stream(1);
+    int reversed_is_different = 0;
+    for (int k = 0; k < 100; ++k) {
+        const auto value = [&] { return stream.symmetric() * static_cast<float>(1 + stream.below(99)); };
+        const float n = value(), s = value(), e = value(), w = value(), u = value(), d = value();
+        const float c = value();
+        field.at(1, 0, 1) = n;
+        field.at(1, 2, 1) = s;
+        field.at(2, 1, 1) = e;
+        field.at(0, 1, 1) = w;
+        field.at(1, 1, 0) = u;
+        field.at(1, 1, 2) = d;
+        field.at(1, 1, 1) = c;
+        EXPECT_EQ(run_on(kernel, field, grid)[0].at(1, 1, 1),
+                  (((((n + s) + e) + w) + u) + d) - 6 * c);
+        if ((((((d + u) + w) + e) + s) + n) != (((((n + s) + e) + w) + u) + d)) {
+            ++reversed_is_different;
+        }
+    }
+    EXPECT_GT(reversed_is_different, 20);
+}
+
+// On a field that holds its own place every neighbour says where it stands.
+TEST(Neighbour, OfAllDirections) {
+    KernelBuilder builder;
+    std::vector<std::array<int, 3>> offsets;
+    for (int dz = -1; dz <= 1; ++dz) {
+        for (int dy = -1; dy <= 1; ++dy) {
+            for (int dx = -1; dx <= 1; ++dx) {
+                offsets.push_back({dx, dy, dz});
+                builder.result("r", builder.neighbour(builder.field_slot("a"), dx, dy, dz));
+            }
+        }
+    }
+    const CellKernel kernel = std::move(builder).finish();
+    EXPECT_EQ(verify(kernel), "");
+    for (const Grid& grid : {Grid{4, 3, Boundary::periodic, 5}, Grid{4, 1, Boundary::periodic, 2},
+                             Grid{4, 3, Boundary::periodic, 1}}) {
+        Field field{PlaneLayout(grid)};
+        const auto place = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
+            return static_cast<float>((i + grid.width) % grid.width +
+                                      10 * ((j + grid.height) % grid.height) +
+                                      100 * ((k + grid.depth) % grid.depth));
+        };
+        for (std::int64_t k = 0; k < grid.depth; ++k) {
+            for (std::int64_t j = 0; j < grid.height; ++j) {
+                for (std::int64_t i = 0; i < grid.width; ++i) field.at(i, j, k) = place(i, j, k);
+            }
+        }
+        const std::vector<Field> results = run_on(kernel, field, grid);
+        for (std::size_t n = 0; n < offsets.size(); ++n) {
+            const auto [dx, dy, dz] = offsets[n];
+            for (std::int64_t k = 0; k < grid.depth; ++k) {
+                for (std::int64_t j = 0; j < grid.height; ++j) {
+                    for (std::int64_t i = 0; i < grid.width; ++i) {
+                        ASSERT_EQ(results[n].at(i, j, k), place(i + dx, j + dy, k + dz))
+                            << dx << " " << dy << " " << dz;
+                    }
+                }
+            }
+        }
     }
 }
 

@@ -28,7 +28,7 @@ std::string difference(Backend& jit, const CellKernel& kernel, const Grid& grid,
     const auto compiled = jit.compile(kernel, grid.stencil());
     if (!compiled) return compiled.error().message;
     const HostileInputs inputs(kernel, grid, seed);
-    const RowRange rows{0, grid.height};
+    const RowRange rows{0, PlaneLayout(grid).row_count()};
     const std::vector<Field> results = inputs.run(**compiled, rows);
     const std::string stray = stray_writes(results, rows);
     if (!stray.empty()) return stray;
@@ -36,7 +36,9 @@ std::string difference(Backend& jit, const CellKernel& kernel, const Grid& grid,
     return same_bits(run_kernel(*interpreter, kernel, grid, seed), results);
 }
 
-std::string describe(const Grid& grid) { return fmt::format("{} × {}", grid.width, grid.height); }
+std::string describe(const Grid& grid) { 
+    return fmt::format("{} × {} × {}", grid.width, grid.height, grid.depth);
+}
 
 struct Backends {
     std::unique_ptr<Backend> plain[3] = {jit_of(4, 0), jit_of(8, 0), jit_of(16, 0)};
@@ -55,7 +57,7 @@ TEST(JitAgreement, RandomKernels) {
         options.composed_percent = seed % 8 == 0 ? 8 : 0;
         const CellKernel kernel = random_kernel(seed, options);
         hit.add(kernel);
-        const Grid grid = random_grid(seed, 67, 5);
+        const Grid grid = random_grid(seed, 67, 5, 3);
         SCOPED_TRACE(fmt::format("seed {}, grid {}", seed, describe(grid)));
         ASSERT_EQ(difference(*backends.plain[seed % 3], kernel, grid, seed), "")
             << "without optimisation\n" << print(kernel);
@@ -73,7 +75,7 @@ TEST(JitAgreement, LargeKernels) {
         options.operations = 300;
         options.composed_percent = 2;
         const CellKernel kernel = random_kernel(seed + 100000, options);
-        const Grid grid = random_grid(seed, 67, 5);
+        const Grid grid = random_grid(seed, 67, 5, 3);
         SCOPED_TRACE(fmt::format("seed {}", seed));
         ASSERT_EQ(difference(*backends.plain[seed % 3], kernel, grid, seed), "");
         ASSERT_EQ(difference(*backends.optimised[seed % 3], kernel, grid, seed), "");
@@ -105,11 +107,21 @@ CellKernel kernel_of_place() {
     KernelBuilder builder;
     const ValueId lap = builder.laplacian(builder.field_slot("a"));
     const ValueId other = builder.laplacian(builder.field_slot("b"));
+    const auto times = [&](ValueId count, std::uint32_t factor) {
+        return builder.apply(Op::bits_multiply, count, builder.word(factor));
+    };
     const ValueId place = builder.apply(
-        Op::bits_to_number, builder.apply(Op::bits_add,
-                                          builder.apply(Op::bits_multiply, builder.cell_row(),
-                                                        builder.word(1000)),
-                                          builder.cell_column()));
+        Op::bits_to_number,
+        builder.apply(Op::bits_add, times(builder.cell_slice(), 100000),
+                      builder.apply(Op::bits_add, times(builder.cell_row(), 1000),
+                                    builder.cell_column())));
+    ValueId corners = builder.number(0);
+    for (int corner = 0; corner < 8; ++corner) {
+        const auto offset = [&](int bit) { return (corner & bit) != 0 ? 1 : -1; };
+        corners = builder.add(corners, builder.neighbour(builder.field_slot("a"), offset(1),
+                                                         offset(2), offset(4)));
+    }
+    builder.result("corners", corners);
     builder.result("lap", builder.add(lap, builder.field(builder.field_slot("a"))));
     builder.result("place", place);
     builder.result("all", builder.select(builder.mask(builder.mask_slot("m")), place, other));
@@ -122,9 +134,12 @@ TEST(JitAgreement, EveryShapeOfGrid) {
     for (std::int64_t width = 1; width <= 67; ++width) {
         for (std::int64_t height = 1; height <= 5; ++height) {
             for (const Boundary boundary : {Boundary::periodic, Boundary::no_flux}) {
-                const Grid grid{width, height, boundary};
-                for (const auto& backend : backends.optimised) {
-                    ASSERT_EQ(difference(*backend, kernel, grid, 7), "") << describe(grid);
+                // Each width and height also with one of three depths above 1.
+                for (const std::int64_t depth : {std::int64_t{1}, 2 + (width + height) % 3}) {
+                    const Grid grid{width, height, boundary, depth};
+                    for (const auto& backend : backends.optimised) {
+                        ASSERT_EQ(difference(*backend, kernel, grid, 7), "") << describe(grid);
+                    }
                 }
             }
         }
@@ -146,21 +161,21 @@ TEST(JitAgreement, WidePlanes) {
 TEST(JitAgreement, PartsOfTheRowsMakeTheWhole) {
     const auto jit = jit_of(0, 2);
     const CellKernel kernel = kernel_of_place();
-    const Grid grid{37, 9, Boundary::periodic};
-    const auto compiled = jit->compile(kernel, grid.stencil());
-    ASSERT_TRUE(compiled);
-    const HostileInputs inputs(kernel, grid, 11);
-    const std::vector<Field> whole = inputs.run(**compiled);
-    for (const RowRange rows : {RowRange{0, 4}, {4, 5}, {5, 9}, {3, 3}}) {
-        const std::vector<Field> part = inputs.run(**compiled, rows);
-        EXPECT_EQ(stray_writes(part, rows), "");
-        for (std::size_t k = 0; k < whole.size(); ++k) {
-            for (std::int64_t j = rows.begin; j < rows.end; ++j) {
-                for (std::int64_t i = 0; i < grid.width; ++i) {
-                    const std::uint32_t expected = to_bits(whole[k].at(i, j));
-                    const bool is_nan = whole[k].at(i, j) != whole[k].at(i, j);
-                    if (is_nan) continue;
-                    ASSERT_EQ(to_bits(part[k].at(i, j)), expected);
+    for (const Grid& grid : {Grid{37, 9}, Grid{37, 3, {}, 3}}) {
+        const auto compiled = jit->compile(kernel, grid.stencil());
+        ASSERT_TRUE(compiled);
+        const HostileInputs inputs(kernel, grid, 11);
+        const std::vector<Field> whole = inputs.run(**compiled);
+        for (const RowRange rows : {RowRange{0, 4}, {4, 5}, {5, 9}, {3, 3}, {2, 7}}) {
+            const std::vector<Field> part = inputs.run(**compiled, rows);
+            EXPECT_EQ(stray_writes(part, rows), "");
+            for (std::size_t k = 0; k < whole.size(); ++k) {
+                for (std::int64_t row = rows.begin; row < rows.end; ++row) {
+                    for (std::int64_t i = 0; i < grid.width; ++i) {
+                        const float expected = whole[k].row(row)[i];
+                        if (expected != expected) continue;
+                        ASSERT_EQ(to_bits(part[k].row(row)[i]), to_bits(expected));
+                    }
                 }
             }
         }
