@@ -13,9 +13,7 @@
 
 namespace cascade {
 
-namespace {
-
-Result<std::string> read_standard_input(std::size_t largest) {
+Result<std::string> read_standard_input() {
     std::string text;
     std::string piece(1 << 16, '\0');
     while (true) {
@@ -26,16 +24,18 @@ Result<std::string> read_standard_input(std::size_t largest) {
             return failure(fmt::format("standard input cannot be read: {}", std::strerror(errno)));
         }
         text.append(piece, 0, static_cast<std::size_t>(count));
-        if (text.size() > largest) {
+        if (text.size() > largest_script) {
             return failure(fmt::format(
-                "standard input has more than the {} bytes a script may have", largest));
+                "standard input has more than the {} bytes a script may have", largest_script));
         }
     }
 }
 
+namespace {
+
 Result<LoadedFile> load_file(const std::string& path, const Overrides& overrides) {
     if (path != "-") return load_script_file(path, overrides);
-    auto text = read_standard_input(largest_script);
+    auto text = read_standard_input();
     if (!text) return tl::unexpected(text.error());
     return LoadedFile{load_script("<standard input>", std::move(*text), ".", overrides), ""};
 }

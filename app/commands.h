@@ -10,10 +10,14 @@ int run_command(const Options& options, Console& console);
 int check_command(const Options& options, Console& console);
 int compile_command(const Options& options, Console& console);
 int systems_command(const Options& options, Console& console);
+int format_command(const Options& options, Console& console);
 
 /// A script or a picture; "-" is standard input. Says why where there is nothing to read.
 std::optional<LoadedFile> load(const std::string& path, const Overrides& overrides,
                                const Console& console);
+
+/// All of standard input, as the text of a script.
+Result<std::string> read_standard_input();
 
 /// What `--dump` asks for, of a script that may be wrong. Exit status.
 int dump_command(const Script& script, const std::string& kind, Console& console);

@@ -29,7 +29,7 @@ A first script, spots.cascade:
     ka: 0.2/16
   }
 
-Exit status: 0 done, 2 wrong script, 3 failed run, 64 wrong use, 130 stopped by Ctrl-C.)";
+Exit status: 0 done, 1 fmt --check found one to change, 2 wrong script, 3 failed run, 64 wrong use, 130 stopped by Ctrl-C.)";
 
 const std::string_view run = "Runs a script and draws a picture.";
 const std::string_view run_examples = R"(Examples:
@@ -57,6 +57,13 @@ The header says how fields lie in memory and how steps are taken.)";
 const std::string_view systems = "Lists the systems: their species, parameters and defaults.";
 const std::string_view systems_examples = R"(Example:
   cascade systems my.cascade                         those of a script too)";
+
+const std::string_view format = "Writes scripts back in the one style: blanks, lines, indentation.";
+const std::string_view format_examples = R"(Examples:
+  cascade fmt leopard.cascade                        changes the file if it has to
+  cascade fmt --check *.cascade                      status 1 if one would change
+  cascade fmt - < draft.cascade                      to standard output
+Comments stay, and so does what an author has lined up. A script that cannot be read is left alone.)";
 
 const std::string_view repl = "The language line by line, with pictures in the terminal.";
 const std::string_view repl_examples = R"(Example:

@@ -46,6 +46,7 @@ struct Parser {
     CLI::App* check = nullptr;
     CLI::App* compile = nullptr;
     CLI::App* systems = nullptr;
+    CLI::App* format = nullptr;
     CLI::App* repl = nullptr;
     Options options;
     bool show_version = false;
@@ -120,11 +121,17 @@ void Parser::add_all() {
     systems = command("systems", help::systems, help::systems_examples);
     groups::add_script(*systems, options, "A script whose systems are listed as well (may be left out)");
 
+    format = command("fmt", help::format, help::format_examples);
+    format->add_option("SCRIPTS", options.scripts, "Scripts, or - for standard input")
+        ->type_name("");
+    format->add_flag("--check", options.check_only,
+                     "Write nothing; name the scripts that would change, with status 1");
+
     repl = command("repl", help::repl, help::repl_examples);
     groups::add_script(*repl, options, "A script to begin with (may be left out)");
     groups::add_execution(*repl, options);
 
-    for (CLI::App* sub : {run, check, compile, systems, repl}) {
+    for (CLI::App* sub : {run, check, compile, systems, format, repl}) {
         sub->set_help_flag("-h,--help", "This text")->group("More");
     }
 }
@@ -190,6 +197,7 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
 std::string missing_argument(const Options& options) {
     const bool needs_script =
         options.command == Command::check || options.command == Command::compile ||
+        options.command == Command::format ||
         (options.command == Command::run && options.run.resume.empty());
     if (needs_script && options.scripts.empty()) return "a script is missing";
     return "";
@@ -226,6 +234,7 @@ std::variant<Options, Leave> parse_options(const std::string& program,
     if (sub == parser.check) options.command = Command::check;
     if (sub == parser.compile) options.command = Command::compile;
     if (sub == parser.systems) options.command = Command::systems;
+    if (sub == parser.format) options.command = Command::format;
     if (sub == parser.repl) options.command = Command::repl;
     if (const std::string missing = missing_argument(options); !missing.empty()) {
         return parser.leave(program, fmt::format("{}: {}", parser.called(program), missing));

@@ -16,7 +16,7 @@
 
 namespace cascade {
 
-enum class Command { run, check, compile, systems, repl };
+enum class Command { run, check, compile, systems, format, repl };
 
 /// The options about pictures that were given. A picture that is run again brings options of its
 /// own, so what was not given must be told from what is the default.
@@ -33,12 +33,13 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request);
 
 struct Options {
     Command command = Command::run;
-    std::vector<std::string> scripts;  ///< One, but for `check`; none with --resume alone.
+    std::vector<std::string> scripts;  ///< One, but for `check` and `fmt`; none with --resume alone.
     Overrides overrides;
     PictureChanges picture;
     RunRequest run;                    ///< Its `picture` is left at the defaults.
     std::string dump;                  ///< A dump kind; empty to run.
     bool quiet = false;                ///< Neither progress nor remarks.
+    bool check_only = false;           ///< `fmt --check`
     CompileRequest compile;
     std::filesystem::path object;      ///< `compile -o`
     std::filesystem::path header;      ///< `compile --header`

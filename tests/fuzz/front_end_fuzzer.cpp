@@ -1,8 +1,10 @@
-// A fuzzer of the whole front end: any bytes are lexed, parsed, checked, and, where a program comes
-// out, lowered and verified; all messages are drawn. Found is what crashes, hangs, leaks, or breaks
-// a CHECK. Built with clang, libFuzzer and sanitizers; the commands are in README.md here.
+// A fuzzer of the whole front end: any bytes are lexed, parsed, formatted, checked, and, where a
+// program comes out, lowered and verified; all messages are drawn. Found is what crashes, hangs,
+// leaks, or breaks a CHECK. Built with clang, libFuzzer and sanitizers; the commands are in
+// README.md here.
 #include "core/check.h"
 #include "lang/check.h"
+#include "lang/format_script.h"
 #include "lang/lower.h"
 #include "lang/parse.h"
 
@@ -52,6 +54,16 @@ void run_front_end(const std::string& text) {
     render(diagnostics, sources, {.colour = true});
 }
 
+/// Whatever can be read can be formatted, and then stays as it is.
+void run_formatter(const std::string& text) {
+    Sources sources;
+    Diagnostics diagnostics;
+    const auto once = format_script(sources.add("fuzz.cascade", text), sources, diagnostics);
+    if (!once) return;
+    const auto twice = format_script(sources.add("formatted", *once), sources, diagnostics);
+    CHECK(twice == once, "formatting is done in one run");
+}
+
 void run_short_forms(const std::string& text) {
     Sources sources;
     Diagnostics diagnostics;
@@ -70,6 +82,7 @@ void run_short_forms(const std::string& text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string text(reinterpret_cast<const char*>(data), size);
     cascade::run_front_end(text);
+    cascade::run_formatter(text);
     cascade::run_short_forms(text);
     return 0;
 }

@@ -3,6 +3,7 @@
 // spec/README.md says what the words behind the fences mean. CASCADE_UPDATE=1 rewrites the expected
 // messages.
 #include "run/script.h"
+#include "support/same_meaning.h"
 #include "tests/spec/code_blocks.h"
 #include "tests/spec/sound_kernels.h"
 
@@ -44,6 +45,7 @@ protected:
     void check_script(const CodeBlock& block) {
         const Script script = load_script("script.cascade", block.body, ".");
         EXPECT_EQ(script.messages(false), "");
+        EXPECT_EQ(fault_of_formatting(block.body), "");
         if (script.program) expect_sound_kernels(*script.program);
     }
 

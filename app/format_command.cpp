@@ -1,0 +1,77 @@
+// `cascade fmt`: scripts in the one style.
+#include "app/commands.h"
+
+#include "app/exit_status.h"
+#include "core/file.h"
+#include "lang/format_script.h"
+#include "lang/parse.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cascade {
+
+namespace {
+
+/// The script in the one style; nothing, with its messages shown, if it cannot be read.
+std::optional<std::string> formatted(const std::string& name, const std::string& text,
+                                     const Console& console) {
+    Sources sources;
+    Diagnostics diagnostics;
+    const SourceId source = sources.add(name, text);
+    auto result = format_script(source, sources, diagnostics);
+    RenderStyle style;
+    style.colour = console.error().colour;
+    if (!result) console.say(render(diagnostics, sources, style));
+    return result;
+}
+
+int format_file(const std::string& path, bool check_only, Console& console) {
+    const auto text = read_file(path, largest_script);
+    if (!text) {
+        console.fail(text.error());
+        return exit_status::wrong_script;
+    }
+    if (text->starts_with("\x89PNG")) {
+        console.fail({fmt::format("{} is a picture; its script cannot be changed", path),
+                      "fmt reads scripts"});
+        return exit_status::wrong_script;
+    }
+    const auto result = formatted(path, *text, console);
+    if (!result) return exit_status::wrong_script;
+    if (*result == *text) return exit_status::success;
+    console.print(path + "\n");
+    if (check_only) return exit_status::would_change;
+    if (auto done = write_file(path, *result); !done) {
+        console.fail(done.error());
+        return exit_status::failed_run;
+    }
+    return exit_status::success;
+}
+
+/// Standard input goes to standard output; with --check nothing does.
+int format_standard_input(bool check_only, Console& console) {
+    const auto text = read_standard_input();
+    if (!text) {
+        console.fail(text.error());
+        return exit_status::wrong_script;
+    }
+    const auto result = formatted("<standard input>", *text, console);
+    if (!result) return exit_status::wrong_script;
+    if (!check_only) console.print(*result);
+    return check_only && *result != *text ? exit_status::would_change : exit_status::success;
+}
+
+}  // namespace
+
+int format_command(const Options& options, Console& console) {
+    int status = exit_status::success;
+    for (const std::string& path : options.scripts) {
+        status = std::max(status, path == "-" ? format_standard_input(options.check_only, console)
+                                              : format_file(path, options.check_only, console));
+    }
+    return status;
+}
+
+}  // namespace cascade

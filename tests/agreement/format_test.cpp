@@ -1,0 +1,68 @@
+// Formatting over whole scripts: the examples, the built-in systems, and random scripts whose
+// blanks and lines are random too. The meaning stays, and a second run changes nothing.
+#include "random_scripts.h"
+
+#include "core/file.h"
+#include "support/random_stream.h"
+#include "support/same_meaning.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace cascade {
+namespace {
+
+std::vector<std::filesystem::path> scripts_below(const char* folder) {
+    std::vector<std::filesystem::path> paths;
+    const auto root = std::filesystem::path(CASCADE_SOURCE_DIR) / folder;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+        if (entry.path().extension() == ".cascade") paths.push_back(entry.path());
+    }
+    return paths;
+}
+
+TEST(Formatting, KeepsTheMeaningOfExamplesAndSystems) {
+    for (const char* folder : {"examples", "lang/systems"}) {
+        const auto paths = scripts_below(folder);
+        EXPECT_GE(paths.size(), 3u);
+        for (const auto& path : paths) {
+            EXPECT_EQ(fault_of_formatting(read_file(path, 1u << 20).value()), "") << path;
+        }
+    }
+}
+
+/// The script with other blanks, line ends and comments wherever some were.
+std::string disarranged(const std::string& script, std::uint64_t seed) {
+    testing::RandomStream random(seed);
+    std::string text;
+    for (std::size_t k = 0; k < script.size(); ++k) {
+        const char c = script[k];
+        const bool in_indentation = c == ' ' && k > 0 && script[k - 1] == '\n';
+        if (c == ' ' && k > 0) {
+            text.append(random.below(5) == 0 ? 1 + random.below(6) : in_indentation ? 0 : 1, ' ');
+            if (random.below(40) == 0) text += '\t';
+            if (script[k - 1] == ',' && random.below(6) == 0) text += "# inside\n   ";
+        } else if (c == '\n') {
+            if (random.below(8) == 0) text += "# behind ";
+            text += random.below(9) == 0 ? "\r\n\n\n" : "\n";
+            if (random.below(12) == 0) text += "    # alone\n";
+        } else {
+            text += c;
+        }
+    }
+    return text;
+}
+
+TEST(Formatting, KeepsTheMeaningOfRandomScripts) {
+    for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+        const std::string script = testing::random_script(seed);
+        ASSERT_EQ(fault_of_formatting(script), "") << script;
+        const std::string other = disarranged(script, seed);
+        ASSERT_EQ(fault_of_formatting(other), "") << other;
+        EXPECT_EQ(tree_of(script), tree_of(other)) << "a fault of this test";
+    }
+}
+
+}  // namespace
+}  // namespace cascade

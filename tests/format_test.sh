@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# `cascade fmt` as a user meets it: what is written, what is left alone, exit statuses.
+set -u
+rm -rf ./*
+
+fail() {
+    echo "format: $*"
+    echo "--- out"; cat out
+    echo "--- err"; cat err
+    exit 1
+}
+# run STATUS ARGUMENTS…: what it prints is in the files out and err.
+run() {
+    local wanted=$1 got
+    shift
+    "$CASCADE" "$@" >out 2>err </dev/null
+    got=$?
+    [ "$got" = "$wanted" ] || fail "cascade $* gave $got, not $wanted"
+}
+
+printf 'stage  s:turing_spots{iterations:5 ;ka:1/80}' >rough.cascade
+printf 'stage s: turing_spots { iterations: 5; ka: 1/80 }\n' >smooth.cascade
+printf 'stage s: no_such_system { iterations: 5 }\n' >unknown.cascade
+printf 'stage s: turing_spots {\n  a: (1\n}\n' >broken.cascade
+cp broken.cascade broken.copy
+cp rough.cascade rough.copy
+
+run 64 fmt
+run 1 fmt --check rough.cascade smooth.cascade
+[ "$(cat out)" = rough.cascade ] && cmp -s rough.cascade rough.copy || fail "--check writes"
+run 0 fmt --check smooth.cascade unknown.cascade
+[ ! -s out ] || fail "nothing was to be changed"
+
+chmod 640 rough.cascade
+ln -s rough.cascade link.cascade
+before=$(stat -c %Y.%i smooth.cascade)
+run 0 fmt link.cascade smooth.cascade
+[ "$(cat out)" = link.cascade ] || fail "what changed is named"
+cmp -s rough.cascade smooth.cascade || fail "the style"
+[ -L link.cascade ] && [ "$(stat -c %a rough.cascade)" = 640 ] || fail "link or permissions were lost"
+[ "$(stat -c %Y.%i smooth.cascade)" = "$before" ] || fail "a good script was written again"
+run 0 fmt link.cascade
+[ ! -s out ] || fail "twice is not once"
+
+run 2 fmt broken.cascade rough.cascade missing.cascade
+grep -q "broken.cascade:2:6: error: this '(' is never closed" err || fail "no message"
+grep -q missing.cascade err || fail "a missing script is not told"
+cmp -s broken.cascade broken.copy || fail "a broken script was changed"
+
+"$CASCADE" fmt - <rough.copy >out 2>err && cmp -s out smooth.cascade || fail "standard input"
+"$CASCADE" fmt --check - <rough.copy >out 2>err
+[ $? = 1 ] && [ ! -s out ] || fail "--check of standard input"
+"$CASCADE" fmt - <broken.copy >out 2>err
+[ $? = 2 ] && [ ! -s out ] && [ -s err ] || fail "broken standard input"
+
+run 0 run smooth.cascade -q -o picture.png
+run 2 fmt picture.png
+if [ "$(id -u)" != 0 ]; then
+    mkdir locked && cp rough.copy locked/rough.cascade && chmod 500 locked
+    run 3 fmt locked/rough.cascade
+    chmod 700 locked
+fi
+echo "format: right"
