@@ -3,14 +3,19 @@
 
 #include "app/console.h"
 #include "app/options.h"
+#include "app/progress_display.h"
 
 namespace cascade {
 
 int run_command(const Options& options, Console& console);
+int sweep_command(const Options& options, Console& console);
 int check_command(const Options& options, Console& console);
 int compile_command(const Options& options, Console& console);
 int systems_command(const Options& options, Console& console);
 int format_command(const Options& options, Console& console);
+
+/// A bar in a terminal, lines in a pipe, nothing where the user wants quiet.
+ProgressDisplay make_progress_display(const Console& console, bool quiet);
 
 /// A script or a picture; "-" is standard input. Says why where there is nothing to read.
 std::optional<LoadedFile> load(const std::string& path, const Overrides& overrides,

@@ -8,6 +8,7 @@ constexpr int would_change = 1;   ///< `fmt --check`: a script is not in the one
 constexpr int wrong_script = 2;   ///< The script has faults, or cannot be read.
 constexpr int failed_run = 3;     ///< A run that blew up, an output that cannot be written.
 constexpr int wrong_use = 64;     ///< EX_USAGE of BSD's sysexits.h: options and arguments.
+constexpr int time_limit = 124;   ///< Stopped by --limit-time; the number is timeout(1)'s.
 constexpr int bug = 70;           ///< EX_SOFTWARE: a fault of Cascade's own.
 constexpr int signal_base = 128;  ///< Stopped by signal n: 128 + n, so 130 for Ctrl-C.
 

@@ -40,8 +40,19 @@ const std::string_view run_examples = R"(Examples:
   cascade run leopard.cascade --save half --stop-at stage1:9000
   cascade run --resume half                          the same bits as without the stop
   cascade run line.cascade --space-time              one dimension, time runs downwards
+  cascade run coral.cascade --log 'mean(v over domain)' --features
 
 Ctrl-C stops at a complete step and writes what there is; a second one leaves at once.)";
+
+const std::string_view sweep =
+    "Runs a script with many values of its parameters: one labelled sheet, one table.";
+const std::string_view sweep_examples = R"(Examples:
+  cascade sweep spots.cascade --vary ka=1/400,1/200,1/100 --vary seed=1,2,3
+  cascade sweep coral.cascade --vary gray_scott.feed=0.02..0.06:9 --vary gray_scott.kill=0.05..0.07:9
+
+All goes into one folder: sheet.png, features.csv (wavelength, spots, area, direction of what the
+picture shows), and a small result of every run, so that the same command goes on where a sweep was
+stopped, and one with more values runs only what is new.)";
 
 const std::string_view check = "Says what is wrong with scripts, and runs nothing.";
 const std::string_view check_examples = R"(Examples:

@@ -10,6 +10,7 @@ namespace cascade::help {
 extern const std::string_view about;
 extern const std::string_view examples;
 extern const std::string_view run, run_examples;
+extern const std::string_view sweep, sweep_examples;
 extern const std::string_view check, check_examples;
 extern const std::string_view compile, compile_examples;
 extern const std::string_view systems, systems_examples;

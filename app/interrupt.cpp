@@ -55,11 +55,11 @@ struct InterruptGuard::Saved {
     std::array<struct sigaction, watched_signals.size()> actions;
 };
 
-InterruptGuard::InterruptGuard(RunControl& control) : saved_(std::make_unique<Saved>()) {
+InterruptGuard::InterruptGuard(std::atomic<bool>& cancel) : saved_(std::make_unique<Saved>()) {
     CHECK(cancel_flag.load() == nullptr, "one run at a time is watched");
     received = 0;
     interrupted_at = 0;
-    cancel_flag = &control.cancel;
+    cancel_flag = &cancel;
     struct sigaction action = {};
     action.sa_handler = on_signal;
     sigemptyset(&action.sa_mask);

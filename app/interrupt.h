@@ -1,17 +1,16 @@
 // Ctrl-C: the first ends the run at a complete step, the second ends the program.
 #pragma once
 
-#include "core/run_control.h"
-
+#include <atomic>
 #include <memory>
 
 namespace cascade {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP set `control.cancel`; a second SIGINT, a
+/// While it lives, SIGINT, SIGTERM and SIGHUP set `cancel`; a second SIGINT, a
 /// fifth of a second later or more, leaves the program at once, with status 130. One at a time.
 class InterruptGuard {
 public:
-    explicit InterruptGuard(RunControl& control);
+    explicit InterruptGuard(std::atomic<bool>& cancel);
     ~InterruptGuard();
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;

@@ -3,6 +3,7 @@
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
+#include "app/limits.h"
 #include "app/options.h"
 #include "app/repl.h"
 
@@ -17,6 +18,7 @@ namespace {
 int run_chosen(const cascade::Options& options, cascade::Console& console) {
     switch (options.command) {
         case cascade::Command::run: return run_command(options, console);
+        case cascade::Command::sweep: return sweep_command(options, console);
         case cascade::Command::check: return check_command(options, console);
         case cascade::Command::compile: return compile_command(options, console);
         case cascade::Command::systems: return systems_command(options, console);
@@ -44,9 +46,11 @@ int main(int argc, char** argv) {
             }
             return console.finish(leave->status);
         }
-        return console.finish(run_chosen(std::get<cascade::Options>(parsed), console));
+        const auto& options = std::get<cascade::Options>(parsed);
+        cascade::limit_memory(options.run.simulation.memory_limit);
+        return console.finish(run_chosen(options, console));
     } catch (const std::bad_alloc&) {
-        console.fail({"there is not enough memory", "a smaller grid needs less"});
+        console.fail({"there is not enough memory", "a smaller grid needs less; --limit-memory may allow more"});
         return cascade::exit_status::failed_run;
     } catch (const std::exception& error) {
         console.fail({std::string("this should not have happened: ") + error.what(),

@@ -19,6 +19,10 @@ std::vector<std::string> palette_names() {
     return names;
 }
 
+constexpr const char* picture_group = "What the picture shows";
+constexpr const char* execution_group =
+    "How it is computed (the results are the same, bit for bit)";
+
 }  // namespace
 
 void add_script(CLI::App& app, Options& options, const std::string& help) {
@@ -50,8 +54,8 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
         ->group(group);
 }
 
-void add_picture_options(CLI::App& app, PictureChanges& picture) {
-    const std::string group = "What the picture shows";
+void add_shown(CLI::App& app, PictureChanges& picture) {
+    const std::string group = picture_group;
     add_value(app, "--show", "EXPR", "A species, a parameter, any expression: b, stage1.b,\n"
               "'a - b'", any_text, [&](auto show) { picture.show = show; })
         ->group(group);
@@ -62,11 +66,16 @@ void add_picture_options(CLI::App& app, PictureChanges& picture) {
     add_value(app, "--range", "LOW,HIGH", "The values at the palette's two ends; without it the\n"
               "smallest and the largest", parse_range, [&](auto range) { picture.range = range; })
         ->group(group);
-    add_value(app, "--scale", "N", "Pixels for the side of a cell (1 to 64)", whole_number(1, 64),
-              [&](auto scale) { picture.scale = static_cast<int>(scale); })
-        ->group(group);
     add_value(app, "--depth", "BITS", "8 or 16 for each colour", one_of({"8", "16"}),
               [&](const auto& depth) { picture.depth = depth == "16" ? 16 : 8; })
+        ->group(group);
+}
+
+void add_picture_options(CLI::App& app, PictureChanges& picture) {
+    add_shown(app, picture);
+    const std::string group = picture_group;
+    add_value(app, "--scale", "N", "Pixels for the side of a cell (1 to 64)", whole_number(1, 64),
+              [&](auto scale) { picture.scale = static_cast<int>(scale); })
         ->group(group);
     app.add_flag("--space-time", picture.space_time,
                  "A line of cells over time: a row of pixels for each\ninterval")
@@ -92,8 +101,27 @@ void add_files(CLI::App& app, RunRequest& run) {
         ->group(group);
 }
 
-void add_execution(CLI::App& app, Options& options) {
-    const std::string group = "How it is computed (the results are the same, bit for bit)";
+void add_log(CLI::App& app, RunRequest& run) {
+    const std::string group = "Numbers";
+    app.add_option("--log", run.log.expressions,
+                   "A number over time, such as 'mean(u over domain)', as a\ntable; may be given again")
+        ->allow_extra_args(false)
+        ->type_name("EXPR")
+        ->group(group);
+    add_value(app, "--log-every", "N", "Steps from row to row; without it each stage's interval",
+              whole_number(1, std::numeric_limits<std::int64_t>::max()),
+              [&](auto every) { run.log.every = every; })
+        ->group(group);
+    add_value(app, "--log-file", "FILE.csv", "The table; without it beside the picture", any_text,
+              [&](auto path) { run.log.file = path; })
+        ->group(group);
+    app.add_flag("--features", run.features,
+                 "Measure what the picture shows: wavelength, spots, …")
+        ->group(group);
+}
+
+void add_simulation(CLI::App& app, Options& options, const std::string& threads) {
+    const std::string group = execution_group;
     SimulationOptions& simulation = options.run.simulation;
     if (!has_jit()) simulation.backend = BackendKind::interpreter;
     add_value(app, "--backend", "jit|interp", "Native code by LLVM, or the interpreter",
@@ -104,8 +132,8 @@ void add_execution(CLI::App& app, Options& options) {
                       name == "jit" ? BackendKind::jit : BackendKind::interpreter;
               })
         ->group(group);
-    add_value(app, "--threads", "N", "Threads; without it all cores", whole_number(1, 1024),
-              [&](auto threads) { simulation.threads = static_cast<int>(threads); })
+    add_value(app, "--threads", "N", threads, whole_number(1, 1024),
+              [&](auto count) { simulation.threads = static_cast<int>(count); })
         ->group(group);
     add_value(app, "--lanes", "4|8|16", "Cells in a vector; without it what the processor has",
               one_of({"4", "8", "16"}),
@@ -113,10 +141,26 @@ void add_execution(CLI::App& app, Options& options) {
                   simulation.lanes = lanes == "4" ? 4 : lanes == "8" ? 8 : 16;
               })
         ->group(group);
+}
+
+void add_stop(CLI::App& app, Options& options) {
     add_value(app, "--stop-at", "STAGE:STEP", "Stop there as Ctrl-C would", parse_stop_at,
               [&](auto stop) { options.run.stop_at = stop; })
+        ->group(execution_group);
+}
+
+void add_limits(CLI::App& app, Options& options) {
+    const std::string group = "Limits";
+    add_value(app, "--limit-time", "DURATION", "Stop after 90s, 20m, 1.5h as Ctrl-C would",
+              parse_duration, [&](double seconds) { options.limit_seconds = seconds; })
         ->group(group);
-    app.add_flag("-q,--quiet", options.quiet, "No progress and no remarks")->group(group);
+    add_value(app, "--limit-memory", "SIZE", "Use no more than 500MB, 2GB; refuse what needs more",
+              parse_size, [&](std::uint64_t bytes) { options.run.simulation.memory_limit = bytes; })
+        ->group(group);
+}
+
+void add_quiet(CLI::App& app, Options& options) {
+    app.add_flag("-q,--quiet", options.quiet, "No progress and no remarks")->group(execution_group);
 }
 
 void add_dump(CLI::App& app, Options& options) {

@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace cascade {
 
@@ -62,6 +64,52 @@ Result<StopAt> parse_stop_at(std::string_view text) {
     }
     return failure(fmt::format("'{}' is not a place to stop at", text),
                    "write STAGE:STEP, as in --stop-at stage2:3000");
+}
+
+namespace {
+
+struct Unit {
+    std::string_view name;
+    double size = 1;
+};
+
+/// A number and one of the units behind it; a unit of no name stands for none.
+std::optional<double> read_with_unit(std::string_view text, std::span<const Unit> units) {
+    const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
+    double number = 0;
+    if (!read_all(text.substr(0, digits), number)) return std::nullopt;
+    for (const Unit& unit : units) {
+        if (text.substr(digits) == unit.name) return number * unit.size;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+Result<double> parse_duration(std::string_view text) {
+    constexpr std::array units = {Unit{"", 1},     Unit{"s", 1},     Unit{"m", 60},
+                                  Unit{"min", 60}, Unit{"h", 3600}, Unit{"d", 86400}};
+    constexpr double longest = 3.2e8;
+    const auto seconds = read_with_unit(text, units);
+    if (seconds && *seconds > 0 && *seconds <= longest) return *seconds;
+    return failure(fmt::format("'{}' is not a duration", text),
+                   "write 90s, 20m, 1.5h or 2d");
+}
+
+std::string describe_duration(double seconds) {
+    if (seconds >= 3600) return fmt::format("{:.4g} h", seconds / 3600);
+    return seconds >= 60 ? fmt::format("{:.4g} min", seconds / 60)
+                         : fmt::format("{:.4g} s", seconds);
+}
+
+Result<std::uint64_t> parse_size(std::string_view text) {
+    constexpr std::array units = {Unit{"", 1},     Unit{"KB", 1e3},      Unit{"MB", 1e6},
+                                  Unit{"GB", 1e9}, Unit{"TB", 1e12},     Unit{"KiB", 1024},
+                                  Unit{"MiB", 1048576}, Unit{"GiB", 1073741824}};
+    const auto bytes = read_with_unit(text, units);
+    if (bytes && *bytes >= 1e6 && *bytes < 1e18) return static_cast<std::uint64_t>(*bytes);
+    return failure(fmt::format("'{}' is not a size of a megabyte or more", text),
+                   "write 500MB, 2GB or 1.5GiB");
 }
 
 Result<std::vector<std::string>> parse_names(std::string_view text) {

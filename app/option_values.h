@@ -26,6 +26,14 @@ Result<ValueRange> parse_range(std::string_view text);
 /// "large:12000": a stage and a number of complete steps.
 Result<StopAt> parse_stop_at(std::string_view text);
 
+/// "90s", "20m", "1.5h", "2d" or "90": seconds, more than 0 and at most ten years.
+Result<double> parse_duration(std::string_view text);
+/// "2 h", "1.5 min", "90 s".
+std::string describe_duration(double seconds);
+
+/// "500MB", "2GB", "1.5GiB", "800KB" or bytes; at least a megabyte.
+Result<std::uint64_t> parse_size(std::string_view text);
+
 /// "p,q" in parts; fails on an empty part.
 Result<std::vector<std::string>> parse_names(std::string_view text);
 

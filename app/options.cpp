@@ -43,6 +43,7 @@ public:
 struct Parser {
     CLI::App app;
     CLI::App* run = nullptr;
+    CLI::App* sweep = nullptr;
     CLI::App* check = nullptr;
     CLI::App* compile = nullptr;
     CLI::App* systems = nullptr;
@@ -100,12 +101,27 @@ void Parser::add_all() {
     app.footer(std::string(help::examples));
 
     run = command("run", help::run, help::run_examples);
-    groups::add_script(*run, options, "A script, a picture that Cascade drew, or - for standard input");
+    groups::add_script(*run, options,
+                       "A script, a picture that Cascade drew, or - for standard input");
     groups::add_files(*run, options.run);
     groups::add_picture_options(*run, options.picture);
+    groups::add_log(*run, options.run);
     groups::add_overrides(*run, options.overrides);
-    groups::add_execution(*run, options);
+    groups::add_simulation(*run, options, "Threads; without it all cores");
+    groups::add_stop(*run, options);
+    groups::add_quiet(*run, options);
+    groups::add_limits(*run, options);
     groups::add_dump(*run, options);
+
+    sweep = command("sweep", help::sweep, help::sweep_examples);
+    groups::add_script(*sweep, options, "A script, or a picture that Cascade drew");
+    groups::add_sweep(*sweep, options);
+    groups::add_shown(*sweep, options.picture);
+    groups::add_overrides(*sweep, options.overrides);
+    groups::add_simulation(*sweep, options, "Runs at once, each on one thread; without it as many\n"
+                                            "as there are cores");
+    groups::add_quiet(*sweep, options);
+    groups::add_limits(*sweep, options);
 
     check = command("check", help::check, help::check_examples);
     check->add_option("SCRIPTS", options.scripts, "Scripts, pictures that Cascade drew, or -")
@@ -119,7 +135,8 @@ void Parser::add_all() {
     groups::add_overrides(*compile, options.overrides);
 
     systems = command("systems", help::systems, help::systems_examples);
-    groups::add_script(*systems, options, "A script whose systems are listed as well (may be left out)");
+    groups::add_script(*systems, options,
+                       "A script whose systems are listed as well (may be left out)");
 
     format = command("fmt", help::format, help::format_examples);
     format->add_option("SCRIPTS", options.scripts, "Scripts, or - for standard input")
@@ -129,9 +146,11 @@ void Parser::add_all() {
 
     repl = command("repl", help::repl, help::repl_examples);
     groups::add_script(*repl, options, "A script to begin with (may be left out)");
-    groups::add_execution(*repl, options);
+    groups::add_simulation(*repl, options, "Threads; without it all cores");
+    groups::add_stop(*repl, options);
+    groups::add_quiet(*repl, options);
 
-    for (CLI::App* sub : {run, check, compile, systems, format, repl}) {
+    for (CLI::App* sub : {run, sweep, check, compile, systems, format, repl}) {
         sub->set_help_flag("-h,--help", "This text")->group("More");
     }
 }
@@ -196,10 +215,13 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
 /// What CLI11 cannot know: which arguments a command cannot do without.
 std::string missing_argument(const Options& options) {
     const bool needs_script =
-        options.command == Command::check || options.command == Command::compile ||
-        options.command == Command::format ||
+        options.command == Command::sweep || options.command == Command::check ||
+        options.command == Command::compile || options.command == Command::format ||
         (options.command == Command::run && options.run.resume.empty());
     if (needs_script && options.scripts.empty()) return "a script is missing";
+    if (options.command == Command::sweep && options.sweep.varied.empty()) {
+        return "nothing is varied; say what with --vary, as in --vary feed=0.02..0.06:9";
+    }
     return "";
 }
 
@@ -231,6 +253,7 @@ std::variant<Options, Leave> parse_options(const std::string& program,
     if (!sub) return Leave{exit_status::wrong_use, parser.help()};
 
     Options& options = parser.options;
+    if (sub == parser.sweep) options.command = Command::sweep;
     if (sub == parser.check) options.command = Command::check;
     if (sub == parser.compile) options.command = Command::compile;
     if (sub == parser.systems) options.command = Command::systems;

@@ -6,6 +6,7 @@
 #include "run/picture_request.h"
 #include "run/run.h"
 #include "run/script.h"
+#include "run/sweep.h"
 
 #include <filesystem>
 #include <optional>
@@ -16,7 +17,7 @@
 
 namespace cascade {
 
-enum class Command { run, check, compile, systems, format, repl };
+enum class Command { run, sweep, check, compile, systems, format, repl };
 
 /// The options about pictures that were given. A picture that is run again brings options of its
 /// own, so what was not given must be told from what is the default.
@@ -37,6 +38,8 @@ struct Options {
     Overrides overrides;
     PictureChanges picture;
     RunRequest run;                    ///< Its `picture` is left at the defaults.
+    SweepRequest sweep;                ///< Its `picture` and `simulation` too.
+    double limit_seconds = 0;          ///< `--limit-time`; 0: none.
     std::string dump;                  ///< A dump kind; empty to run.
     bool quiet = false;                ///< Neither progress nor remarks.
     bool check_only = false;           ///< `fmt --check`

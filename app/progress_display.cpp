@@ -75,25 +75,45 @@ std::string clock_time(double seconds) {
     return fmt::format("{}:{:02}", minutes, whole % 60);
 }
 
-std::string progress_bar(const Progress& progress, int columns) {
+namespace {
+
+/// A bar between what is in front of it and as many of the facts behind it as fit.
+std::string fitting_bar(const std::string& left, double share, const std::vector<std::string>& facts,
+                        int columns) {
     // A full line would move the cursor to the next one.
     const int room = columns - 1;
-    const std::string left = "stage " + stage_text(progress) + " ";
-    std::vector<std::string> facts = {
-        fmt::format("{}/{}", with_commas(progress.step), with_commas(progress.steps))};
-    if (auto text = left_text(progress); !text.empty()) facts.push_back(text);
-    if (auto text = rate_text(progress.steps_per_second); !text.empty()) facts.push_back(text);
-
     for (std::size_t count = facts.size(); count > 0; --count) {
         std::string right;
         for (std::size_t k = 0; k < count; ++k) right += "  " + facts[k];
         const int bar = std::min(room - width_of(left) - width_of(right) - 2, widest_bar);
         if (bar >= narrowest_bar) {
-            return fmt::format("{}▕{}▏{}", left, draw_bar(share_of(progress), bar), right);
+            return fmt::format("{}▕{}▏{}", left, draw_bar(share, bar), right);
         }
     }
-    const std::string percent = fmt::format("{:.0f} %", 100.0 * share_of(progress));
+    const std::string percent = fmt::format("{:.0f} %", 100.0 * share);
     return width_of(percent) <= room ? percent : "";
+}
+
+}  // namespace
+
+std::string progress_bar(const Progress& progress, int columns) {
+    std::vector<std::string> facts = {
+        fmt::format("{}/{}", with_commas(progress.step), with_commas(progress.steps))};
+    if (auto text = left_text(progress); !text.empty()) facts.push_back(text);
+    if (auto text = rate_text(progress.steps_per_second); !text.empty()) facts.push_back(text);
+    return fitting_bar("stage " + stage_text(progress) + " ", share_of(progress), facts, columns);
+}
+
+std::string progress_bar(const SweepProgress& progress, int columns) {
+    std::vector<std::string> facts = {fmt::format("{}/{}", progress.runs_done, progress.runs)};
+    if (progress.seconds_left >= 0) facts.push_back(clock_time(progress.seconds_left) + " left");
+    return fitting_bar("runs ", progress.share, facts, columns);
+}
+
+std::string progress_line(const SweepProgress& progress) {
+    std::string line = fmt::format("{} of {} runs", progress.runs_done, progress.runs);
+    if (progress.seconds_left >= 0) line += ", " + clock_time(progress.seconds_left) + " left";
+    return line;
 }
 
 std::string progress_line(const Progress& progress) {
@@ -122,6 +142,20 @@ void ProgressDisplay::show(const Progress& progress) {
     } else {
         output_.write("\r\x1b[2K" + progress_bar(progress, output_.columns()));
         drawn_ = true;
+    }
+}
+
+void ProgressDisplay::show(const SweepProgress& progress) {
+    if (kind_ == Kind::none) return;
+    const Time now = output_.now();
+    if (!swept_) last_line_ = now;
+    swept_ = true;
+    if (kind_ == Kind::bar) {
+        output_.write("\r\x1b[2K" + progress_bar(progress, output_.columns()));
+        drawn_ = true;
+    } else if (now - last_line_ >= between_lines) {
+        last_line_ = now;
+        output_.write(progress_line(progress) + "\n");
     }
 }
 

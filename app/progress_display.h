@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/run_control.h"
+#include "run/sweep.h"
 
 #include <chrono>
 #include <functional>
@@ -21,6 +22,11 @@ std::string clock_time(double seconds);
 /// What does not fit is left out, the least important first.
 std::string progress_bar(const Progress& progress, int columns);
 
+/// The same of a sweep: "12 of 81 runs", bar, time left.
+std::string progress_bar(const SweepProgress& progress, int columns);
+/// "12 of 81 runs, 0:41 left".
+std::string progress_line(const SweepProgress& progress);
+
 /// "stage 2/2 'small': 3,000 of 7,000 steps, 12,340 steps/s, 0:05 left".
 std::string progress_line(const Progress& progress);
 
@@ -37,6 +43,7 @@ public:
     ProgressDisplay(Kind kind, Output output);
 
     void show(const Progress& progress);
+    void show(const SweepProgress& progress);
     /// Takes the bar away, so that something else can be written. The next show() draws it again.
     void clear();
 
@@ -47,6 +54,7 @@ private:
     Output output_;
     bool drawn_ = false;
     int stage_ = 0;            ///< The stage that was shown last.
+    bool swept_ = false;       ///< A sweep has been shown.
     Time stage_begun_;
     std::int64_t first_step_ = 0;
     Time last_line_;

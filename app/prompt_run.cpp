@@ -120,7 +120,7 @@ bool PromptSession::advance(std::int64_t steps) {
         display.clear();
         console_.warn(message);
     };
-    const InterruptGuard interrupt(control);
+    const InterruptGuard interrupt(control.cancel);
     for (std::uint32_t k = 0; k < script_->stage_count() && steps > 0; ++k) {
         if (simulation_->state(k).done) continue;
         Result<StageEnd> end = StageEnd::finished;

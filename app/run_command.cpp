@@ -3,25 +3,18 @@
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
+#include "app/limits.h"
+#include "app/option_values.h"
 #include "app/progress_display.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace cascade {
 
 namespace {
-
-ProgressDisplay make_display(const Console& console, bool quiet) {
-    using Kind = ProgressDisplay::Kind;
-    const Stream stream = console.error();
-    const Kind kind = quiet ? Kind::none : stream.is_terminal ? Kind::bar : Kind::lines;
-    return {kind,
-            {[stream](std::string_view text) { (void)stream.write(text); },
-             [stream] { return stream.columns(); },
-             [] { return std::chrono::steady_clock::now(); }}};
-}
 
 /// The script that is run, and the picture options that it brings.
 std::optional<LoadedFile> load_for_run(const Options& options, const Console& console) {
@@ -59,7 +52,18 @@ void tell_written(const RunReport& report, const RunRequest& request, Console& c
     }
 }
 
-int tell(const RunReport& report, const Options& options, int signal, Console& console) {
+/// What a field does not have (an even one has no wavelength) is a dash.
+void print_features(const measure::Features& features, Console& console) {
+    const auto values = measure::to_array(features);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        console.print(fmt::format("{:<11} {}\n", measure::feature_names()[k],
+                                  std::isfinite(values[k]) ? fmt::format("{:.6g}", values[k]) : "-"));
+    }
+}
+
+int tell(const RunReport& report, const Options& options, int signal, bool limit_reached,
+         Console& console) {
+    if (report.features) print_features(*report.features, console);
     if (!options.quiet) {
         tell_written(report, options.run, console);
         if (report.steps > 0) {
@@ -71,12 +75,28 @@ int tell(const RunReport& report, const Options& options, int signal, Console& c
         console.say(fmt::format("stopped at {}\n", report.where));
     }
     if (report.status != RunStatus::cancelled) return exit_status::success;
+    if (limit_reached) {
+        console.say(fmt::format("cascade: the limit of {} is reached at {}; what there is has been "
+                                "written\n",
+                                describe_duration(options.limit_seconds), report.where));
+        return exit_status::time_limit;
+    }
     console.say(fmt::format("cascade: interrupted at {}; what there is has been written\n",
                             report.where));
     return exit_status::signal_base + signal;
 }
 
 }  // namespace
+
+ProgressDisplay make_progress_display(const Console& console, bool quiet) {
+    using Kind = ProgressDisplay::Kind;
+    const Stream stream = console.error();
+    const Kind kind = quiet ? Kind::none : stream.is_terminal ? Kind::bar : Kind::lines;
+    return {kind,
+            {[stream](std::string_view text) { (void)stream.write(text); },
+             [stream] { return stream.columns(); },
+             [] { return std::chrono::steady_clock::now(); }}};
+}
 
 int run_command(const Options& options, Console& console) {
     auto file = load_for_run(options, console);
@@ -100,16 +120,19 @@ int run_command(const Options& options, Console& console) {
     if (request.output.empty() && script.name.starts_with("<")) request.output = "cascade.png";
 
     RunControl control;
-    ProgressDisplay display = make_display(console, options.quiet);
+    ProgressDisplay display = make_progress_display(console, options.quiet);
     control.report = [&](const Progress& progress) { display.show(progress); };
     control.warn = [&](const std::string& message) {
         display.clear();
         if (!options.quiet) console.warn(message);
     };
-    const InterruptGuard interrupt(control);
+    const InterruptGuard interrupt(control.cancel);
+    const TimeLimit limit(options.limit_seconds, control.cancel);
     const auto report = run(script, request, control);
     display.clear();
-    if (report) return tell(*report, options, std::max(interrupt.signal(), 2), console);
+    if (report) {
+        return tell(*report, options, std::max(interrupt.signal(), 2), limit.reached(), console);
+    }
     console.say(script.messages(console.error().colour));
     if (script.diagnostics.has_errors()) return exit_status::wrong_script;
     console.fail(report.error());

@@ -60,7 +60,7 @@ Features measure(const Samples& samples) {
     Features features;
     measure_values(samples, features);
     const double magnitude = std::max(std::abs(features.smallest), std::abs(features.largest));
-    if (!(features.deviation > even_deviation * magnitude)) {
+    if (!(features.deviation > std::max(even_deviation * magnitude, least_deviation))) {
         features.wavelength = features.spots = features.holes = features.area = none;
         features.angle = features.anisotropy = none;
         return features;

@@ -10,15 +10,10 @@
 
 namespace cascade {
 
-namespace {
-
-/// "3.2 GB", "40.5 MB".
 std::string describe_bytes(double bytes) {
     return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9)
                         : fmt::format("{:.1f} MB", bytes / 1e6);
 }
-
-}  // namespace
 
 std::uint64_t available_memory() {
     std::ifstream meminfo("/proc/meminfo");

@@ -5,8 +5,12 @@
 #include "lang/program.h"
 
 #include <cstdint>
+#include <string>
 
 namespace cascade {
+
+/// "3.2 GB", "40.5 MB".
+std::string describe_bytes(double bytes);
 
 /// Bytes of all planes that a run keeps at one time.
 double memory_of(const Program& program);

@@ -2,11 +2,14 @@
 
 #include "core/file.h"
 #include "run/frames.h"
+#include "run/measured.h"
+#include "run/memory.h"
 #include "run/png_texts.h"
 
 #include <fmt/format.h>
 
 #include <chrono>
+#include <numeric>
 
 namespace cascade {
 
@@ -20,6 +23,12 @@ std::filesystem::path default_output(const Script& script) {
     return stem.replace_extension(".png");
 }
 
+/// The log of a run goes beside its picture.
+std::filesystem::path log_path(const RunRequest& request, const std::filesystem::path& output) {
+    if (!request.log.file.empty()) return request.log.file;
+    return std::filesystem::path(output).replace_extension(".csv");
+}
+
 /// Everything that could fail at the end of a long run is tried at its beginning.
 Result<void> check_outputs(const RunRequest& request, const std::filesystem::path& output) {
     if (auto good = check_writable(output); !good) return good;
@@ -30,6 +39,9 @@ Result<void> check_outputs(const RunRequest& request, const std::filesystem::pat
         }
         if (auto good = check_writable(request.sheet); !good) return good;
     }
+    if (!request.log.expressions.empty()) {
+        if (auto good = check_writable(log_path(request, output)); !good) return good;
+    }
     for (const auto& folder : {request.frames, request.save}) {
         if (folder.empty()) continue;
         if (auto made = make_folder(folder); !made) return made;
@@ -39,12 +51,24 @@ Result<void> check_outputs(const RunRequest& request, const std::filesystem::pat
 }
 
 /// A picture larger than memory is refused before the run, not behind it.
-Result<void> check_picture_size(const Grid& grid, const PictureRequest& picture) {
+Result<void> check_picture_size(const Program& program, const PictureRequest& picture,
+                                std::uint64_t memory_limit) {
     constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+    const Grid& grid = program.domain.grid;
     const std::int64_t pixels_per_cell = std::int64_t{picture.scale} * picture.scale;
-    if (grid.cell_count() <= most_pixels / pixels_per_cell) return {};
-    return failure(fmt::format("a picture of {} × {} cells at scale {} has more than {} pixels",
-                               grid.width, grid.height, picture.scale, most_pixels),
+    if (grid.cell_count() > most_pixels / pixels_per_cell) {
+        return failure(fmt::format("a picture of {} × {} cells at scale {} has more than {} pixels",
+                                   grid.width, grid.height, picture.scale, most_pixels),
+                       "use a smaller grid or --scale");
+    }
+    // Painted, and then enlarged.
+    const auto pixels = static_cast<double>(grid.cell_count() * (1 + pixels_per_cell));
+    const double bytes = memory_of(program) + pixels * sizeof(Colour);
+    if (memory_limit == 0 || bytes <= static_cast<double>(memory_limit)) return {};
+    return failure(fmt::format("with a picture at scale {} this run needs {}, but {} are the limit "
+                               "(--limit-memory)",
+                               picture.scale, describe_bytes(bytes),
+                               describe_bytes(static_cast<double>(memory_limit))),
                    "use a smaller grid or --scale");
 }
 
@@ -98,10 +122,13 @@ private:
     Result<void> run_stages();
     Result<StageEnd> run_stage(std::uint32_t stage);
     void look();
+    void observe(std::uint32_t stage);
+    std::int64_t observation_interval(const Stage& stage) const;
     Result<void> write_results();
     Result<void> write_final_picture();
     Result<void> write_frames();
     Result<void> write_saved_run();
+    Result<void> write_log();
     Result<void> write_picture(const std::filesystem::path& path, const Image& image);
     std::string place() const;
 
@@ -113,6 +140,7 @@ private:
     std::unique_ptr<Simulation> simulation_;
     std::optional<Painter> painter_;
     std::optional<FrameRecorder> frames_;
+    std::optional<RunLog> log_;
 };
 
 Result<void> Runner::prepare() {
@@ -130,7 +158,16 @@ Result<void> Runner::prepare() {
     auto simulation = Simulation::create(script_, request_.simulation);
     if (!simulation) return tl::unexpected(simulation.error());
     simulation_ = std::move(*simulation);
-    if (auto good = check_picture_size(simulation_->grid(), request_.picture); !good) return good;
+    if (auto good = check_picture_size(*script_.program, request_.picture,
+                                       request_.simulation.memory_limit);
+        !good) {
+        return good;
+    }
+    if (!request_.log.expressions.empty()) {
+        auto log = RunLog::create(script_, request_.log);
+        if (!log) return tl::unexpected(log.error());
+        log_ = std::move(*log);
+    }
     // Folders are made last, so that a run that is refused leaves none behind.
     if (auto good = check_outputs(request_, output_); !good) return good;
     if (!request_.frames.empty() || request_.picture.space_time) {
@@ -154,15 +191,18 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
         }
     }
     if (simulation_->state(k).done) return StageEnd::finished;
+    if (log_) log_->record(*simulation_, k);
     std::int64_t last = stage.iterations;
     const bool stops_here = request_.stop_at && request_.stop_at->stage == stage.name &&
                             request_.stop_at->step <= last;
     if (stops_here) last = request_.stop_at->step;
     const std::int64_t before = simulation_->state(k).steps;
     const auto start = Clock::now();
-    auto end = simulation_->advance_stage(k, std::max(last, before), control_, [&] { look(); });
+    auto end = simulation_->advance_stage(k, std::max(last, before), control_,
+                                          [&] { observe(k); }, observation_interval(stage));
     report_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
     report_.steps += simulation_->state(k).steps - before;
+    if (log_) log_->record(*simulation_, k);
     if (stops_here && end && *end == StageEnd::finished) return StageEnd::stopped;
     return end;
 }
@@ -178,6 +218,19 @@ Result<void> Runner::run_stages() {
         return {};
     }
     return {};
+}
+
+/// So many steps apart that neither a frame nor a row of the log is missed.
+std::int64_t Runner::observation_interval(const Stage& stage) const {
+    if (!log_) return stage.interval;
+    return frames_ ? std::gcd(log_->every(stage), stage.interval) : log_->every(stage);
+}
+
+void Runner::observe(std::uint32_t k) {
+    const Stage& stage = script_.program->stages[k];
+    const std::int64_t step = simulation_->state(k).steps;
+    if (step % stage.interval == 0) look();
+    if (log_ && step % log_->every(stage) == 0) log_->record(*simulation_, k);
 }
 
 void Runner::look() {
@@ -216,6 +269,13 @@ Result<void> Runner::write_frames() {
     return {};
 }
 
+Result<void> Runner::write_log() {
+    const auto path = log_path(request_, output_);
+    auto written = log_->write(path);
+    if (written) report_.written.push_back(path);
+    return written;
+}
+
 Result<void> Runner::write_saved_run() {
     auto written = save_run(request_.save, script_, *simulation_);
     if (!written) return tl::unexpected(written.error());
@@ -230,6 +290,7 @@ Result<void> Runner::write_results() {
         if (!done && !first) first = done.error();
     };
     attempt(write_final_picture());
+    if (log_) attempt(write_log());
     if (!request_.frames.empty()) attempt(write_frames());
     if (!request_.sheet.empty()) {
         attempt(write_picture(request_.sheet, draw_sheet(*simulation_, request_.picture)));
@@ -249,7 +310,14 @@ Result<void> Runner::write_results() {
 
 Result<RunReport> Runner::run() {
     if (auto ready = prepare(); !ready) return tl::unexpected(ready.error());
-    if (auto done = run_stages(); !done) return tl::unexpected(done.error());
+    if (auto done = run_stages(); !done) {
+        // What led to a blow-up is what one wants to see of it.
+        if (log_) (void)write_log();
+        return tl::unexpected(done.error());
+    }
+    if (request_.features) {
+        report_.features = measure_shown(painter_->canvas(*simulation_), *simulation_);
+    }
     if (auto written = write_results(); !written) return tl::unexpected(written.error());
     return std::move(report_);
 }

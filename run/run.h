@@ -3,7 +3,9 @@
 
 #include "core/result.h"
 #include "core/run_control.h"
+#include "measure/features.h"
 #include "run/picture_request.h"
+#include "run/run_log.h"
 #include "run/script.h"
 #include "run/simulation.h"
 
@@ -29,6 +31,8 @@ struct RunRequest {
     std::filesystem::path save;        ///< `--save DIR`; empty: none.
     std::filesystem::path resume;      ///< `--resume DIR`; empty: from the start.
     std::optional<StopAt> stop_at;
+    LogRequest log;
+    bool features = false;             ///< Measure what the picture shows.
 };
 
 enum class RunStatus {
@@ -43,6 +47,7 @@ struct RunReport {
     std::vector<std::filesystem::path> written;  ///< In order.
     std::int64_t steps = 0;                      ///< Taken by this run.
     double seconds = 0;                          ///< Of stepping.
+    std::optional<measure::Features> features;   ///< Where they were asked for.
 };
 
 /// Runs the script and writes what was asked for. All outputs are checked before the first step.

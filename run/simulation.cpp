@@ -190,7 +190,8 @@ Result<void> Simulation::start_stage(std::uint32_t k) {
 
 Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_step,
                                            RunControl& control,
-                                           const std::function<void()>& observe) {
+                                           const std::function<void()>& observe,
+                                           std::int64_t every) {
     Implementation& self = *self_;
     StageState& state = self.states[k];
     const Stage& stage = self.stage(k);
@@ -207,7 +208,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     schedule.first_step = state.steps;
     // Nothing moves where everything is frozen: its steps are complete as they begin.
     schedule.last_step = self.frozen_everywhere(k) ? state.steps : last_step;
-    schedule.interval = stage.interval;
+    schedule.interval = every > 0 ? every : stage.interval;
     schedule.threads = self.threads;
     const StageOutcome outcome = advance(
         self.problem(bound, self.compile_step(bound, control, stage.name), k), schedule,
@@ -242,6 +243,10 @@ std::vector<Field> Simulation::evaluate(const Formula& formula, std::uint32_t st
 const Program& Simulation::program() const { return *self_->program; }
 const Grid& Simulation::grid() const { return self_->grid; }
 const StageState& Simulation::state(std::uint32_t stage) const { return self_->states[stage]; }
+
+double Simulation::time(std::uint32_t stage) const {
+    return static_cast<double>(self_->states[stage].steps) * self_->speed_number(stage);
+}
 
 std::optional<std::uint32_t> Simulation::shown_stage() const {
     std::optional<std::uint32_t> shown;

@@ -74,11 +74,12 @@ public:
     /// above 0 or a starting value is not finite.
     Result<void> start_stage(std::uint32_t stage);
 
-    /// Takes steps until `last_step` are complete. `observe` is called at multiples of the stage's
-    /// interval. Fails, with stage, species, cell, step and the largest stable speed, on values
+    /// Takes steps until `last_step` are complete. `observe` is called at multiples of `every`, or,
+    /// where that is 0, of the stage's interval. Fails, with stage, species, cell, step and the largest stable speed, on values
     /// that are not finite.
     Result<StageEnd> advance_stage(std::uint32_t stage, std::int64_t last_step,
-                                   RunControl& control, const std::function<void()>& observe);
+                                   RunControl& control, const std::function<void()>& observe,
+                                   std::int64_t every = 0);
 
     /// Replaces the species of a started stage (resume, the prompt's :load).
     void set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps,
@@ -90,6 +91,8 @@ public:
     const Program& program() const;
     const Grid& grid() const;
     const StageState& state(std::uint32_t stage) const;
+    /// The time since a stage began, at its present step; NaN where `speed` differs between cells.
+    double time(std::uint32_t stage) const;
     /// The last stage that took a step; the last started one where none has; empty before.
     std::optional<std::uint32_t> shown_stage() const;
 

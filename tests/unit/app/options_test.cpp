@@ -28,6 +28,54 @@ Leave left(const std::vector<std::string>& arguments) {
     return {};
 }
 
+TEST(Options, sweep_takes_everything) {
+    const Options options = parsed(
+        {"sweep", "a.cascade", "--vary", "gs.feed=0..1:3", "--vary", "seed=1,2", "-o", "all",
+         "--tile", "64", "--fields", "--force", "--show", "v", "--palette", "viridis", "--range",
+         "0,1", "--depth", "16", "--threads", "3", "--lanes", "4", "--backend", "interp", "-q",
+         "--set", "ka=1", "--grid", "32x16", "--limit-time", "1.5h", "--limit-memory", "1.5GiB"});
+    EXPECT_EQ(options.command, Command::sweep);
+    EXPECT_THAT(options.scripts, ElementsAre("a.cascade"));
+    ASSERT_EQ(options.sweep.varied.size(), 2U);
+    EXPECT_EQ(options.sweep.varied[0].name, "gs.feed");
+    EXPECT_THAT(options.sweep.varied[0].values, ElementsAre("0", "0.5", "1"));
+    EXPECT_THAT(options.sweep.varied[1].values, ElementsAre("1", "2"));
+    EXPECT_EQ(options.sweep.folder, "all");
+    EXPECT_EQ(options.sweep.tile_side, 64);
+    EXPECT_TRUE(options.sweep.fields && options.sweep.force && options.quiet);
+    EXPECT_EQ(options.picture.show, "v");
+    EXPECT_EQ(options.run.simulation.threads, 3);
+    EXPECT_EQ(options.run.simulation.memory_limit, 1610612736U);
+    EXPECT_EQ(options.limit_seconds, 5400);
+    EXPECT_THAT(options.overrides.sets, ElementsAre("ka=1"));
+    EXPECT_EQ(left({"sweep", "a.cascade"}).status, exit_status::wrong_use);
+    EXPECT_THAT(left({"sweep", "a.cascade", "--vary", "a=0..1"}).text, HasSubstr("how many values"));
+    EXPECT_THAT(left({"sweep", "a.cascade", "--vary", "a=1", "--scale", "2"}).text,
+                HasSubstr("there is no option --scale"));
+}
+
+TEST(Options, run_takes_logs_and_limits) {
+    const Options options = parsed({"run", "a.cascade", "--log", "mean(u over domain)", "--log", "t",
+                                    "--log-every", "25", "--log-file", "t.csv", "--features",
+                                    "--limit-time", "90", "--limit-memory", "500MB"});
+    EXPECT_THAT(options.run.log.expressions, ElementsAre("mean(u over domain)", "t"));
+    EXPECT_EQ(options.run.log.every, 25);
+    EXPECT_EQ(options.run.log.file, "t.csv");
+    EXPECT_TRUE(options.run.features);
+    EXPECT_EQ(options.limit_seconds, 90);
+    EXPECT_EQ(options.run.simulation.memory_limit, 500000000U);
+    for (const char* wrong : {"", "0", "-1s", "5x", "1e3", "s", "99999d", "1 h"}) {
+        EXPECT_EQ(left({"run", "a.cascade", "--limit-time", wrong}).status, exit_status::wrong_use)
+            << wrong;
+    }
+    for (const char* wrong : {"", "12", "-1GB", "5gb", "GB", "1..5GB", "999999999TB"}) {
+        EXPECT_EQ(left({"run", "a.cascade", "--limit-memory", wrong}).status,
+                  exit_status::wrong_use)
+            << wrong;
+    }
+    EXPECT_EQ(left({"run", "a.cascade", "--log-every", "0"}).status, exit_status::wrong_use);
+}
+
 TEST(Options, run_takes_everything) {
     const Options options = parsed(
         {"run",        "a.cascade",  "-o",        "out.png",   "--grid",  "32x16",     "--seed",
@@ -150,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{}, "Usage: cascade COMMAND"},
         WrongUse{{"rnu", "a.cascade"}, "no command 'rnu'; did you mean 'cascade run'?"},
         WrongUse{{"a.cascade"}, "no command 'a.cascade'; did you mean 'cascade run a.cascade'?"},
-        WrongUse{{"fly"}, "the commands are run, check, compile, systems, repl"},
+        WrongUse{{"fly"}, "the commands are run, sweep, check, compile, systems, fmt, repl"},
         WrongUse{{"run"}, "cascade run: a script is missing"},
         WrongUse{{"check"}, "cascade check: a script is missing"},
         WrongUse{{"run", "a", "--pallete", "tan"}, "no option --pallete; did you mean --palette?"},

@@ -111,6 +111,28 @@ TEST(Progress, the_bar_is_taken_away) {
     EXPECT_TRUE(watched.written.ends_with("\r\x1b[2K"));
 }
 
+TEST(Progress, a_sweep_counts_runs) {
+    SweepProgress sweep;
+    sweep.runs_done = 12;
+    sweep.runs = 81;
+    sweep.share = 0.5;
+    EXPECT_EQ(progress_line(sweep), "12 of 81 runs");
+    sweep.seconds_left = 41;
+    EXPECT_EQ(progress_line(sweep), "12 of 81 runs, 0:41 left");
+    EXPECT_THAT(progress_bar(sweep, 80), HasSubstr("▏  12/81  0:41 left"));
+    EXPECT_EQ(progress_bar(sweep, 12), "50 %");
+    Watched lines(ProgressDisplay::Kind::lines);
+    lines.display.show(sweep);
+    EXPECT_EQ(lines.written, "");
+    lines.now += std::chrono::seconds(11);
+    lines.display.show(sweep);
+    lines.display.show(sweep);
+    EXPECT_EQ(lines.written, "12 of 81 runs, 0:41 left\n");
+    Watched bar(ProgressDisplay::Kind::bar);
+    bar.display.show(sweep);
+    EXPECT_THAT(bar.written, HasSubstr("runs ▕"));
+}
+
 TEST(Progress, quiet_is_quiet) {
     Watched watched(ProgressDisplay::Kind::none);
     watched.display.show(half_way());

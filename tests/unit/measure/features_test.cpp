@@ -133,14 +133,24 @@ TEST(Features, AreaOfADisc) {
 
 TEST(Features, AnEvenFieldHasNoPattern) {
     const Features found = measure(sampled(32, 32, 1, [](double x, double, double) {
-        return 7 + 1e-7 * x;  // Rounding.
+        return 7 + 1e-6 * x;  // Rounding.
     }));
     for (const double absent : {found.wavelength, found.spots, found.holes, found.area,
                                 found.angle, found.anisotropy}) {
         EXPECT_TRUE(std::isnan(absent));
     }
-    EXPECT_NEAR(found.mean, 7, 1e-4);
-    EXPECT_LT(found.deviation, 1e-5);
+    EXPECT_NEAR(found.mean, 7 + 16e-6, 1e-9);
+    EXPECT_NEAR(found.deviation, 9.2e-6, 1e-7);
+}
+
+TEST(Features, WhatDiesAwayHasNoPattern) {
+    const auto field = [](double size) {
+        return sampled(32, 32, 1, [=](double x, double, double) {
+            return size * (1 + std::cos(2 * pi * x / 8));
+        });
+    };
+    EXPECT_TRUE(std::isnan(measure(field(1e-30)).wavelength));
+    EXPECT_NEAR(measure(field(1e-9)).wavelength, 8, 1e-9);
 }
 
 TEST(Features, CellsOutsideCountForNothing) {

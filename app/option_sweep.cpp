@@ -1,0 +1,36 @@
+// Options of `cascade sweep`.
+#include "app/add_value.h"
+#include "app/option_groups.h"
+
+namespace cascade::option_groups {
+
+void add_sweep(CLI::App& app, Options& options) {
+    SweepRequest& sweep = options.sweep;
+    const std::string varied = "What is varied";
+    const auto read_all = [&](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) {
+            sweep.varied.push_back(value_or_throw(parse_variation(text), "--vary"));
+        }
+    };
+    app.add_option_function<std::vector<std::string>>(
+           "--vary", read_all,
+           "A parameter or setting with a range of so many values,\nfeed=0.02..0.06:9, or a list, "
+           "ka=1/400,1/200; may be given\nagain: the first runs across, the second up")
+        ->allow_extra_args(false)
+        ->type_name("NAME=VALUES")
+        ->group(varied);
+    const std::string files = "Files";
+    add_value(app, "-o,--output", "FOLDER",
+              "Where all goes; without it SCRIPT_sweep in this folder", any_text,
+              [&](auto path) { sweep.folder = path; })
+        ->group(files);
+    add_value(app, "--tile", "N", "Pixels of a picture's longer side, 16 to 1024; larger ones are\n"
+              "averaged down (160)", whole_number(16, 1024),
+              [&](auto side) { sweep.tile_side = static_cast<int>(side); })
+        ->group(files);
+    app.add_flag("--fields", sweep.fields, "Save every field of every run, to read or to resume")
+        ->group(files);
+    app.add_flag("--force", sweep.force, "Run again what an earlier sweep has done")->group(files);
+}
+
+}  // namespace cascade::option_groups

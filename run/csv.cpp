@@ -1,0 +1,33 @@
+#include "run/csv.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace cascade {
+
+std::string csv_row(std::span<const std::string> cells) {
+    std::string line;
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        if (k > 0) line += ',';
+        const std::string& cell = cells[k];
+        if (cell.find_first_of(",\"\r\n") == std::string::npos) {
+            line += cell;
+            continue;
+        }
+        line += '"';
+        for (const char c : cell) line += c == '"' ? std::string("\"\"") : std::string(1, c);
+        line += '"';
+    }
+    return line + "\n";
+}
+
+std::string csv_number(double value) {
+    return std::isfinite(value) ? fmt::format("{:.9g}", value) : std::string();
+}
+
+std::string csv_number(float value) {
+    return std::isfinite(value) ? fmt::format("{}", value) : std::string();
+}
+
+}  // namespace cascade

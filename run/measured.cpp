@@ -1,0 +1,30 @@
+#include "run/measured.h"
+
+namespace cascade {
+
+measure::Samples to_samples(const Field& field, const Grid& grid) {
+    measure::Samples samples;
+    samples.cells = {static_cast<std::size_t>(grid.width), static_cast<std::size_t>(grid.height),
+                     static_cast<std::size_t>(grid.depth)};
+    const Boundaries& boundary = grid.boundary;
+    samples.periodic = {boundary.x == Boundary::periodic, boundary.y == Boundary::periodic,
+                        boundary.z == Boundary::periodic};
+    samples.spacing = grid.spacing;
+    samples.values.reserve(static_cast<std::size_t>(grid.cell_count()));
+    for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
+        samples.values.insert(samples.values.end(), field.row(row), field.row(row) + grid.width);
+    }
+    return samples;
+}
+
+measure::Features measure_shown(const Canvas& canvas, const Simulation& simulation) {
+    if (!canvas.is_colour()) {
+        return measure::measure(to_samples(canvas.fields[0], simulation.grid()));
+    }
+    const std::uint32_t stage = simulation.shown_stage().value_or(0);
+    const auto fields =
+        simulation.evaluate(simulation.program().stages[stage].show, stage);
+    return measure::measure(to_samples(fields[0], simulation.grid()));
+}
+
+}  // namespace cascade

@@ -1,0 +1,125 @@
+#include "run/run_log.h"
+
+#include "core/file.h"
+#include "lang/check.h"
+#include "lang/parse.h"
+#include "run/csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace cascade {
+
+namespace {
+
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+
+/// Does the value of a formula over `stage` differ between cells?
+bool varies(const Formula& formula, const Program& program, std::uint32_t stage) {
+    return std::any_of(formula.nodes.begin(), formula.nodes.end(), [&](const Node& node) {
+        switch (node.kind) {
+            case NodeKind::own: return !program.stages[stage].uniform[node.index];
+            case NodeKind::earlier: return !program.stages[node.stage].uniform[node.index];
+            case NodeKind::builtin:
+                return static_cast<Builtin>(node.index) != Builtin::t &&
+                       static_cast<Builtin>(node.index) != Builtin::step;
+            case NodeKind::definition:
+            case NodeKind::rate: return true;
+            case NodeKind::call:
+                return node.function == Function::random || node.function == Function::disc ||
+                       node.function == Function::field;
+            default: return false;
+        }
+    });
+}
+
+Result<void> check_rows(const Script& script, const LogRequest& request) {
+    std::int64_t rows = 0;
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        const Stage& stage = script.program->stages[k];
+        rows += stage.iterations / (request.every > 0 ? request.every : stage.interval);
+        if (rows <= most_log_rows) continue;
+        return failure(fmt::format("the log would have more than {} rows", most_log_rows),
+                       "let more steps pass between them, with --log-every");
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<RunLog> RunLog::create(Script& script, const LogRequest& request) {
+    RunLog log;
+    log.request_ = request;
+    for (const Stage& stage : script.program->stages) log.stage_names_.push_back(stage.name);
+    if (auto fits = check_rows(script, request); !fits) return tl::unexpected(fits.error());
+    bool right = true;
+    for (const std::string& text : request.expressions) {
+        right = log.check_expression(script, text) && right;
+    }
+    if (!right) return failure("an expression of --log is wrong");
+    return log;
+}
+
+bool RunLog::check_expression(Script& script, const std::string& text) {
+    const SourceId source = script.sources.add("<--log>", text);
+    const auto expression =
+        parse_expression(source, script.sources, script.tree, script.diagnostics);
+    if (!expression) return false;
+    std::vector<std::optional<Formula>> formulas;
+    bool fits_some = false;
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        Diagnostics unspoken;
+        auto formula = check_view(script.tree, *expression, k, k, *script.program, script.sources,
+                                  unspoken);
+        if (unspoken.has_errors()) formula.reset();
+        if (formula && formula->nodes.back().type != ValueType::number) {
+            script.diagnostics.error(formula->nodes.back().span, "--log takes numbers");
+            return false;
+        }
+        if (formula && varies(*formula, *script.program, k)) {
+            script.diagnostics.error(
+                formula->nodes.back().span, "this differs from cell to cell",
+                "a log takes one number for all cells, such as mean(e over domain)");
+            return false;
+        }
+        fits_some = fits_some || formula;
+        formulas.push_back(std::move(formula));
+    }
+    if (!fits_some) {
+        // Why, is said of the last stage, as --show has it.
+        const std::uint32_t stage = script.final_stage();
+        check_view(script.tree, *expression, stage, stage, *script.program, script.sources,
+                   script.diagnostics);
+        return false;
+    }
+    formulas_.push_back(std::move(formulas));
+    return true;
+}
+
+void RunLog::record(const Simulation& simulation, std::uint32_t stage) {
+    const std::int64_t step = simulation.state(stage).steps;
+    if (!rows_.empty() && rows_.back().stage == stage && rows_.back().step == step) return;
+    rows_.push_back({stage, step});
+    values_.push_back(static_cast<float>(simulation.time(stage)));
+    for (const auto& formulas : formulas_) {
+        values_.push_back(
+            formulas[stage] ? simulation.evaluate(*formulas[stage], stage)[0].at(0, 0) : none);
+    }
+}
+
+Result<void> RunLog::write(const std::filesystem::path& path) const {
+    std::vector<std::string> cells = {"stage", "step", "t"};
+    cells.insert(cells.end(), request_.expressions.begin(), request_.expressions.end());
+    std::string table = csv_row(cells);
+    const std::size_t width = 1 + formulas_.size();
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+        cells = {stage_names_[rows_[r].stage], fmt::format("{}", rows_[r].step)};
+        for (std::size_t k = 0; k < width; ++k) cells.push_back(csv_number(values_[r * width + k]));
+        table += csv_row(cells);
+    }
+    return write_file(path, table);
+}
+
+}  // namespace cascade

@@ -1,0 +1,140 @@
+#include "run_fixture.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+namespace cascade {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+class LogTest : public RunTest {
+protected:
+    std::vector<std::string> lines(const std::string& name) const {
+        std::ifstream file(path(name));
+        std::vector<std::string> found;
+        for (std::string line; std::getline(file, line);) found.push_back(line);
+        return found;
+    }
+};
+
+constexpr const char* two = R"(
+domain { grid: 12, 8 }
+stage large: turing_spots { iterations: 20; interval: 10; speed: 0.5; ka: 1/80 }
+stage small: stripes { iterations: 6; interval: 3; speed: 0.25 }
+)";
+
+TEST_F(LogTest, ARowAtEachIntervalAndAtBothEnds) {
+    Script script = load(two);
+    RunRequest wanted = request();
+    wanted.log.expressions = {"t*2", "ka", "small.speed"};
+    const RunReport report = run_well(script, wanted);
+    EXPECT_EQ(report.written.back(), path("picture.csv"));
+    // stripes has no ka, and the first stage cannot read the second.
+    EXPECT_THAT(lines("picture.csv"),
+                ElementsAre("stage,step,t,t*2,ka,small.speed", "large,0,0,0,0.0125,",
+                            "large,10,5,10,0.0125,", "large,20,10,20,0.0125,",
+                            "small,0,0,0,,0.25", "small,3,0.75,1.5,,0.25",
+                            "small,6,1.5,3,,0.25"));
+}
+
+TEST_F(LogTest, StepsOfItsOwnAndWithFrames) {
+    for (const bool frames : {false, true}) {
+        Script script = load(two);
+        RunRequest wanted = request();
+        wanted.log.expressions = {"step"};
+        wanted.log.every = 7;
+        wanted.log.file = path("log.csv");
+        if (frames) wanted.frames = path("film");
+        run_well(script, wanted);
+        EXPECT_THAT(lines("log.csv"),
+                    ElementsAre("stage,step,t,step", "large,0,0,0", "large,7,3.5,7",
+                                "large,14,7,14", "large,20,10,20", "small,0,0,0", "small,6,1.5,6"));
+        if (frames) {
+            // The frames are those of the intervals, as without a log.
+            const auto begin = std::filesystem::directory_iterator(path("film"));
+            EXPECT_EQ(std::distance(begin, std::filesystem::directory_iterator{}), 5);
+        }
+    }
+}
+
+TEST_F(LogTest, ItNeverChangesAResult) {
+    Script plain = load(two);
+    run_well(plain, request());
+    const std::string picture = bytes("picture.png");
+    Script logged = load(two);
+    RunRequest wanted = request();
+    wanted.log.expressions = {"t"};
+    wanted.log.every = 1;
+    run_well(logged, wanted);
+    EXPECT_EQ(bytes("picture.png"), picture);
+    EXPECT_THAT(lines("picture.csv"), SizeIs(1 + 21 + 7));
+}
+
+TEST_F(LogTest, ABlowUpIsLogged) {
+    Script script = load("system s { u: 1; u' = u^3 }\ndomain { grid: 4, 4 }\n"
+                         "stage s: s { iterations: 1000; interval: 1 }");
+    RunRequest wanted = request();
+    wanted.log.expressions = {"step"};
+    EXPECT_THAT(run_badly(script, wanted), HasSubstr("not finite"));
+    EXPECT_THAT(lines("picture.csv").back(), HasSubstr("s,5,5,5"));
+}
+
+TEST_F(LogTest, WrongExpressions) {
+    const auto message_of = [&](const std::string& expression) {
+        Script script = load(two);
+        RunRequest wanted = request();
+        wanted.log.expressions = {"t", expression};
+        run_badly(script, wanted);
+        return script.messages(false);
+    };
+    EXPECT_THAT(message_of("a + 1"), HasSubstr("<--log>:1:1: error: this differs from cell to cell"));
+    EXPECT_THAT(message_of("x"), HasSubstr("differs from cell to cell"));
+    EXPECT_THAT(message_of("q"), HasSubstr("<--log>:1:1: error: "));
+    EXPECT_THAT(message_of("1 +"), HasSubstr("<--log>:1:"));
+    EXPECT_THAT(message_of("rgb(1, 0, 0)"), HasSubstr("--log takes numbers"));
+}
+
+TEST_F(LogTest, TooManyRows) {
+    Script script = load("stage s: turing_spots { iterations: 100000000; interval: 1 }");
+    RunRequest wanted = request();
+    wanted.log.expressions = {"t"};
+    EXPECT_THAT(run_badly(script, wanted), HasSubstr("--log-every"));
+    EXPECT_FALSE(std::filesystem::exists(path("picture.csv")));
+}
+
+TEST_F(RunTest, LimitedMemoryIsKept) {
+    for (const auto& [limit, scale] : {std::pair{20000ULL, 1}, {200000ULL, 16}}) {
+        Script script = load(two_stages);
+        RunRequest wanted = request();
+        wanted.simulation.memory_limit = limit;
+        wanted.picture.scale = scale;
+        EXPECT_THAT(run_badly(script, wanted), HasSubstr("--limit-memory"));
+        EXPECT_FALSE(std::filesystem::exists(path("picture.png")));
+    }
+    Script script = load(two_stages);
+    RunRequest wanted = request();
+    wanted.simulation.memory_limit = 200000;
+    run_well(script, wanted);
+}
+
+TEST_F(RunTest, FeaturesOfWhatIsShown) {
+    Script script = load("domain { grid: 40, 20 }\nsystem s { u: (x < 0.5); u' = 0 * u }\n"
+                         "stage s: s { iterations: 1 }");
+    RunRequest wanted = request();
+    wanted.features = true;
+    wanted.picture.show = "u + 1";
+    const RunReport report = run_well(script, wanted);
+    ASSERT_TRUE(report.features);
+    EXPECT_EQ(report.features->mean, 1.5);
+    EXPECT_EQ(report.features->area, 0.5);
+    EXPECT_EQ(report.features->spots, 1);
+    EXPECT_NEAR(report.features->wavelength, 40, 1e-9);
+    EXPECT_NEAR(report.features->angle, 90, 1e-9);
+}
+
+}  // namespace
+}  // namespace cascade

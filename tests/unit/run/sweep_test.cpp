@@ -1,0 +1,212 @@
+#include "run_fixture.h"
+
+#include "measure/features.h"
+#include "run/csv.h"
+#include "run/sweep.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+
+namespace cascade {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr const char* spots = R"(
+domain { grid: 32, 24 }   # a comment
+stage s: turing_spots { iterations: 300; ka: 1/20 }
+)";
+
+/// Grows, and beyond rate 1 blows up within the steps taken.
+constexpr const char* growth = R"(
+system growth { u: 1 + x; rate: 0.1; u' = rate * u^3 }
+domain { grid: 8, 8 }
+stage s: growth { iterations: 40; speed: 0.1 }
+)";
+
+class SweepTest : public RunTest {
+protected:
+    SweepRequest request(const std::vector<std::string>& varied) const {
+        SweepRequest request;
+        for (const std::string& text : varied) request.varied.push_back(*parse_variation(text));
+        request.folder = path("sweep");
+        request.simulation.backend = BackendKind::interpreter;
+        request.simulation.threads = 3;
+        return request;
+    }
+
+    SweepReport sweep_well(const Script& script, const SweepRequest& request) {
+        SweepControl control;
+        auto report = sweep(script, request, control);
+        EXPECT_TRUE(report) << (report ? "" : report.error().failure.message);
+        return report ? *report : SweepReport{};
+    }
+
+    std::vector<std::string> table() const {
+        std::ifstream file(path("sweep/features.csv"));
+        std::vector<std::string> lines;
+        for (std::string line; std::getline(file, line);) lines.push_back(line);
+        return lines;
+    }
+};
+
+TEST_F(SweepTest, EveryRunIsTheSameAsAlone) {
+    const Script script = load(spots);
+    SweepRequest wanted = request({"turing_spots.ka=1/20,1/10", "seed=1,2"});
+    wanted.fields = true;
+    const SweepReport report = sweep_well(script, wanted);
+    EXPECT_EQ(report.runs, 4u);
+    EXPECT_EQ(report.failed + report.missing + report.done_before, 0u);
+    EXPECT_EQ(report.steps, 4 * 300);
+    Overrides overrides;
+    overrides.sets = {"turing_spots.ka=1/10"};
+    overrides.seed = 2;
+    Script alone = load(spots, overrides);
+    RunRequest single = RunTest::request();
+    single.save = path("alone");
+    single.features = true;
+    const RunReport run = run_well(alone, single);
+    const auto in_sweep = array("sweep/fields/turing_spots.ka=1_10,seed=2/s.b.npy");
+    ASSERT_EQ(in_sweep.size(), 32u * 24u);
+    EXPECT_EQ(in_sweep, array("alone/s.b.npy"));
+    // And so are its features.
+    const auto lines = table();
+    ASSERT_EQ(lines.size(), 5u);
+    EXPECT_THAT(lines[0], StartsWith("turing_spots.ka,seed,wavelength,spots,"));
+    EXPECT_THAT(lines[4], StartsWith("1/10,2,"));
+    ASSERT_TRUE(run.features);
+    EXPECT_THAT(lines[4], HasSubstr("," + csv_number(run.features->deviation) + ","));
+}
+
+TEST_F(SweepTest, GoesOnWhereItStopped) {
+    const Script script = load(spots);
+    EXPECT_EQ(sweep_well(script, request({"ka=1/20,1/10"})).done_before, 0u);
+    const std::string sheet = bytes("sweep/sheet.png");
+    const auto first = table();
+    // Nothing is run again, not even where comments and blanks have changed; the files are the same.
+    std::string text = spots;
+    text.replace(text.find("a comment"), 9, "another one");
+    const Script commented = load("\n\n" + text);
+    SweepReport again = sweep_well(commented, request({"ka=1/20,1/10"}));
+    EXPECT_EQ(again.done_before, 2u);
+    EXPECT_EQ(again.steps, 0);
+    EXPECT_EQ(table(), first);
+    EXPECT_FALSE(sheet.empty());
+    // A third value runs alone; another number in the script, or --force, runs all.
+    EXPECT_EQ(sweep_well(script, request({"ka=1/20,1/15,1/10"})).done_before, 2u);
+    text.replace(text.find("300"), 3, "301");
+    EXPECT_EQ(sweep_well(load(text), request({"ka=1/20,1/10"})).done_before, 0u);
+    SweepRequest forced = request({"ka=1/20,1/10"});
+    forced.force = true;
+    EXPECT_EQ(sweep_well(script, forced).done_before, 0u);
+    SweepRequest shown = request({"ka=1/20,1/10"});
+    shown.picture.show = "a";
+    EXPECT_EQ(sweep_well(script, shown).done_before, 0u);
+    // A damaged result is none.
+    for (const auto& entry : std::filesystem::directory_iterator(path("sweep/runs"))) {
+        ASSERT_TRUE(write_file(entry.path(), "{}"));
+    }
+    EXPECT_EQ(sweep_well(script, request({"ka=1/20,1/10"})).done_before, 0u);
+}
+
+TEST_F(SweepTest, ABlowUpIsARowAndAnEmptyTile) {
+    const Script script = load(growth);
+    const SweepReport report = sweep_well(script, request({"rate=0.01,3"}));
+    EXPECT_EQ(report.failed, 1u);
+    EXPECT_THAT(report.first_failure, HasSubstr("u is not finite any more"));
+    const auto lines = table();
+    ASSERT_EQ(lines.size(), 3u);
+    EXPECT_THAT(lines[1], Not(HasSubstr("finite")));
+    EXPECT_THAT(lines[2], StartsWith("3,,,,,,,,,,,"));
+    EXPECT_THAT(lines[2], HasSubstr("u is not finite any more"));
+    // It is a result like others: it does not blow up anew.
+    const SweepReport again = sweep_well(script, request({"rate=0.01,3"}));
+    EXPECT_EQ(again.done_before, 2u);
+    EXPECT_EQ(again.failed, 1u);
+}
+
+TEST_F(SweepTest, ACancelKeepsWhatIsDone) {
+    const Script script = load(spots);
+    SweepRequest wanted = request({"ka=1/20..1/5:30"});
+    wanted.simulation.threads = 1;
+    SweepControl control;
+    control.report = [&](const SweepProgress& progress) {
+        EXPECT_EQ(progress.runs, 30u);
+        EXPECT_GE(progress.share, 0);
+        EXPECT_LE(progress.share, 1);
+        if (progress.runs_done > 0) control.cancel = true;
+    };
+    const auto report = sweep(script, wanted, control);
+    ASSERT_TRUE(report);
+    EXPECT_GT(report->missing, 0u);
+    EXPECT_LT(report->missing, 30u);
+    EXPECT_THAT(table().back(), HasSubstr("not run"));
+    EXPECT_EQ(sweep_well(script, wanted).done_before, 30 - report->missing);
+    EXPECT_THAT(table().back(), Not(HasSubstr("not run")));
+}
+
+TEST_F(SweepTest, NothingRunsWhereAScriptIsWrong) {
+    const Script script = load(spots);
+    SweepControl control;
+    auto wrong = sweep(script, request({"kaa=1,2"}), control);
+    ASSERT_FALSE(wrong);
+    ASSERT_TRUE(wrong.error().faults);
+    EXPECT_THAT(wrong.error().faults->messages(false), HasSubstr("no stage has a parameter 'kaa'"));
+    wrong = sweep(script, request({"ka=1,1/0"}), control);  // The second run's fault.
+    ASSERT_FALSE(wrong);
+    EXPECT_THAT(wrong.error().faults->messages(false), HasSubstr("division by zero"));
+    SweepRequest shown = request({"ka=1,2"});
+    shown.picture.show = "q";
+    wrong = sweep(script, shown, control);
+    ASSERT_FALSE(wrong);
+    EXPECT_THAT(wrong.error().faults->messages(false), HasSubstr("'q'"));
+    shown.picture.show.clear();
+    shown.picture.palette = "gray";
+    EXPECT_THAT(sweep(script, shown, control).error().failure.message, HasSubstr("palette"));
+    EXPECT_THAT(sweep(script, request({"seed=1,x"}), control).error().failure.message,
+                HasSubstr("'x' is not a seed"));
+    EXPECT_THAT(sweep(load("domain { grid: 8, 8 }"), request({"seed=1"}), control)
+                    .error().failure.message,
+                HasSubstr("no stage to run"));
+    EXPECT_FALSE(std::filesystem::exists(path("sweep")));
+}
+
+TEST_F(SweepTest, LimitsAreKept) {
+    const Script script = load(spots);
+    SweepControl control;
+    SweepRequest small = request({"ka=1/20,1/10"});
+    small.simulation.memory_limit = 1000;
+    const auto refused = sweep(script, small, control);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().failure.message, HasSubstr("--limit-memory"));
+    SweepRequest huge = request({"ka=1..2:9000"});
+    huge.tile_side = 1024;
+    EXPECT_THAT(sweep(script, huge, control).error().failure.message, HasSubstr("too large"));
+}
+
+TEST_F(SweepTest, LargePicturesAreAveraged) {
+    Grid grid;
+    grid.width = 5;
+    grid.height = 3;
+    Canvas canvas;
+    Field field{PlaneLayout(grid)};
+    for (std::int64_t j = 0; j < 3; ++j) {
+        for (std::int64_t i = 0; i < 5; ++i) field.at(i, j) = static_cast<float>(10 * j + i);
+    }
+    field.at(4, 2) = NAN;  // Outside of the domain.
+    canvas.fields.push_back(std::move(field));
+    const Canvas small = shrink(canvas, 3);
+    ASSERT_EQ(small.fields[0].layout().width, 3);
+    ASSERT_EQ(small.fields[0].layout().height, 2);
+    EXPECT_EQ(small.fields[0].at(0, 0), 5.5F);
+    EXPECT_EQ(small.fields[0].at(2, 0), 9.0F);
+    EXPECT_EQ(small.fields[0].at(0, 1), 20.5F);
+    EXPECT_TRUE(std::isnan(small.fields[0].at(2, 1)));
+}
+
+}  // namespace
+}  // namespace cascade

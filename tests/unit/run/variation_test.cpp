@@ -1,0 +1,109 @@
+// What --vary takes, and the runs that it makes.
+#include "run/csv.h"
+#include "run/variation.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <limits>
+
+namespace cascade {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> values_of(const std::string& text) {
+    const auto variation = parse_variation(text);
+    EXPECT_TRUE(variation) << text;
+    return variation ? variation->values : std::vector<std::string>{};
+}
+
+std::string fault_of(const std::string& text) {
+    const auto variation = parse_variation(text);
+    EXPECT_FALSE(variation) << text;
+    return variation ? "" : variation.error().message;
+}
+
+TEST(Variation, RangesHaveBothEnds) {
+    EXPECT_THAT(values_of("gs.feed=0.02..0.06:5"),
+                ElementsAre("0.02", "0.03", "0.04", "0.05", "0.06"));
+    EXPECT_EQ(parse_variation("gs.feed=0..1:2")->name, "gs.feed");
+    // Downwards, through 0 without a speck of rounding, fractions, blanks, a single value.
+    EXPECT_THAT(values_of("a = 0.3 .. -0.3 : 7"),
+                ElementsAre("0.3", "0.2", "0.1", "0", "-0.1", "-0.2", "-0.3"));
+    EXPECT_THAT(values_of("ka=1/400..1/100:4"), ElementsAre("0.0025", "0.005", "0.0075", "0.01"));
+    EXPECT_THAT(values_of("a=1e-3..3e3:1"), ElementsAre("0.001"));
+}
+
+TEST(Variation, ListsAreExpressions) {
+    EXPECT_THAT(values_of("a=1,2,5"), ElementsAre("1", "2", "5"));
+    EXPECT_THAT(values_of("b=1/400, random(12, 0.1) ,if([a]<1,2,3)"),
+                ElementsAre("1/400", "random(12, 0.1)", "if([a]<1,2,3)"));
+    EXPECT_THAT(values_of("frozen=b < 4"), ElementsAre("b < 4"));
+}
+
+TEST(Variation, SaysWhatIsWrong) {
+    EXPECT_THAT(fault_of("feed"), HasSubstr("there is no '='"));
+    EXPECT_THAT(fault_of("=1,2"), HasSubstr("there is no name"));
+    EXPECT_THAT(fault_of("a="), HasSubstr("a value is missing"));
+    EXPECT_THAT(fault_of("a=1,,2"), HasSubstr("a value is missing"));
+    EXPECT_THAT(fault_of("a=0..1"), HasSubstr("how many"));
+    EXPECT_THAT(fault_of("a=x..1:3"), HasSubstr("are numbers"));
+    EXPECT_THAT(fault_of("a=0..1/0:3"), HasSubstr("are numbers"));
+    EXPECT_THAT(fault_of("a=nan..1:3"), HasSubstr("are numbers"));
+    for (const char* count : {"", "0", "-1", "2.5", "10001", "99999999999999999999"}) {
+        EXPECT_THAT(fault_of(std::string("a=0..1:") + count), HasSubstr("1 to 10000 values"));
+    }
+}
+
+TEST(Variation, TheFirstRunsFastest) {
+    const std::vector<Variation> varied = {{"a", {"1", "2"}}, {"b", {"x", "y", "z"}}};
+    EXPECT_EQ(*count_runs(varied), 6u);
+    EXPECT_THAT(values_of_run(varied, 0), ElementsAre("1", "x"));
+    EXPECT_THAT(values_of_run(varied, 1), ElementsAre("2", "x"));
+    EXPECT_THAT(values_of_run(varied, 5), ElementsAre("2", "z"));
+}
+
+TEST(Variation, RefusesTwiceAndTooMany) {
+    const auto fault = [](const std::vector<Variation>& varied) {
+        const auto runs = count_runs(varied);
+        EXPECT_FALSE(runs);
+        return runs ? "" : runs.error().message;
+    };
+    EXPECT_THAT(fault({{"a", {"1"}}, {"a", {"2"}}}), HasSubstr("'a' is varied twice"));
+    EXPECT_THAT(fault({{"a", {"1", "2", "1"}}}), HasSubstr("'1' stands twice"));
+    std::vector<Variation> many;
+    for (const char* name : {"a", "b", "c", "d", "e"}) {
+        many.push_back({name, {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9"}});
+    }
+    EXPECT_THAT(fault(many), HasSubstr("more than 10000 runs"));
+}
+
+TEST(Variation, SeedsAreNoParameters) {
+    Overrides base;
+    base.sets = {"ka=1"};
+    const std::vector<Variation> varied = {{"s.beta", {"2"}}, {"seed", {"7"}}};
+    const auto overrides = overrides_of_run(base, varied, values_of_run(varied, 0));
+    ASSERT_TRUE(overrides);
+    EXPECT_THAT(overrides->sets, ElementsAre("ka=1", "s.beta=2"));
+    EXPECT_EQ(overrides->seed, 7u);
+    const std::vector<Variation> wrong = {{"seed", {"-1"}}};
+    EXPECT_FALSE(overrides_of_run(base, wrong, values_of_run(wrong, 0)));
+}
+
+TEST(Csv, QuotesWhatNeedsIt) {
+    const std::vector<std::string> cells = {"a", "", "1,5", "say \"hi\"", "two\nlines"};
+    EXPECT_EQ(csv_row(cells), "a,,\"1,5\",\"say \"\"hi\"\"\",\"two\nlines\"\n");
+    EXPECT_EQ(csv_number(0.1F), "0.1");
+    EXPECT_EQ(csv_number(static_cast<double>(0.1F)), "0.100000001");
+    EXPECT_EQ(csv_number(3.0), "3");
+    EXPECT_EQ(csv_number(std::numeric_limits<double>::quiet_NaN()), "");
+    // Nine digits are enough for every binary32.
+    for (const float value : {1.0F / 3, 16777217.0F, 1e-38F, 3.4e38F}) {
+        EXPECT_EQ(std::strtof(csv_number(value).c_str(), nullptr), value);
+    }
+}
+
+}  // namespace
+}  // namespace cascade
