@@ -130,7 +130,9 @@ TEST_F(SweepTest, ABlowUpIsARowAndAnEmptyTile) {
 }
 
 TEST_F(SweepTest, ACancelKeepsWhatIsDone) {
-    const Script script = load(spots);
+    Overrides longer;
+    longer.sets = {"iterations=3000"};
+    const Script script = load(spots, longer);
     SweepRequest wanted = request({"ka=1/20..1/5:30"});
     wanted.simulation.threads = 1;
     SweepControl control;
