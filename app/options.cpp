@@ -219,9 +219,6 @@ std::string missing_argument(const Options& options) {
         options.command == Command::compile || options.command == Command::format ||
         (options.command == Command::run && options.run.resume.empty());
     if (needs_script && options.scripts.empty()) return "a script is missing";
-    if (options.command == Command::sweep && options.sweep.varied.empty()) {
-        return "nothing is varied; say what with --vary, as in --vary feed=0.02..0.06:9";
-    }
     return "";
 }
 

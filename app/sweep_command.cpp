@@ -51,6 +51,19 @@ int tell(const SweepReport& report, const Options& options, int signal, bool lim
     return exit_status::failed_run;
 }
 
+/// What is to be varied: as the options say, else as the sheet does that is given for a script.
+Result<std::vector<Variation>> variations(const Options& options, const LoadedFile& file) {
+    if (!options.sweep.varied.empty()) return options.sweep.varied;
+    std::vector<Variation> varied;
+    for (const std::string& text : file.varied) {
+        auto variation = parse_variation(text);
+        if (!variation) return tl::unexpected(variation.error());
+        varied.push_back(std::move(*variation));
+    }
+    if (!varied.empty()) return varied;
+    return failure("nothing is varied", "say what with --vary, as in --vary feed=0.02..0.06:9");
+}
+
 }  // namespace
 
 int sweep_command(const Options& options, Console& console) {
@@ -61,6 +74,12 @@ int sweep_command(const Options& options, Console& console) {
     if (!script.program) return exit_status::wrong_script;
 
     SweepRequest request = options.sweep;
+    auto varied = variations(options, *file);
+    if (!varied) {
+        console.fail(varied.error());
+        return exit_status::wrong_use;
+    }
+    request.varied = std::move(*varied);
     request.simulation = options.run.simulation;
     if (!file->picture_options.empty()) {
         if (auto stored = picture_request_from_json(file->picture_options)) {

@@ -12,6 +12,7 @@ draw() {
 
 draw_one() {
     case $1 in
+        pearson_map) draw "$1" ;;
         figure_3_2) draw "$1" --space-time --scale 4 ;;
         # Grids of 128 cells and more.
         brusselator | fitzhugh_nagumo | gray_scott_* | figure_3_3_cheetah | figure_3_3_leopard | \
@@ -20,8 +21,19 @@ draw_one() {
     esac
 }
 
+sweep_gray_scott() {
+    local folder
+    folder=$(mktemp -d)
+    "$program" sweep -q examples/sweeps/gray_scott.cascade -o "$folder" \
+        --vary gray_scott.feed=0.014..0.062:9 --vary gray_scott.kill=0.047..0.065:7
+    cp "$folder/sheet.png" examples/sweeps/gray_scott.png
+    cp "$folder/features.csv" examples/sweeps/gray_scott.csv
+    rm -r "$folder"
+}
+
 if [ $# -gt 0 ]; then
     for name in "$@"; do draw_one "$name"; done
 else
     for script in examples/*.cascade; do draw_one "$(basename "$script" .cascade)"; done
+    sweep_gray_scott
 fi

@@ -15,11 +15,24 @@ constexpr const char* key_script = "Cascade script";
 constexpr const char* key_overrides = "Cascade overrides";
 constexpr const char* key_seed = "Cascade seed";
 constexpr const char* key_picture = "Cascade picture";
+constexpr const char* key_sweep = "Cascade sweep";
 
 /// A number of the stored overrides. One that cannot be meant is refused, not bent.
 std::int64_t whole_number(const nlohmann::json& json, std::int64_t most) {
     if (!json.is_number_integer() || json < 0 || json > most) throw std::out_of_range("number");
     return json.get<std::int64_t>();
+}
+
+/// The list of a sheet's chunk; empty where it is not one of texts.
+std::vector<std::string> texts_of(const std::string& text) {
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    if (!json.is_array()) return {};
+    std::vector<std::string> texts;
+    for (const auto& each : json) {
+        if (!each.is_string()) return {};
+        texts.push_back(each.get<std::string>());
+    }
+    return texts;
 }
 
 }  // namespace
@@ -83,6 +96,14 @@ PngTexts embed_script(const Script& script, const PictureRequest& picture) {
     };
 }
 
+PngTexts embed_sweep(const Script& script, const PictureRequest& picture,
+                     const std::vector<std::string>& varied) {
+    PngTexts texts = embed_script(script, picture);
+    texts[key_sweep] =
+        nlohmann::json(varied).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return texts;
+}
+
 Result<EmbeddedScript> read_embedded_script(const std::filesystem::path& path) {
     auto texts = read_png_texts(path);
     if (!texts) return tl::unexpected(texts.error());
@@ -101,6 +122,7 @@ Result<EmbeddedScript> read_embedded_script(const std::filesystem::path& path) {
     embedded.text = script->second;
     embedded.overrides = std::move(*overrides);
     if (texts->contains(key_picture)) embedded.picture_options = texts->at(key_picture);
+    if (texts->contains(key_sweep)) embedded.varied = texts_of(texts->at(key_sweep));
     if (!embedded.picture_options.empty()) {
         const auto picture = picture_request_from_json(embedded.picture_options);
         if (!picture) {

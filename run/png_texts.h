@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace cascade {
 
@@ -23,10 +24,15 @@ struct EmbeddedScript {
     std::string text;
     Overrides overrides;
     std::string picture_options;  ///< JSON of a PictureRequest.
+    std::vector<std::string> varied;  ///< Of a sweep's sheet: texts for parse_variation().
 };
 
 /// Chunks: Software, Cascade name, Cascade script, Cascade overrides, Cascade seed, Cascade picture.
 PngTexts embed_script(const Script& script, const PictureRequest& picture);
+
+/// The same for a sheet of a sweep: Cascade sweep lists what was varied.
+PngTexts embed_sweep(const Script& script, const PictureRequest& picture,
+                     const std::vector<std::string>& varied);
 
 /// Reads them back. Fails if the file is no PNG of Cascade's.
 Result<EmbeddedScript> read_embedded_script(const std::filesystem::path& path);

@@ -158,7 +158,7 @@ Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides
     Overrides merged = merge(embedded->overrides, overrides);
     return LoadedFile{load_script(embedded->name, std::move(embedded->text), path.parent_path(),
                                   std::move(merged)),
-                      std::move(embedded->picture_options)};
+                      std::move(embedded->picture_options), std::move(embedded->varied)};
 }
 
 }  // namespace cascade

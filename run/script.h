@@ -64,6 +64,7 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
 struct LoadedFile {
     Script script;
     std::string picture_options;   ///< JSON of the PictureRequest in a PNG; empty for a script.
+    std::vector<std::string> varied = {};   ///< Of a sweep's sheet: its --vary, in order.
 };
 Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides = {});
 

@@ -334,10 +334,12 @@ void Sweeper::run_all(const std::vector<std::size_t>& waiting) {
 
 Result<void> Sweeper::write_outputs() {
     const auto sheet = folder_ / "sheet.png", table = folder_ / "features.csv";
+    std::vector<std::string> varied;
+    for (const Variation& variation : request_.varied) varied.push_back(text_of(variation));
     const PngDepth depth =
         request_.picture.depth == 16 ? PngDepth::sixteen : PngDepth::eight;
     auto drawn = write_png(sheet, draw_sweep(results_, request_.varied, request_.picture), depth,
-                           embed_script(script_, request_.picture));
+                           embed_sweep(script_, request_.picture, varied));
     if (!drawn) return drawn;
     report_.written.push_back(sheet);
     auto written = write_file(table, sweep_table(results_, request_.varied));

@@ -114,6 +114,10 @@ Result<Variation> parse_variation(std::string_view text) {
     return variation;
 }
 
+std::string text_of(const Variation& variation) {
+    return fmt::format("{}={}", variation.name, fmt::join(variation.values, ","));
+}
+
 Result<std::size_t> count_runs(std::span<const Variation> varied) {
     std::size_t runs = 1;
     for (std::size_t k = 0; k < varied.size(); ++k) {

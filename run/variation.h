@@ -28,6 +28,9 @@ inline constexpr std::size_t most_runs = 10000;
 /// with how it is written, on anything else.
 Result<Variation> parse_variation(std::string_view text);
 
+/// As parse_variation() reads it: "ka=1/400,1/200".
+std::string text_of(const Variation& variation);
+
 /// How many runs the variations make: all values of each with all of the others. Fails where a name
 /// is varied twice, a value is listed twice, or the runs are more than `most_runs`.
 Result<std::size_t> count_runs(std::span<const Variation> varied);

@@ -18,6 +18,12 @@ for picture in "$SOURCE"/examples/*.png; do
     again "$picture"
     count=$((count + 1))
 done
+if [ "$CASCADE_JIT" = 1 ]; then
+    for sheet in "$SOURCE"/examples/sweeps/*.png; do
+        "$CASCADE" sweep -q "$sheet" -o swept --force || failed=1
+        cmp "$sheet" swept/sheet.png && cmp "${sheet%.png}.csv" swept/features.csv || failed=1
+    done
+fi
 for script in "$SOURCE"/examples/*.cascade; do
     if [ ! -f "${script%.cascade}.png" ]; then
         echo "gallery: $script has no picture beside it"

@@ -41,6 +41,10 @@ run 0 sweep spots.cascade --vary large.ka=1/80..1/20:3 --vary seed=1,2 \
 cmp spots_sweep/features.csv again/features.csv || fail "another backend, another table"
 cmp spots_sweep/sheet.png again/sheet.png || fail "another backend, another sheet"
 
+cp spots_sweep/sheet.png sheet.png
+run 0 sweep sheet.png -q -o sheet_again
+cmp sheet.png sheet_again/sheet.png || fail "a sheet does not make itself again"
+
 # A run of a sweep is the run alone.
 run 0 sweep spots.cascade --vary turing_spots.ka=1/40,1/30 --fields -q -o fields
 run 0 run spots.cascade --set turing_spots.ka=1/30 --save alone -q
@@ -62,7 +66,7 @@ says grows_sweep/features.csv 'u is not finite any more'
 [ -s grows_sweep/sheet.png ] || fail "a blow-up cost the sheet"
 
 # Wrong use, wrong scripts: nothing is written.
-run 64 sweep spots.cascade
+run 64 sweep spots.cascade -o wrong
 says err '--vary'
 run 64 sweep spots.cascade --vary ka=0..1 -o wrong
 says err 'how many values'
