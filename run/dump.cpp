@@ -1,6 +1,7 @@
 #include "run/dump.h"
 
 #include "ir/cell_kernel.h"
+#include "lang/equations.h"
 #include "lang/lower.h"
 #include "lang/parse.h"
 #include "lang/token.h"
@@ -16,8 +17,8 @@ namespace cascade {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kinds = {"tokens", "ast", "program",
-                                                   "ir",     "llvm", "asm"};
+constexpr std::array<std::string_view, 8> kinds = {"tokens", "ast", "equations", "tex",
+                                                   "program", "ir", "llvm", "asm"};
 
 std::string dump_tokens(const Script& script) {
     Diagnostics already_reported;
@@ -35,6 +36,23 @@ std::string dump_ir(const Program& program) {
         section(stage, "values that are the same everywhere", lower_uniform_start(program, k));
         section(stage, "values that vary", lower_cell_start(program, k));
         section(stage, "one step", lower_step(program, k));
+    }
+    return text;
+}
+
+/// The systems of the stages; without stages the script's own systems.
+std::string dump_equations(const Script& script, Notation notation) {
+    const Program& program = *script.program;
+    std::vector<bool> shown(program.systems.size(), false);
+    for (const Stage& stage : program.stages) shown[stage.system] = true;
+    std::string text;
+    for (std::size_t k = 0; k < program.systems.size(); ++k) {
+        const System& system = program.systems[k];
+        if (!(program.stages.empty() ? !system.built_in : shown[k])) continue;
+        if (!text.empty()) text += '\n';
+        if (notation == Notation::unicode) text += system.name + "\n";
+        text += print_equations(script.tree, script.sources, system.name, notation,
+                                EquationParts::all);
     }
     return text;
 }
@@ -66,6 +84,8 @@ Result<std::string> dump(const Script& script, std::string_view kind) {
     if (kind == "ast") return print_ast(script.tree, script.sources);
     if (!script.program) return failure("a wrong script has no program to show");
     if (kind == "program") return print_program(*script.program);
+    if (kind == "equations") return dump_equations(script, Notation::unicode);
+    if (kind == "tex") return dump_equations(script, Notation::tex);
     if (kind == "ir") return dump_ir(*script.program);
     return dump_code(*script.program, kind == "asm");
 }

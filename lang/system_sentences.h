@@ -1,0 +1,54 @@
+// What a system says, with what it takes from the systems it is derived from (internal to the
+// printing of equations).
+#pragma once
+
+#include "core/source.h"
+#include "lang/ast.h"
+
+#include <deque>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+namespace cascade {
+
+/// A sentence and the script that its expressions are in.
+struct SaidSentence {
+    const ast::Script* script = nullptr;
+    const Sources* sources = nullptr;
+    const ast::Sentence* sentence = nullptr;
+};
+
+/// The sentences of a system of a checked script or of the library, those of its bases first and
+/// changed as `system b: a { … }` changes them.
+class SystemSentences {
+public:
+    SystemSentences(const ast::Script& script, const Sources& sources, std::string_view system);
+
+    /// False if there is no such system.
+    bool found() const { return found_; }
+    const std::vector<SaidSentence>& all() const { return sentences_; }
+    /// Is this the name, without index, of something with a rate?
+    bool is_species(std::string_view name) const { return species_.contains(name); }
+
+private:
+    struct LibraryScript {
+        Sources sources;
+        ast::Script script;
+    };
+    struct Place {
+        const ast::Script* script = nullptr;
+        const Sources* sources = nullptr;
+        const ast::Block* block = nullptr;
+    };
+    static Place find_block(const ast::Script& script, const Sources& sources,
+                            std::string_view system);
+    Place find_in_library(std::string_view system);
+
+    std::deque<LibraryScript> library_;
+    std::vector<SaidSentence> sentences_;
+    std::unordered_set<std::string_view> species_;
+    bool found_ = false;
+};
+
+}  // namespace cascade
