@@ -74,32 +74,6 @@ Result<void> write_compiled(const CompiledStep& compiled, const std::filesystem:
     return write_file(header, compiled.header);
 }
 
-/// The text of a default value as its author wrote it.
-std::string source_of(const Formula& formula, const Sources& sources) {
-    return formula.nodes.empty() ? "" : std::string(sources.text(formula.nodes.back().span));
-}
-
-void print_quantities(const System& system, const Sources& sources, bool species,
-                      Console& console) {
-    for (const Quantity& quantity : system.quantities) {
-        if (quantity.is_species != species) continue;
-        console.print(fmt::format("  {:<9} {:<10} {}\n", species ? "species" : "parameter",
-                                  quantity.name, source_of(quantity.start, sources)));
-    }
-}
-
-void print_settings(const System& system, const Sources& sources, Console& console) {
-    const auto line = [&](std::string_view name, const std::string& value) {
-        console.print(fmt::format("  {:<9} {:<10} {}\n", "setting", name, value));
-    };
-    const Settings& settings = system.settings;
-    if (settings.iterations) line("iterations", fmt::format("{}", *settings.iterations));
-    if (settings.interval) line("interval", fmt::format("{}", *settings.interval));
-    if (settings.speed) line("speed", source_of(*settings.speed, sources));
-    if (settings.frozen) line("frozen", source_of(*settings.frozen, sources));
-    if (settings.show) line("show", source_of(*settings.show, sources));
-}
-
 }  // namespace
 
 std::optional<LoadedFile> load(const std::string& path, const Overrides& overrides,
@@ -163,29 +137,6 @@ int compile_command(const Options& options, Console& console) {
         return exit_status::failed_run;
     }
     console.print(fmt::format("wrote {}\nwrote {}\n", object.string(), header.string()));
-    return exit_status::success;
-}
-
-int systems_command(const Options& options, Console& console) {
-    // A script with nothing of its own has the whole library.
-    LoadedFile file{load_script("<built in>", "domain { grid: 64, 64 }", "."), ""};
-    if (!options.scripts.empty()) {
-        auto given = load(options.scripts[0], {}, console);
-        if (!given) return exit_status::wrong_script;
-        file = std::move(*given);
-    }
-    const Script& script = file.script;
-    console.say(script.messages(console.error().colour));
-    if (!script.program) return exit_status::wrong_script;
-    std::string_view between;
-    for (const System& system : script.program->systems) {
-        console.print(fmt::format("{}{}{}\n", between, system.name,
-                                  system.built_in ? "" : fmt::format(" ({})", script.name)));
-        print_quantities(system, script.sources, true, console);
-        print_quantities(system, script.sources, false, console);
-        print_settings(system, script.sources, console);
-        between = "\n";
-    }
     return exit_status::success;
 }
 

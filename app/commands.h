@@ -12,6 +12,7 @@ int sweep_command(const Options& options, Console& console);
 int check_command(const Options& options, Console& console);
 int compile_command(const Options& options, Console& console);
 int systems_command(const Options& options, Console& console);
+int new_command(const Options& options, Console& console);
 int format_command(const Options& options, Console& console);
 
 /// A bar in a terminal, lines in a pipe, nothing where the user wants quiet.

@@ -18,6 +18,7 @@ const std::string_view examples = R"(Examples:
   cascade run leopard.png                            draws a picture again
   cascade check my.cascade                           says what is wrong with it
   cascade systems                                    what there is to begin with
+  cascade new brusselator -o my.cascade              a script to start from
 
 A first script, spots.cascade:
   stage large: turing_spots { iterations: 28000; ka: 0.05/16 }
@@ -65,9 +66,18 @@ const std::string_view compile_examples = R"(Example:
   cascade compile leopard.cascade --stage 2 --per-cell beta -o step.o --header step.h
 The header says how fields lie in memory and how steps are taken.)";
 
-const std::string_view systems = "Lists the systems: their species, parameters and defaults.";
-const std::string_view systems_examples = R"(Example:
-  cascade systems my.cascade                         those of a script too)";
+const std::string_view systems =
+    "Lists the systems of the library, or shows one: equations, parameters, defaults.";
+const std::string_view systems_examples = R"(Examples:
+  cascade systems                                    all of them, a line each
+  cascade systems spots                              those that mention spots
+  cascade systems gray_scott                         its equations and parameters
+  cascade systems my.cascade                         those of a script)";
+
+const std::string_view new_script = "Prints a script to start from: a system of the library.";
+const std::string_view new_script_examples = R"(Examples:
+  cascade new brusselator -o my.cascade
+  cascade run my.cascade)";
 
 const std::string_view format = "Writes scripts back in the one style: blanks, lines, indentation.";
 const std::string_view format_examples = R"(Examples:

@@ -14,6 +14,7 @@ extern const std::string_view sweep, sweep_examples;
 extern const std::string_view check, check_examples;
 extern const std::string_view compile, compile_examples;
 extern const std::string_view systems, systems_examples;
+extern const std::string_view new_script, new_script_examples;
 extern const std::string_view format, format_examples;
 extern const std::string_view repl, repl_examples;
 

@@ -47,6 +47,7 @@ struct Parser {
     CLI::App* check = nullptr;
     CLI::App* compile = nullptr;
     CLI::App* systems = nullptr;
+    CLI::App* new_script = nullptr;
     CLI::App* format = nullptr;
     CLI::App* repl = nullptr;
     Options options;
@@ -135,8 +136,23 @@ void Parser::add_all() {
     groups::add_overrides(*compile, options.overrides);
 
     systems = command("systems", help::systems, help::systems_examples);
-    groups::add_script(*systems, options,
-                       "A script whose systems are listed as well (may be left out)");
+    systems->add_option("WORDS", options.words,
+                        "The name of a system, or words that its description has; before it a\n"
+                        "script whose systems are shown instead of the library's")
+        ->type_name("");
+
+    new_script = command("new", help::new_script, help::new_script_examples);
+    new_script
+        ->add_option_function<std::string>(
+            "SYSTEM", [&](const std::string& name) { options.words.push_back(name); },
+            "A system of the library")
+        ->type_name("");
+    new_script
+        ->add_option_function<std::string>(
+            "-o,--output", [&](const std::string& path) { options.new_script = path; },
+            "The script, a new file; without it standard output")
+        ->type_name("FILE")
+        ->group("Output");
 
     format = command("fmt", help::format, help::format_examples);
     format->add_option("SCRIPTS", options.scripts, "Scripts, or - for standard input")
@@ -150,7 +166,7 @@ void Parser::add_all() {
     groups::add_stop(*repl, options);
     groups::add_quiet(*repl, options);
 
-    for (CLI::App* sub : {run, sweep, check, compile, systems, format, repl}) {
+    for (CLI::App* sub : {run, sweep, check, compile, systems, new_script, format, repl}) {
         sub->set_help_flag("-h,--help", "This text")->group("More");
     }
 }
@@ -219,6 +235,9 @@ std::string missing_argument(const Options& options) {
         options.command == Command::compile || options.command == Command::format ||
         (options.command == Command::run && options.run.resume.empty());
     if (needs_script && options.scripts.empty()) return "a script is missing";
+    if (options.command == Command::new_script && options.words.empty()) {
+        return "the name of a system is missing ('cascade systems' lists them)";
+    }
     return "";
 }
 
@@ -254,6 +273,7 @@ std::variant<Options, Leave> parse_options(const std::string& program,
     if (sub == parser.check) options.command = Command::check;
     if (sub == parser.compile) options.command = Command::compile;
     if (sub == parser.systems) options.command = Command::systems;
+    if (sub == parser.new_script) options.command = Command::new_script;
     if (sub == parser.format) options.command = Command::format;
     if (sub == parser.repl) options.command = Command::repl;
     if (const std::string missing = missing_argument(options); !missing.empty()) {

@@ -17,7 +17,7 @@
 
 namespace cascade {
 
-enum class Command { run, sweep, check, compile, systems, format, repl };
+enum class Command { run, sweep, check, compile, systems, new_script, format, repl };
 
 /// The options about pictures that were given. A picture that is run again brings options of its
 /// own, so what was not given must be told from what is the default.
@@ -42,6 +42,8 @@ struct Options {
     double limit_seconds = 0;          ///< `--limit-time`; 0: none.
     std::string dump;                  ///< A dump kind; empty to run.
     bool quiet = false;                ///< Neither progress nor remarks.
+    std::vector<std::string> words;    ///< What `systems` looks for; the system of `new`.
+    std::filesystem::path new_script;  ///< `new -o`
     bool check_only = false;           ///< `fmt --check`
     CompileRequest compile;
     std::filesystem::path object;      ///< `compile -o`

@@ -104,7 +104,27 @@ run 2 check wrong.cascade --dump ir
 
 run 0 systems
 for name in turing_spots autocatalysis stripes; do says out "$name"; done
+[ "$(wc -l <out)" -gt 30 ] && grep -q '^gray_scott  *Gray-Scott: ' out || fail "a line for each system"
+run 0 systems turing_spots
 grep -Eq '^  parameter beta +random\(12, ?0\.1\)' out || fail "a default as its author wrote it"
+says out '∂a/∂t = ka (16 − a b) + diff_a ∇²a'
+says out 'A. M. Turing, Philosophical Transactions'
+run 0 systems PEARSON science
+grep -q '^gray_scott ' out && ! grep -q '^turing_spots' out || fail "systems by word"
+run 64 systems brusselater
+says err "did you mean 'brusselator'?"
+run 0 systems explodes.cascade
+says out '∂u/∂t = u³'
+run 64 systems explodes.cascade other
+run 0 new brusselator
+cp out brusselator.cascade
+run 0 run brusselator.cascade --steps 5 -q
+run 0 new brusselator -o new.cascade
+cmp -s new.cascade brusselator.cascade || fail "a file and standard output differ"
+run 3 new brusselator -o new.cascade
+run 64 new
+run 64 new brusselater
+says err "did you mean 'brusselator'?"
 run 0 --help
 run 0 --version
 says out 'cascade 0.1.0'
