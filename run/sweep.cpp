@@ -68,7 +68,7 @@ private:
     void watch(std::vector<std::unique_ptr<RunControl>>& controls);
     void report();
     void keep(std::size_t number, SweepResult result);
-    void give_up(Failure why);
+    void give_up(SweepFault why);
     Result<void> write_outputs();
     Script load(const Run& run) const {
         return load_script(script_.name, script_.text, script_.folder, run.overrides);
@@ -82,7 +82,7 @@ private:
     std::vector<Run> runs_;
     std::vector<std::optional<SweepResult>> results_;
     double waiting_runs_ = 0;        ///< How many there were to take.
-    double most_memory_ = 0;          ///< Of the largest run.
+    double memory_of_a_run_ = 0;      ///< Bytes; every run checks its own again.
     int workers_ = 1;
     SweepReport report_;
     Clock::time_point begun_;
@@ -92,7 +92,7 @@ private:
     std::size_t next_ = 0;
     std::size_t working_ = 0;
     double shares_done_ = 0;          ///< Of those runs, each 0 … 1.
-    std::optional<Failure> stopped_by_;
+    std::optional<SweepFault> stopped_by_;
 };
 
 Sweeper::Done Sweeper::plan_run(std::size_t number) {
@@ -119,7 +119,7 @@ Sweeper::Done Sweeper::plan_run(std::size_t number) {
             return tl::unexpected(std::move(fault));
         }
     }
-    most_memory_ = std::max(most_memory_, memory_of(*script.program));
+    if (number == 0) memory_of_a_run_ = memory_of(*script.program);
     runs_.push_back(std::move(run));
     return {};
 }
@@ -181,10 +181,10 @@ Result<void> Sweeper::choose_workers(const std::vector<std::size_t>& waiting) {
         const auto limit = static_cast<double>(request_.simulation.memory_limit);
         memory = memory > 0 ? std::min(memory, limit) : limit;
     }
-    if (memory > 0 && most_memory_ > 0) {
+    if (memory > 0 && memory_of_a_run_ > 0) {
         // One run that does not fit says so itself.
         workers_ = std::max(1, std::min<int>(workers_, static_cast<int>(std::min(
-                                                           1e6, memory / most_memory_))));
+                                                           1e6, memory / memory_of_a_run_))));
     }
     simulation_ = request_.simulation;
     simulation_.threads = 1;
@@ -213,11 +213,12 @@ void Sweeper::take(std::size_t number, RunControl& control) {
     Script script = load(run);
     auto painter = Painter::create(script, request_.picture);
     auto simulation = Simulation::create(script, simulation_);
-    if (!painter) return give_up(painter.error());
+    if (!painter) return give_up({painter.error(), std::nullopt});
     if (!simulation) {
-        // A fault of a file that the script reads is told in its own words.
-        if (!script.diagnostics.has_errors()) return give_up(simulation.error());
-        return give_up({script.messages(false), ""});
+        const Failure why = simulation.error();
+        // Faults of the files that a script reads are told at their places.
+        if (!script.diagnostics.has_errors()) return give_up({why, std::nullopt});
+        return give_up({why, std::move(script)});
     }
     SweepResult result;
     control.warn = [&](const std::string& warning) {
@@ -236,7 +237,7 @@ void Sweeper::take(std::size_t number, RunControl& control) {
     if (request_.fields) {
         const auto folder = folder_ / "fields" / folder_name(request_.varied, run.values);
         if (auto saved = save_run(folder, script, **simulation); !saved) {
-            return give_up(saved.error());
+            return give_up({saved.error(), std::nullopt});
         }
     }
     keep(number, std::move(result));
@@ -244,7 +245,7 @@ void Sweeper::take(std::size_t number, RunControl& control) {
 
 void Sweeper::keep(std::size_t number, SweepResult result) {
     if (auto written = write_result(folder_ / "runs", runs_[number].key, result); !written) {
-        return give_up(written.error());
+        return give_up({written.error(), std::nullopt});
     }
     const std::lock_guard lock(mutex_);
     report_.steps += result.steps;
@@ -252,7 +253,7 @@ void Sweeper::keep(std::size_t number, SweepResult result) {
 }
 
 /// What would befall every run (a full disk, no memory) ends the sweep.
-void Sweeper::give_up(Failure why) {
+void Sweeper::give_up(SweepFault why) {
     const std::lock_guard lock(mutex_);
     if (!stopped_by_) stopped_by_ = std::move(why);
     control_.cancel = true;
@@ -367,7 +368,7 @@ tl::expected<SweepReport, SweepFault> Sweeper::run() {
         if (report_.first_failure.empty()) report_.first_failure = result->remark;
     }
     if (auto written = write_outputs(); !written) return fault(written.error());
-    if (stopped_by_) return fault(*stopped_by_);
+    if (stopped_by_) return tl::unexpected(std::move(*stopped_by_));
     return std::move(report_);
 }
 

@@ -177,6 +177,34 @@ TEST_F(SweepTest, NothingRunsWhereAScriptIsWrong) {
     EXPECT_FALSE(std::filesystem::exists(path("sweep")));
 }
 
+TEST_F(SweepTest, AMissingFileEndsTheSweep) {
+    const Script script = load("domain { grid: 8, 8 }\n"
+                               "stage s: turing_spots { iterations: 3; a: field(\"none.npy\") }");
+    SweepControl control;
+    const auto ended = sweep(script, request({"ka=1,2,3,4,5"}), control);
+    ASSERT_FALSE(ended);
+    ASSERT_TRUE(ended.error().faults);
+    EXPECT_THAT(ended.error().faults->messages(false), HasSubstr("test.cascade:2:49: error: "));
+    EXPECT_THAT(table().back(), HasSubstr("not run"));
+}
+
+TEST_F(SweepTest, ItIsKeyedByWhatFilesHold) {
+    const auto write_array = [&](float value) {
+        Grid grid;
+        grid.width = grid.height = 8;
+        Field field{PlaneLayout(grid)};
+        field.at(3, 3) = value;
+        ASSERT_TRUE(write_npy(path("a.npy"), field));
+    };
+    const char* text = "domain { grid: 8, 8 }\n"
+                       "stage s: turing_spots { iterations: 3; a: field(\"a.npy\") }";
+    write_array(1);
+    EXPECT_EQ(sweep_well(load(text), request({"ka=1/80"})).done_before, 0u);
+    EXPECT_EQ(sweep_well(load(text), request({"ka=1/80"})).done_before, 1u);
+    write_array(2);
+    EXPECT_EQ(sweep_well(load(text), request({"ka=1/80"})).done_before, 0u);
+}
+
 TEST_F(SweepTest, LimitsAreKept) {
     const Script script = load(spots);
     SweepControl control;
