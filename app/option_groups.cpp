@@ -33,7 +33,7 @@ void add_script(CLI::App& app, Options& options, const std::string& help) {
 
 void add_overrides(CLI::App& app, Overrides& overrides) {
     const std::string group = "Changes to the script, without editing it";
-    add_value(app, "--grid", "WxH", "Columns and rows; '60' is a line of 60 cells", parse_grid,
+    add_value(app, "--grid", "WxH", "Columns and rows; '60' is a line of cells, '64x64x32'\nhas slices", parse_grid,
               [&](auto grid) { overrides.grid = grid; })
         ->group(group);
     add_value(app, "--seed", "N", "Other random numbers",
@@ -69,6 +69,9 @@ void add_shown(CLI::App& app, PictureChanges& picture) {
     add_value(app, "--depth", "BITS", "8 or 16 for each colour", one_of({"8", "16"}),
               [&](const auto& depth) { picture.depth = depth == "16" ? 16 : 8; })
         ->group(group);
+    add_value(app, "--slice", "AXIS=PLACE", "Of a grid with slices: z=0.5, or another place from 0\n"
+              "to 1 along x, y or z", parse_slice, [&](auto slice) { picture.slice = slice; })
+        ->group(group);
 }
 
 void add_picture_options(CLI::App& app, PictureChanges& picture) {
@@ -92,6 +95,9 @@ void add_files(CLI::App& app, RunRequest& run) {
         ->group(group);
     add_value(app, "--frames", "FOLDER", "A picture at each interval, all in one range", any_text,
               [&](auto path) { run.frames = path; })
+        ->group(group);
+    add_value(app, "--volume", "FILE.vti", "All species of the last stage, for ParaView", any_text,
+              [&](auto path) { run.volume = path; })
         ->group(group);
     add_value(app, "--save", "FOLDER", "Every field as STAGE.NAME.npy, to read or to resume",
               any_text, [&](auto path) { run.save = path; })

@@ -31,16 +31,33 @@ Result<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::i
     return failure(fmt::format("'{}' is not a whole number from {} to {}", text, low, high));
 }
 
-Result<std::pair<std::int64_t, std::int64_t>> parse_grid(std::string_view text) {
+Result<GridSize> parse_grid(std::string_view text) {
     // More cells than this are refused later, with a message about the grid.
     constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();
-    const std::size_t cross = text.find('x');
-    const auto columns = parse_whole(text.substr(0, cross), 0, largest);
-    const auto rows = parse_whole(
-        cross == std::string_view::npos ? "1" : text.substr(cross + 1), 0, largest);
-    if (columns && rows) return std::pair{*columns, *rows};
+    std::array<std::int64_t, 3> sides{1, 1, 1};
+    std::size_t begin = 0;
+    for (std::int64_t& side : sides) {
+        const std::size_t cross = std::min(text.find('x', begin), text.size());
+        const auto count = parse_whole(text.substr(begin, cross - begin), 0, largest);
+        if (!count) break;
+        side = *count;
+        if (cross == text.size()) return GridSize{sides[0], sides[1], sides[2]};
+        begin = cross + 1;
+    }
     return failure(fmt::format("'{}' is not a grid", text),
-                   "write columns x rows, as in --grid 256x128");
+                   "write columns x rows, as in --grid 256x128, or columns x rows x slices");
+}
+
+Result<Slice> parse_slice(std::string_view text) {
+    const std::size_t axis = std::string_view("xyz").find(text.substr(0, 1));
+    Slice slice;
+    if (text.size() > 2 && text[1] == '=' && axis < 3 && read_all(text.substr(2), slice.place) &&
+        slice.place >= 0 && slice.place <= 1) {
+        slice.axis = static_cast<Axis>(axis);
+        return slice;
+    }
+    return failure(fmt::format("'{}' is not a slice", text),
+                   "write an axis and a place from 0 to 1, as in --slice z=0.5");
 }
 
 Result<ValueRange> parse_range(std::string_view text) {

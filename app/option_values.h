@@ -3,6 +3,7 @@
 
 #include "core/result.h"
 #include "picture/image.h"
+#include "picture/slice.h"
 #include "run/run.h"
 
 #include <cstdint>
@@ -18,7 +19,10 @@ namespace cascade {
 Result<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::int64_t high);
 
 /// "256x128" is 256 columns of 128 rows; "60" is one row of 60 cells.
-Result<std::pair<std::int64_t, std::int64_t>> parse_grid(std::string_view text);
+Result<GridSize> parse_grid(std::string_view text);
+
+/// "z=0.5": a slice across an axis, 0 … 1 along it.
+Result<Slice> parse_slice(std::string_view text);
 
 /// "0,8": two different finite numbers. The first may be the larger one: colours turn around.
 Result<ValueRange> parse_range(std::string_view text);

@@ -250,6 +250,7 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
     if (changes.scale) request.scale = *changes.scale;
     if (changes.depth) request.depth = *changes.depth;
     if (changes.space_time) request.space_time = true;
+    if (changes.slice) request.slice = *changes.slice;
     return request;
 }
 

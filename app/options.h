@@ -28,6 +28,7 @@ struct PictureChanges {
     std::optional<int> scale;
     std::optional<int> depth;
     bool space_time = false;
+    std::optional<Slice> slice;
 };
 
 PictureRequest apply(const PictureChanges& changes, PictureRequest request);

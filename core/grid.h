@@ -48,6 +48,14 @@ inline constexpr Stencil Stencil::column{false, true, false};
 inline constexpr Stencil Stencil::plane{true, true, false};
 inline constexpr Stencil Stencil::volume{true, true, true};
 
+/// Cells along the axes.
+struct GridSize {
+    std::int64_t width = 1;
+    std::int64_t height = 1;
+    std::int64_t depth = 1;
+    friend bool operator==(const GridSize&, const GridSize&) = default;
+};
+
 /// A grid of width × height × depth cells, squares or cubes of side `spacing`. N is the row above
 /// (j − 1), E the next column (i + 1), D the next slice (k + 1).
 struct Grid {

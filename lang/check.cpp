@@ -137,7 +137,7 @@ std::vector<std::string> known_names(const Program& program) {
     std::set<std::string> names{"system", "stage", "domain", "picture", "system_name", "grid",
                                 "boundary", "seed", "color", "periodic", "noflux",
                                 "iterations", "interval", "frozen", "speed", "show",
-                                "x", "y", "sx", "sy", "t", "step", "pi", "and", "or", "not"};
+                                "x", "y", "z", "sx", "sy", "sz", "t", "step", "pi", "and", "or", "not"};
     for (std::size_t i = 0; i < function_count; ++i) {
         const FunctionInfo& row = info(static_cast<Function>(i));
         if (!row.is_operator && !row.is_aggregate) names.emplace(row.spelling);

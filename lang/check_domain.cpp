@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace cascade::checking {
 
@@ -11,6 +13,7 @@ namespace {
 
 constexpr double most_cells = 2147483648.0;  // 2^31: a cell's number fits a 32-bit word.
 constexpr double largest_seed = 4294967295.0;
+constexpr double least_spacing = 1e-15;  // Its square and inverse square are normal numbers.
 
 const ast::Block* find_block(Workspace& work, const ast::Script& script, ast::BlockKind kind,
                              const char* name) {
@@ -45,46 +48,85 @@ std::optional<double> check_side(Workspace& work, const ast::Script& script,
 }
 
 void check_grid(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
-    if (sentence.values.size() > 2) {
-        work.diagnostics.error(span_of(script, sentence.values[2]),
-                               "the grid has one or two sides");
+    if (sentence.values.size() > 3) {
+        work.diagnostics.error(span_of(script, sentence.values[3]),
+                               "the grid has one, two or three sides");
         return;
     }
-    const auto width = check_side(work, script, sentence.values[0]);
-    auto height = std::optional<double>(1);
-    if (sentence.values.size() == 2) height = check_side(work, script, sentence.values[1]);
-    if (!width || !height) return;
+    std::array<std::int64_t, 3> counts{1, 1, 1};
+    double cells = 1;
+    bool is_sound = true;
+    for (std::size_t axis = 0; axis < sentence.values.size(); ++axis) {
+        const auto side = check_side(work, script, sentence.values[axis]);
+        is_sound = is_sound && side.has_value();
+        if (!side) continue;
+        cells *= *side;
+        if (cells <= most_cells) counts[axis] = static_cast<std::int64_t>(*side);
+    }
+    if (!is_sound) return;
     const Span sides = join(span_of(script, sentence.values.front()),
                             span_of(script, sentence.values.back()));
-    if (*width * *height < 2) {
+    if (cells < 2) {
         work.diagnostics.error(sides, "a grid needs more than one cell");
         return;
     }
-    if (*width * *height > most_cells) {
+    if (!(cells <= most_cells)) {
         work.diagnostics.error(sides, "the grid is too large",
                                "the largest has 2147483648 cells");
         return;
     }
     Grid& grid = work.program.domain.grid;
-    grid.width = static_cast<std::int64_t>(*width);
-    grid.height = static_cast<std::int64_t>(*height);
+    grid.width = counts[0];
+    grid.height = counts[1];
+    grid.depth = counts[2];
     work.program.domain.grid_span = sides;
 }
 
-void check_boundary(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
-    if (!has_one_value(work, script, sentence)) return;
-    const ast::Expr& value = script.expressions[sentence.values[0].root];
-    if (std::holds_alternative<ast::Garbage>(value.node)) return;
+/// `periodic` or `noflux`, or nothing with a message.
+std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& script,
+                                            ast::Expression expression) {
+    const ast::Expr& value = script.expressions[expression.root];
+    if (std::holds_alternative<ast::Garbage>(value.node)) return std::nullopt;
     const auto* name = std::get_if<ast::Name>(&value.node);
     const std::string_view word = name != nullptr ? name->name : std::string_view();
-    if (word == "periodic") {
-        work.program.domain.grid.boundary = Boundary::periodic;
-    } else if (word == "noflux") {
-        work.program.domain.grid.boundary = Boundary::no_flux;
-    } else {
-        work.diagnostics.error(value.span, "the boundary is periodic or noflux",
-                               did_you_mean(work, word, {"periodic", "noflux"}));
+    if (word == "periodic") return Boundary::periodic;
+    if (word == "noflux") return Boundary::no_flux;
+    work.diagnostics.error(value.span, "the boundary is periodic or noflux",
+                           did_you_mean(work, word, {"periodic", "noflux"}));
+    return std::nullopt;
+}
+
+/// One word for all axes, or one for each.
+void check_boundary(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (sentence.values.size() > 3) {
+        work.diagnostics.error(span_of(script, sentence.values[3]),
+                               "the boundary has one word, or one for each of three axes at most");
+        return;
     }
+    std::vector<Boundary> along;
+    for (const ast::Expression value : sentence.values) {
+        const auto boundary = check_boundary_word(work, script, value);
+        if (!boundary) return;
+        along.push_back(*boundary);
+    }
+    Boundaries& target = work.program.domain.grid.boundary;
+    target = Boundaries(along[0]);
+    if (along.size() > 1) target.y = along[1];
+    if (along.size() > 1) target.z = along.size() > 2 ? along[2] : Boundary::periodic;
+}
+
+void check_spacing(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (!has_one_value(work, script, sentence)) return;
+    const auto spacing = check_constant(work, script, sentence.values[0], "spacing");
+    if (!spacing) return;
+    if (!(*spacing >= least_spacing && *spacing <= 1 / least_spacing)) {
+        work.diagnostics.error(span_of(script, sentence.values[0]),
+                               *spacing > 0 ? "spacing must be from 1e-15 to 1e15"
+                                            : "spacing must be above 0",
+                               "it is the side of a cell in your unit of length");
+        return;
+    }
+    work.program.domain.grid.spacing = *spacing;
 }
 
 void check_seed(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
@@ -108,14 +150,16 @@ void check_domain_sentence(Workspace& work, const ast::Script& script,
         check_grid(work, script, sentence);
     } else if (key == "boundary") {
         check_boundary(work, script, sentence);
+    } else if (key == "spacing") {
+        check_spacing(work, script, sentence);
     } else if (key == "seed") {
         check_seed(work, script, sentence);
     } else if (key == "mesh" || key == "cells" || key == "unit") {
         work.diagnostics.error(sentence.name.span,
                                fmt::format("'{}' is not in this version of the language", key));
     } else {
-        std::string hint = did_you_mean(work, key, {"grid", "boundary", "seed"});
-        if (hint.empty()) hint = "a domain has grid, boundary and seed";
+        std::string hint = did_you_mean(work, key, {"grid", "spacing", "boundary", "seed"});
+        if (hint.empty()) hint = "a domain has grid, spacing, boundary and seed";
         work.diagnostics.error(sentence.name.span,
                                fmt::format("'{}' is not a setting of the domain", key),
                                std::move(hint));

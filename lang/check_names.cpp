@@ -49,6 +49,8 @@ void report_constant(Workspace& work, const Scope& scope, std::string_view name,
 Builtin builtin_of(std::string_view name) {
     if (name == "x") return Builtin::x;
     if (name == "y") return Builtin::y;
+    if (name == "z") return Builtin::z;
+    if (name == "sz") return Builtin::sz;
     if (name == "sx") return Builtin::sx;
     if (name == "sy") return Builtin::sy;
     return name == "t" ? Builtin::t : Builtin::step;
@@ -101,7 +103,7 @@ std::vector<std::string> readable_names(const System& system, const Scope& scope
     if (scope.place == Place::rate) {
         for (const Definition& definition : system.definitions) names.push_back(definition.name);
     }
-    for (const char* name : {"x", "y", "sx", "sy", "pi", "frozen", "speed"}) names.push_back(name);
+    for (const char* name : {"x", "y", "z", "sx", "sy", "sz", "pi", "frozen", "speed"}) names.push_back(name);
     return names;
 }
 

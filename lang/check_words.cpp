@@ -28,10 +28,10 @@ Reserved reserved(std::string_view name) {
                                                               "speed", "show"};
     static constexpr std::array<std::string_view, 6> later_settings{
         "duration", "solver", "tolerance", "until", "check", "start"};
-    static constexpr std::array<std::string_view, 7> builtins{"x", "y", "sx", "sy",
-                                                              "t", "step", "pi"};
-    static constexpr std::array<std::string_view, 6> later_builtins{"z",  "sz", "nx",
-                                                                    "ny", "nz", "curvature"};
+    static constexpr std::array<std::string_view, 9> builtins{"x",  "y",  "z", "sx",  "sy",
+                                                              "sz", "t", "step", "pi"};
+    static constexpr std::array<std::string_view, 4> later_builtins{"nx", "ny", "nz",
+                                                                    "curvature"};
     if (among(settings, name)) return Reserved::setting;
     if (among(later_settings, name)) return Reserved::later_setting;
     if (among(builtins, name)) return Reserved::builtin;

@@ -84,7 +84,7 @@ private:
     KernelBuilder builder_;
     BoundKernel bound_;
     std::unordered_map<std::uint32_t, ValueId> own_, definitions_, rates_;
-    std::array<std::optional<ValueId>, 6> builtins_;  ///< Those that were read already.
+    std::array<std::optional<ValueId>, 8> builtins_;  ///< Those that were read already.
     bool frozen_is_mask_ = false;
 };
 

@@ -91,6 +91,8 @@ ValueId KernelAssembly::make_builtin(Builtin builtin) {
         case Builtin::y: return coordinate(builder_.cell_row(), grid.longest_side());
         case Builtin::sx: return coordinate(builder_.cell_column(), grid.width);
         case Builtin::sy: return coordinate(builder_.cell_row(), grid.height);
+        case Builtin::z: return coordinate(builder_.cell_slice(), grid.longest_side());
+        case Builtin::sz: return coordinate(builder_.cell_slice(), grid.depth);
         case Builtin::t: return builder_.multiply(step(), own_item(system().speed_item()));
         case Builtin::step: return step();
     }

@@ -111,7 +111,8 @@ private:
     }
 
     std::string leaf(const Node& node) const {
-        static constexpr const char* builtins[] = {"x", "y", "sx", "sy", "t", "step"};
+        static constexpr const char* builtins[] = {"x",  "y",  "z", "sx",
+                                                   "sy", "sz", "t", "step"};
         switch (node.kind) {
             case NodeKind::number: return fmt::format("{}", node.number);
             case NodeKind::text: return fmt::format("\"{}\"", program_.texts[node.index]);

@@ -67,6 +67,16 @@ void print_stage(const Program& program, std::uint32_t index, Output out) {
     fmt::format_to(out, "  show: {}\n}}\n\n", print_formula(program, system, stage.show, index));
 }
 
+const char* word_of(Boundary boundary) {
+    return boundary == Boundary::periodic ? "periodic" : "noflux";
+}
+
+std::string boundary_words(const Boundaries& boundary) {
+    if (boundary == Boundaries(boundary.x)) return word_of(boundary.x);
+    return fmt::format("{}, {}, {}", word_of(boundary.x), word_of(boundary.y),
+                       word_of(boundary.z));
+}
+
 }  // namespace
 
 std::string print_program(const Program& program) {
@@ -78,8 +88,10 @@ std::string print_program(const Program& program) {
         if (used[i]) print_system(program, program.systems[i], out);
     }
     const Grid& grid = program.domain.grid;
-    fmt::format_to(out, "domain {{\n  grid: {}, {}\n  boundary: {}\n  seed: {}\n}}\n", grid.width,
-                   grid.height, grid.boundary == Boundary::periodic ? "periodic" : "noflux",
+    fmt::format_to(out, "domain {{\n  grid: {}, {}", grid.width, grid.height);
+    if (grid.depth > 1) fmt::format_to(out, ", {}", grid.depth);
+    if (grid.spacing != 1) fmt::format_to(out, "\n  spacing: {}", grid.spacing);
+    fmt::format_to(out, "\n  boundary: {}\n  seed: {}\n}}\n", boundary_words(grid.boundary),
                    program.domain.seed);
     for (std::uint32_t i = 0; i < program.stages.size(); ++i) {
         text += "\n";

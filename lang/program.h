@@ -63,7 +63,7 @@ std::optional<Function> function_named(std::string_view name);
 bool varies_by_cell(Function function);
 
 /// Values that every expression may read. `pi` is folded into a number.
-enum class Builtin : std::uint8_t { x, y, sx, sy, t, step };
+enum class Builtin : std::uint8_t { x, y, z, sx, sy, sz, t, step };
 
 enum class NodeKind : std::uint8_t {
     number,      ///< `number`

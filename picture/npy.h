@@ -13,8 +13,10 @@
 
 namespace cascade {
 
-/// An array of rows × columns in C order. A one-dimensional file has one row.
+/// An array of slices × rows × columns in C order. A file of one dimension has one row, one of two
+/// has one slice.
 struct NpyArray {
+    std::int64_t slices = 1;
     std::int64_t rows = 0;
     std::int64_t columns = 0;
     std::vector<float> values;
@@ -22,7 +24,7 @@ struct NpyArray {
 
 /// An array from a .npy file in memory, format versions 1 to 3. Types f4 f8 i1 i2 i4 i8 u1 u2 u4 u8
 /// b1, little- or big-endian, each value rounded to the nearest float32. Fails, with the reason, on
-/// other types, Fortran order, no or more than two dimensions, no elements, missing or surplus
+/// other types, Fortran order, no or more than three dimensions, no elements, missing or surplus
 /// bytes, a bad header. The message is a clause that follows "cannot read 'FILE': ".
 Result<NpyArray> parse_npy(std::string_view bytes);
 
@@ -30,13 +32,16 @@ Result<NpyArray> parse_npy(std::string_view bytes);
 Result<NpyArray> read_npy(const std::filesystem::path& path);
 
 /// A field as a .npy file in memory: version 1.0, header as NumPy writes it, rows × columns
-/// little-endian float32 in C order; every NaN as 0x7fc00000.
+/// (slices × rows × columns where there are several slices) of little-endian float32 in C order; every NaN as 0x7fc00000.
 std::string encode_npy(const Field& field);
 
 /// Writes encode_npy(field), atomically.
 Result<void> write_npy(const std::filesystem::path& path, const Field& field);
 
-/// The array as a field of a grid of its columns × rows; the halo is zero.
+/// Has the array the sides of the grid?
+bool fits(const NpyArray& array, const Grid& grid);
+
+/// The array as a field of a grid of its columns × rows × slices; the halo is zero.
 Field to_field(const NpyArray& array);
 
 }  // namespace cascade

@@ -4,6 +4,7 @@
 #include "picture/npy_header.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -87,22 +88,24 @@ tl::unexpected<Failure> wrong_type(const std::string& type) {
 Result<NpyArray> array_of_shape(const NpyHeader& header) {
     const std::vector<std::uint64_t>& shape = header.shape;
     if (shape.empty()) return failure("it holds one number, not an array of rows and columns");
-    if (shape.size() > 2) {
+    if (shape.size() > 3) {
         return failure(fmt::format("its array has {} dimensions", shape.size()),
-                       "a field has two: rows and columns");
+                       "a field has two, rows and columns, or three with slices in front");
     }
     if (header.fortran_order) {
         return failure("its array is in Fortran order",
                        "save it in C order: numpy.save(file, numpy.ascontiguousarray(array))");
     }
-    const std::uint64_t rows = shape.size() == 2 ? shape[0] : 1;
+    const std::uint64_t slices = shape.size() == 3 ? shape[0] : 1;
+    const std::uint64_t rows = shape.size() >= 2 ? shape[shape.size() - 2] : 1;
     const std::uint64_t columns = shape.back();
-    if (rows == 0 || columns == 0) return failure("its array has no elements");
-    if (rows > most_elements / columns) {
-        return failure(fmt::format("its array of {} × {} elements is too large", rows, columns),
+    if (slices == 0 || rows == 0 || columns == 0) return failure("its array has no elements");
+    if (rows > most_elements / columns || slices > most_elements / (rows * columns)) {
+        return failure(fmt::format("its array of {} elements is too large", fmt::join(shape, " × ")),
                        fmt::format("at most {} elements can be read", most_elements));
     }
     NpyArray array;
+    array.slices = static_cast<std::int64_t>(slices);
     array.rows = static_cast<std::int64_t>(rows);
     array.columns = static_cast<std::int64_t>(columns);
     return array;
@@ -117,7 +120,7 @@ Result<NpyArray> parse_npy(std::string_view bytes) {
     if (type == nullptr) return wrong_type(header->type);
     Result<NpyArray> array = array_of_shape(*header);
     if (!array) return array;
-    const auto count = static_cast<std::uint64_t>(array->rows * array->columns);
+    const auto count = static_cast<std::uint64_t>(array->slices * array->rows * array->columns);
     const std::uint64_t wanted = count * type->size;
     const std::string_view data = bytes.substr(header->data_begin);
     if (data.size() != wanted) {
@@ -149,10 +152,14 @@ Result<NpyArray> read_npy(const std::filesystem::path& path) {
     return array;
 }
 
+bool fits(const NpyArray& array, const Grid& grid) {
+    return array.slices == grid.depth && array.rows == grid.height && array.columns == grid.width;
+}
+
 Field to_field(const NpyArray& array) {
-    Field field{PlaneLayout(Grid{array.columns, array.rows})};
-    for (std::int64_t j = 0; j < array.rows; ++j) {
-        std::copy_n(array.values.begin() + j * array.columns, array.columns, field.row(j));
+    Field field{PlaneLayout(Grid{array.columns, array.rows, {}, array.slices})};
+    for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
+        std::copy_n(array.values.begin() + row * array.columns, array.columns, field.row(row));
     }
     return field;
 }

@@ -1,26 +1,24 @@
 // Writes fields as .npy files.
 #include "core/file.h"
+#include "picture/float_bytes.h"
 #include "picture/npy.h"
 
 #include <fmt/format.h>
 
-#include <array>
-#include <bit>
-#include <cmath>
 #include <new>
 
 namespace cascade {
 namespace {
 
-static_assert(std::endian::native == std::endian::little);
-
 constexpr std::size_t prefix_size = 10;  // \x93NUMPY, the version, the header's size.
 constexpr std::size_t alignment = 64;    // NumPy starts the elements at a multiple of it.
-constexpr std::uint32_t one_nan = 0x7fc00000;  // So that equal runs give equal files.
 
 std::string header_of(const PlaneLayout& layout) {
-    std::string text = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}), }}",
-                                   layout.height, layout.width);
+    const std::string shape =
+        layout.depth > 1 ? fmt::format("{}, {}, {}", layout.depth, layout.height, layout.width)
+                         : fmt::format("{}, {}", layout.height, layout.width);
+    std::string text =
+        fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}), }}", shape);
     const std::size_t used = prefix_size + text.size() + 1;
     text.append((alignment - used % alignment) % alignment, ' ');
     text += '\n';
@@ -35,16 +33,8 @@ std::string header_of(const PlaneLayout& layout) {
 std::string encode_npy(const Field& field) {
     const PlaneLayout& layout = field.layout();
     std::string bytes = header_of(layout);
-    bytes.reserve(bytes.size() + static_cast<std::size_t>(layout.width * layout.height) * 4);
-    for (std::int64_t j = 0; j < layout.height; ++j) {
-        const float* row = field.row(j);
-        for (std::int64_t i = 0; i < layout.width; ++i) {
-            const float value = row[i];
-            const auto bits = std::isnan(value) ? one_nan : std::bit_cast<std::uint32_t>(value);
-            const auto element = std::bit_cast<std::array<char, 4>>(bits);
-            bytes.append(element.data(), element.size());
-        }
-    }
+    bytes.reserve(bytes.size() + static_cast<std::size_t>(layout.width * layout.row_count()) * 4);
+    append_floats(bytes, field);
     return bytes;
 }
 

@@ -84,6 +84,10 @@ Result<CompiledStep> compile_step(const Script& script, const CompileRequest& re
                   program.stages[*stage].name
             : request.function_name);
 #if CASCADE_HAS_JIT
+    if (program.domain.grid.depth > 1) {
+        return failure("a grid with slices is not compiled to an object file in this version",
+                       "'cascade run' compiles it in memory");
+    }
     ObjectOptions options;
     options.function_name = name + "_rows";
     options.target = request.target;

@@ -18,12 +18,20 @@ void read_one(Script& script, const Node& node, InputFiles& files) {
     const auto array = read_npy((script.folder / name).lexically_normal());
     if (!array) {
         script.diagnostics.error(node.span, array.error().message, array.error().hint);
-    } else if (array->rows != grid.height || array->columns != grid.width) {
+    } else if (!fits(*array, grid)) {
         script.diagnostics.error(
             node.span,
-            fmt::format("'{}' has {} rows and {} columns, but the grid has {} and {}", name,
-                        array->rows, array->columns, grid.height, grid.width),
-            fmt::format("a grid of {}, {} would fit", array->columns, array->rows));
+            array->slices == 1 && grid.depth == 1
+                ? fmt::format("'{}' has {} rows and {} columns, but the grid has {} and {}", name,
+                              array->rows, array->columns, grid.height, grid.width)
+                : fmt::format("'{}' has {} slices, {} rows and {} columns, but the grid has {}, "
+                              "{} and {}",
+                              name, array->slices, array->rows, array->columns, grid.depth,
+                              grid.height, grid.width),
+            array->slices == 1
+                ? fmt::format("a grid of {}, {} would fit", array->columns, array->rows)
+                : fmt::format("a grid of {}, {}, {} would fit", array->columns, array->rows,
+                              array->slices));
     } else {
         files.add(node.index, to_field(*array));
     }

@@ -47,9 +47,11 @@ double memory_of(const Program& program) {
 Result<void> check_memory(const Program& program, std::uint64_t limit) {
     const double needed = memory_of(program);
     const auto fails = [&](double bytes, std::string_view what) {
-        return failure(fmt::format("a grid of {} × {} cells needs {} for this script, but {} {}",
-                                   program.domain.grid.width, program.domain.grid.height,
-                                   describe_bytes(needed), describe_bytes(bytes), what),
+        const Grid& grid = program.domain.grid;
+        std::string sides = fmt::format("{} × {}", grid.width, grid.height);
+        if (grid.depth > 1) sides += fmt::format(" × {}", grid.depth);
+        return failure(fmt::format("a grid of {} cells needs {} for this script, but {} {}",
+                                   sides, describe_bytes(needed), describe_bytes(bytes), what),
                        "use a smaller grid");
     };
     if (limit > 0 && needed > static_cast<double>(limit)) {

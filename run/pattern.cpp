@@ -107,6 +107,9 @@ std::int64_t Pattern::width() const {
 std::int64_t Pattern::height() const {
     return self_->script.program ? self_->script.program->domain.grid.height : 0;
 }
+std::int64_t Pattern::depth() const {
+    return self_->script.program ? self_->script.program->domain.grid.depth : 0;
+}
 
 std::vector<std::string> Pattern::stages() const {
     std::vector<std::string> names;
@@ -179,8 +182,8 @@ std::vector<float> Pattern::values(const std::string& text) {
     if (!formula) return {};
     const Field field = std::move(self_->simulation->evaluate(*formula, self_->stage)[0]);
     std::vector<float> values;
-    for (std::int64_t j = 0; j < height(); ++j) {
-        values.insert(values.end(), field.row(j), field.row(j) + width());
+    for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
+        values.insert(values.end(), field.row(row), field.row(row) + width());
     }
     return values;
 }

@@ -22,7 +22,17 @@ bool makes_sense(const PictureRequest& request) {
                           request.range->low == request.range->high)) {
         return false;
     }
+    if (!(request.slice.place >= 0 && request.slice.place <= 1)) return false;
     return find_palette(request.palette) != nullptr;
+}
+
+constexpr std::string_view axis_letters = "xyz";
+
+/// Of a volume the slice that the request shows.
+void cut_all(std::vector<Field>& fields, const PictureRequest& request) {
+    for (Field& field : fields) {
+        if (field.layout().depth > 1) field = cut(field, request.slice);
+    }
 }
 
 }  // namespace
@@ -33,6 +43,10 @@ std::string to_json(const PictureRequest& request) {
                            {"depth", request.depth},
                            {"space_time", request.space_time}};
     if (!request.show.empty()) json["show"] = request.show;
+    if (request.slice != Slice{}) {
+        json["slice"] = {std::string(1, axis_letters[static_cast<std::size_t>(request.slice.axis)]),
+                         request.slice.place};
+    }
     if (request.range) json["range"] = {request.range->low, request.range->high};
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -47,6 +61,11 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
         request.depth = json.value("depth", request.depth);
         request.space_time = json.value("space_time", request.space_time);
         request.show = json.value("show", request.show);
+        if (json.contains("slice")) {
+            const std::size_t axis = axis_letters.find(json.at("slice").at(0).get<std::string>());
+            if (axis >= axis_letters.size()) return failure("the stored picture options make no sense");
+            request.slice = {static_cast<Axis>(axis), json.at("slice").at(1).get<double>()};
+        }
         if (json.contains("range")) {
             request.range = ValueRange{json.at("range").at(0).get<float>(),
                                        json.at("range").at(1).get<float>()};
@@ -101,11 +120,12 @@ Canvas Painter::canvas(const Simulation& simulation) {
         ++last_stage;
     }
     const bool asked = show_ || picture_expression(script_->tree);
-    if (const auto formula = formula_for(stage, last_stage)) {
-        return {simulation.evaluate(*formula, stage)};
-    }
-    fell_back_ = fell_back_ || asked;
-    return {simulation.evaluate(simulation.program().stages[stage].show, stage)};
+    const auto formula = formula_for(stage, last_stage);
+    if (!formula) fell_back_ = fell_back_ || asked;
+    Canvas canvas{simulation.evaluate(
+        formula ? *formula : simulation.program().stages[stage].show, stage)};
+    cut_all(canvas.fields, request_);
+    return canvas;
 }
 
 Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) const {
@@ -129,7 +149,10 @@ Image draw_sheet(const Simulation& simulation, const PictureRequest& request) {
         std::size_t in_stage = 0;
         for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
             if (!system.is_species(item)) continue;
-            const Field& field = simulation.state(k).field(item);
+            const Field& all = simulation.state(k).field(item);
+            const bool is_volume = all.layout().depth > 1;
+            const Field slice = is_volume ? cut(all, request.slice) : Field();
+            const Field& field = is_volume ? slice : all;
             const ValueRange range = request.range.value_or(value_range(field));
             panels.push_back({fmt::format("{}.{} {:.4g}..{:.4g}", program.stages[k].name,
                                           system.item_name(item), range.low, range.high),

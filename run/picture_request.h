@@ -3,6 +3,7 @@
 
 #include "core/result.h"
 #include "picture/image.h"
+#include "picture/slice.h"
 #include "run/simulation.h"
 
 #include <optional>
@@ -19,6 +20,7 @@ struct PictureRequest {
     int scale = 1;                     ///< Pixels per cell.
     int depth = 8;                     ///< Bits: 8 or 16.
     bool space_time = false;           ///< 1-D grids: a row of pixels per interval.
+    Slice slice;                       ///< 3-D grids: what a picture shows of them.
 };
 
 std::string to_json(const PictureRequest& request);
@@ -37,7 +39,7 @@ public:
     static Result<Painter> create(Script& script, const PictureRequest& request);
 
     /// The values to show now. Where the picture block names a stage that has not run, the default
-    /// is computed, and `fell_back()` is true from then on.
+    /// is computed, and `fell_back()` is true from then on. Of a volume they are a slice.
     Canvas canvas(const Simulation& simulation);
     bool fell_back() const { return fell_back_; }
 

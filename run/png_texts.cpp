@@ -42,7 +42,10 @@ std::string_view version() { return CASCADE_VERSION; }
 std::string overrides_to_json(const Overrides& overrides) {
     nlohmann::json json = nlohmann::json::object();
     if (!overrides.sets.empty()) json["set"] = overrides.sets;
-    if (overrides.grid) json["grid"] = {overrides.grid->first, overrides.grid->second};
+    if (overrides.grid) {
+        json["grid"] = {overrides.grid->width, overrides.grid->height};
+        if (overrides.grid->depth > 1) json["grid"].push_back(overrides.grid->depth);
+    }
     if (overrides.seed) json["seed"] = *overrides.seed;
     if (overrides.steps) json["steps"] = *overrides.steps;
     if (overrides.until_stage) json["until_stage"] = *overrides.until_stage;
@@ -59,8 +62,9 @@ Result<Overrides> overrides_from_json(const std::string& text) {
         Overrides overrides;
         if (json.contains("set")) json.at("set").get_to(overrides.sets);
         if (json.contains("grid")) {
-            overrides.grid = {whole_number(json.at("grid").at(0), largest),
-                              whole_number(json.at("grid").at(1), largest)};
+            const nlohmann::json& grid = json.at("grid");
+            overrides.grid = {whole_number(grid.at(0), largest), whole_number(grid.at(1), largest),
+                              grid.size() > 2 ? whole_number(grid.at(2), largest) : 1};
         }
         if (json.contains("seed")) {
             overrides.seed = static_cast<std::uint32_t>(

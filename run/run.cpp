@@ -1,6 +1,7 @@
 #include "run/run.h"
 
 #include "core/file.h"
+#include "picture/vti.h"
 #include "run/frames.h"
 #include "run/measured.h"
 #include "run/memory.h"
@@ -42,6 +43,9 @@ Result<void> check_outputs(const RunRequest& request, const std::filesystem::pat
     if (!request.log.expressions.empty()) {
         if (auto good = check_writable(log_path(request, output)); !good) return good;
     }
+    if (!request.volume.empty()) {
+        if (auto good = check_writable(request.volume); !good) return good;
+    }
     for (const auto& folder : {request.frames, request.save}) {
         if (folder.empty()) continue;
         if (auto made = make_folder(folder); !made) return made;
@@ -54,7 +58,9 @@ Result<void> check_outputs(const RunRequest& request, const std::filesystem::pat
 Result<void> check_picture_size(const Program& program, const PictureRequest& picture,
                                 std::uint64_t memory_limit) {
     constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
-    const Grid& grid = program.domain.grid;
+    const Grid& domain = program.domain.grid;
+    const Grid grid =
+        domain.depth > 1 ? slice_grid(PlaneLayout(domain), picture.slice) : domain;
     const std::int64_t pixels_per_cell = std::int64_t{picture.scale} * picture.scale;
     if (grid.cell_count() > most_pixels / pixels_per_cell) {
         return failure(fmt::format("a picture of {} × {} cells at scale {} has more than {} pixels",
@@ -93,7 +99,7 @@ void check_stop_at(Script& script, const StopAt& stop_at) {
 
 /// What is asked for must fit the script; where it does not, the script's diagnostics say so.
 Result<void> check_request(Script& script, const RunRequest& request) {
-    const std::int64_t rows = script.program->domain.grid.height;
+    const std::int64_t rows = script.program->domain.grid.height * script.program->domain.grid.depth;
     if (request.picture.space_time && rows != 1) {
         script.diagnostics.error(
             option_span(script.sources, "--space-time", "--space-time"),
@@ -129,6 +135,7 @@ private:
     Result<void> write_frames();
     Result<void> write_saved_run();
     Result<void> write_log();
+    Result<void> write_volume();
     Result<void> write_picture(const std::filesystem::path& path, const Image& image);
     std::string place() const;
 
@@ -283,6 +290,21 @@ Result<void> Runner::write_saved_run() {
     return {};
 }
 
+/// The species of the stage that is shown.
+Result<void> Runner::write_volume() {
+    const std::uint32_t stage = simulation_->shown_stage().value_or(0);
+    const System& system = script_.program->system_of(stage);
+    std::vector<VolumeArray> arrays;
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        if (!system.is_species(item)) continue;
+        arrays.push_back({std::string(system.item_name(item)),
+                          &simulation_->state(stage).field(item)});
+    }
+    auto done = write_vti(request_.volume, arrays, simulation_->grid().spacing);
+    if (done) report_.written.push_back(request_.volume);
+    return done;
+}
+
 Result<void> Runner::write_results() {
     // One output that fails does not cost the others: hours of stepping may lie behind them.
     std::optional<Failure> first;
@@ -295,6 +317,7 @@ Result<void> Runner::write_results() {
     if (!request_.sheet.empty()) {
         attempt(write_picture(request_.sheet, draw_sheet(*simulation_, request_.picture)));
     }
+    if (!request_.volume.empty()) attempt(write_volume());
     if (!request_.save.empty()) attempt(write_saved_run());
     if (painter_->fell_back() && control_.warn) {
         control_.warn("where the picture names a stage that has not run, the default picture is "

@@ -29,6 +29,7 @@ struct RunRequest {
     std::filesystem::path sheet;       ///< `--sheet FILE`; empty: none.
     std::filesystem::path frames;      ///< `--frames DIR`; empty: none.
     std::filesystem::path save;        ///< `--save DIR`; empty: none.
+    std::filesystem::path volume;      ///< `--volume FILE.vti`; empty: none.
     std::filesystem::path resume;      ///< `--resume DIR`; empty: from the start.
     std::optional<StopAt> stop_at;
     LogRequest log;

@@ -37,7 +37,7 @@ std::string manifest(const Script& script, const Simulation& simulation) {
         {"script", script.text},
         {"folder", std::filesystem::absolute(script.folder).string()},
         {"overrides", nlohmann::json::parse(overrides_to_json(script.overrides))},
-        {"grid", {simulation.grid().width, simulation.grid().height}},
+        {"grid", {simulation.grid().width, simulation.grid().height, simulation.grid().depth}},
         {"seed", script.program->domain.seed},
         {"stages", stages},
     };
@@ -73,7 +73,7 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
         const auto path = array_path(folder, program.stages[stage], system.item_name(item));
         const auto array = read_npy(path);
         if (!array) return tl::unexpected(damaged(folder, array.error().message));
-        if (array->rows != grid.height || array->columns != grid.width) {
+        if (!fits(*array, grid)) {
             return tl::unexpected(
                 damaged(folder, fmt::format("{} has another shape", path.filename().string())));
         }

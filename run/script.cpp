@@ -62,20 +62,25 @@ namespace {
 
 void apply_grid(Script& script) {
     if (!script.overrides.grid) return;
-    const auto [width, height] = *script.overrides.grid;
-    const Span span =
-        option_span(script.sources, "--grid", fmt::format("{}x{}", width, height));
+    const auto [width, height, depth] = *script.overrides.grid;
+    const std::string value = depth == 1 ? fmt::format("{}x{}", width, height)
+                                         : fmt::format("{}x{}x{}", width, height, depth);
+    const Span span = option_span(script.sources, "--grid", value);
+    constexpr std::int64_t most_cells = std::int64_t{1} << 31;
     script.program->domain.grid_span = span;
-    if (width < 1 || height < 1) {
-        script.diagnostics.error(span, "a grid has at least one column and one row");
-    } else if (width == 1 && height == 1) {
+    if (width < 1 || height < 1 || depth < 1) {
+        script.diagnostics.error(span, depth == 1 ? "a grid has at least one column and one row"
+                                                  : "a grid has at least one cell along each axis");
+    } else if (width == 1 && height == 1 && depth == 1) {
         script.diagnostics.error(span, "a grid of one cell has no neighbours",
                                  "patterns need at least two cells");
-    } else if (width > (std::int64_t{1} << 31) / height) {
+    } else if (width > most_cells / height || width * height > most_cells / depth) {
         script.diagnostics.error(span, "a grid of more than 2147483648 cells is too large");
     } else {
-        script.program->domain.grid.width = width;
-        script.program->domain.grid.height = height;
+        Grid& grid = script.program->domain.grid;
+        grid.width = width;
+        grid.height = height;
+        grid.depth = depth;
     }
 }
 

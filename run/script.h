@@ -20,7 +20,7 @@ namespace cascade {
 /// Changes that come from outside the script. They travel inside pictures and saved runs.
 struct Overrides {
     std::vector<std::string> sets;                               ///< "large.ka=1/400", in order.
-    std::optional<std::pair<std::int64_t, std::int64_t>> grid;   ///< Columns, rows.
+    std::optional<GridSize> grid;
     std::optional<std::uint32_t> seed;
     std::optional<std::int64_t> steps;                           ///< A cap for every stage.
     std::optional<std::string> until_stage;                      ///< The last stage that runs.

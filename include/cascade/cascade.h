@@ -60,6 +60,7 @@ public:
 
     std::int64_t width() const;    ///< Columns of the grid; 0 if the script is wrong.
     std::int64_t height() const;   ///< Rows.
+    std::int64_t depth() const;    ///< Slices; 1 for a plane.
 
     /// Names of the stages, in order.
     std::vector<std::string> stages() const;
@@ -76,7 +77,7 @@ public:
     /// Complete steps of that stage.
     std::int64_t steps() const;
 
-    /// The values of an expression over the present state, row by row: a species or parameter of
+    /// The values of an expression over the present state, row by row, slice behind slice: a species or parameter of
     /// the current stage ("b"), of an earlier one ("stage1.b"), or arithmetic ("b - stage1.b").
     /// Empty if the expression is wrong; error() says why, and the pattern stays ok.
     std::vector<float> values(const std::string& expression);

@@ -86,7 +86,7 @@ TEST(Options, run_takes_everything) {
     EXPECT_EQ(options.command, Command::run);
     EXPECT_THAT(options.scripts, ElementsAre("a.cascade"));
     EXPECT_EQ(options.run.output, "out.png");
-    EXPECT_EQ(options.overrides.grid, std::pair(std::int64_t{32}, std::int64_t{16}));
+    EXPECT_EQ(options.overrides.grid, (GridSize{32, 16}));
     EXPECT_EQ(options.overrides.seed, 7U);
     EXPECT_THAT(options.overrides.sets, ElementsAre("ka=1/80", "s.b=2"));
     EXPECT_EQ(options.overrides.steps, 100);

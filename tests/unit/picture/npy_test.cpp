@@ -143,8 +143,8 @@ TEST(ParseNpy, FortranOrder) {
 }
 
 TEST(ParseNpy, DimensionsThatNoFieldHas) {
-    EXPECT_EQ(fault_of(npy(dictionary("<f4", "(1, 2, 1)"), two_floats)),
-              "its array has 3 dimensions");
+    EXPECT_EQ(fault_of(npy(dictionary("<f4", "(1, 1, 2, 1)"), two_floats)),
+              "its array has 4 dimensions");
     EXPECT_EQ(fault_of(npy(dictionary("<f4", "()"), bytes_of<float>({1}))),
               "it holds one number, not an array of rows and columns");
     EXPECT_EQ(fault_of(npy(dictionary("<f4", "(0, 2)"), "")), "its array has no elements");

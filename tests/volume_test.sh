@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Grids with slices, from the command line to files that others read.
+set -u
+rm -rf ./*
+
+fail() { echo "volume: $*"; exit 1; }
+
+cat >ball.cascade <<'END'
+system heat { u: disc(0.5, 0.5, 0.3) * (z < 0.5); u' = 0.1 * lap(u) }
+domain { grid: 12, 10, 8; spacing: 1; boundary: noflux }
+stage s: heat { iterations: 20 }
+END
+"$CASCADE" run -q ball.cascade --volume ball.vti --save kept || fail "the run failed"
+"$CASCADE" run -q ball.cascade --slice y=0.25 -o side.png || fail "no slice across y"
+"$CASCADE" run -q ball.cascade --backend interp --threads 1 --volume other.vti || fail "interp"
+cmp -s ball.vti other.vti || fail "another backend, another volume"
+"$CASCADE" run -q ball.png -o again.png || fail "the picture does not run again"
+cmp -s ball.png again.png || fail "the picture is not itself again"
+"$CASCADE" run -q side.png -o again.png || fail "the picture of a slice does not run again"
+cmp -s side.png again.png || fail "the picture of a slice is not itself again"
+"$CASCADE" run -q --resume kept -o resumed.png || fail "a volume does not resume"
+cmp -s ball.png resumed.png || fail "a resumed volume is another one"
+for wrong in z y=2 w=0.5 z=x; do
+    "$CASCADE" run -q ball.cascade --slice "$wrong" 2>err && fail "--slice $wrong is taken"
+    grep -q "is not a slice" err || fail "--slice $wrong: $(cat err)"
+done
+# A reader of our own, from the description of the format.
+command -v python3 >/dev/null || exit 0
+python3 - <<'END' || fail "the volume file is not what it says"
+import re, struct, xml.etree.ElementTree as tree
+data = open("ball.vti", "rb").read()
+begin = data.index(b"<AppendedData")
+block = data.index(b"_", data.index(b">", begin)) + 1
+end = data.rindex(b"\n  </AppendedData>")
+root = tree.fromstring(data[:begin] + b"</VTKFile>")
+image = root.find("ImageData")
+assert root.get("type") == "ImageData" and root.get("header_type") == "UInt64"
+assert image.get("WholeExtent") == "0 12 0 10 0 8", image.get("WholeExtent")
+assert image.get("Spacing") == "1 1 1"
+arrays = image.find("Piece").find("CellData").findall("DataArray")
+assert [a.get("Name") for a in arrays] == ["u"]
+offset = block + int(arrays[0].get("offset"))
+size = struct.unpack_from("<Q", data, offset)[0]
+assert size == 12 * 10 * 8 * 4 and offset + 8 + size == end
+u = struct.unpack_from("<%df" % (size // 4), data, offset + 8)
+npy = open("kept/s.u.npy", "rb").read()
+assert b"'shape': (8, 10, 12), " in npy
+assert struct.unpack("<960f", npy[-960 * 4:]) == u
+at = lambda i, j, k: u[(k * 10 + j) * 12 + i]
+assert at(5, 4, 0) > at(5, 4, 7) > 0 and at(5, 4, 0) > at(0, 0, 0)
+total = sum(u)
+start = sum(1 for k in range(8) for j in range(10) for i in range(12)
+            if (i + 0.5 - 6) ** 2 + (j + 0.5 - 6) ** 2 < 3.6 ** 2 and k + 0.5 < 6)
+assert abs(total - start) < 1e-3 * start, (total, start)
+END
+exit 0
