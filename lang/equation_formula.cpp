@@ -28,8 +28,6 @@ struct Around {
 };
 constexpr Around arounds[] = {
     {"abs", "|", "|", "\\left|", "\\right|"},
-    {"sqrt", "√(", ")", "\\sqrt{", "}"},
-    {"cbrt", "∛(", ")", "\\sqrt[3]{", "}"},
     {"floor", "⌊", "⌋", "\\lfloor ", " \\rfloor "},
     {"ceil", "⌈", "⌉", "\\lceil ", " \\rceil "},
     {"log", "ln(", ")", "\\ln\\left(", "\\right)"},
@@ -150,7 +148,12 @@ private:
         if (const auto* name = as<ast::Qualified>(node.base)) family = name->name.text;
         const auto* const rate = as<ast::RateOf>(node.base);
         if (rate) family = rate->name.text;
-        // The words of the index, without the brackets it may stand in.
+        if (tex_) {
+            std::vector<Piece> pieces = {symbols_.family_in_tex(family) + "_{",
+                                         Operand{node.index, anything}, "}"};
+            if (rate) pieces.insert(pieces.begin(), "\\partial_t ");
+            return push_operator(std::move(pieces), rate ? a_power : an_atom, least);
+        }
         const std::string symbol =
             symbols_.member(family, sources_.text(script_.expressions[node.index].span));
         if (rate) write_rate(symbol, least);
@@ -241,6 +244,12 @@ private:
         push_operator({Operand{base, an_atom}, "^", Operand{exponent, an_atom}}, a_power, least);
     }
 
+    /// TeX draws roots over what they are of.
+    void write_root(const std::string& sign, const std::string& tex, ast::ExprId operand,
+                    int least) {
+        if (tex_) return push({tex + "{", Operand{operand, anything}, "}"});
+        push_operator({sign, Operand{operand, an_atom}}, a_power, least);
+    }
     void write_call(const ast::Call& call, int least) {
         const std::string_view function = call.function.text;
         const auto operands = arguments(call);
@@ -255,6 +264,8 @@ private:
                     {both(prefix->unicode, prefix->tex), Operand{operands[0], an_atom}}, a_power,
                     least);
             }
+            if (function == "sqrt") return write_root("√", "\\sqrt", operands[0], least);
+            if (function == "cbrt") return write_root("∛", "\\sqrt[3]", operands[0], least);
             if (function == "grad2") {
                 return push_operator({both("|∇", "\\left|\\nabla "), Operand{operands[0], an_atom},
                                       both("|²", "\\right|^2")},

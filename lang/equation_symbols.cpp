@@ -141,16 +141,17 @@ std::string Symbols::name(std::string_view name) const {
     return stem + (parts.has_bar ? "_" : "") + std::string(parts.below);
 }
 
+std::string Symbols::family_in_tex(std::string_view family) const {
+    const std::string stem = name(family);
+    return stem.find("_{") == std::string::npos ? stem : "{" + stem + "}";
+}
+
 std::string Symbols::member(std::string_view family, std::string_view index) const {
     std::string tight;
     for (const char c : index) {
         if (c != ' ' && c != '\t' && c != '\n' && c != '\r') tight += c;
     }
-    if (notation == Notation::tex) {
-        const std::string stem = name(family);
-        return (stem.find("_{") == std::string::npos ? stem : "{" + stem + "}") + "_{" + tight +
-               "}";
-    }
+    if (notation == Notation::tex) return family_in_tex(family) + "_{" + tex_word(tight) + "}";
     const auto under = subscript(tight);
     const bool is_free = parts_of(family).below.empty();
     return under && is_free ? name(family) + *under : name(family) + "[" + tight + "]";

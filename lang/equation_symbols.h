@@ -17,8 +17,10 @@ struct Symbols {
 
     /// diff_u: diffᵤ, \mathrm{diff}_{u}; beta: β, \beta; p1: p₁, p_{1}.
     std::string name(std::string_view name) const;
-    /// u[i+1], where `index` is the index as written: uᵢ₊₁, u_{i+1}.
+    /// u[i+1], where `index` is the index as written: uᵢ₊₁. In TeX `index` is one word: u_{i}.
     std::string member(std::string_view family, std::string_view index) const;
+    /// The name in TeX, such that an index can be written below it.
+    std::string family_in_tex(std::string_view family) const;
     /// 1e-3: 10⁻³, 10^{-3}; others as written.
     std::string number(std::string_view digits) const;
 };

@@ -62,7 +62,7 @@ std::string starting_script(const LibraryText& text) {
         script.blocks.begin(), script.blocks.end(),
         [](const ast::Block& block) { return block.kind == ast::BlockKind::stage; });
     std::string result(text.text);
-    if (!has_stage) result += fmt::format("\nstage first: {} {{}}\n", text.system_name());
+    if (!has_stage) result += fmt::format("\nstage first: {} {{ }}\n", text.system_name());
     return result;
 }
 

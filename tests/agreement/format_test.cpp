@@ -64,5 +64,38 @@ TEST(Formatting, KeepsTheMeaningOfRandomScripts) {
     }
 }
 
+/// The script with a few characters taken out, doubled, exchanged or put in.
+std::string damaged(std::string script, testing::RandomStream& random) {
+    static constexpr std::string_view put_in = "()[]{};:,.#'\n\r\t +-*/^=<>1a\"";
+    for (std::uint32_t k = 1 + random.below(3); k > 0 && !script.empty(); --k) {
+        const std::size_t at = random.below(script.size());
+        switch (random.below(3)) {
+            case 0: script.erase(at, 1 + random.below(3)); break;
+            case 1: script.insert(at, script.substr(random.below(script.size()), 4)); break;
+            default: script.insert(at, 1, put_in[random.below(put_in.size())]); break;
+        }
+    }
+    return script;
+}
+
+TEST(Formatting, KeepsTheMeaningOfWhatCanStillBeReadOfDamagedScripts) {
+    testing::RandomStream random(1);
+    std::vector<std::string> scripts;
+    for (const char* folder : {"examples", "lang/systems"}) {
+        for (const auto& path : scripts_below(folder)) {
+            scripts.push_back(read_file(path, 1u << 20).value());
+        }
+    }
+    int readable = 0;
+    for (int k = 0; k < 4000; ++k) {
+        const std::string script = damaged(scripts[random.below(scripts.size())], random);
+        const std::string fault = fault_of_formatting(script);
+        if (fault.starts_with("it cannot be read")) continue;
+        ASSERT_EQ(fault, "") << script;
+        ++readable;
+    }
+    EXPECT_GT(readable, 500);
+}
+
 }  // namespace
 }  // namespace cascade

@@ -131,7 +131,9 @@ TEST(Equations, KnowTheOperators) {
 }
 
 TEST(Equations, KnowTheFunctions) {
-    EXPECT_EQ(unicode("abs(u) + sqrt(u) + log(u)"), "|u| + √(u) + ln(u)");
+    EXPECT_EQ(unicode("abs(u) + sqrt(u) + log(u)"), "|u| + √u + ln(u)");
+    EXPECT_EQ(unicode("sqrt(u)^2 + cbrt(u^2)"), "(√u)² + ∛(u²)");
+    EXPECT_EQ(tex("sqrt(u + v) * cbrt(2)"), "\\sqrt{u + v} \\, \\sqrt[3]{2}");
     EXPECT_EQ(unicode("if(a < b, c, d + 1) * u"), "{c if a < b, else d + 1} u");
     EXPECT_EQ(unicode("u' + random(0, 1e-3)"), "∂u/∂t + random(0, 10⁻³)");
     EXPECT_EQ(unicode("floor(2.5e10 * x)"), "⌊2.5·10¹⁰ x⌋");
@@ -161,6 +163,8 @@ TEST(Equations, KnowFamiliesAndOwnFunctions) {
               "  where    wᵢ = (Σᵢ uᵢ) u[mod(i,3)+1]\n"
               "           bump(r, w) = exp(−(r / w)²)\n"
               "  at first uᵢ = 1\n");
+    EXPECT_EQ(tex("u[i+1] + v_0[n_a]^2"), "u_{i + 1} + {v_{0}}_{n_{a}}^{2}");
+    EXPECT_EQ(tex("u[i]'"), "\\partial_t u_{i}");
     EXPECT_EQ(tex("max(u[i] over i)"), "\\max_{i}\\left(u_{i}\\right)");
 }
 

@@ -63,7 +63,7 @@ TEST(FormatScript, IndentsBlocksByTwoAndKeepsOneBlankLine) {
               "system s {\n  a: 1\n\n  b: 2\n}\n\ndomain { grid: 8, 8 }\n");
     EXPECT_EQ(once("system_name:s\n  a:1\n\n\n  system_name:  s ; a: 2"),
               "system_name: s\na: 1\n\nsystem_name: s; a: 2\n");
-    EXPECT_EQ(once("domain {}\ndomain{ }\ndomain {\n}"), "domain {}\ndomain {}\ndomain {\n}\n");
+    EXPECT_EQ(once("domain {}\ndomain{ }\ndomain {\n}"), "domain { }\ndomain { }\ndomain {\n}\n");
     EXPECT_EQ(once("system s { a: 1 } stage t:s{a:2}"),
               "system s { a: 1 }\nstage t: s { a: 2 }\n");
 }

@@ -27,7 +27,7 @@ TEST(LibraryNote, FindsWords) {
 }
 
 TEST(LibraryNote, AddsAStageOnlyWhereThereIsNone) {
-    EXPECT_EQ(starting_script(text), std::string(text.text) + "\nstage first: example {}\n");
+    EXPECT_EQ(starting_script(text), std::string(text.text) + "\nstage first: example { }\n");
     for (const LibraryText& each : library_texts()) {
         EXPECT_FALSE(note_of(each).about.empty()) << each.file_name;
         const auto checked = testing::check_text(starting_script(each));
