@@ -4,6 +4,7 @@
 #include "core/check.h"
 #include "lang/check_blocks.h"
 #include "lang/library.h"
+#include "lang/user_functions.h"
 
 #include <fmt/format.h>
 
@@ -16,12 +17,27 @@ namespace {
 
 using checking::Workspace;
 
-/// The systems of the library that the script names. `library` keeps what was parsed.
-void check_library(Workspace& work, const std::vector<LibraryScript>& library) {
+/// The systems of the library that the script names, and the script's own. `library` keeps what
+/// was parsed.
+void check_systems(Workspace& work, const ast::Script& script,
+                   const std::vector<LibraryScript>& library) {
+    std::vector<checking::SystemBlock> blocks;
     for (const LibraryScript& each : library) {
-        checking::check_system(work, each.script, each.script.blocks[each.block], true);
+        blocks.push_back({&each.script, &each.script.blocks[each.block], true});
     }
-    CHECK(!work.diagnostics.has_errors(), "the systems of the library are sound");
+    for (const ast::Block& block : script.blocks) {
+        if (block.kind == ast::BlockKind::system) blocks.push_back({&script, &block, false});
+    }
+    const std::vector<checking::DerivedSystem> systems = checking::derive_systems(work, blocks);
+    std::vector<std::uint32_t> numbers;  // Of each of them in the program.
+    for (const checking::DerivedSystem& each : systems) {
+        std::optional<std::uint32_t> base;
+        if (each.base) base = numbers[*each.base];
+        const std::size_t errors_before = work.diagnostics.error_count();
+        numbers.push_back(checking::check_system(work, each, base));
+        const bool is_sound = work.diagnostics.error_count() == errors_before;
+        CHECK(is_sound || !each.from.built_in, "the systems of the library are sound");
+    }
 }
 
 /// The workspace of a program that is checked already.
@@ -36,52 +52,7 @@ Workspace workspace_of(Program& program, Diagnostics& diagnostics) {
     return work;
 }
 
-void refuse(Workspace& work, Span span, const char* what) {
-    work.diagnostics.error(span, fmt::format("{} not in this version of the language", what));
-}
-
-/// What the parser reads already and the checker does not.
-void refuse_unfinished(Workspace& work, const ast::Script& script) {
-    for (const auto& function : script.functions) {
-        refuse(work, function.name.span, "functions of your own are");
-    }
-    for (const auto& use : script.uses) refuse(work, use.span, "'use' is");
-    for (const ast::Block& block : script.blocks) {
-        const bool derived = block.kind == ast::BlockKind::system && !block.base.empty();
-        if (derived) refuse(work, block.base.span, "a system from a system is");
-        for (const ast::Sentence& sentence : block.sentences) {
-            const bool family =
-                sentence.kind == ast::SentenceKind::index || !sentence.index.empty();
-            if (family) refuse(work, sentence.name.span, "families are");
-            if (sentence.range) refuse(work, sentence.range->span, "ranges are");
-        }
-    }
-}
-
 }  // namespace
-
-namespace checking {
-
-void warn_unread(Workspace& work) {
-    for (std::size_t index = 0; index < work.program.systems.size(); ++index) {
-        const System& system = work.program.systems[index];
-        if (system.built_in) continue;
-        for (std::size_t item = 0; item < system.quantities.size(); ++item) {
-            const Quantity& quantity = system.quantities[item];
-            if (quantity.is_species || work.items_read[index][item]) continue;
-            work.diagnostics.warning(quantity.span,
-                                     fmt::format("parameter '{}' is never read", quantity.name));
-        }
-        for (std::size_t i = 0; i < system.definitions.size(); ++i) {
-            if (work.definitions_read[index][i]) continue;
-            work.diagnostics.warning(
-                system.definitions[i].span,
-                fmt::format("definition '{}' is never read", system.definitions[i].name));
-        }
-    }
-}
-
-}  // namespace checking
 
 std::optional<Program> check(const ast::Script& script, Sources& sources,
                              Diagnostics& diagnostics) {
@@ -90,12 +61,8 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
     {
         Workspace work{program, own, {}, {}, {}, {}, {}, 0};
         const std::vector<LibraryScript> library = read_library(script, sources, own);
-        check_library(work, library);
-        refuse_unfinished(work, script);
-        for (const ast::Block& block : script.blocks) {
-            if (block.kind != ast::BlockKind::system) continue;
-            checking::check_system(work, script, block, false);
-        }
+        check_systems(work, script, library);
+        checking::functions_of(work, script);  // Those that nothing calls are checked too.
         checking::check_stages(work, script);
         checking::check_domain(work, script);
         checking::check_picture(work, script);

@@ -3,13 +3,38 @@
 
 #include "lang/check_expression.h"
 #include "lang/check_names.h"
+#include "lang/derive.h"
 
 namespace cascade::checking {
 
-/// A `system` block. The system is added even where it has faults, so that what reads it does not
-/// give messages of its own.
-void check_system(Workspace& work, const ast::Script& script, const ast::Block& block,
-                  bool built_in);
+/// A system; `base` is the number of the one it is derived from. Returns its number. The system is
+/// added even where it has faults, so that what reads it does not give messages of its own; one
+/// whose base is not known is not added (unknown_system).
+std::uint32_t check_system(Workspace& work, const DerivedSystem& derived,
+                           std::optional<std::uint32_t> base);
+
+/// The sentence if it gives a value; else null.
+const ast::Sentence* value_sentence(const ast::Sentence& sentence);
+
+/// The overrides of each stage, in order.
+using StageOverrides = std::vector<std::vector<const ast::Sentence*>>;
+
+/// Finds the stages that each override is for.
+StageOverrides distribute_overrides(Workspace& work, const ast::Script& script);
+
+/// Is this one of the texts of a system, such as title: "Gray-Scott"? It is taken then.
+bool take_text(System& system, const Statement& statement);
+
+/// Sets the range of a parameter whose statement has one; `value` is its default, where known.
+void check_range(Workspace& work, const Statement& statement, Quantity& quantity,
+                 std::optional<double> value);
+
+/// Warns of a value that is known now and lies outside of the parameter's range.
+void warn_outside(Workspace& work, const Quantity& quantity, std::optional<double> value,
+                  Span span);
+
+/// Says that there is no system of this name.
+void report_unknown_system(Workspace& work, const ast::Word& name);
 
 /// All stages of a script, with the overrides.
 void check_stages(Workspace& work, const ast::Script& script);
@@ -20,7 +45,8 @@ void check_domain(Workspace& work, const ast::Script& script);
 /// The `picture` block, if there is one: read as by the last stage that takes a step.
 void check_picture(Workspace& work, const ast::Script& script);
 
-/// Warns of parameters and definitions that nothing reads.
+/// Warns of parameters and definitions that nothing reads; in a system that is derived from another
+/// one, what neither changes anything nor is read is an error.
 void warn_unread(Workspace& work);
 
 // Settings that stand in systems and stages.

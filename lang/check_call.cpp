@@ -1,4 +1,5 @@
 // Calls: how many arguments, where a function may stand, what types it takes, what is known now.
+#include "core/check.h"
 #include "core/palette.h"
 #include "lang/expression_checker.h"
 
@@ -55,7 +56,7 @@ void ExpressionChecker::visit(const ast::Over& over) {
 }
 
 void ExpressionChecker::visit(const ast::Indexed&) {
-    fault(formula_.nodes.back().span, "families are not in this version of the language");
+    CHECK(false, "members of families are names when an expression is checked");
 }
 
 void ExpressionChecker::wrong_count(Function function, std::size_t count) {
@@ -70,22 +71,38 @@ void ExpressionChecker::wrong_count(Function function, std::size_t count) {
 }
 
 void ExpressionChecker::unknown_function(const ast::Word& name) {
+    report_unknown_function(work_, name, functions_of(work_, from_).names());
+    parts_.back().faulty = true;
+}
+
+bool is_function_name(std::string_view name) {
+    return function_named(name) ||
+           std::find(only_over.begin(), only_over.end(), name) != only_over.end();
+}
+
+void report_unknown_function(Workspace& work, const ast::Word& name,
+                             const std::vector<std::string>& own) {
     if (std::find(later_functions.begin(), later_functions.end(), name.text) !=
         later_functions.end()) {
-        return fault(name.span,
-                     fmt::format("'{}' is not in this version of the language", name.text));
+        return work.diagnostics.error(
+            name.span, fmt::format("'{}' is not in this version of the language", name.text));
     }
     if (std::find(only_over.begin(), only_over.end(), name.text) != only_over.end()) {
-        return fault(name.span, fmt::format("{} is taken over something", name.text),
-                     fmt::format("write {0}(e over i) or {0}(e over domain)", name.text));
+        return work.diagnostics.error(
+            name.span, fmt::format("{} is taken over something", name.text),
+            fmt::format("write {0}(e over i) or {0}(e over domain)", name.text));
     }
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < function_count; ++i) {
-        const FunctionInfo& row = info(static_cast<Function>(i));
-        if (!row.is_operator && !row.is_aggregate) names.emplace_back(row.spelling);
+    std::string hint;
+    if (!is_hopeless(work)) {
+        std::vector<std::string> names = own;
+        for (std::size_t i = 0; i < function_count; ++i) {
+            const FunctionInfo& row = info(static_cast<Function>(i));
+            if (!row.is_operator && !row.is_aggregate) names.emplace_back(row.spelling);
+        }
+        hint = did_you_mean(work, name.text, names);
     }
-    std::string hint = did_you_mean(work_, name.text, names);
-    fault(name.span, fmt::format("there is no function '{}'", name.text), std::move(hint));
+    work.diagnostics.error(name.span, fmt::format("there is no function '{}'", name.text),
+                           std::move(hint));
 }
 
 bool ExpressionChecker::belongs_here(Function function, Span span) {

@@ -40,8 +40,31 @@ Function function_of(ast::BinaryOp op) {
     return Function::add;
 }
 
-}  // namespace
+/// Leaves out the parts that the part `root` does not need, directly or through others, so that it
+/// becomes the last one.
+Formula keep_needed(const Formula& formula, std::uint32_t root) {
+    std::vector<bool> needed(root + 1, false);
+    needed[root] = true;
+    for (std::uint32_t part = root + 1; part-- > 0;) {
+        const Node& node = formula.nodes[part];
+        if (!needed[part] || node.kind != NodeKind::call) continue;
+        for (std::size_t i = 0; i < node.operand_count; ++i) needed[node.operands[i]] = true;
+    }
+    Formula kept;
+    std::vector<std::uint32_t> places(root + 1, 0);
+    for (std::uint32_t part = 0; part <= root; ++part) {
+        if (!needed[part]) continue;
+        places[part] = static_cast<std::uint32_t>(kept.nodes.size());
+        Node node = formula.nodes[part];
+        for (std::size_t i = 0; i < node.operand_count; ++i) {
+            node.operands[i] = places[node.operands[i]];
+        }
+        kept.nodes.push_back(node);
+    }
+    return kept;
+}
 
+}  // namespace
 
 std::optional<CheckedExpression> ExpressionChecker::run() {
     const std::uint32_t count = expression_.root - expression_.first + 1;
@@ -54,12 +77,17 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
         node.span = expr(part).span;
         formula_.nodes.push_back(node);
         parts_.emplace_back();
+        if (expanded_ != nullptr) work_.call = expanded_->calls[part];
         std::visit([this](const auto& kind) { visit(kind); }, expr(part).node);
         faulty = faulty || parts_.back().faulty;
     }
+    work_.call = std::nullopt;
     if (faulty) return std::nullopt;
-    CheckedExpression checked{std::move(formula_), std::nullopt};
-    if (parts_.back().constant) checked.constant = parts_.back().value;
+    const std::uint32_t root = expanded_ != nullptr ? expanded_->root : count - 1;
+    CheckedExpression checked;
+    checked.formula =
+        expanded_ != nullptr ? keep_needed(formula_, root) : std::move(formula_);
+    if (parts_[root].constant) checked.constant = parts_[root].value;
     return checked;
 }
 
@@ -140,6 +168,15 @@ void ExpressionChecker::visit(const ast::Binary& binary) {
 std::optional<CheckedExpression> check_expression(Workspace& work, const ast::Script& script,
                                                   ast::Expression expression,
                                                   const Scope& scope) {
+    if (!needs_expansion(work, script, expression, scope)) {
+        return check_parts(work, script, expression, scope);
+    }
+    const Expanded expanded = expand(work, script, expression, scope);
+    return ExpressionChecker(work, script, expanded, scope).run();
+}
+
+std::optional<CheckedExpression> check_parts(Workspace& work, const ast::Script& script,
+                                             ast::Expression expression, const Scope& scope) {
     return ExpressionChecker(work, script, expression, scope).run();
 }
 

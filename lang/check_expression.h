@@ -17,9 +17,14 @@ struct CheckedExpression {
 
 /// Resolves names, counts arguments, checks types and places, and finds divisions by zero. Parts of
 /// the formula are in the order of `expression`'s. Nothing is returned where there was a fault; it
-/// has been reported then, here or by the parser.
+/// has been reported then, here or by the parser. Calls of the script's own functions, families and
+/// aggregates over an index are written out first.
 std::optional<CheckedExpression> check_expression(Workspace& work, const ast::Script& script,
                                                   ast::Expression expression, const Scope& scope);
+
+/// The same for an expression of which nothing needs to be written out any more (expand.h).
+std::optional<CheckedExpression> check_parts(Workspace& work, const ast::Script& script,
+                                             ast::Expression expression, const Scope& scope);
 
 /// The same for an expression that must be a number (and no colour or text).
 std::optional<CheckedExpression> check_number(Workspace& work, const ast::Script& script,

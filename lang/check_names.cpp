@@ -29,6 +29,7 @@ void report(Workspace& work, Span span, std::string message, std::string hint,
     diagnostic.message = std::move(message);
     diagnostic.hint = std::move(hint);
     if (!note.empty()) diagnostic.notes.push_back({std::nullopt, std::move(note)});
+    add_call(work, diagnostic);
     work.diagnostics.add(std::move(diagnostic));
 }
 
@@ -114,6 +115,9 @@ std::string not_a_parameter(std::string_view name, const System& system) {
 void report_unknown_own(Workspace& work, const Scope& scope, std::string_view name, Span span) {
     const System& system = system_at(work, scope.system);
     if (is_hopeless(work)) return report(work, span, not_a_parameter(name, system), "");
+    if (auto explained = explain_family(work, system, name)) {
+        return report(work, span, std::move(explained->message), std::move(explained->hint));
+    }
     const std::string names = list_names(quantity_names(system));
     std::string hint = did_you_mean(work, name, readable_names(system, scope));
     std::string note = fmt::format("{} has {}", system.name, names);
@@ -174,6 +178,9 @@ void report_unknown_previous(Workspace& work, const Scope& scope, std::string_vi
     const Stage& previous = work.program.stages[*scope.stage - 1];
     const System& system = system_at(work, previous.system);
     if (is_hopeless(work)) return report(work, span, not_a_parameter(name, system), "");
+    if (auto explained = explain_family(work, system, name)) {
+        return report(work, span, std::move(explained->message), std::move(explained->hint));
+    }
     std::string hint;
     if (scope.system != unknown_system && find(work.names[scope.system], name) != nullptr) {
         hint = fmt::format("[{0}] is the '{0}' of this stage", name);
@@ -300,6 +307,11 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
     }
     if (find(work.names[index], qualified.name.text) == nullptr) {
         const System& system = system_at(work, index);
+        if (auto explained = explain_family(work, system, qualified.name.text)) {
+            report(work, qualified.name.span, std::move(explained->message),
+                   std::move(explained->hint));
+            return std::nullopt;
+        }
         const std::vector<std::string> names = quantity_names(system);
         std::string hint = did_you_mean(work, qualified.name.text, names);
         report(work, qualified.name.span, not_a_parameter(qualified.name.text, system),
@@ -326,6 +338,10 @@ std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast:
     if (meaning != nullptr && meaning->is_faulty) return std::nullopt;
     if (meaning != nullptr && !meaning->is_definition && system.is_species(meaning->index)) {
         return make_node(NodeKind::rate, span, meaning->index);
+    }
+    if (auto explained = explain_family(work, system, name.text)) {
+        report(work, name.span, std::move(explained->message), std::move(explained->hint));
+        return std::nullopt;
     }
     std::vector<std::string> species;
     for (const Quantity& quantity : system.quantities) {

@@ -10,6 +10,7 @@
 #include "lang/program.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,6 +32,8 @@ using NameTable = std::unordered_map<std::string, Meaning>;
 /// A stage whose system is not known: whatever reads it stays silent.
 inline constexpr std::uint32_t unknown_system = UINT32_MAX;
 
+class FunctionTable;
+
 /// What one check shares: the program as far as it is known, and look-ups into it.
 struct Workspace {
     Program& program;
@@ -41,6 +44,12 @@ struct Workspace {
     std::vector<std::vector<bool>> items_read;               ///< By system and item.
     std::vector<std::vector<bool>> definitions_read;         ///< By system and definition.
     std::size_t names_compared = 0;                          ///< For hints, so far.
+    /// The functions of each script whose expressions were checked; see user_functions.h.
+    std::unordered_map<const ast::Script*, std::shared_ptr<const FunctionTable>> functions = {};
+    /// Parts of expressions that calls and families were written out to, so far.
+    std::size_t parts_written = 0;
+    /// The call of a user's function that is being checked: what is wrong is wrong there.
+    std::optional<Span> call = std::nullopt;
 };
 
 /// Where an expression stands: it decides which names and functions it may read.
@@ -52,12 +61,19 @@ enum class Place : std::uint8_t {
     constant,  ///< one number that is known now: iterations, the size of the grid, …
 };
 
+/// An index with its value, as `i` is 2 in the second sentence that `u[i]: e` stands for.
+struct IndexValue {
+    std::string_view name;
+    std::int64_t value = 0;
+};
+
 struct Scope {
     Place place = Place::value;
     std::uint32_t system = 0;            ///< Whose names are one's own.
     std::optional<std::uint32_t> stage;  ///< Empty inside a system.
     std::uint32_t last_stage = 0;        ///< In pictures: the last stage that can be read.
     std::string_view subject;            ///< In constants: what is to be one number.
+    std::optional<IndexValue> index = std::nullopt;  ///< Of the sentence, if it is of a family.
 };
 
 /// Whether the language gives a word a meaning of its own, so that nobody can declare it.
@@ -87,11 +103,29 @@ bool is_hopeless(const Workspace& work);
 std::string did_you_mean(Workspace& work, std::string_view name,
                          const std::vector<std::string>& candidates);
 
+/// Is this the name of a family of the system, the u of u[1], u[2], …?
+bool has_family(const System& system, std::string_view name);
+
+/// What is wrong with a name, and what to write.
+struct Explanation {
+    std::string message, hint;
+};
+/// Why a name that a system lacks is none of its own, where that has to do with families: a member
+/// that is not there, a family without an index, an index that has no value.
+std::optional<Explanation> explain_family(Workspace& work, const System& system,
+                                          std::string_view name);
+
+/// An index that is read where it has no value.
+Explanation index_without_value(std::string_view index);
+
 /// The species and parameters of a system in the order of the alphabet.
 std::vector<std::string> quantity_names(const System& system);
 
 /// "a, b, beta": at most two dozen of them.
 std::string list_names(const std::vector<std::string>& names);
+
+/// Where a call of the script's own function is checked: the fault is a fault of that call.
+void add_call(const Workspace& work, Diagnostic& diagnostic);
 
 /// Adds a second use of a name: an error at the second with a note at the first.
 void report_twice(Workspace& work, Span second, Span first, std::string message);

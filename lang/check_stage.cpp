@@ -18,12 +18,6 @@ constexpr std::size_t most_stages = 1000;
 constexpr std::size_t most_copied_nodes = 8u << 20;
 constexpr std::int64_t default_iterations = 1000;
 
-const ast::Sentence* value_sentence(const ast::Sentence& sentence) {
-    const bool usable = sentence.kind == ast::SentenceKind::value && !sentence.name.empty() &&
-                        !sentence.values.empty();
-    return usable ? &sentence : nullptr;
-}
-
 Formula number_formula(double value, Span span) {
     Node node;
     node.number = value;
@@ -52,10 +46,11 @@ private:
         result.last_stage = index_;
         return result;
     }
-    std::vector<const ast::Sentence*> collect(const ast::Block& block,
-                                              const std::vector<const ast::Sentence*>& overrides);
-    void set(const ast::Sentence& sentence);
-    void report_unknown(const ast::Word& name);
+    std::vector<Statement> collect(const ast::Block& block,
+                                   const std::vector<const ast::Sentence*>& overrides);
+    std::vector<Statement> statements_of(const ast::Sentence& sentence);
+    void set(const Statement& statement);
+    void report_unknown(const Statement& statement);
     void fill_defaults();
     void take_default(std::uint32_t item, const Formula* formula, double otherwise);
     void order_items();
@@ -69,10 +64,35 @@ private:
     std::vector<bool> from_system_;
 };
 
-std::vector<const ast::Sentence*> StageChecker::collect(
-    const ast::Block& block, const std::vector<const ast::Sentence*>& overrides) {
-    std::vector<const ast::Sentence*> sentences;
+/// With an unknown system nothing is known of families either.
+std::vector<Statement> StageChecker::statements_of(const ast::Sentence& sentence) {
+    if (stage().system != unknown_system) {
+        return stage_statements(work_, system(), script_, sentence);
+    }
+    Statement statement;
+    statement.script = &script_;
+    statement.sentence = &sentence;
+    statement.name = fmt::format("{}[{}]", sentence.name.text, sentence.index.text);
+    return {std::move(statement)};
+}
+
+std::vector<Statement> StageChecker::collect(const ast::Block& block,
+                                             const std::vector<const ast::Sentence*>& overrides) {
+    std::vector<Statement> statements;
     std::unordered_map<std::string, std::size_t> positions;
+    const auto add = [&](Statement statement, bool from_outside) {
+        const auto [first, is_new] = positions.try_emplace(statement.name, statements.size());
+        if (is_new) return statements.push_back(std::move(statement));
+        Statement& before = statements[first->second];
+        // u[2]: … says more of u[2] than u[i]: … does; of two overrides the last counts.
+        const bool replaces = from_outside || (before.index && !statement.index);
+        const bool is_replaced = !from_outside && !before.index && statement.index;
+        if (!replaces && !is_replaced) {
+            report_twice(work_, statement.span(), before.span(),
+                         fmt::format("'{}' is given a value twice", statement.name));
+        }
+        if (replaces) before = std::move(statement);
+    };
     for (const ast::Sentence& sentence : block.sentences) {
         if (sentence.name.empty()) continue;
         const ast::Sentence* value = value_sentence(sentence);
@@ -82,31 +102,25 @@ std::vector<const ast::Sentence*> StageChecker::collect(
                                     "rates, definitions and bounds belong in a system");
             continue;
         }
-        const auto [first, is_new] =
-            positions.try_emplace(std::string(sentence.name.text), sentences.size());
-        if (is_new) {
-            sentences.push_back(value);
-        } else {
-            report_twice(work_, sentence.name.span, sentences[first->second]->name.span,
-                         fmt::format("'{}' is given a value twice", sentence.name.text));
+        if (sentence.range) {
+            work_.diagnostics.error(sentence.range->span, "the range of a parameter stands in "
+                                                          "its system");
         }
+        for (Statement& statement : statements_of(*value)) add(std::move(statement), false);
     }
     for (const ast::Sentence* sentence : overrides) {
-        const auto [place, is_new] =
-            positions.try_emplace(std::string(sentence->name.text), sentences.size());
-        if (is_new) sentences.push_back(sentence);
-        else sentences[place->second] = sentence;
+        for (Statement& statement : statements_of(*sentence)) add(std::move(statement), true);
     }
-    return sentences;
+    return statements;
 }
 
 void StageChecker::run(const ast::Block& block,
                        const std::vector<const ast::Sentence*>& overrides) {
-    const std::vector<const ast::Sentence*> sentences = collect(block, overrides);
+    const std::vector<Statement> statements = collect(block, overrides);
     if (stage().system == unknown_system) return;
     stage().items.resize(system().item_count());
     from_system_.assign(system().item_count(), false);
-    for (const ast::Sentence* sentence : sentences) set(*sentence);
+    for (const Statement& statement : statements) set(statement);
     for (const Formula& formula : stage().items) mark_reads(work_, formula, stage().system);
     if (settings_.show) mark_reads(work_, *settings_.show, stage().system);
     fill_defaults();
@@ -114,8 +128,9 @@ void StageChecker::run(const ast::Block& block,
     find_uniform();
 }
 
-void StageChecker::set(const ast::Sentence& sentence) {
-    const std::string_view name = sentence.name.text;
+void StageChecker::set(const Statement& statement) {
+    const ast::Sentence& sentence = *statement.sentence;
+    const std::string_view name = statement.name;
     const Reserved kind = reserved(name);
     if (kind == Reserved::setting) {
         check_setting(work_, script_, sentence, scope(), settings_);
@@ -127,7 +142,7 @@ void StageChecker::set(const ast::Sentence& sentence) {
         return;
     }
     const Meaning* meaning = find(work_.names[stage().system], name);
-    if (meaning == nullptr) return report_unknown(sentence.name);
+    if (meaning == nullptr) return report_unknown(statement);
     if (meaning->is_faulty) return;
     if (meaning->is_definition) {
         work_.diagnostics.error(
@@ -136,15 +151,27 @@ void StageChecker::set(const ast::Sentence& sentence) {
         return;
     }
     if (!has_one_value(work_, script_, sentence)) return;
-    auto checked = check_number(work_, script_, sentence.values[0], scope());
-    if (checked) stage().items[meaning->index] = std::move(checked->formula);
+    Scope own = scope();
+    own.index = statement.index;
+    auto checked = check_number(work_, script_, sentence.values[0], own);
+    if (!checked) return;
+    if (meaning->index < system().quantities.size()) {
+        warn_outside(work_, system().quantities[meaning->index], checked->constant,
+                     script_.expressions[sentence.values[0].root].span);
+    }
+    stage().items[meaning->index] = std::move(checked->formula);
 }
 
-void StageChecker::report_unknown(const ast::Word& name) {
+void StageChecker::report_unknown(const Statement& statement) {
     Diagnostic diagnostic;
-    diagnostic.span = name.span;
+    diagnostic.span = statement.span();
+    if (auto explained = explain_family(work_, system(), statement.name)) {
+        work_.diagnostics.error(statement.span(), std::move(explained->message),
+                                std::move(explained->hint));
+        return;
+    }
     diagnostic.message =
-        fmt::format("'{}' is not a parameter of {}", name.text, system().name);
+        fmt::format("'{}' is not a parameter of {}", statement.name, system().name);
     if (!is_hopeless(work_)) {
         std::vector<std::string> names = quantity_names(system());
         diagnostic.notes.push_back({std::nullopt, fmt::format("{} has {}", system().name,
@@ -152,7 +179,7 @@ void StageChecker::report_unknown(const ast::Word& name) {
         for (const char* setting : {"iterations", "interval", "frozen", "speed", "show"}) {
             names.emplace_back(setting);
         }
-        diagnostic.hint = did_you_mean(work_, name.text, names);
+        diagnostic.hint = did_you_mean(work_, statement.name, names);
     }
     work_.diagnostics.add(std::move(diagnostic));
 }
@@ -247,90 +274,10 @@ void StageChecker::find_uniform() {
     }
 }
 
-/// The overrides of one stage, in order.
-using StageOverrides = std::vector<std::vector<const ast::Sentence*>>;
-
-bool has_name(const Workspace& work, const Stage& stage, std::string_view name) {
-    if (stage.system == unknown_system) return true;
-    if (reserved(name) != Reserved::no) return true;
-    return find(work.names[stage.system], name) != nullptr;
-}
-
-void report_unknown_override(Workspace& work, const ast::Word& name) {
-    std::vector<std::string> names;
-    for (const Stage& stage : work.program.stages) {
-        if (stage.system == unknown_system) continue;
-        for (std::string& each : quantity_names(work.program.systems[stage.system])) {
-            names.push_back(std::move(each));
-        }
-    }
-    for (const char* setting : {"iterations", "interval", "frozen", "speed", "show"}) {
-        names.emplace_back(setting);
-    }
-    work.diagnostics.error(name.span, fmt::format("no stage has a parameter '{}'", name.text),
-                           did_you_mean(work, name.text, names));
-}
-
-/// `--set gray_scott.feed=…` where no stage is called so: it holds in every stage of that system.
-bool set_in_stages_of_system(const Workspace& work, std::string_view system,
-                             const ast::Sentence* sentence, StageOverrides& result) {
-    bool used = false;
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        const std::uint32_t its = work.program.stages[i].system;
-        if (its == unknown_system || work.program.systems[its].name != system) continue;
-        result[i].push_back(sentence);
-        used = true;
-    }
-    return used;
-}
-
-StageOverrides distribute(Workspace& work, const ast::Script& script) {
-    StageOverrides result(work.program.stages.size());
-    for (const ast::Override& change : script.overrides) {
-        const ast::Sentence* sentence = value_sentence(change.sentence);
-        if (sentence == nullptr) continue;
-        if (!change.stage.empty()) {
-            const auto found = work.stages.find(std::string(change.stage.text));
-            if (found != work.stages.end()) {
-                result[found->second].push_back(sentence);
-                continue;
-            }
-            if (set_in_stages_of_system(work, change.stage.text, sentence, result)) continue;
-            std::vector<std::string> names;
-            for (const Stage& stage : work.program.stages) names.push_back(stage.name);
-            work.diagnostics.error(change.stage.span,
-                                   fmt::format("there is no stage '{}'", change.stage.text),
-                                   did_you_mean(work, change.stage.text, names));
-            continue;
-        }
-        bool used = false;
-        for (std::size_t i = 0; i < result.size(); ++i) {
-            if (!has_name(work, work.program.stages[i], sentence->name.text)) continue;
-            result[i].push_back(sentence);
-            used = true;
-        }
-        if (!used) report_unknown_override(work, sentence->name);
-    }
-    return result;
-}
-
 std::uint32_t find_system(Workspace& work, const ast::Word& name) {
     const auto found = work.systems.find(std::string(name.text));
     if (found != work.systems.end()) return found->second;
-    if (name.empty()) return unknown_system;
-    std::vector<std::string> names;
-    if (!is_hopeless(work)) {
-        for (const LibraryText& text : library_texts()) names.emplace_back(text.system_name());
-        for (const System& system : work.program.systems) {
-            if (!system.built_in) names.push_back(system.name);
-        }
-    }
-    Diagnostic diagnostic;
-    diagnostic.span = name.span;
-    diagnostic.message = fmt::format("there is no system '{}'", name.text);
-    diagnostic.hint = did_you_mean(work, name.text, names);
-    diagnostic.notes.push_back({std::nullopt, "'cascade systems' lists those of the library"});
-    work.diagnostics.add(std::move(diagnostic));
+    if (!name.empty()) report_unknown_system(work, name);
     return unknown_system;
 }
 
@@ -351,6 +298,22 @@ void add_stage(Workspace& work, const ast::Block& block) {
 
 }  // namespace
 
+void report_unknown_system(Workspace& work, const ast::Word& name) {
+    std::vector<std::string> names;
+    if (!is_hopeless(work)) {
+        for (const LibraryText& text : library_texts()) names.emplace_back(text.system_name());
+        for (const System& system : work.program.systems) {
+            if (!system.built_in) names.push_back(system.name);
+        }
+    }
+    Diagnostic diagnostic;
+    diagnostic.span = name.span;
+    diagnostic.message = fmt::format("there is no system '{}'", name.text);
+    diagnostic.hint = did_you_mean(work, name.text, names);
+    diagnostic.notes.push_back({std::nullopt, "'cascade systems' lists those of the library"});
+    work.diagnostics.add(std::move(diagnostic));
+}
+
 void check_stages(Workspace& work, const ast::Script& script) {
     std::vector<const ast::Block*> blocks;
     for (const ast::Block& block : script.blocks) {
@@ -365,7 +328,7 @@ void check_stages(Workspace& work, const ast::Script& script) {
         blocks.push_back(&block);
         add_stage(work, block);
     }
-    const StageOverrides overrides = distribute(work, script);
+    const StageOverrides overrides = distribute_overrides(work, script);
     std::size_t copied = 0;
     for (std::uint32_t i = 0; i < blocks.size(); ++i) {
         StageChecker(work, script, i, copied).run(*blocks[i], overrides[i]);

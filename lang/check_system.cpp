@@ -10,62 +10,64 @@ namespace {
 
 /// The sentences that make a rate.
 struct RateSentences {
-    const ast::Sentence* assignment = nullptr;
-    std::vector<const ast::Sentence*> terms;
+    const Statement* assignment = nullptr;
+    std::vector<const Statement*> terms;
     bool empty() const { return assignment == nullptr && terms.empty(); }
 };
 
 class SystemChecker {
 public:
-    SystemChecker(Workspace& work, const ast::Script& script, const ast::Block& block,
-                  std::uint32_t index)
-        : work_(work), script_(script), block_(block), index_(index) {}
+    SystemChecker(Workspace& work, const DerivedSystem& derived, std::uint32_t index)
+        : work_(work), derived_(derived), index_(index),
+          statements_(system_statements(work, system(), derived.sentences)) {}
 
     void run();
 
 private:
     System& system() { return work_.program.systems[index_]; }
-    Scope scope(Place place) const {
+    Scope scope(Place place, const Statement& statement) const {
         Scope result;
         result.place = place;
         result.system = index_;
+        result.index = statement.index;
         return result;
     }
 
-    void declare(const ast::Sentence& sentence);
-    bool can_declare(const ast::Word& name, const ast::Sentence& sentence);
-    void declare_setting(const ast::Sentence& sentence);
-    void collect_rate(const ast::Sentence& sentence);
-    void report_no_species(const ast::Word& name, const Meaning* meaning);
+    void declare(const Statement& statement);
+    bool can_declare(const Statement& statement);
+    void collect_rate(const Statement& statement);
+    void report_no_species(const Statement& statement, const Meaning* meaning);
+    void report_families();
+    std::optional<CheckedExpression> check_value(const Statement& statement, Place place);
     void check_values();
     void check_definitions();
     void check_rates();
     void check_invariants();
+    void report_no_bound(const Statement& statement);
     void check_settings();
     void order_values();
     void order_steps();
 
     Workspace& work_;
-    const ast::Script& script_;
-    const ast::Block& block_;
+    const DerivedSystem& derived_;
     std::uint32_t index_;
+    std::vector<Statement> statements_;
     std::unordered_map<std::string, Span> declared_;
-    std::vector<const ast::Sentence*> values_, definitions_, invariants_, settings_;
-    std::vector<const ast::Sentence*> rate_sentences_;
+    std::vector<const Statement*> values_, definitions_, invariants_, settings_;
+    std::vector<const Statement*> rate_sentences_;
     std::vector<RateSentences> rates_;
 };
 
 void SystemChecker::run() {
-    for (const ast::Sentence& sentence : block_.sentences) {
-        if (sentence.name.empty() || sentence.values.empty()) continue;
-        declare(sentence);
-    }
+    for (const Index& index : system().indices) declared_.emplace(index.name, index.span);
+    for (const Statement& statement : statements_) declare(statement);
+    report_families();
     work_.names[index_] = names_of(system());
     rates_.resize(system().quantities.size());
-    for (const ast::Sentence* sentence : rate_sentences_) collect_rate(*sentence);
+    for (const Statement* statement : rate_sentences_) collect_rate(*statement);
     if (rate_sentences_.empty()) {
-        work_.diagnostics.error(block_.name.span,
-                                fmt::format("system '{}' has no rates", block_.name.text),
+        work_.diagnostics.error(system().span,
+                                fmt::format("system '{}' has no rates", system().name),
                                 "a rate is written name' = …");
     }
     work_.items_read[index_].assign(system().item_count(), false);
@@ -79,118 +81,156 @@ void SystemChecker::run() {
     order_steps();
 }
 
-bool SystemChecker::can_declare(const ast::Word& name, const ast::Sentence& sentence) {
-    const Reserved kind = reserved(name.text);
+bool SystemChecker::can_declare(const Statement& statement) {
+    const std::string_view name = statement.sentence->name.text;
+    const Reserved kind = reserved(name);
     if (kind == Reserved::later_setting) {
         work_.diagnostics.error(
-            name.span, fmt::format("'{}' is not in this version of the language", name.text));
+            statement.span(), fmt::format("'{}' is not in this version of the language", name));
         return false;
     }
     if (kind == Reserved::builtin || kind == Reserved::later_builtin) {
         work_.diagnostics.error(
-            name.span, fmt::format("'{}' is built in and cannot be declared", name.text));
+            statement.span(), fmt::format("'{}' is built in and cannot be declared", name));
         return false;
     }
-    if (kind == Reserved::setting && sentence.kind == ast::SentenceKind::definition) {
-        work_.diagnostics.error(name.span,
-                                fmt::format("'{}' is a setting and no definition", name.text),
-                                fmt::format("write {}: …", name.text));
+    const bool is_member = !statement.sentence->index.empty();
+    if (kind == Reserved::setting && is_member) {
+        work_.diagnostics.error(statement.span(),
+                                fmt::format("'{}' is a setting and no family", name));
         return false;
     }
-    const auto [first, is_new] = declared_.try_emplace(std::string(name.text), name.span);
+    if (kind == Reserved::setting && statement.kind() == ast::SentenceKind::definition) {
+        work_.diagnostics.error(statement.span(),
+                                fmt::format("'{}' is a setting and no definition", name),
+                                fmt::format("write {}: …", name));
+        return false;
+    }
+    const auto [first, is_new] = declared_.try_emplace(statement.name, statement.span());
     if (is_new) return true;
-    report_twice(work_, name.span, first->second,
-                 fmt::format("'{}' is given a value twice", name.text));
+    report_twice(work_, statement.span(), first->second,
+                 fmt::format("'{}' is given a value twice", statement.name));
     return false;
 }
 
-void SystemChecker::declare(const ast::Sentence& sentence) {
-    switch (sentence.kind) {
+void SystemChecker::declare(const Statement& statement) {
+    switch (statement.kind()) {
         case ast::SentenceKind::value: {
-            if (!can_declare(sentence.name, sentence)) return;
-            if (reserved(sentence.name.text) == Reserved::setting) {
-                settings_.push_back(&sentence);
+            if (!can_declare(statement)) return;
+            if (take_text(system(), statement)) return;
+            if (reserved(statement.name) == Reserved::setting) {
+                settings_.push_back(&statement);
                 return;
             }
-            values_.push_back(&sentence);
+            values_.push_back(&statement);
             Quantity quantity;
-            quantity.name = std::string(sentence.name.text);
-            quantity.span = sentence.name.span;
+            quantity.name = statement.name;
+            quantity.span = statement.span();
+            quantity.doc = statement.doc;
             system().quantities.push_back(std::move(quantity));
             return;
         }
         case ast::SentenceKind::definition:
-            if (!can_declare(sentence.name, sentence)) return;
-            definitions_.push_back(&sentence);
-            system().definitions.push_back(
-                {std::string(sentence.name.text), sentence.name.span, {}});
+            if (!can_declare(statement)) return;
+            definitions_.push_back(&statement);
+            system().definitions.push_back({statement.name, statement.span(), {}});
             return;
         case ast::SentenceKind::index: return;
         case ast::SentenceKind::rate:
-        case ast::SentenceKind::rate_term: rate_sentences_.push_back(&sentence); return;
+        case ast::SentenceKind::rate_term: rate_sentences_.push_back(&statement); return;
         case ast::SentenceKind::at_least:
-        case ast::SentenceKind::at_most: invariants_.push_back(&sentence); return;
+        case ast::SentenceKind::at_most: invariants_.push_back(&statement); return;
+    }
+}
+
+/// The name of a family cannot be that of a quantity or an index too.
+void SystemChecker::report_families() {
+    for (const Statement& statement : statements_) {
+        const ast::Sentence& sentence = *statement.sentence;
+        const bool declares = statement.kind() == ast::SentenceKind::value ||
+                              statement.kind() == ast::SentenceKind::definition;
+        if (sentence.index.empty() || !declares) continue;
+        const auto plain = declared_.find(std::string(sentence.name.text));
+        if (plain == declared_.end()) continue;
+        Diagnostic diagnostic;
+        diagnostic.span = sentence.name.span;
+        diagnostic.message =
+            fmt::format("'{}' cannot be a family and one quantity", sentence.name.text);
+        diagnostic.notes.push_back({plain->second, "the other is here"});
+        work_.diagnostics.add(std::move(diagnostic));
     }
 }
 
 /// A rate of something that is no species: said once, later readers of the name stay silent.
-void SystemChecker::report_no_species(const ast::Word& name, const Meaning* meaning) {
+void SystemChecker::report_no_species(const Statement& statement, const Meaning* meaning) {
+    const std::string& name = statement.name;
     if (meaning != nullptr && meaning->is_definition) {
-        work_.diagnostics.error(name.span,
-                                fmt::format("'{}' is a definition and has no rate", name.text));
+        work_.diagnostics.error(statement.span(),
+                                fmt::format("'{}' is a definition and has no rate", name));
         return;
     }
-    if (reserved(name.text) != Reserved::no) {
-        work_.diagnostics.error(name.span, fmt::format("'{}' has no rate", name.text));
+    if (reserved(name) != Reserved::no) {
+        work_.diagnostics.error(statement.span(), fmt::format("'{}' has no rate", name));
         return;
     }
-    std::string hint;
-    if (!is_hopeless(work_)) hint = did_you_mean(work_, name.text, quantity_names(system()));
-    if (hint.empty()) hint = fmt::format("add {}: …", name.text);
-    work_.diagnostics.error(name.span,
-                            fmt::format("species '{}' has no starting value", name.text),
-                            std::move(hint));
-    work_.names[index_].emplace(std::string(name.text), Meaning{false, 0, true});
+    if (auto explained = explain_family(work_, system(), name)) {
+        work_.diagnostics.error(statement.span(), std::move(explained->message),
+                                std::move(explained->hint));
+    } else {
+        std::string hint;
+        if (!is_hopeless(work_)) hint = did_you_mean(work_, name, quantity_names(system()));
+        if (hint.empty()) hint = fmt::format("add {}: …", name);
+        work_.diagnostics.error(statement.span(),
+                                fmt::format("species '{}' has no starting value", name),
+                                std::move(hint));
+    }
+    work_.names[index_].emplace(name, Meaning{false, 0, true});
 }
 
 /// A name with a rate is a species.
-void SystemChecker::collect_rate(const ast::Sentence& sentence) {
-    const std::string_view name = sentence.name.text;
-    const Meaning* meaning = find(work_.names[index_], name);
+void SystemChecker::collect_rate(const Statement& statement) {
+    const Meaning* meaning = find(work_.names[index_], statement.name);
     const bool is_quantity = meaning != nullptr && !meaning->is_definition &&
                              meaning->index < system().quantities.size();
     if (meaning != nullptr && meaning->is_faulty) return;
-    if (!is_quantity) return report_no_species(sentence.name, meaning);
+    if (!is_quantity) return report_no_species(statement, meaning);
     system().quantities[meaning->index].is_species = true;
     RateSentences& rate = rates_[meaning->index];
-    if (sentence.kind == ast::SentenceKind::rate_term) {
-        rate.terms.push_back(&sentence);
+    if (statement.kind() == ast::SentenceKind::rate_term) {
+        rate.terms.push_back(&statement);
     } else if (rate.assignment == nullptr) {
-        rate.assignment = &sentence;
+        rate.assignment = &statement;
     } else {
-        report_twice(work_, sentence.name.span, rate.assignment->name.span,
-                     fmt::format("the rate of '{}' is given twice", name));
+        report_twice(work_, statement.span(), rate.assignment->span(),
+                     fmt::format("the rate of '{}' is given twice", statement.name));
     }
+}
+
+/// The number that a statement says, or nothing with a message.
+std::optional<CheckedExpression> SystemChecker::check_value(const Statement& statement,
+                                                            Place place) {
+    if (!has_one_value(work_, *statement.script, *statement.sentence)) return std::nullopt;
+    auto checked = check_number(work_, *statement.script, statement.sentence->values[0],
+                                scope(place, statement));
+    if (checked) mark_reads(work_, checked->formula, index_);
+    return checked;
 }
 
 void SystemChecker::check_values() {
     for (std::size_t i = 0; i < values_.size(); ++i) {
-        if (!has_one_value(work_, script_, *values_[i])) continue;
-        auto checked = check_number(work_, script_, values_[i]->values[0], scope(Place::value));
-        if (!checked) continue;
-        mark_reads(work_, checked->formula, index_);
-        system().quantities[i].start = std::move(checked->formula);
+        Quantity& quantity = system().quantities[i];
+        auto checked = check_value(*values_[i], Place::value);
+        if (checked) quantity.start = std::move(checked->formula);
+        if (values_[i]->range != nullptr) {
+            check_range(work_, *values_[i], quantity, checked ? checked->constant : std::nullopt);
+        }
     }
 }
 
 void SystemChecker::check_definitions() {
     for (std::size_t i = 0; i < definitions_.size(); ++i) {
-        if (!has_one_value(work_, script_, *definitions_[i])) continue;
-        auto checked =
-            check_number(work_, script_, definitions_[i]->values[0], scope(Place::rate));
-        if (!checked) continue;
-        mark_reads(work_, checked->formula, index_);
-        system().definitions[i].formula = std::move(checked->formula);
+        auto checked = check_value(*definitions_[i], Place::rate);
+        if (checked) system().definitions[i].formula = std::move(checked->formula);
     }
 }
 
@@ -216,50 +256,55 @@ void superpose(Formula& sum, Formula term) {
 void SystemChecker::check_rates() {
     system().rates.resize(system().quantities.size());
     for (std::size_t i = 0; i < rates_.size(); ++i) {
-        std::vector<const ast::Sentence*> sentences = rates_[i].terms;
+        std::vector<const Statement*> statements = rates_[i].terms;
         if (rates_[i].assignment != nullptr) {
-            sentences.insert(sentences.begin(), rates_[i].assignment);
+            statements.insert(statements.begin(), rates_[i].assignment);
         }
-        for (const ast::Sentence* sentence : sentences) {
-            if (!has_one_value(work_, script_, *sentence)) continue;
-            auto checked = check_number(work_, script_, sentence->values[0], scope(Place::rate));
-            if (!checked) continue;
-            mark_reads(work_, checked->formula, index_);
-            superpose(system().rates[i], std::move(checked->formula));
+        for (const Statement* statement : statements) {
+            auto checked = check_value(*statement, Place::rate);
+            if (checked) superpose(system().rates[i], std::move(checked->formula));
         }
     }
 }
 
+void SystemChecker::report_no_bound(const Statement& statement) {
+    if (auto explained = explain_family(work_, system(), statement.name)) {
+        work_.diagnostics.error(statement.span(), std::move(explained->message),
+                                std::move(explained->hint));
+        return;
+    }
+    std::vector<std::string> species;
+    for (const Quantity& quantity : system().quantities) {
+        if (quantity.is_species && !is_hopeless(work_)) species.push_back(quantity.name);
+    }
+    std::string hint = did_you_mean(work_, statement.name, species);
+    work_.diagnostics.error(
+        statement.span(),
+        fmt::format("'{}' is not a species of {}", statement.name, system().name),
+        std::move(hint));
+}
+
 void SystemChecker::check_invariants() {
-    for (const ast::Sentence* sentence : invariants_) {
-        const Meaning* meaning = find(work_.names[index_], sentence->name.text);
+    for (const Statement* statement : invariants_) {
+        const Meaning* meaning = find(work_.names[index_], statement->name);
         if (meaning != nullptr && meaning->is_faulty) continue;
         if (meaning == nullptr || meaning->is_definition || !system().is_species(meaning->index)) {
-            std::vector<std::string> species;
-            for (const Quantity& quantity : system().quantities) {
-                if (quantity.is_species && !is_hopeless(work_)) species.push_back(quantity.name);
-            }
-            std::string hint = did_you_mean(work_, sentence->name.text, species);
-            work_.diagnostics.error(sentence->name.span,
-                                    fmt::format("'{}' is not a species of {}",
-                                                sentence->name.text, system().name),
-                                    std::move(hint));
+            report_no_bound(*statement);
             continue;
         }
-        if (!has_one_value(work_, script_, *sentence)) continue;
-        auto checked = check_number(work_, script_, sentence->values[0], scope(Place::bound));
+        auto checked = check_value(*statement, Place::bound);
         if (!checked) continue;
-        mark_reads(work_, checked->formula, index_);
         system().invariants.push_back({meaning->index,
-                                       sentence->kind == ast::SentenceKind::at_least,
+                                       statement->kind() == ast::SentenceKind::at_least,
                                        std::move(checked->formula)});
     }
 }
 
 void SystemChecker::check_settings() {
     Settings settings;
-    for (const ast::Sentence* sentence : settings_) {
-        check_setting(work_, script_, *sentence, scope(Place::value), settings);
+    for (const Statement* statement : settings_) {
+        check_setting(work_, *statement->script, *statement->sentence,
+                      scope(Place::value, *statement), settings);
     }
     for (const auto* formula : {&settings.frozen, &settings.speed, &settings.show}) {
         if (*formula) mark_reads(work_, **formula, index_);
@@ -315,28 +360,35 @@ void SystemChecker::order_steps() {
 
 }  // namespace
 
-void check_system(Workspace& work, const ast::Script& script, const ast::Block& block,
-                  bool built_in) {
+std::uint32_t check_system(Workspace& work, const DerivedSystem& derived,
+                           std::optional<std::uint32_t> base) {
+    const ast::Block& block = *derived.from.block;
+    const auto index = static_cast<std::uint32_t>(work.program.systems.size());
     System system;
     system.name = std::string(block.name.text);
     system.span = block.name.span;
-    system.built_in = built_in;
-    const auto index = static_cast<std::uint32_t>(work.program.systems.size());
-    const auto [found, is_new] = work.systems.try_emplace(system.name, index);
+    system.built_in = derived.from.built_in;
+    system.base = base;
+    system.doc = block.doc;
+    const std::uint32_t number = derived.is_known ? index : unknown_system;
+    const auto [found, is_new] = work.systems.try_emplace(system.name, number);
     if (!is_new && !block.name.empty()) {
-        const System& first = work.program.systems[found->second];
-        if (first.built_in) {
-            found->second = index;  // The script's own takes the place of the library's.
+        const bool is_known = found->second != unknown_system;
+        if (is_known && work.program.systems[found->second].built_in) {
+            found->second = number;  // The script's own takes the place of the library's.
         } else {
-            report_twice(work, block.name.span, first.span,
+            report_twice(work, block.name.span,
+                         is_known ? work.program.systems[found->second].span : block.name.span,
                          fmt::format("there are two systems '{}'", system.name));
         }
     }
+    if (!derived.is_known) return unknown_system;
     work.program.systems.push_back(std::move(system));
     work.names.emplace_back();
     work.items_read.emplace_back();
     work.definitions_read.emplace_back();
-    SystemChecker(work, script, block, index).run();
+    SystemChecker(work, derived, index).run();
+    return index;
 }
 
 }  // namespace cascade::checking

@@ -69,6 +69,71 @@ std::string did_you_mean(Workspace& work, std::string_view name,
     return near.empty() ? "" : fmt::format("did you mean '{}'?", near);
 }
 
+namespace {
+
+/// Calls `take` with the number of each member of a family, as it is written.
+template <typename Take>
+void each_member(const System& system, std::string_view family, const Take& take) {
+    const auto look = [&](const std::string& name) {
+        const bool is_member = name.size() > family.size() && name.starts_with(family) &&
+                               name[family.size()] == '[';
+        if (is_member) take(std::string_view(name).substr(family.size() + 1));
+    };
+    for (const Quantity& quantity : system.quantities) look(quantity.name);
+    for (const Definition& definition : system.definitions) look(definition.name);
+}
+
+}  // namespace
+
+bool has_family(const System& system, std::string_view name) {
+    bool has = false;
+    each_member(system, name, [&](std::string_view) { has = true; });
+    return has;
+}
+
+std::optional<Explanation> explain_family(Workspace& work, const System& system,
+                                          std::string_view name) {
+    if (is_hopeless(work)) return std::nullopt;
+    work.names_compared += system.quantities.size() + system.definitions.size();
+    const std::string_view family = name.substr(0, name.find('['));
+    std::string first, last;
+    each_member(system, family, [&](std::string_view number) {
+        last = std::string(number.substr(0, number.find(']')));
+        if (first.empty()) first = last;
+    });
+    if (family.size() < name.size() && !first.empty()) {
+        return Explanation{fmt::format("'{}' is no member of its family", name),
+                           fmt::format("there are {0}[{1}] to {0}[{2}]", family, first, last)};
+    }
+    if (family.size() < name.size()) {
+        const auto same = std::find_if(
+            system.quantities.begin(), system.quantities.end(),
+            [&](const Quantity& quantity) { return quantity.name == family; });
+        if (same == system.quantities.end()) return std::nullopt;
+        return Explanation{fmt::format("'{}' is no family", family),
+                           fmt::format("write {} without an index", family)};
+    }
+    if (!first.empty()) {
+        return Explanation{fmt::format("'{}' is a family", name),
+                           fmt::format("write {0}[{1}], or {0}[i] where i has a value", name,
+                                       first)};
+    }
+    for (const Index& index : system.indices) {
+        if (index.name != name) continue;
+        return index_without_value(name);
+    }
+    return std::nullopt;
+}
+
+Explanation index_without_value(std::string_view index) {
+    return {fmt::format("the index '{}' has no value here", index),
+            fmt::format("it has one in sentences of u[{0}] and in sum(… over {0})", index)};
+}
+
+void add_call(const Workspace& work, Diagnostic& diagnostic) {
+    if (work.call) diagnostic.notes.push_back({*work.call, "in what this call stands for"});
+}
+
 std::vector<std::string> quantity_names(const System& system) {
     std::vector<std::string> names;
     names.reserve(system.quantities.size());

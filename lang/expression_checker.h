@@ -5,6 +5,8 @@
 #pragma once
 
 #include "lang/check_expression.h"
+#include "lang/expand.h"
+#include "lang/user_functions.h"
 
 #include <array>
 #include <string>
@@ -24,6 +26,12 @@ public:
     ExpressionChecker(Workspace& work, const ast::Script& script, ast::Expression expression,
                       const Scope& scope)
         : work_(work), script_(script), expression_(expression), scope_(scope) {}
+    /// For an expression that was written out: `from` is the script that it was written in.
+    ExpressionChecker(Workspace& work, const ast::Script& from, const Expanded& expanded,
+                      const Scope& scope)
+        : work_(work), script_(expanded.parts),
+          expression_{0, static_cast<ast::ExprId>(expanded.parts.expressions.size() - 1)},
+          scope_(scope), from_(from), expanded_(&expanded) {}
 
     std::optional<CheckedExpression> run();
 
@@ -33,7 +41,9 @@ private:
     }
     std::uint32_t part_of(ast::ExprId id) const { return id - expression_.first; }
     void fault(Span span, std::string message, std::string hint = "") {
-        work_.diagnostics.error(span, std::move(message), std::move(hint));
+        Diagnostic diagnostic{Severity::error, span, std::move(message), std::move(hint), {}};
+        add_call(work_, diagnostic);
+        work_.diagnostics.add(std::move(diagnostic));
         parts_.back().faulty = true;
     }
 
@@ -67,6 +77,8 @@ private:
     const ast::Script& script_;
     ast::Expression expression_;
     const Scope& scope_;
+    const ast::Script& from_ = script_;    ///< Whose functions can be called.
+    const Expanded* expanded_ = nullptr;
     Formula formula_;
     std::vector<Part> parts_;
     std::vector<bool> wants_text_;

@@ -95,6 +95,7 @@ void ScriptParser::parse_override() {
         change.sentence.name = cursor_.word(cursor_.take());
     }
     const ast::Word& name = change.sentence.name;
+    if (!parse_index(change.sentence)) return;
     if (!cursor_.take_if(TokenKind::assign) && !cursor_.take_if(TokenKind::colon)) {
         if (cursor_.at(TokenKind::garbage)) return;
         return cursor_.error(

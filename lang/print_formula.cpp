@@ -39,6 +39,8 @@ struct Part {
 
 using Item = std::variant<Part, std::string_view>;
 
+constexpr std::size_t most_repeated = 10'000;
+
 class Printer {
 public:
     Printer(const Program& program, const System& system, const Formula& formula,
@@ -60,6 +62,12 @@ private:
     void push(Item item) { stack_.push_back(item); }
 
     void write(const Part& part) {
+        // A part that is read more than once, as the argument of a function may be, is written as
+        // often: so much and no more.
+        if (++written_ > formula_.nodes.size() + most_repeated) {
+            text_ += "…";
+            return;
+        }
         const Node& node = formula_.nodes[part.node];
         if (node.kind != NodeKind::call) {
             text_ += leaf(node);
@@ -135,6 +143,7 @@ private:
     const Formula& formula_;
     std::optional<std::uint32_t> stage_;
     std::vector<Item> stack_;
+    std::size_t written_ = 0;
     std::string text_;
 };
 

@@ -99,11 +99,20 @@ struct Formula {
     std::vector<Node> nodes;
 };
 
+/// The values that make sense for a parameter, `in low .. high step s`.
+struct ParameterRange {
+    double low = 0;
+    double high = 1;
+    std::optional<double> step;
+};
+
 /// A species or a parameter of a system.
 struct Quantity {
-    std::string name;
+    std::string name;       ///< Of a member of a family: `u[2]`.
     Span span;              ///< Where it was declared.
     bool is_species = false;
+    std::string doc;        ///< What its doc comment says; may be empty.
+    std::optional<ParameterRange> range;
     Formula start;          ///< Default value; its `own` nodes are items of whichever stage.
 };
 
@@ -128,10 +137,22 @@ struct Settings {
     std::optional<Formula> show;   ///< What a picture of a stage shows by default.
 };
 
+/// An index of a system's families, `i: 1..3`.
+struct Index {
+    std::string name;
+    Span span;
+    std::int64_t low = 1;
+    std::int64_t high = 1;
+};
+
 struct System {
     std::string name;
     Span span;
     bool built_in = false;
+    std::optional<std::uint32_t> base;     ///< The system that it is derived from.
+    std::string doc;                       ///< What its doc comment says; may be empty.
+    std::string title, cite, about;        ///< Its texts; may be empty.
+    std::vector<Index> indices;            ///< Their families are quantities u[1], u[2], …
     std::vector<Quantity> quantities;      ///< In order of writing.
     std::vector<Definition> definitions;   ///< Each after those it reads.
     std::vector<Formula> rates;            ///< One per quantity; empty nodes for parameters.

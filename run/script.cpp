@@ -125,6 +125,9 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
 
     const SourceId source = script.sources.add(script.name, script.text);
     script.tree = parse(source, script.sources, script.diagnostics);
+    for (const ast::Use& use : script.tree.uses) {
+        script.diagnostics.error(use.span, "'use' is not in this version of the language");
+    }
     for (const std::string& set : script.overrides.sets) {
         const SourceId id = script.sources.add("<--set>", set);
         parse_override(id, script.sources, script.tree, script.diagnostics);
