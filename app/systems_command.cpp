@@ -6,52 +6,17 @@
 #include "core/near_name.h"
 #include "lang/equations.h"
 #include "lang/library_note.h"
+#include "lang/system_listing.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 namespace cascade {
 
 namespace {
-
-/// The text of a default value as its author wrote it.
-std::string source_of(const Formula& formula, const Sources& sources) {
-    return formula.nodes.empty() ? "" : std::string(sources.text(formula.nodes.back().span));
-}
-
-/// How wide the column of names is.
-std::size_t width_of_names(const System& system) {
-    std::size_t width = 10;  // "iterations"
-    for (const Quantity& quantity : system.quantities) {
-        width = std::max(width, quantity.name.size());
-    }
-    return width;
-}
-
-void print_quantities(const System& system, const Sources& sources, bool species,
-                      Console& console) {
-    const std::size_t width = width_of_names(system);
-    for (const Quantity& quantity : system.quantities) {
-        if (quantity.is_species != species) continue;
-        console.print(fmt::format("  {:<9} {:<{}} {}\n", species ? "species" : "parameter",
-                                  quantity.name, width, source_of(quantity.start, sources)));
-    }
-}
-
-void print_settings(const System& system, const Sources& sources, Console& console) {
-    const std::size_t width = width_of_names(system);
-    const auto line = [&](std::string_view name, const std::string& value) {
-        console.print(fmt::format("  {:<9} {:<{}} {}\n", "setting", name, width, value));
-    };
-    const Settings& settings = system.settings;
-    if (settings.iterations) line("iterations", fmt::format("{}", *settings.iterations));
-    if (settings.interval) line("interval", fmt::format("{}", *settings.interval));
-    if (settings.speed) line("speed", source_of(*settings.speed, sources));
-    if (settings.frozen) line("frozen", source_of(*settings.frozen, sources));
-    if (settings.show) line("show", source_of(*settings.show, sources));
-}
 
 const System* find_system(const Script& script, std::string_view name) {
     const System* found = nullptr;  // The script's own takes the place of the library's.
@@ -66,16 +31,15 @@ void print_system(const Script& script, const System& system, Console& console) 
     console.print(fmt::format("{}{}\n", system.name,
                               system.built_in ? "" : fmt::format(" ({})", script.name)));
     const LibraryText* const text = system.built_in ? find_library_text(system.name) : nullptr;
-    if (text) {
-        for (const std::string& line : note_of(*text).lines) console.print("  " + line + "\n");
-        console.print("\n");
+    std::vector<std::string> words = text ? note_of(*text).lines : std::vector<std::string>{};
+    for (std::string& line : system_words(script.tree, script.sources, system.name)) {
+        words.push_back(std::move(line));
     }
+    for (const std::string& line : words) console.print("  " + line + "\n");
+    if (!words.empty()) console.print("\n");
     console.print(print_equations(script.tree, script.sources, system.name, Notation::unicode,
                                   EquationParts::rates) +
-                  "\n");
-    print_quantities(system, script.sources, true, console);
-    print_quantities(system, script.sources, false, console);
-    print_settings(system, script.sources, console);
+                  "\n" + print_system_listing(script.tree, script.sources, system.name));
 }
 
 /// One line of a list, cut where a terminal ends.

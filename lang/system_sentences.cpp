@@ -42,6 +42,7 @@ SystemSentences::SystemSentences(const ast::Script& script, const Sources& sourc
         if (place.block == nullptr) place = find_in_library(base);
     }
     found_ = !chain.empty();
+    if (found_) doc_ = chain.front().block->doc;
     for (auto each = chain.rbegin(); each != chain.rend(); ++each) {
         std::unordered_set<std::string> replaced;
         for (const ast::Sentence& sentence : each->block->sentences) {

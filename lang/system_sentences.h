@@ -6,6 +6,7 @@
 #include "lang/ast.h"
 
 #include <deque>
+#include <string>
 #include <string_view>
 #include <unordered_set>
 #include <vector>
@@ -28,6 +29,8 @@ public:
     /// False if there is no such system.
     bool found() const { return found_; }
     const std::vector<SaidSentence>& all() const { return sentences_; }
+    /// The doc comment of the system itself; may be empty.
+    const std::string& doc() const { return doc_; }
     /// Is this the name, without index, of something with a rate?
     bool is_species(std::string_view name) const { return species_.contains(name); }
 
@@ -48,6 +51,7 @@ private:
     std::deque<LibraryScript> library_;
     std::vector<SaidSentence> sentences_;
     std::unordered_set<std::string_view> species_;
+    std::string doc_;
     bool found_ = false;
 };
 
