@@ -50,12 +50,14 @@ Row row_of(const SaidSentence& said, const SystemSentences& system) {
         row.kind = "index";
         row.value += " .. " + source_of(said, sentence.values.back());
     }
-    if (sentence.range) {
-        row.range = fmt::format("in {} .. {}", source_of(said, sentence.range->low),
-                                source_of(said, sentence.range->high));
-        if (sentence.range->step) row.range += " step " + source_of(said, *sentence.range->step);
+    if (said.range != nullptr) {
+        const SaidSentence from{said.range_script, said.range_sources, said.range};
+        const ast::Range& range = *said.range->range;
+        row.range =
+            fmt::format("in {} .. {}", source_of(from, range.low), source_of(from, range.high));
+        if (range.step) row.range += " step " + source_of(from, *range.step);
     }
-    row.doc = sentence.doc;
+    if (said.doc != nullptr) row.doc = said.doc->doc;
     return row;
 }
 

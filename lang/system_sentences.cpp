@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <string>
+#include <unordered_map>
 
 namespace cascade {
 
@@ -19,9 +21,28 @@ bool is_rate(const ast::Sentence& sentence) {
 /// What a sentence is about. One of a derived system takes the place of those of its bases about
 /// the same, unless it is a term to be added.
 std::string subject_of(const ast::Sentence& sentence) {
-    const auto kind = is_rate(sentence) ? ast::SentenceKind::rate : sentence.kind;
-    return fmt::format("{} {}[{}]", static_cast<int>(kind), sentence.name.text,
-                       sentence.index.text);
+    auto kind = is_rate(sentence) ? ast::SentenceKind::rate : sentence.kind;
+    if (kind == ast::SentenceKind::definition) kind = ast::SentenceKind::value;
+    return fmt::format("{} {}", static_cast<int>(kind), sentence.name.text);
+}
+
+/// "[2]" of a sentence about one member of a family; empty for others.
+std::string member_of(const ast::Sentence& sentence) {
+    const std::string_view index = sentence.index.text;
+    const bool is_one = !index.empty() && index[0] >= '0' && index[0] <= '9';
+    return is_one ? fmt::format("[{}]", index) : "";
+}
+
+SaidSentence said(const ast::Script& script, const Sources& sources,
+                  const ast::Sentence& sentence) {
+    SaidSentence result{&script, &sources, &sentence};
+    if (!sentence.doc.empty()) result.doc = &sentence;
+    if (sentence.range) {
+        result.range = &sentence;
+        result.range_script = &script;
+        result.range_sources = &sources;
+    }
+    return result;
 }
 
 }  // namespace
@@ -43,22 +64,61 @@ SystemSentences::SystemSentences(const ast::Script& script, const Sources& sourc
     }
     found_ = !chain.empty();
     if (found_) doc_ = chain.front().block->doc;
-    for (auto each = chain.rbegin(); each != chain.rend(); ++each) {
-        std::unordered_set<std::string> replaced;
-        for (const ast::Sentence& sentence : each->block->sentences) {
-            if (sentence.kind == ast::SentenceKind::rate_term) continue;
-            replaced.insert(subject_of(sentence));
-        }
-        std::erase_if(sentences_, [&](const SaidSentence& said) {
-            return replaced.contains(subject_of(*said.sentence));
-        });
-        for (const ast::Sentence& sentence : each->block->sentences) {
-            sentences_.push_back({each->script, each->sources, &sentence});
+    for (auto each = chain.rbegin(); each != chain.rend(); ++each) derive(*each);
+    for (const SaidSentence& each : sentences_) {
+        if (is_rate(*each.sentence)) species_.insert(each.sentence->name.text);
+    }
+}
+
+/// Adds the sentences of a block to those it inherits, or puts them in the place of those.
+void SystemSentences::derive(const Place& place) {
+    struct Change {
+        std::size_t first = SIZE_MAX;  ///< The inherited sentence whose place it takes.
+        bool is_used = false;
+    };
+    std::unordered_map<std::string, Change> changes;
+    for (const ast::Sentence& sentence : place.block->sentences) {
+        if (sentence.kind == ast::SentenceKind::rate_term) continue;
+        changes.try_emplace(subject_of(sentence) + member_of(sentence));
+    }
+    std::vector<bool> dropped(sentences_.size(), false);
+    for (std::size_t k = 0; k < sentences_.size(); ++k) {
+        const ast::Sentence& inherited = *sentences_[k].sentence;
+        // What is said of all members is said of each.
+        for (const std::string& member : {std::string(), member_of(inherited)}) {
+            const auto change = changes.find(subject_of(inherited) + member);
+            if (change == changes.end()) continue;
+            dropped[k] = true;
+            if (change->second.first == SIZE_MAX) change->second.first = k;
         }
     }
-    for (const SaidSentence& said : sentences_) {
-        if (is_rate(*said.sentence)) species_.insert(said.sentence->name.text);
+    for (const ast::Sentence& sentence : place.block->sentences) {
+        SaidSentence added = said(*place.script, *place.sources, sentence);
+        const auto change = changes.find(subject_of(sentence) + member_of(sentence));
+        const bool takes_place = sentence.kind != ast::SentenceKind::rate_term &&
+                                 change != changes.end() && !change->second.is_used &&
+                                 change->second.first != SIZE_MAX;
+        if (!takes_place) {
+            sentences_.push_back(added);
+            dropped.push_back(false);
+            continue;
+        }
+        change->second.is_used = true;
+        SaidSentence& before = sentences_[change->second.first];
+        if (added.doc == nullptr) added.doc = before.doc;
+        if (added.range == nullptr) {
+            added.range = before.range;
+            added.range_script = before.range_script;
+            added.range_sources = before.range_sources;
+        }
+        before = added;
+        dropped[change->second.first] = false;
     }
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < sentences_.size(); ++k) {
+        if (!dropped[k]) sentences_[kept++] = sentences_[k];
+    }
+    sentences_.resize(kept);
 }
 
 SystemSentences::Place SystemSentences::find_block(const ast::Script& script,

@@ -18,6 +18,12 @@ struct SaidSentence {
     const ast::Script* script = nullptr;
     const Sources* sources = nullptr;
     const ast::Sentence* sentence = nullptr;
+    /// The sentence that has its doc comment, and the one that has its range: where it took the
+    /// place of another and has none, that of the other. Null where there is none.
+    const ast::Sentence* doc = nullptr;
+    const ast::Sentence* range = nullptr;
+    const ast::Script* range_script = nullptr;
+    const Sources* range_sources = nullptr;
 };
 
 /// The sentences of a system of a checked script or of the library, those of its bases first and
@@ -47,6 +53,7 @@ private:
     static Place find_block(const ast::Script& script, const Sources& sources,
                             std::string_view system);
     Place find_in_library(std::string_view system);
+    void derive(const Place& place);
 
     std::deque<LibraryScript> library_;
     std::vector<SaidSentence> sentences_;

@@ -69,6 +69,12 @@ TEST(Equations, ShowADerivedSystemAsAWhole) {
                         "system c: b { u' = k }",
                         "b", Notation::unicode),
               "  ∂u/∂t = ∇²u + d − u\n  where    d = k²\n  with     k = 3\n  at first u = 1\n");
+    // A definition in the place of a parameter, all members in the place of one.
+    EXPECT_EQ(equations("system a { i: 1..2; k: 1; u[i]: 1; u[2]: 5; u[i]' = k }\n"
+                        "system b: a { k = 2; u[i]: 3; u[1]: 4; u[2]' = 7 }",
+                        "b", Notation::unicode),
+              "  ∂uᵢ/∂t = k\n  ∂u₂/∂t = 7\n  for      i = 1 … 2\n  where    k = 2\n"
+              "  at first uᵢ = 3\n           u₁ = 4\n");
     EXPECT_EQ(equations("system gray_scott: gray_scott { feed: 0.5 }", "gray_scott",
                         Notation::unicode, EquationParts::rates),
               "  ∂u/∂t = diffᵤ ∇²u − rate + feed (1 − u)\n"

@@ -42,7 +42,10 @@ TEST_F(Listing, ShowsDefaultsRangesAndDocs) {
 
 TEST_F(Listing, ShowsADerivedSystemAsAWhole) {
     const std::string lines = print_system_listing(script, sources, "more");
-    EXPECT_NE(lines.find("feed         2\n"), std::string::npos) << lines;
+    // Range and doc comment stay with the name.
+    EXPECT_NE(lines.find("feed         2          in 0 .. 1/10 step 0.01  supply\n"),
+              std::string::npos)
+        << lines;
     EXPECT_NE(lines.find("kill         0.06"), std::string::npos) << lines;
     EXPECT_EQ(print_system_listing(script, sources, "unknown"), "");
 }
