@@ -87,6 +87,8 @@ public:
     /// Uniform in (−1, 1), symmetric, 2^23 different values: a pure function of the cell, the
     /// `draw` word (which step, or 0) and the 64-bit `key` (seed, stage, parameter, occurrence).
     ValueId random_symmetric(ValueId draw, std::uint64_t key);
+    /// Gaussian, of mean 0 and variance 1, at most 6.7 in magnitude: a function of the same.
+    ValueId random_normal(ValueId draw, std::uint64_t key);
 
     /// Appends an output.
     void result(const std::string& name, ValueId value);

@@ -1,6 +1,7 @@
 // Calls: how many arguments, where a function may stand, what types it takes, what is known now.
 #include "core/check.h"
 #include "core/palette.h"
+#include "ir/space.h"
 #include "lang/expression_checker.h"
 
 #include <fmt/format.h>
@@ -174,6 +175,9 @@ void ExpressionChecker::check_types(const Node& node) {
         case Function::palette: return check_palette(node);
         case Function::field: return need(operands[0], ValueType::text);
         case Function::lap: return check_species(node);
+        case Function::noise:
+        case Function::lattice:
+        case Function::diamond: check_lattice(formula_.nodes.back()); break;
         default: break;
     }
     for (std::size_t i = 0; i < node.operand_count; ++i) need(operands[i], ValueType::number);
@@ -212,6 +216,28 @@ void ExpressionChecker::check_species(const Node& node) {
     if (operand.kind == NodeKind::own && system.is_species(operand.index)) return;
     fault(operand.span, fmt::format("{} takes a species", info(node.function).spelling),
           "expressions and parameters come in a later version of the language");
+}
+
+/// The first value of noise and lattices is a length; the octaves of noise are counted now.
+void ExpressionChecker::check_lattice(Node& node) {
+    const Part& side = parts_[node.operands[0]];
+    if (side.constant && !(side.value > 0)) {
+        return fault(formula_.nodes[node.operands[0]].span,
+                     fmt::format("the {} must be above 0",
+                                 node.function == Function::noise ? "scale of noise" : "spacing"));
+    }
+    if (node.function != Function::noise) return;
+    node.number = 1;
+    if (node.operand_count < 2) return;
+    const Part& octaves = parts_[node.operands[1]];
+    const bool is_count = octaves.constant && octaves.value == std::floor(octaves.value) &&
+                          octaves.value >= 1 && octaves.value <= most_octaves;
+    if (!is_count) {
+        return fault(formula_.nodes[node.operands[1]].span,
+                     fmt::format("octaves are a whole number from 1 to {}", most_octaves),
+                     "it must be known before the run");
+    }
+    node.number = octaves.value;
 }
 
 void ExpressionChecker::fold_constants(const Node& node) {

@@ -70,6 +70,7 @@ private:
     void check_choice(Node& node, std::uint32_t a, std::uint32_t b);
     void check_palette(const Node& node);
     void check_species(const Node& node);
+    void check_lattice(Node& node);
     void need(std::uint32_t part, ValueType type);
     void fold_constants(const Node& node);
 

@@ -21,7 +21,7 @@ ValueId KernelAssembly::formula(const Formula& formula, const Noise& noise, Valu
             case NodeKind::definition: value[0] = definitions_.at(node.index); break;
             case NodeKind::rate: value[0] = rates_.at(node.index); break;
             case NodeKind::call:
-                if (node.function == Function::random) ++cursor.occurrences;
+                if (is_random(node.function)) ++cursor.occurrences;
                 value = call(node, cursor);
                 break;
         }
@@ -43,10 +43,16 @@ Value KernelAssembly::call(const Node& node, const Cursor& cursor) {
             return {builder_.laplacian(field_slot(stage_, species.index))};
         }
         case Function::random:
-            return {random(cursor.number(node, 0), cursor.number(node, 1), cursor.noise,
-                           cursor.occurrences)};
+        case Function::normal:
+        case Function::white:
+        case Function::noise:
+        case Function::lattice:
+        case Function::diamond: return {random(node, cursor)};
         case Function::disc:
-            return {disc(cursor.number(node, 0), cursor.number(node, 1), cursor.number(node, 2))};
+        case Function::ring:
+        case Function::box:
+        case Function::gauss:
+        case Function::stripe: return {shape(node, cursor)};
         case Function::field: {
             return {file(cursor.formula.nodes[node.operands[0]].index)};
         }
@@ -137,15 +143,6 @@ ValueId KernelAssembly::operation(Function function, ValueId a, ValueId b) {
         default: break;
     }
     CHECK(false, "lowering: every function of two numbers has a meaning");
-}
-
-/// mean + spread · u with u uniform in (−1, 1).
-ValueId KernelAssembly::random(ValueId middle, ValueId spread, const Noise& noise,
-                               std::size_t occurrence) {
-    const std::uint64_t key =
-        random_key(program_.domain.seed, stage().name, noise.origin, occurrence);
-    const ValueId draw = noise.every_step ? step() : builder_.word(0);
-    return builder_.add(middle, builder_.multiply(spread, builder_.random_symmetric(draw, key)));
 }
 
 }  // namespace cascade::lowering

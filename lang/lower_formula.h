@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ir/builder.h"
+#include "ir/space.h"
 #include "lang/lower.h"
 
 #include <array>
@@ -44,6 +45,8 @@ public:
     std::uint32_t field_slot(std::uint32_t stage, std::uint32_t item);
     /// Complete steps when the step begins.
     ValueId step();
+    /// The length of the step that is taken.
+    ValueId time_step();
     /// The value of a formula; of a colour the first channel, with all three in `colour`.
     ValueId formula(const Formula& formula, const Noise& noise, Value* colour = nullptr);
 
@@ -56,7 +59,7 @@ private:
         const Formula& formula;
         const Noise& noise;
         std::vector<Value> values;
-        std::size_t occurrences = 0;  ///< Of random, up to the present part.
+        std::size_t occurrences = 0;  ///< Of random functions, up to the present part.
 
         ValueId number(const Node& node, std::size_t operand) const {
             return values[node.operands[operand]][0];
@@ -70,9 +73,11 @@ private:
     ValueId builtin(Builtin builtin);
     ValueId make_builtin(Builtin builtin);
     ValueId coordinate(ValueId cell, std::int64_t side);
-    ValueId distance_along(ValueId cell, std::int64_t side, ValueId centre);
-    ValueId disc(ValueId x, ValueId y, ValueId radius);
-    ValueId random(ValueId middle, ValueId spread, const Noise& noise, std::size_t occurrence);
+    Space space();
+    ValueId shape(const Node& node, const Cursor& cursor);
+    ValueId random(const Node& node, const Cursor& cursor);
+    ValueId draw_of_cell(ValueId draw);
+    ValueId white(ValueId strength, const Draw& draw);
     Value call(const Node& node, const Cursor& cursor);
     Value colour_call(const Node& node, const Cursor& cursor);
     ValueId operation(Function function, ValueId a, ValueId b);
@@ -88,7 +93,7 @@ private:
     bool frozen_is_mask_ = false;
 };
 
-/// The key of one occurrence of `random`: FNV-1a of the seed, the stage, the formula's origin and
+/// The key of one occurrence of a random function: FNV-1a of the seed, the stage, the formula's origin and
 /// the number of the occurrence in it, each written as text and ended by a line feed.
 std::uint64_t random_key(std::uint32_t seed, std::string_view stage, std::string_view origin,
                          std::size_t occurrence);

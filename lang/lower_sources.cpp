@@ -1,4 +1,4 @@
-// What formulas read: items through slots, coordinates, discs, and the keys of random numbers.
+// What formulas read: items through slots, coordinates, and the keys of random numbers.
 #include "core/check.h"
 #include "core/hash.h"
 #include "lang/lower_formula.h"
@@ -69,6 +69,8 @@ ValueId KernelAssembly::item(std::uint32_t stage, std::uint32_t item) {
     return builder_.field(field_slot(stage, item));
 }
 
+ValueId KernelAssembly::time_step() { return own_item(system().speed_item()); }
+
 ValueId KernelAssembly::step() { return uniform("step", {SlotSource::Kind::step, stage_, 0}); }
 
 /// Cell centres: (i + 1/2) / side.
@@ -93,43 +95,10 @@ ValueId KernelAssembly::make_builtin(Builtin builtin) {
         case Builtin::sy: return coordinate(builder_.cell_row(), grid.height);
         case Builtin::z: return coordinate(builder_.cell_slice(), grid.longest_side());
         case Builtin::sz: return coordinate(builder_.cell_slice(), grid.depth);
-        case Builtin::t: return builder_.multiply(step(), own_item(system().speed_item()));
+        case Builtin::t: return builder_.multiply(step(), time_step());
         case Builtin::step: return step();
     }
     CHECK(false, "lowering: every built-in value has a meaning");
-}
-
-/// The distance from a cell's centre to `centre` along one axis. Across periodic sides it is the
-/// shortest of all: whole periods are taken off, their number being rounded by adding and
-/// subtracting 1.5 · 2^23, which leaves no digits behind the point.
-ValueId KernelAssembly::distance_along(ValueId cell, std::int64_t side, ValueId centre) {
-    const Grid& grid = program_.domain.grid;
-    const ValueId distance =
-        builder_.subtract(coordinate(cell, grid.longest_side()), centre);
-    if (grid.boundary != Boundary::periodic) return distance;
-    const double longest = static_cast<double>(grid.longest_side());
-    const ValueId period =
-        builder_.number(static_cast<float>(static_cast<double>(side) / longest));
-    const ValueId rounder = builder_.number(12582912.0f);
-    const ValueId periods = builder_.subtract(
-        builder_.add(builder_.divide(distance, period), rounder), rounder);
-    return builder_.subtract(distance, builder_.multiply(periods, period));
-}
-
-/// 1 where the squared distance is below r². An axis of one cell has no extent: on a grid of one
-/// dimension a disc is an interval.
-ValueId KernelAssembly::disc(ValueId x, ValueId y, ValueId radius) {
-    const Grid& grid = program_.domain.grid;
-    ValueId squared = builder_.number(0);
-    if (grid.width > 1) {
-        const ValueId dx = distance_along(builder_.cell_column(), grid.width, x);
-        squared = builder_.multiply(dx, dx);
-    }
-    if (grid.height > 1) {
-        const ValueId dy = distance_along(builder_.cell_row(), grid.height, y);
-        squared = builder_.add(squared, builder_.multiply(dy, dy));
-    }
-    return builder_.apply(Op::less, squared, builder_.multiply(radius, radius));
 }
 
 BoundKernel KernelAssembly::finish(std::vector<std::uint32_t> results) && {

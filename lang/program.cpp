@@ -48,6 +48,18 @@ std::optional<Function> function_named(std::string_view name) {
     return std::nullopt;
 }
 
+bool is_random(Function function) {
+    switch (function) {
+        case Function::random:
+        case Function::normal:
+        case Function::white:
+        case Function::noise:
+        case Function::lattice:
+        case Function::diamond: return true;
+        default: return false;
+    }
+}
+
 bool varies_by_cell(Function function) {
     const Places places = info(function).places;
     return places != Places::any && places != Places::picture;

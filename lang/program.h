@@ -59,6 +59,9 @@ const FunctionInfo& info(Function function);
 /// The function of a name that is called; nothing for operators and unknown names.
 std::optional<Function> function_named(std::string_view name);
 
+/// Whether the function draws random numbers.
+bool is_random(Function function);
+
 /// Whether the value differs from cell to cell whatever the operands are.
 bool varies_by_cell(Function function);
 

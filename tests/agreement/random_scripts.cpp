@@ -87,6 +87,11 @@ private:
                                           : expression(place, depth - 1);
             return fmt::format("(({}) {} ({}))", arguments, row.spelling, right);
         }
+        if (row.spelling == "noise") {
+            return fmt::format("noise(0.1 + {}, {})", leaf(place), 1 + stream_.below(2));
+        }
+        const bool is_lattice = row.spelling == "lattice" || row.spelling == "diamond";
+        if (is_lattice) arguments = "0.1 + " + leaf(place);
         const int count = stream_.chance(50) ? row.arity.least : row.arity.most;
         for (int k = 1; k < count; ++k) arguments += ", " + expression(place, depth - 1);
         return fmt::format("{}({})", row.spelling, arguments);

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -16,10 +17,13 @@ namespace {
 
 constexpr std::uint64_t some_key = 0x0123456789abcdefULL;
 
-Field random_field(const Grid& grid, std::uint64_t key, float draw) {
+using Expand = ValueId (KernelBuilder::*)(ValueId, std::uint64_t);
+
+Field random_field(const Grid& grid, std::uint64_t key, float draw,
+                   Expand expand = &KernelBuilder::random_symmetric) {
     KernelBuilder builder;
     const ValueId step = builder.uniform(builder.uniform_slot("step"));
-    builder.result("r", builder.random_symmetric(step, key));
+    builder.result("r", (builder.*expand)(step, key));
     const CellKernel kernel = std::move(builder).finish();
     Field out{PlaneLayout(grid)};
     float* results[] = {out.origin()};
@@ -112,6 +116,54 @@ TEST(RandomNumbers, StepsAndKeysAreIndependent) {
         const Field other = random_field(grid, some_key ^ (1ULL << bit), 0);
         EXPECT_LT(std::fabs(correlation(original, other, 0, 0)), limit) << "bit " << bit;
     }
+}
+
+TEST(RandomNumbers, NormalOnesAreTheFormulaOfBoxAndMuller) {
+    const Grid grid{300, 40, Boundary::periodic};
+    const Field field = random_field(grid, some_key, 5, &KernelBuilder::random_normal);
+    for (std::int64_t j = 0; j < grid.height; ++j) {
+        for (std::int64_t i = 0; i < grid.width; ++i) {
+            const auto hash = pcg4d({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
+                                     to_bits(5.0f) ^ 0x01234567u, 0x89abcdefu});
+            const double a = ((hash[0] >> 1) + 0.5) * 0x1p-31;
+            const double b = static_cast<std::int32_t>(hash[1]) * 0x1p-32;
+            const double exact = std::sqrt(-2 * std::log(a)) * std::cos(2 * std::acos(-1.0) * b);
+            ASSERT_NEAR(field.at(i, j), exact, 3e-6) << i << ", " << j;
+        }
+    }
+}
+
+TEST(RandomNumbers, NormalOnesAreNormal) {
+    const Grid grid{1024, 1024, Boundary::periodic};
+    const Field field = random_field(grid, some_key, 0, &KernelBuilder::random_normal);
+    const double count = static_cast<double>(grid.cell_count());
+    double sum = 0, squares = 0, fourth = 0, largest = 0;
+    std::vector<double> bins(40);  // Of 0.2, from −4 to 4; the tails in the outer ones.
+    for (std::int64_t j = 0; j < grid.height; ++j) {
+        for (std::int64_t i = 0; i < grid.width; ++i) {
+            const double value = field.at(i, j);
+            sum += value;
+            squares += value * value;
+            fourth += value * value * value * value;
+            largest = std::max(largest, std::fabs(value));
+            ++bins[static_cast<std::size_t>(std::clamp(std::floor(value * 5) + 20, 0.0, 39.0))];
+        }
+    }
+    // Moments 0, 1 and 3, within five standard deviations of their estimates.
+    EXPECT_NEAR(sum / count, 0, 5 / std::sqrt(count));
+    EXPECT_NEAR(squares / count, 1, 5 * std::sqrt(2 / count));
+    EXPECT_NEAR(fourth / count, 3, 5 * std::sqrt(96 / count));
+    EXPECT_GT(largest, 4.4);
+    EXPECT_LT(largest, 6.7);
+    const auto below = [](double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); };
+    double chi_square = 0;
+    for (std::size_t k = 0; k < bins.size(); ++k) {
+        const double low = k == 0 ? 0 : below(static_cast<double>(k) * 0.2 - 4);
+        const double high = k == 39 ? 1 : below(static_cast<double>(k) * 0.2 - 3.8);
+        const double expected = (high - low) * count;
+        chi_square += (bins[k] - expected) * (bins[k] - expected) / expected;
+    }
+    EXPECT_NEAR(chi_square, 39, 5 * std::sqrt(78.0));
 }
 
 TEST(RandomNumbers, ALargerGridBeginsWithTheSameValues) {

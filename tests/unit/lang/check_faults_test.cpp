@@ -124,6 +124,27 @@ TEST(CheckFaults, ArgumentsAndTypes) {
                             "over all cells it is max(e over domain)",
                             "2:18: 'b' reads the previous stage, but this is the first stage | "
                             "[b] is the 'b' of this stage"));
+    EXPECT_THAT(stage_faults("ka: disc(1, 2)"),
+                ElementsAre("2:5: disc takes 3 or 4 values, not 2 | disc(x, y, r) or "
+                            "disc(x, y, z, r): 1 within r of the point, else 0; 0..1 coordinates, "
+                            "across periodic sides"));
+    EXPECT_EQ(stage_faults("ka: box(1, 2, 3, 4, 5)").size(), 1u);
+    EXPECT_THAT(stage_faults("ka: noise(0)"),
+                ElementsAre("2:11: the scale of noise must be above 0"));
+    EXPECT_THAT(stage_faults("ka: lattice(-0.1, 1)"),
+                ElementsAre("2:13: the spacing must be above 0"));
+    for (const char* octaves : {"0", "13", "2.5", "1e30"}) {
+        const std::string text = std::string("beta: noise(0.1, ") + octaves + ")";
+        EXPECT_THAT(stage_faults(text),
+                    ElementsAre("2:18: octaves are a whole number from 1 to 12 | "
+                                "it must be known before the run"));
+    }
+    EXPECT_THAT(stage_faults("beta: noise(0.1, [ka])"),
+                ElementsAre("2:18: octaves are a whole number from 1 to 12 | "
+                            "it must be known before the run"));
+    EXPECT_THAT(stage_faults("ka: white(1)"),
+                ElementsAre("2:5: white cannot stand here | "
+                            "it belongs in rates and definitions of a system"));
     EXPECT_THAT(stage_faults("ka: mod(1, 0)"), ElementsAre("2:12: division by zero"));
     EXPECT_THAT(stage_faults("ka: mod(1, 2 - cos(0) * 2)"),
                 ElementsAre("2:12: division by zero"));

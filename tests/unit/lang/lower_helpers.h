@@ -122,9 +122,9 @@ private:
             results.emplace_back(layout);
             origins.push_back(results.back().origin());
         }
-        const Stencil stencil = Grid{layout.width, layout.height}.stencil();
+        const Stencil stencil = Grid{layout.width, layout.height, {}, layout.depth}.stencil();
         const KernelPointer kernel = make_interpreter()->compile(bound.kernel, stencil).value();
-        kernel->run({fields, mask_origins, uniforms, origins, layout}, {0, layout.height});
+        kernel->run({fields, mask_origins, uniforms, origins, layout}, {0, layout.row_count()});
         return results;
     }
 

@@ -34,8 +34,8 @@ public:
         run_->start(0);
         uniform_ = checked_->program->stages[0].uniform[1];
     }
-    float at(std::int64_t i, std::int64_t j) {
-        return uniform_ ? run_->number(0, "p") : run_->field(0, "p").at(i, j);
+    float at(std::int64_t i, std::int64_t j, std::int64_t k = 0) {
+        return uniform_ ? run_->number(0, "p") : run_->field(0, "p").at(i, j, k);
     }
     float number() { return at(0, 0); }
     std::size_t count_ones(std::int64_t width, std::int64_t height) {
@@ -110,6 +110,80 @@ std::size_t disc_cells(int width, int height, double x, double y, double r, bool
         }
     }
     return count;
+}
+
+TEST(Lower, ShapesAreThoseOfGeometry) {
+    const std::string grid = "domain { grid: 40, 20 }\n";
+    const auto count = [&](const std::string& value) {
+        return Values(grid, value).count_ones(40, 20);
+    };
+    EXPECT_EQ(count("ring(0.5, 0.25, 0.15, 0.1)"),
+              disc_cells(40, 20, 0.5, 0.25, 0.2, true) - disc_cells(40, 20, 0.5, 0.25, 0.1, true));
+    EXPECT_EQ(count("box(0.5, 0.25, 0.2, 0.1)"), 8u * 4u);
+    EXPECT_EQ(count("box(0, 0.5, 0.2, 0.1)"), 8u * 4u) << "across periodic sides";
+    EXPECT_EQ(count("box(0.5, 0.1, 2, 0.1)"), 40u * 4u) << "a band";
+    EXPECT_EQ(count("stripe(0.5, 0.2)"), 8u * 20u);
+    EXPECT_EQ(count("stripe(-0.05, 0.2)"), 8u * 20u);
+    EXPECT_EQ(count("stripe(0.25, 0.1, pi/2)"), 40u * 4u);
+    EXPECT_EQ(count("stripe(0.5, 0.1, 0)"), 4u * 20u);
+    EXPECT_EQ(count("disc(0.5, 0.25, 0.7, 0.113)"), count("disc(0.5, 0.25, 0.113)"))
+        << "a plane has no depth";
+    EXPECT_EQ(count("ring(0.5, 0.25, 0.7, 0.15, 0.1)"), count("ring(0.5, 0.25, 0.15, 0.1)"));
+    EXPECT_EQ(count("box(0.5, 0.25, 9, 0.2, 0.1, 0.01)"), 8u * 4u);
+    EXPECT_EQ(Values("domain { grid: 40, 20; boundary: noflux }\n", "box(0, 0.5, 0.2, 0.1)")
+                  .count_ones(40, 20), 4u * 2u);
+    const double dx = 0.4125 - 0.5, dy = 0.0875 - 0.4 + 0.5;
+    EXPECT_NEAR(Values(grid, "gauss(0.5, 0.4, 0.1)").at(16, 3),
+                std::exp(-(dx * dx + dy * dy) / 0.02), 1e-6);
+}
+
+TEST(Lower, ShapesInSpace) {
+    const std::string grid = "domain { grid: 20, 16, 12 }\n";
+    Values ball(grid, "disc(0.5, 0.4, 0.1, 0.24)");
+    Values cylinder(grid, "disc(0.5, 0.4, 0.24)");
+    for (int k = 0; k < 12; ++k) {
+        for (int j = 0; j < 16; ++j) {
+            for (int i = 0; i < 20; ++i) {
+                const double dx = (i + 0.5) / 20 - 0.5, dy = (j + 0.5) / 20 - 0.4;
+                double dz = (k + 0.5) / 20 - 0.1;
+                if (dz > 0.3) dz -= 0.6;
+                const double across = dx * dx + dy * dy;
+                EXPECT_EQ(cylinder.at(i, j, k), across < 0.0576 ? 1 : 0) << i << " " << j;
+                EXPECT_EQ(ball.at(i, j, k), across + dz * dz < 0.0576 ? 1 : 0) << i << " " << j;
+            }
+        }
+    }
+    Values draws(grid, "random(0, 1)");
+    Values plane("domain { grid: 20, 16 }\n", "random(0, 1)");
+    EXPECT_EQ(draws.at(7, 3, 0), plane.at(7, 3)) << "the first slice is the plane";
+    EXPECT_NE(draws.at(7, 3, 1), plane.at(7, 3));
+}
+
+TEST(Lower, RandomFunctionsOfOneExpressionAreTold) {
+    // The first of two equal calls, alone, draws the same numbers; the second others.
+    const std::string grid = "domain { grid: 8, 4; seed: 5 }\n";
+    EXPECT_EQ(Values(grid, "normal(0, 1) + 0 * normal(0, 1)").at(3, 2),
+              Values(grid, "normal(0, 1)").at(3, 2));
+    EXPECT_NE(Values(grid, "0 * random(0, 1) + normal(0, 1)").at(3, 2),
+              Values(grid, "normal(0, 1)").at(3, 2));
+    EXPECT_NE(Values(grid, "0 * lattice(0.5, 0.1) + noise(0.3)").at(3, 2),
+              Values(grid, "noise(0.3)").at(3, 2));
+}
+
+TEST(Lower, WhiteNoiseDoesNotDependOnTheStep) {
+    for (const std::string speed : {"1", "0.25", "0.01"}) {
+        const auto checked = check_text(
+            "domain { grid: 64, 64 }\nsystem s { u: 0; k: 3; u' = white(k) }\n"
+            "stage one: s { speed: " + speed + "; iterations: 1 }\n");
+        ASSERT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
+        ScriptRun run(*checked->program);
+        run.start(0);
+        const Field rate = run.rates(0)[0].clone();
+        double squares = 0;
+        for (int k = 0; k < 4096; ++k) squares += std::pow(rate.at(k % 64, k / 64), 2) / 4096;
+        // What one unit of time adds has the variance k², within five deviations.
+        EXPECT_NEAR(squares * std::stod(speed), 9, 9 * 5 * std::sqrt(2.0 / 4096)) << speed;
+    }
 }
 
 TEST(Lower, Discs) {

@@ -1,0 +1,81 @@
+// Lattices of seeds: a cell looks at the two nearest rows of seeds along each axis.
+#include "ir/lattice.h"
+
+#include <optional>
+#include <vector>
+
+namespace cascade {
+namespace {
+
+/// One of two neighbouring seeds along an axis.
+struct Candidate {
+    Expression part;   ///< Of its hash.
+    Expression away;   ///< From the cell to where it is without jitter, in coordinates.
+};
+
+struct Candidates {
+    std::size_t axis;
+    std::vector<Candidate> both;
+};
+
+/// Seeds lie at whole numbers + offset.
+Candidates candidates_along(const LatticeHash& hash, std::size_t axis, const LatticeAxis& lattice,
+                            float offset) {
+    Candidates found{axis, {}};
+    const Expression beside = lattice.position - offset;
+    const Expression first = lattice_floor(beside);
+    for (const float next : {0.0f, 1.0f}) {
+        const Expression index = next == 0.0f ? first : first + 1.0f;
+        found.both.push_back({hash.part(axis, lattice_word(lattice, index)),
+                              (index - beside) * lattice.side});
+    }
+    return found;
+}
+
+/// Whether the cell is within the radius of one seed. Bit k of `corner` chooses along the k-th axis.
+Expression is_near(const LatticeHash& hash, const std::vector<Candidates>& axes, std::size_t corner,
+                   Expression squared_radius, Expression jitter) {
+    const auto chosen = [&](std::size_t k) { return axes[k].both[(corner >> k) & 1]; };
+    Expression parts = chosen(0).part;
+    for (std::size_t k = 1; k < axes.size(); ++k) {
+        parts = parts.binary(Op::bits_add, chosen(k).part);
+    }
+    const Expression word = hash.mixed(parts);
+    std::optional<Expression> squared;
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+        const Expression away = chosen(k).away + signed_fraction(word, k) * jitter;
+        squared = squared ? *squared + away * away : away * away;
+    }
+    return *squared < squared_radius;
+}
+
+}  // namespace
+
+ValueId seed_lattice(KernelBuilder& builder, const Space& space, LatticeKind kind, ValueId spacing,
+                     ValueId radius, ValueId jitter, const Draw& draw) {
+    const Expression side(builder, spacing);
+    const Expression r(builder, radius);
+    const Expression squared_radius = r * r;
+    const std::vector<float> offsets = kind == LatticeKind::square
+                                           ? std::vector<float>{0.5f}
+                                           : std::vector<float>{0.25f, 0.75f};
+    std::optional<Expression> inside;
+    for (std::size_t part = 0; part < offsets.size(); ++part) {
+        const LatticeHash hash(builder, draw, static_cast<std::uint32_t>(part));
+        std::vector<Candidates> axes;
+        for (std::size_t axis = 0; axis < space.size(); ++axis) {
+            if (!space[axis].has_extent) continue;
+            axes.push_back(candidates_along(
+                hash, axis, lattice_axis(builder, space[axis], side), offsets[part]));
+        }
+        if (axes.empty()) return builder.number(1);
+        for (std::size_t corner = 0; corner < std::size_t{1} << axes.size(); ++corner) {
+            const Expression near =
+                is_near(hash, axes, corner, squared_radius, Expression(builder, jitter));
+            inside = inside ? either(*inside, near) : near;
+        }
+    }
+    return inside->id();
+}
+
+}  // namespace cascade
