@@ -1,7 +1,8 @@
 #!/bin/bash
 # Draws the picture beside every example again. The test tests/gallery_test.sh compares them.
 #
-#     examples/draw_gallery.sh [NAME…]      all, or some, by name without ending
+#     examples/draw_gallery.sh [NAME…]      all, or some, by name without ending: leopard,
+#                                           models/barkley for a system of the library
 set -eu
 cd "$(dirname "$0")/.."
 program=${CASCADE:-./cascade}
@@ -13,6 +14,7 @@ draw() {
 draw_one() {
     case $1 in
         pearson_map) draw "$1" ;;
+        models/*) "$program" run -q "lang/systems/${1#*/}.cascade" -o "examples/$1.png" ;;
         figure_3_2) draw "$1" --space-time --scale 4 ;;
         # Grids of 128 cells and more.
         brusselator | fitzhugh_nagumo | gray_scott_* | figure_3_3_cheetah | figure_3_3_leopard | \
@@ -34,6 +36,7 @@ sweep_gray_scott() {
 if [ $# -gt 0 ]; then
     for name in "$@"; do draw_one "$name"; done
 else
+    for script in lang/systems/*.cascade; do draw_one "models/$(basename "$script" .cascade)"; done
     for script in examples/*.cascade; do draw_one "$(basename "$script" .cascade)"; done
     sweep_gray_scott
 fi

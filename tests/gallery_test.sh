@@ -30,6 +30,22 @@ for script in "$SOURCE"/examples/*.cascade; do
         failed=1
     fi
 done
+for script in "$SOURCE"/lang/systems/*.cascade; do
+    picture=$SOURCE/examples/models/$(basename "${script%.cascade}").png
+    if [ ! -f "$picture" ]; then
+        echo "gallery: $script has no picture $picture"
+        failed=1
+    elif [ "$CASCADE_JIT" = 1 ]; then
+        # From the script and not from the picture, so that the two cannot part; by the same path,
+        # since a picture holds its script's name.
+        here=$PWD
+        (cd "$SOURCE" && "$CASCADE" run -q "${script#"$SOURCE"/}" -o "$here/again.png") || failed=1
+        if ! cmp -s "$picture" again.png; then
+            echo "gallery: $picture is not what $script draws"
+            failed=1
+        fi
+    fi
+done
 if [ "$CASCADE_JIT" = 1 ]; then
     [ "$count" -ge 30 ] || { echo "gallery: only $count pictures"; failed=1; }
     "$CASCADE" compile "$SOURCE/examples/c_program/spots.cascade" -o step.o --header step.h > log &&

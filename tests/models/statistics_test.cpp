@@ -1,7 +1,7 @@
 // The default run of every system of the library, on a smaller grid: mean, deviation and wavelength
 // of what it shows, against stored numbers. Their tolerances come from several seeds, so that a
 // pattern of another kind fails and another instance of the same pattern does not.
-// CASCADE_UPDATE=1 in the environment measures the table again.
+// CASCADE_UPDATE=1 in the environment measures again what is missing or does not hold.
 #include "tests/oracle/test_run.h"
 
 #include "core/file.h"
@@ -98,11 +98,25 @@ Row measured_row(const LibraryText& text) {
     return row;
 }
 
+bool holds(const Row& row, const Statistics& now) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const bool is_none = std::isnan(row.middle[i]);
+        if (is_none != std::isnan(now[i])) return false;
+        if (!is_none && !(std::abs(now[i] - row.middle[i]) <= row.tolerance[i])) return false;
+    }
+    return true;
+}
+
+/// Measures what is not in the table and what is not as the table has it.
 void rewrite_table() {
+    const auto stored = stored_rows();
     std::string text = "# system  mean ±  deviation ±  wavelength ±  of its first species at the end "
                        "of its default run\n";
     for (const LibraryText& each : library_texts()) {
-        const Row row = measured_row(each);
+        const auto found = stored.find(std::string(each.system_name()));
+        const bool is_right =
+            found != stored.end() && holds(found->second, statistics_of(each, 1));
+        const Row row = is_right ? found->second : measured_row(each);
         text += fmt::format("{:<32}", each.system_name());
         for (std::size_t i = 0; i < 3; ++i) {
             text += fmt::format("  {:>10.4g} {:>9.2g}", row.middle[i], row.tolerance[i]);
@@ -121,13 +135,8 @@ TEST(LibraryStatistics, AreThoseThatAreStored) {
         const auto row = rows.find(std::string(each.system_name()));
         ASSERT_NE(row, rows.end()) << "no row in " << table_path;
         const Statistics now = statistics_of(each, 1);
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (std::isnan(row->second.middle[i])) {
-                EXPECT_TRUE(std::isnan(now[i]));
-            } else {
-                EXPECT_NEAR(now[i], row->second.middle[i], row->second.tolerance[i]);
-            }
-        }
+        EXPECT_TRUE(holds(row->second, now))
+            << fmt::format("mean {}, deviation {}, wavelength {}", now[0], now[1], now[2]);
     }
     EXPECT_EQ(rows.size(), library_texts().size()) << "a row is for no system";
 }
