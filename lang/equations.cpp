@@ -192,11 +192,23 @@ private:
 
 }  // namespace
 
+std::vector<std::string> print_equations(const ast::Script& script, const Sources& sources,
+                                         std::span<const std::string_view> systems,
+                                         Notation notation, EquationParts parts) {
+    const SystemBlocks blocks = system_blocks(script);
+    std::vector<std::string> texts;
+    for (const std::string_view system : systems) {
+        const SystemSentences sentences(script, sources, blocks, system);
+        texts.push_back(sentences.found()
+                            ? EquationPrinter(sentences, notation, system).run(parts)
+                            : "");
+    }
+    return texts;
+}
+
 std::string print_equations(const ast::Script& script, const Sources& sources,
                             std::string_view system, Notation notation, EquationParts parts) {
-    const SystemSentences sentences(script, sources, system);
-    if (!sentences.found()) return "";
-    return EquationPrinter(sentences, notation, system).run(parts);
+    return print_equations(script, sources, std::span(&system, 1), notation, parts).front();
 }
 
 }  // namespace cascade

@@ -7,9 +7,10 @@
 #include "lang/ast.h"
 
 #include <cstdint>
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cascade {
 
@@ -29,5 +30,10 @@ enum class EquationParts : std::uint8_t {
 /// if there is no such system. The script must be one that passes the checks.
 std::string print_equations(const ast::Script& script, const Sources& sources,
                             std::string_view system, Notation notation, EquationParts parts);
+
+/// The same of several systems.
+std::vector<std::string> print_equations(const ast::Script& script, const Sources& sources,
+                                         std::span<const std::string_view> systems,
+                                         Notation notation, EquationParts parts);
 
 }  // namespace cascade

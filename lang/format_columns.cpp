@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t before_comment = 2;  // Blanks, at least.
 constexpr std::size_t goes_on_by = 4;      // Further right than its sentence, where nothing helps.
+constexpr std::size_t furthest_start = 60;  // Deep brackets must not push lines out of sight.
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 enum class Alignment { free, relation, sum };
@@ -174,6 +175,10 @@ private:
         for (std::size_t cell = 0; cell < here.cells.size(); ++cell) follow(line, cell);
     }
     std::size_t start_of_continued(std::size_t line) const {
+        const std::size_t start = helpful_start(line);
+        return start <= furthest_start ? start : sentence_column_ + goes_on_by;
+    }
+    std::size_t helpful_start(std::size_t line) const {
         const bool is_comment = lines_[line].cells.empty();
         if (brackets_.empty()) {
             return value_column_ == none ? sentence_column_ + goes_on_by : value_column_;

@@ -71,7 +71,7 @@ std::string padded(std::string_view text, std::size_t width) {
 
 std::vector<std::string> system_words(const ast::Script& script, const Sources& sources,
                                       std::string_view system) {
-    const SystemSentences sentences(script, sources, system);
+    const SystemSentences sentences(script, sources, system_blocks(script), system);
     std::vector<std::string> lines;
     if (!sentences.doc().empty()) lines.push_back(sentences.doc());
     for (const SaidSentence& said : sentences.all()) {
@@ -84,7 +84,7 @@ std::vector<std::string> system_words(const ast::Script& script, const Sources& 
 std::string print_system_listing(const ast::Script& script, const Sources& sources,
                                  std::string_view system) {
     constexpr std::size_t widest_value = 24;  // Longer ones push what is behind them.
-    const SystemSentences sentences(script, sources, system);
+    const SystemSentences sentences(script, sources, system_blocks(script), system);
     std::vector<Row> rows;
     std::size_t name_width = 0, value_width = 0, range_width = 0;
     for (const SaidSentence& said : sentences.all()) {

@@ -47,10 +47,18 @@ SaidSentence said(const ast::Script& script, const Sources& sources,
 
 }  // namespace
 
+SystemBlocks system_blocks(const ast::Script& script) {
+    SystemBlocks blocks;
+    for (const ast::Block& block : script.blocks) {
+        if (block.kind == ast::BlockKind::system) blocks.try_emplace(block.name.text, &block);
+    }
+    return blocks;
+}
+
 SystemSentences::SystemSentences(const ast::Script& script, const Sources& sources,
-                                 std::string_view system) {
+                                 const SystemBlocks& blocks, std::string_view system) {
     std::vector<Place> chain;  // From the system to the one that is derived from none.
-    Place place = find_block(script, sources, system);
+    Place place = find_block({&script, &sources, &blocks, nullptr}, system);
     if (place.block == nullptr) place = find_in_library(system);
     constexpr std::size_t longest_chain = 1000;  // The checks allow no circle.
     while (place.block != nullptr && chain.size() < longest_chain) {
@@ -59,7 +67,7 @@ SystemSentences::SystemSentences(const ast::Script& script, const Sources& sourc
         if (base.empty()) break;
         // `system a: a { … }` changes the library's a.
         const bool is_own_name = base == place.block->name.text;
-        place = is_own_name ? Place{} : find_block(*place.script, *place.sources, base);
+        place = is_own_name ? Place{} : find_block(place, base);
         if (place.block == nullptr) place = find_in_library(base);
     }
     found_ = !chain.empty();
@@ -121,14 +129,10 @@ void SystemSentences::derive(const Place& place) {
     sentences_.resize(kept);
 }
 
-SystemSentences::Place SystemSentences::find_block(const ast::Script& script,
-                                                   const Sources& sources,
-                                                   std::string_view system) {
-    for (const ast::Block& block : script.blocks) {
-        const bool is_it = block.kind == ast::BlockKind::system && block.name.text == system;
-        if (is_it) return {&script, &sources, &block};
-    }
-    return {};
+SystemSentences::Place SystemSentences::find_block(Place beside, std::string_view system) {
+    const auto found = beside.blocks->find(system);
+    beside.block = found == beside.blocks->end() ? nullptr : found->second;
+    return beside;
 }
 
 SystemSentences::Place SystemSentences::find_in_library(std::string_view system) {
@@ -139,7 +143,8 @@ SystemSentences::Place SystemSentences::find_in_library(std::string_view system)
     const SourceId source =
         read.sources.add(std::string(text->file_name), std::string(text->text));
     read.script = parse(source, read.sources, never_any);
-    return find_block(read.script, read.sources, system);
+    read.blocks = system_blocks(read.script);
+    return find_block({&read.script, &read.sources, &read.blocks, nullptr}, system);
 }
 
 }  // namespace cascade

@@ -8,6 +8,7 @@
 #include <deque>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -26,11 +27,17 @@ struct SaidSentence {
     const Sources* range_sources = nullptr;
 };
 
+/// The `system` blocks of a script by name.
+using SystemBlocks = std::unordered_map<std::string_view, const ast::Block*>;
+SystemBlocks system_blocks(const ast::Script& script);
+
 /// The sentences of a system of a checked script or of the library, those of its bases first and
 /// changed as `system b: a { … }` changes them.
 class SystemSentences {
 public:
-    SystemSentences(const ast::Script& script, const Sources& sources, std::string_view system);
+    /// `blocks` are those of `script`.
+    SystemSentences(const ast::Script& script, const Sources& sources, const SystemBlocks& blocks,
+                    std::string_view system);
 
     /// False if there is no such system.
     bool found() const { return found_; }
@@ -44,14 +51,16 @@ private:
     struct LibraryScript {
         Sources sources;
         ast::Script script;
+        SystemBlocks blocks;
     };
     struct Place {
         const ast::Script* script = nullptr;
         const Sources* sources = nullptr;
+        const SystemBlocks* blocks = nullptr;  ///< Of that script.
         const ast::Block* block = nullptr;
     };
-    static Place find_block(const ast::Script& script, const Sources& sources,
-                            std::string_view system);
+    /// The place in the script of `beside`.
+    static Place find_block(Place beside, std::string_view system);
     Place find_in_library(std::string_view system);
     void derive(const Place& place);
 

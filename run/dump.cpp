@@ -45,14 +45,18 @@ std::string dump_equations(const Script& script, Notation notation) {
     const Program& program = *script.program;
     std::vector<bool> shown(program.systems.size(), false);
     for (const Stage& stage : program.stages) shown[stage.system] = true;
-    std::string text;
+    std::vector<std::string_view> names;
     for (std::size_t k = 0; k < program.systems.size(); ++k) {
         const System& system = program.systems[k];
-        if (!(program.stages.empty() ? !system.built_in : shown[k])) continue;
+        if (program.stages.empty() ? !system.built_in : shown[k]) names.push_back(system.name);
+    }
+    const auto equations = print_equations(script.tree, script.sources, names, notation,
+                                           EquationParts::all);
+    std::string text;
+    for (std::size_t k = 0; k < names.size(); ++k) {
         if (!text.empty()) text += '\n';
-        if (notation == Notation::unicode) text += system.name + "\n";
-        text += print_equations(script.tree, script.sources, system.name, notation,
-                                EquationParts::all);
+        if (notation == Notation::unicode) text += fmt::format("{}\n", names[k]);
+        text += equations[k];
     }
     return text;
 }

@@ -156,6 +156,12 @@ TEST(FormatScript, TakesLargeScriptsInItsStride) {
     std::string deep = "system s { a: " + std::string(100000, '(') + "1" +
                        std::string(100000, ')') + " }";
     EXPECT_EQ(formatted(deep), "system s {\n  " + deep.substr(11, deep.size() - 13) + "\n}\n");
+    std::string nested = "system s { a: 1";
+    for (int k = 0; k < 20000; ++k) nested += " + (\n2 - g(3,\n4";
+    const auto in_view = formatted(nested + std::string(40000, ')') + " }");
+    ASSERT_TRUE(in_view);
+    EXPECT_LT(in_view->size(), 4000000u);
+    EXPECT_EQ(formatted(*in_view), in_view);
     std::string long_row = "system s { a: 1";
     for (int k = 0; k < 100000; ++k) long_row += "; b: 2 + 3";
     EXPECT_TRUE(formatted(long_row + " }"));
