@@ -16,23 +16,36 @@ namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
-/// Does the value of a formula over `stage` differ between cells?
+/// Does a part of a formula over `stage` differ between cells? `varies` tells it of those before it.
+bool part_varies(const Node& node, const std::vector<bool>& varies, const Program& program,
+                 std::uint32_t stage) {
+    switch (node.kind) {
+        case NodeKind::own: return !program.stages[stage].uniform[node.index];
+        case NodeKind::earlier: return !program.stages[node.stage].uniform[node.index];
+        case NodeKind::builtin:
+            return node.index != static_cast<std::uint32_t>(Builtin::t) &&
+                   node.index != static_cast<std::uint32_t>(Builtin::step);
+        case NodeKind::definition:
+        case NodeKind::rate: return true;
+        case NodeKind::number:
+        case NodeKind::text: return false;
+        case NodeKind::call: break;
+    }
+    // An aggregate over the domain is one number whatever it is taken of.
+    if (info(node.function).is_aggregate) return false;
+    if (varies_by_cell(node.function)) return true;
+    for (std::size_t k = 0; k < operand_count(node); ++k) {
+        if (varies[node.operands[k]]) return true;
+    }
+    return false;
+}
+
 bool varies(const Formula& formula, const Program& program, std::uint32_t stage) {
-    return std::any_of(formula.nodes.begin(), formula.nodes.end(), [&](const Node& node) {
-        switch (node.kind) {
-            case NodeKind::own: return !program.stages[stage].uniform[node.index];
-            case NodeKind::earlier: return !program.stages[node.stage].uniform[node.index];
-            case NodeKind::builtin:
-                return static_cast<Builtin>(node.index) != Builtin::t &&
-                       static_cast<Builtin>(node.index) != Builtin::step;
-            case NodeKind::definition:
-            case NodeKind::rate: return true;
-            case NodeKind::call:
-                return node.function == Function::random || node.function == Function::disc ||
-                       node.function == Function::field;
-            default: return false;
-        }
-    });
+    std::vector<bool> parts;
+    for (const Node& node : formula.nodes) {
+        parts.push_back(part_varies(node, parts, program, stage));
+    }
+    return parts.back();
 }
 
 Result<void> check_rows(const Script& script, const LogRequest& request) {
