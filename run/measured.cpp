@@ -17,9 +17,10 @@ measure::Samples to_samples(const Field& field, const Grid& grid) {
     return samples;
 }
 
-measure::Features measure_shown(const Canvas& canvas, const Simulation& simulation) {
-    if (!canvas.is_colour()) {
-        return measure::measure(to_samples(canvas.fields[0], simulation.grid()));
+measure::Features measure_shown(Painter& painter, const Simulation& simulation) {
+    const Canvas shown = painter.values(simulation);
+    if (!shown.is_colour()) {
+        return measure::measure(to_samples(shown.fields[0], simulation.grid()));
     }
     const std::uint32_t stage = simulation.shown_stage().value_or(0);
     const auto fields =

@@ -112,7 +112,7 @@ std::optional<Formula> Painter::formula_for(std::uint32_t stage, std::uint32_t l
                       script_->sources, unspoken);
 }
 
-Canvas Painter::canvas(const Simulation& simulation) {
+Canvas Painter::values(const Simulation& simulation) {
     const std::uint32_t stage = simulation.shown_stage().value_or(0);
     std::uint32_t last_stage = stage;
     while (last_stage + 1 < simulation.program().stages.size() &&
@@ -122,8 +122,12 @@ Canvas Painter::canvas(const Simulation& simulation) {
     const bool asked = show_ || picture_expression(script_->tree);
     const auto formula = formula_for(stage, last_stage);
     if (!formula) fell_back_ = fell_back_ || asked;
-    Canvas canvas{simulation.evaluate(
-        formula ? *formula : simulation.program().stages[stage].show, stage)};
+    return {simulation.evaluate(formula ? *formula : simulation.program().stages[stage].show,
+                                stage)};
+}
+
+Canvas Painter::canvas(const Simulation& simulation) {
+    Canvas canvas = values(simulation);
     cut_all(canvas.fields, request_);
     return canvas;
 }

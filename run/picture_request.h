@@ -41,6 +41,8 @@ public:
     /// The values to show now. Where the picture block names a stage that has not run, the default
     /// is computed, and `fell_back()` is true from then on. Of a volume they are a slice.
     Canvas canvas(const Simulation& simulation);
+    /// The same of all cells, of a volume too.
+    Canvas values(const Simulation& simulation);
     bool fell_back() const { return fell_back_; }
 
     /// The canvas as an image, enlarged. `range` overrides the automatic one.

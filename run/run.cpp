@@ -339,7 +339,7 @@ Result<RunReport> Runner::run() {
         return tl::unexpected(done.error());
     }
     if (request_.features) {
-        report_.features = measure_shown(painter_->canvas(*simulation_), *simulation_);
+        report_.features = measure_shown(*painter_, *simulation_);
     }
     if (auto written = write_results(); !written) return tl::unexpected(written.error());
     return std::move(report_);

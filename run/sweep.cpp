@@ -105,7 +105,7 @@ Sweeper::Done Sweeper::plan_run(std::size_t number) {
     if (!script.program) {
         return tl::unexpected(SweepFault{{"a script of the sweep is wrong", ""}, std::move(script)});
     }
-    run.key = key_of_run(script, request_.picture.show, request_.tile_side);
+    run.key = key_of_run(script, request_.picture, request_.tile_side);
     if (number == 0 && script.program->stages.empty()) {
         return tl::unexpected(SweepFault{{"this script has no stage to run",
                                           "add one, as in 'stage spots: turing_spots { }'"},
@@ -231,9 +231,8 @@ void Sweeper::take(std::size_t number, RunControl& control) {
         result.remark = one_line(done.error().message);
         return keep(number, std::move(result));
     }
-    const Canvas canvas = painter->canvas(**simulation);
-    result.features = measure_shown(canvas, **simulation);
-    result.tile = shrink(canvas, request_.tile_side);
+    result.features = measure_shown(*painter, **simulation);
+    result.tile = shrink(painter->canvas(**simulation), request_.tile_side);
     if (request_.fields) {
         const auto folder = folder_ / "fields" / folder_name(request_.varied, run.values);
         if (auto saved = save_run(folder, script, **simulation); !saved) {

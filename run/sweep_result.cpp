@@ -49,7 +49,7 @@ std::uint64_t add_files(std::uint64_t hash, const Script& script) {
     return hash;
 }
 
-nlohmann::json to_json(const SweepResult& result) {
+nlohmann::json json_of(const SweepResult& result) {
     nlohmann::json json = {{"cascade", version()},
                            {"planes", result.tile.fields.size()},
                            {"steps", result.steps},
@@ -113,7 +113,7 @@ std::optional<Canvas> unstacked(const std::filesystem::path& path, std::size_t p
     return canvas;
 }
 
-/// Of the middle slice means of squares of `factor` × `factor` cells, at the far sides of what is left of them; cells
+/// Means of squares of `factor` × `factor` cells, at the far sides of what is left of them; cells
 /// outside of the domain (NaN) count for nothing.
 Field average(const Field& field, std::int64_t factor) {
     const PlaneLayout& from = field.layout();
@@ -126,7 +126,7 @@ Field average(const Field& field, std::int64_t factor) {
             double sum = 0, inside = 0;
             for (std::int64_t y = j * factor; y < bottom; ++y) {
                 for (std::int64_t x = i * factor; x < right; ++x) {
-                    const float value = field.at(x, y, from.depth / 2);
+                    const float value = field.at(x, y);
                     if (!std::isfinite(value)) continue;
                     sum += value;
                     inside += 1;
@@ -141,11 +141,15 @@ Field average(const Field& field, std::int64_t factor) {
 
 }  // namespace
 
-std::string key_of_run(const Script& script, const std::string& show, int tile_side) {
+std::string key_of_run(const Script& script, const PictureRequest& picture,
+                       int tile_side) {
     std::uint64_t hash = add_line(fnv1a("sweep 1"), version());
     hash = add_files(add_words(hash, script), script);
     hash = add_line(hash, overrides_to_json(script.overrides));
-    hash = add_line(add_line(hash, show), fmt::format("{}", tile_side));
+    PictureRequest shown;  // Colours and their range are chosen when the sheet is drawn.
+    shown.show = picture.show;
+    shown.slice = picture.slice;
+    hash = add_line(add_line(hash, to_json(shown)), fmt::format("{}", tile_side));
     return fmt::format("{:016x}", hash);
 }
 
@@ -156,7 +160,7 @@ Result<void> write_result(const std::filesystem::path& folder, const std::string
         if (!done) return done;
     }
     const std::string text =
-        to_json(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+        json_of(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
     return write_file(folder / (key + ".json"), text + "\n");
 }
 

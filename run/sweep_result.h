@@ -26,7 +26,8 @@ struct SweepResult {
 /// A key of all that a run's result depends on: the words of the script and of all it uses (not its
 /// blanks and comments), the changes from outside, the contents of the files that it reads, what is
 /// shown, the size of the tiles, Cascade's version. 16 hexadecimal digits. The script must be right.
-std::string key_of_run(const Script& script, const std::string& show, int tile_side);
+std::string key_of_run(const Script& script, const PictureRequest& picture,
+                       int tile_side);
 
 /// Writes KEY.npy (planes of the tile below each other) and KEY.json into `folder`; the latter
 /// last, so that half a result is none.
@@ -36,8 +37,7 @@ Result<void> write_result(const std::filesystem::path& folder, const std::string
 /// Nothing where there is no result of that key, or it is damaged.
 std::optional<SweepResult> read_result(const std::filesystem::path& folder, const std::string& key);
 
-/// Every field of a canvas (of several slices the middle one), its cells averaged by squares so that
-/// no side is above `side`.
+/// Every plane of a canvas, its cells averaged by squares so that no side is above `side`.
 Canvas shrink(const Canvas& canvas, int side);
 
 }  // namespace cascade

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 
 namespace cascade {
@@ -134,6 +135,25 @@ TEST_F(RunTest, FeaturesOfWhatIsShown) {
     EXPECT_EQ(report.features->spots, 1);
     EXPECT_NEAR(report.features->wavelength, 40, 1e-9);
     EXPECT_NEAR(report.features->angle, 90, 1e-9);
+}
+
+TEST_F(RunTest, FeaturesOfAVolume) {
+    // Two balls in a periodic box, one of them across its far side; the picture's slice cuts one.
+    Script script = load("domain { grid: 16, 16, 32; spacing: 0.5 }\n"
+                         "system s { u: ((x - 0.25)^2 + (y - 0.25)^2 + (z - 0.5)^2 < 0.02) +\n"
+                         "  ((x - 0.25)^2 + (y - 0.25)^2 + min(z, 1 - z)^2 < 0.02); u' = 0 * u }\n"
+                         "stage s: s { iterations: 1 }");
+    RunRequest wanted = request();
+    wanted.features = true;
+    const RunReport report = run_well(script, wanted);
+    ASSERT_TRUE(report.features);
+    EXPECT_EQ(report.features->spots, 2);
+    EXPECT_EQ(report.features->holes, 1);
+    EXPECT_NEAR(report.features->area, 2 * 4.18879 * std::pow(0.02, 1.5) * 4, 0.01);
+    Script waves = load("domain { grid: 16, 8, 32; spacing: 0.5 }\n"
+                        "system s { u: sin(8 * pi * z); u' = 0 * u }\n"
+                        "stage s: s { iterations: 1 }");
+    EXPECT_NEAR(run_well(waves, wanted).features->wavelength, 4, 1e-6);
 }
 
 }  // namespace
