@@ -52,6 +52,20 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
     add_value(app, "--until-stage", "NAME", "The last stage that runs", any_text,
               [&](auto stage) { overrides.until_stage = stage; })
         ->group(group);
+    app.add_option_function<std::vector<std::string>>(
+           "--allow-read",
+           [&](const std::vector<std::string>& folders) {
+               for (const std::string& folder : folders) {
+                   if (folder == "all") overrides.reads.everything = true;
+                   else overrides.reads.folders.emplace_back(folder);
+               }
+           },
+           "The script may read files below this folder too, not\nonly below its own; 'all': "
+           "everywhere; may be given\nagain")
+        ->allow_extra_args(false)
+        ->trigger_on_parse()
+        ->type_name("FOLDER|all")
+        ->group("Limits");
 }
 
 void add_shown(CLI::App& app, PictureChanges& picture) {

@@ -57,7 +57,7 @@ std::vector<std::string> PromptSession::names(const std::string& line) const {
         for (const Command& command : commands()) names.emplace_back(command.name);
         return names;
     }
-    for (const char* const word : {"system", "stage", "domain", "picture", "system_name"}) {
+    for (const char* const word : {"system", "stage", "domain", "picture", "system_name", "fn", "use"}) {
         names.emplace_back(word);
     }
     if (script_) {

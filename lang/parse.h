@@ -21,6 +21,11 @@ inline constexpr std::size_t largest_script = 16u << 20;
 /// sentence, so that one call finds them all.
 ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnostics);
 
+/// Parses a text that another script uses: its systems and functions, and what it uses itself, are
+/// added to `script`; its stages, domain and picture are left out.
+void parse_used(SourceId source, const Sources& sources, ast::Script& script,
+                Diagnostics& diagnostics);
+
 /// Parses a text that is one expression (`--show 'small.b - a'`) into the lists of `script`.
 std::optional<ast::Expression> parse_expression(SourceId source, const Sources& sources,
                                                 ast::Script& script, Diagnostics& diagnostics);

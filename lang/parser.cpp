@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace cascade {
 
 namespace {
@@ -39,6 +41,22 @@ ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnost
     // What could not be read may be what a doc comment belongs to.
     if (diagnostics.error_count() == errors_before) cursor.report_lost_docs();
     return script;
+}
+
+void parse_used(SourceId source, const Sources& sources, ast::Script& script,
+                Diagnostics& diagnostics) {
+    if (!has_sane_size(source, sources, diagnostics)) return;
+    const std::size_t errors_before = diagnostics.error_count();
+    const auto blocks_before = static_cast<std::ptrdiff_t>(script.blocks.size());
+    TokenCursor cursor(source, sources, diagnostics);
+    ScriptParser(cursor, script).parse_script();
+    if (diagnostics.error_count() == errors_before) cursor.report_lost_docs();
+    script.blocks.erase(
+        std::remove_if(script.blocks.begin() + blocks_before, script.blocks.end(),
+                       [](const ast::Block& block) {
+                           return block.kind != ast::BlockKind::system;
+                       }),
+        script.blocks.end());
 }
 
 std::optional<ast::Expression> parse_expression(SourceId source, const Sources& sources,

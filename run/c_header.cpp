@@ -18,6 +18,14 @@ std::string upper(std::string text) {
     return text;
 }
 
+/// The name of an item as a part of a C identifier: u[2] is U_2.
+std::string identifier(std::string_view item) {
+    std::string text = upper(std::string(item));
+    std::replace(text.begin(), text.end(), '[', '_');
+    std::erase(text, ']');
+    return text;
+}
+
 std::string item_path(const Program& program, const SlotSource& source) {
     if (source.kind == SlotSource::Kind::step) return "number of complete steps";
     const Stage& stage = program.stages[source.stage];
@@ -108,7 +116,7 @@ std::string enumeration(const std::string& prefix, const std::vector<SlotSource>
         } else if (source.kind == SlotSource::Kind::item && source.stage == stage) {
             text += fmt::format(
                 "#define {}_{} {}\n", prefix,
-                upper(std::string(program.system_of(source.stage).item_name(source.item))), k);
+                identifier(program.system_of(source.stage).item_name(source.item)), k);
         }
     }
     return text;

@@ -15,7 +15,9 @@ namespace {
 void read_one(Script& script, const Node& node, InputFiles& files) {
     const std::string& name = script.program->texts[node.index];
     const Grid& grid = script.program->domain.grid;
-    const auto array = read_npy((script.folder / name).lexically_normal());
+    const auto path = readable_path(script.folder, name, script.overrides.reads);
+    if (!path) return script.diagnostics.error(node.span, path.error().message, path.error().hint);
+    const auto array = read_npy(*path);
     if (!array) {
         script.diagnostics.error(node.span, array.error().message, array.error().hint);
     } else if (!fits(*array, grid)) {

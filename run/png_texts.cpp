@@ -49,6 +49,7 @@ std::string overrides_to_json(const Overrides& overrides) {
     if (overrides.seed) json["seed"] = *overrides.seed;
     if (overrides.steps) json["steps"] = *overrides.steps;
     if (overrides.until_stage) json["until_stage"] = *overrides.until_stage;
+    if (!overrides.used.empty()) json["used"] = overrides.used;
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -74,6 +75,7 @@ Result<Overrides> overrides_from_json(const std::string& text) {
         if (json.contains("until_stage")) {
             overrides.until_stage = json.at("until_stage").get<std::string>();
         }
+        if (json.contains("used")) json.at("used").get_to(overrides.used);
         return overrides;
     } catch (const std::exception&) {
         return failure(unreadable);
@@ -86,6 +88,7 @@ Overrides merge(Overrides base, const Overrides& changes) {
     if (changes.seed) base.seed = changes.seed;
     if (changes.steps) base.steps = changes.steps;
     if (changes.until_stage) base.until_stage = changes.until_stage;
+    base.reads = changes.reads;
     return base;
 }
 

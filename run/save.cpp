@@ -132,6 +132,7 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
         // A cap that made the run stop would make the resumed one stop as well.
         overrides->steps = changes.steps;
         overrides->until_stage = changes.until_stage;
+        overrides->reads = changes.reads;
         return load_script(json->at("name").get<std::string>(),
                            json->at("script").get<std::string>(),
                            json->at("folder").get<std::string>(), std::move(*overrides));

@@ -6,6 +6,7 @@
 #include "lang/parse.h"
 #include "picture/image.h"
 #include "run/png_texts.h"
+#include "run/used_files.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -125,9 +126,7 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
 
     const SourceId source = script.sources.add(script.name, script.text);
     script.tree = parse(source, script.sources, script.diagnostics);
-    for (const ast::Use& use : script.tree.uses) {
-        script.diagnostics.error(use.span, "'use' is not in this version of the language");
-    }
+    load_used_files(script);
     for (const std::string& set : script.overrides.sets) {
         const SourceId id = script.sources.add("<--set>", set);
         parse_override(id, script.sources, script.tree, script.diagnostics);

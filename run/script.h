@@ -7,6 +7,7 @@
 #include "lang/ast.h"
 #include "lang/program.h"
 #include "lang/token.h"
+#include "run/read_access.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -24,6 +25,10 @@ struct Overrides {
     std::optional<std::uint32_t> seed;
     std::optional<std::int64_t> steps;                           ///< A cap for every stage.
     std::optional<std::string> until_stage;                      ///< The last stage that runs.
+    /// The files that the script uses, as (path, text), as far as they have been read. A picture
+    /// can so be drawn again without them.
+    std::vector<std::pair<std::string, std::string>> used;
+    ReadAccess reads;                                            ///< Travels nowhere.
 
     friend bool operator==(const Overrides&, const Overrides&) = default;
 };
@@ -54,8 +59,8 @@ struct Script {
     std::uint32_t stage_count() const;
 };
 
-/// Parses and checks `text` with its overrides, picture block included. Never fails otherwise than
-/// by diagnostics.
+/// Parses and checks `text` with its overrides and the files it uses, picture block included. Never
+/// fails otherwise than by diagnostics.
 Script load_script(std::string name, std::string text, std::filesystem::path folder,
                    Overrides overrides = {});
 

@@ -157,6 +157,7 @@ TEST_F(DamagedTest, ASpaceTimePictureNeedsOneRow) {
 TEST_F(DamagedTest, ARefusedRunLeavesNoFolder) {
     Script script = load("stage s: turing_spots { a: field(\"no.npy\") + field(\"no.npy\")\n"
                          "b: field(\"/dev/zero\") }");
+    script.overrides.reads.everything = true;
     RunRequest wanted = request();
     wanted.frames = path("frames");
     wanted.save = path("saved");
