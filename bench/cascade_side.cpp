@@ -65,10 +65,12 @@ CascadeSide::CascadeSide(const std::string& text, Backend& backend)
     simulation_ = must(Simulation::create(script_, options));
     if (auto started = simulation_->start_stage(0); !started) give_up(started.error().message);
 
-    const BoundKernel bound = lower_step(*script_.program, 0);
     const StageState& state = simulation_->state(0);
     const BindingContext context{{&state, 1}, files_, 0, simulation_->grid()};
-    problem_ = bind_step(bound, must(backend.compile(bound.kernel, grid().stencil())), context,
+    const auto compile = [&](const CellKernel& kernel) {
+        return must(backend.compile(kernel, grid().stencil()));
+    };
+    problem_ = bind_plan(plan_step(*script_.program, 0), compile, context,
                          script_.program->system_of(0), 0);
     stepper_.emplace(problem_, start_species(), 1);
 }

@@ -14,7 +14,7 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> later_functions{"grad", "div", "attr", "integral"};
+constexpr std::array<std::string_view, 2> later_functions{"attr", "integral"};
 /// What is taken over something, as in sum(e over i).
 constexpr std::array<std::string_view, 3> only_over{"sum", "mean", "product"};
 
@@ -50,9 +50,6 @@ void ExpressionChecker::visit(const ast::Over& over) {
                      "mean, sum, min and max can");
     }
     if (!belongs_here(*function, over.function.span)) return;
-    // Until the lowering knows how to make them.
-    return fault(over.function.span,
-                 "aggregates over the domain are not in this version of the language");
     apply(*function, {part_of(over.operand)}, 1);
 }
 
@@ -159,12 +156,14 @@ void ExpressionChecker::need(std::uint32_t part, ValueType type) {
     if (type == ValueType::text) {
         return fault(operand.span, "a text in quotes is expected here");
     }
-    fault(operand.span, operand.type == ValueType::colour ? "a colour is no number"
-                                                          : "a text is no number");
+    const TypeWords words = words_of(operand.type);
+    fault(operand.span, fmt::format("{} is no number", words.name), std::string(words.hint));
 }
 
 void ExpressionChecker::check_types(const Node& node) {
     const auto& operands = node.operands;
+    if (check_vectors(node)) return;
+    if (differentiates(node.function)) return check_operator(node);
     switch (node.function) {
         case Function::if_:
             need(operands[0], ValueType::number);
@@ -174,7 +173,6 @@ void ExpressionChecker::check_types(const Node& node) {
             return check_choice(formula_.nodes.back(), operands[0], operands[1]);
         case Function::palette: return check_palette(node);
         case Function::field: return need(operands[0], ValueType::text);
-        case Function::lap: return check_species(node);
         case Function::noise:
         case Function::lattice:
         case Function::diamond: check_lattice(formula_.nodes.back()); break;
@@ -186,7 +184,8 @@ void ExpressionChecker::check_types(const Node& node) {
 
 void ExpressionChecker::check_choice(Node& node, std::uint32_t a, std::uint32_t b) {
     const ValueType type = formula_.nodes[a].type;
-    if (type != formula_.nodes[b].type && !parts_.back().faulty) {
+    const bool is_chosen = type == ValueType::number || type == ValueType::colour;
+    if ((type != formula_.nodes[b].type || !is_chosen) && !parts_.back().faulty) {
         return fault(formula_.nodes[b].span,
                      fmt::format("{} chooses between two numbers or two colours",
                                  info(node.function).spelling));
@@ -208,14 +207,6 @@ void ExpressionChecker::check_palette(const Node& node) {
         return fault(text.span, fmt::format("there is no palette '{}'", name), std::move(hint));
     }
     formula_.nodes.back().type = ValueType::colour;
-}
-
-void ExpressionChecker::check_species(const Node& node) {
-    const Node& operand = formula_.nodes[node.operands[0]];
-    const System& system = work_.program.systems[scope_.system];
-    if (operand.kind == NodeKind::own && system.is_species(operand.index)) return;
-    fault(operand.span, fmt::format("{} takes a species", info(node.function).spelling),
-          "expressions and parameters come in a later version of the language");
 }
 
 /// The first value of noise and lattices is a length; the octaves of noise are counted now.

@@ -184,9 +184,9 @@ std::optional<CheckedExpression> check_number(Workspace& work, const ast::Script
                                               ast::Expression expression, const Scope& scope) {
     auto checked = check_expression(work, script, expression, scope);
     if (!checked || checked->type() == ValueType::number) return checked;
-    const bool colour = checked->type() == ValueType::colour;
+    const TypeWords words = words_of(checked->type());
     work.diagnostics.error(checked->formula.nodes.back().span,
-                           colour ? "a colour is no number" : "a text is no number");
+                           fmt::format("{} is no number", words.name), std::string(words.hint));
     return std::nullopt;
 }
 

@@ -3,6 +3,11 @@
 
 #include "lang/check_names.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
 #include <span>
 
 namespace cascade::checking {
@@ -30,6 +35,21 @@ std::optional<CheckedExpression> check_parts(Workspace& work, const ast::Script&
 std::optional<CheckedExpression> check_number(Workspace& work, const ast::Script& script,
                                               ast::Expression expression, const Scope& scope);
 
+/// How messages call a type that is no number, and what helps where a number is expected.
+struct TypeWords {
+    std::string_view name, hint;
+};
+TypeWords words_of(ValueType type);
+
+/// Operators in operators take a pass over the grid for each layer: more than this many are an
+/// error.
+inline constexpr std::uint32_t most_nested_operators = 32;
+
+/// How deep operators lie in each other in a formula, given that depth for its leaves
+/// (definitions, rates, own items). Too deep is an error, said once.
+template <typename DepthOfLeaf>
+std::uint32_t check_nesting(Workspace& work, const Formula& formula, const DepthOfLeaf& of_leaf);
+
 /// One number that is known now, in double precision: `subject` names it in messages.
 std::optional<double> check_constant(Workspace& work, const ast::Script& script,
                                      ast::Expression expression, std::string_view subject);
@@ -37,5 +57,28 @@ std::optional<double> check_constant(Workspace& work, const ast::Script& script,
 /// The value of a function or operator of numbers; nothing where it has none (lap, random, …).
 /// There are at least three numbers, the first of which are the operands.
 std::optional<double> fold(Function function, std::span<const double> operands);
+
+template <typename DepthOfLeaf>
+std::uint32_t check_nesting(Workspace& work, const Formula& formula, const DepthOfLeaf& of_leaf) {
+    std::vector<std::uint32_t> depth;
+    depth.reserve(formula.nodes.size());
+    for (const Node& node : formula.nodes) {
+        std::uint32_t deepest = 0;
+        if (node.kind == NodeKind::call) {
+            for (std::size_t k = 0; k < operand_count(node); ++k) {
+                deepest = std::max(deepest, depth[node.operands[k]]);
+            }
+            const bool adds = differentiates(node.function) || info(node.function).is_aggregate;
+            if (adds && deepest++ == most_nested_operators) {
+                work.diagnostics.error(node.span, "operators lie too deep in each other",
+                                       fmt::format("at most {} may", most_nested_operators));
+            }
+        } else {
+            deepest = of_leaf(node);
+        }
+        depth.push_back(deepest);
+    }
+    return depth.empty() ? 0 : depth.back();
+}
 
 }  // namespace cascade::checking

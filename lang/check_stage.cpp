@@ -2,6 +2,7 @@
 // are the same in all cells.
 #include "lang/check_blocks.h"
 #include "lang/check_circles.h"
+#include "lang/check_expression.h"
 #include "lang/library.h"
 
 #include <fmt/format.h>
@@ -55,6 +56,7 @@ private:
     void take_default(std::uint32_t item, const Formula* formula, double otherwise);
     void order_items();
     void find_uniform();
+    bool node_varies(const Node& node, const std::vector<bool>& varies) const;
 
     Workspace& work_;
     const ast::Script& script_;
@@ -250,28 +252,42 @@ void StageChecker::order_items() {
     stage().order = std::move(order.order);
 }
 
-/// The same in all cells is what reads nothing that differs between cells.
+/// The same in all cells is what reads nothing that differs between cells. An aggregate over the
+/// domain is a single number whatever it is taken of.
 void StageChecker::find_uniform() {
     Stage& target = stage();
     target.uniform.assign(target.items.size(), false);
-    const auto varies = [&](const Node& node) {
-        switch (node.kind) {
-            case NodeKind::own: return !target.uniform[node.index];
-            case NodeKind::earlier: {
-                const Stage& other = work_.program.stages[node.stage];
-                return other.uniform.empty() || !other.uniform[node.index];
-            }
-            case NodeKind::builtin: return true;
-            case NodeKind::call:
-                return varies_by_cell(node.function);
-            default: return false;
-        }
-    };
+    std::vector<std::uint32_t> depths(target.items.size());
+    std::vector<bool> varies;
     for (const std::uint32_t item : target.order) {
         const std::vector<Node>& nodes = target.items[item].nodes;
-        target.uniform[item] =
-            !system().is_species(item) && std::none_of(nodes.begin(), nodes.end(), varies);
+        varies.clear();
+        for (const Node& node : nodes) varies.push_back(node_varies(node, varies));
+        target.uniform[item] = !system().is_species(item) && (varies.empty() || !varies.back());
+        depths[item] = check_nesting(work_, target.items[item], [&](const Node& node) {
+            return node.kind == NodeKind::own ? depths[node.index] : 0;
+        });
     }
+}
+
+/// Does a part differ between cells? `varies` tells it of those before it.
+bool StageChecker::node_varies(const Node& node, const std::vector<bool>& varies) const {
+    switch (node.kind) {
+        case NodeKind::own: return !work_.program.stages[index_].uniform[node.index];
+        case NodeKind::earlier: {
+            const Stage& other = work_.program.stages[node.stage];
+            return other.uniform.empty() || !other.uniform[node.index];
+        }
+        case NodeKind::builtin: return true;
+        case NodeKind::call: break;
+        default: return false;
+    }
+    if (info(node.function).is_aggregate) return false;
+    if (varies_by_cell(node.function) && !differentiates(node.function)) return true;
+    for (std::size_t k = 0; k < operand_count(node); ++k) {
+        if (varies[node.operands[k]]) return true;
+    }
+    return false;
 }
 
 std::uint32_t find_system(Workspace& work, const ast::Word& name) {

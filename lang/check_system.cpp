@@ -1,6 +1,7 @@
 // A `system` block: what it declares, its formulas, and the order of its definitions and rates.
 #include "lang/check_blocks.h"
 #include "lang/check_circles.h"
+#include "lang/check_expression.h"
 
 #include <fmt/format.h>
 
@@ -47,6 +48,7 @@ private:
     void check_settings();
     void order_values();
     void order_steps();
+    void check_depths();
 
     Workspace& work_;
     const DerivedSystem& derived_;
@@ -355,6 +357,26 @@ void SystemChecker::order_steps() {
     for (Formula& rate : target.rates) renumber(rate);
     for (auto& [name, meaning] : work_.names[index_]) {
         if (meaning.is_definition) meaning.index = position[meaning.index];
+    }
+    if (order.circles.empty()) check_depths();
+}
+
+/// How deep operators lie in each other through definitions and rates.
+void SystemChecker::check_depths() {
+    const System& target = system();
+    std::vector<std::uint32_t> definitions(target.definitions.size());
+    std::vector<std::uint32_t> rates(target.quantities.size());
+    const auto of_leaf = [&](const Node& node) {
+        if (node.kind == NodeKind::definition) return definitions[node.index];
+        return node.kind == NodeKind::rate ? rates[node.index] : 0;
+    };
+    const auto count = static_cast<std::uint32_t>(definitions.size());
+    for (const std::uint32_t value : topological_order(step_dependencies(target)).order) {
+        if (value < count) {
+            definitions[value] = check_nesting(work_, target.definitions[value].formula, of_leaf);
+        } else {
+            rates[value - count] = check_nesting(work_, target.rates[value - count], of_leaf);
+        }
     }
 }
 

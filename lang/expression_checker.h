@@ -1,7 +1,8 @@
 // Checking one expression, part by part (internal to the checker).
 //
 // check_expression.cpp walks the parts and resolves names and texts; check_call.cpp checks what is
-// called: arguments, places, types and constants.
+// called: arguments, places, types and constants; check_operators.cpp what is particular to operators
+// of derivatives, vectors and tensors.
 #pragma once
 
 #include "lang/check_expression.h"
@@ -69,8 +70,10 @@ private:
     void check_types(const Node& node);
     void check_choice(Node& node, std::uint32_t a, std::uint32_t b);
     void check_palette(const Node& node);
-    void check_species(const Node& node);
     void check_lattice(Node& node);
+    bool check_vectors(const Node& node);
+    void check_operator(const Node& node);
+    bool is_same_everywhere(std::uint32_t part);
     void need(std::uint32_t part, ValueType type);
     void fold_constants(const Node& node);
 

@@ -1,30 +1,22 @@
-// The kernels of a stage: its start, its step and its rates.
+// The plans of a stage: its start, its step and its rates.
 #include "lang/lower.h"
 
 #include "core/check.h"
 #include "lang/check_circles.h"
 #include "lang/lower_formula.h"
+#include "lang/plan_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
 
 namespace cascade {
 
 namespace {
 
-using lowering::KernelAssembly;
-
-BoundKernel lower_start(const Program& program, std::uint32_t stage, bool uniform) {
-    KernelAssembly assembly(program, stage);
-    const Stage& source = program.stages[stage];
-    std::vector<std::uint32_t> results;
-    for (const std::uint32_t item : source.order) {
-        if (source.uniform[item] != uniform) continue;
-        const std::string name(assembly.system().item_name(item));
-        const ValueId value = assembly.formula(source.items[item], {name, false});
-        assembly.set_own(item, value);
-        assembly.result(name, value);
-        results.push_back(item);
-    }
-    return std::move(assembly).finish(std::move(results));
-}
+using namespace lowering;
 
 std::vector<std::uint32_t> species_items(const System& system) {
     std::vector<std::uint32_t> items;
@@ -34,103 +26,313 @@ std::vector<std::uint32_t> species_items(const System& system) {
     return items;
 }
 
-/// Which of the definitions and rates the rates of species need, by their numbers in
-/// step_dependencies: a definition that nothing needs must not take up slots.
-std::vector<bool> needed_values(const System& system, const Dependencies& reads,
-                                const std::vector<std::uint32_t>& order) {
-    std::vector<bool> needed(reads.size(), false);
-    for (const std::uint32_t item : system.rate_order) {
-        needed[system.definitions.size() + item] = true;
+/// The uniform items that need an aggregate over the domain, directly or through others: they can
+/// be computed only where there are cells.
+std::vector<bool> items_of_aggregates(const Stage& stage) {
+    std::vector<bool> late(stage.items.size(), false);
+    for (const std::uint32_t item : stage.order) {
+        if (!stage.uniform[item]) continue;
+        for (const Node& node : stage.items[item].nodes) {
+            const bool takes_one =
+                node.kind == NodeKind::call && info(node.function).is_aggregate;
+            const bool reads_one = node.kind == NodeKind::own && late[node.index];
+            if (takes_one || reads_one) late[item] = true;
+        }
     }
-    for (std::size_t i = order.size(); i > 0; --i) {
-        if (!needed[order[i - 1]]) continue;
-        for (const std::uint32_t read : reads[order[i - 1]]) needed[read] = true;
-    }
-    return needed;
+    return late;
 }
 
-/// Computes the rates of all species, in order of their items.
-std::vector<ValueId> add_rates(KernelAssembly& assembly) {
-    const System& system = assembly.system();
-    const Dependencies reads = step_dependencies(system);
-    const std::vector<std::uint32_t> order = topological_order(reads).order;
-    const std::vector<bool> needed = needed_values(system, reads, order);
+/// Starting values in order; `is_chosen(item)` says which become results. Items that are computed
+/// elsewhere are read.
+template <typename Chosen>
+StepPlan plan_items(const Program& program, std::uint32_t stage, const PlanOptions& options,
+                    const Chosen& is_chosen) {
+    const Stage& source = program.stages[stage];
+    const System& system = program.system_of(stage);
+    PartGraph graph(program, stage);
+    std::vector<std::uint32_t> items;
+    std::vector<PartId> parts;
+    for (const std::uint32_t item : source.order) {
+        if (!is_chosen(item)) continue;
+        const PartId part =
+            graph.add(source.items[item], {std::string(system.item_name(item)), false});
+        graph.set_own(item, part);
+        items.push_back(item);
+        parts.push_back(part);
+    }
+    StepPlan plan = build_plan({graph, parts, options},
+                               [&](KernelAssembly& assembly, const PassLowering& values) {
+        for (std::size_t k = 0; k < items.size(); ++k) {
+            assembly.result(std::string(system.item_name(items[k])), values.value(parts[k])[0]);
+        }
+    });
+    plan.results = std::move(items);
+    return plan;
+}
+
+/// Adds definitions and rates in an order in which each can be computed. Those that nothing needs
+/// stay out of the kernels. Returns the part of each item's rate.
+std::vector<PartId> add_rates(PartGraph& graph, const System& system) {
     const auto definition_count = static_cast<std::uint32_t>(system.definitions.size());
-    std::vector<ValueId> rates(system.quantities.size());
-    for (const std::uint32_t value : order) {
-        if (!needed[value]) continue;
+    std::vector<PartId> rates(system.quantities.size());
+    for (const std::uint32_t value : topological_order(step_dependencies(system)).order) {
         if (value < definition_count) {
             const Definition& definition = system.definitions[value];
-            assembly.set_definition(
-                value, assembly.formula(definition.formula, {definition.name, true}));
+            graph.set_definition(value, graph.add(definition.formula, {definition.name, true}));
             continue;
         }
         const std::uint32_t item = value - definition_count;
+        if (!system.is_species(item)) continue;
         rates[item] =
-            assembly.formula(system.rates[item], {system.quantities[item].name + "'", true});
-        assembly.set_rate(item, rates[item]);
+            graph.add(system.rates[item], {system.quantities[item].name + "'", true});
+        graph.set_rate(item, rates[item]);
     }
     return rates;
 }
 
-/// Species take the first slots, in order of their items.
-void read_species(KernelAssembly& assembly, std::uint32_t stage,
-                  const std::vector<std::uint32_t>& species) {
-    for (const std::uint32_t item : species) assembly.field_slot(stage, item);
-    assembly.read_frozen_as_mask();
+/// The results of a sweep: what its form says of the rates and inputs of every species.
+class SweepEmitter {
+public:
+    SweepEmitter(const Program& program, std::uint32_t stage, const SweepForm& form)
+        : program_(program), stage_(stage), form_(form), system_(program.system_of(stage)) {
+        const std::vector<std::uint32_t> all = species_items(system_);
+        species_ = all;
+        if (!form.species.empty()) {
+            species_.clear();
+            for (const std::uint32_t number : form.species) species_.push_back(all[number]);
+        }
+    }
+
+    StepPlan plan(const PlanOptions& options) {
+        PartGraph graph(program_, stage_);
+        rates_ = add_rates(graph, system_);
+        std::vector<PartId> wanted;
+        for (const std::uint32_t item : system_.rate_order) {
+            if (std::find(species_.begin(), species_.end(), item) == species_.end()) continue;
+            if (uses_rates()) wanted.push_back(rates_[item]);
+        }
+        for (const Invariant& invariant : system_.invariants) {
+            if (!is_clamped(invariant)) continue;
+            bounds_.push_back(graph.add(invariant.bound, {}));
+            wanted.push_back(bounds_.back());
+        }
+        const std::vector<std::uint32_t> slots = species_items(system_);
+        StepPlan plan = build_plan({graph, wanted, options, true, slots},
+                                   [&](KernelAssembly& assembly, const PassLowering& values) {
+            for (std::size_t o = 0; o < form_.outputs.size(); ++o) emit(assembly, values, o);
+        });
+        for (std::size_t o = 0; o < form_.outputs.size(); ++o) {
+            plan.results.insert(plan.results.end(), species_.begin(), species_.end());
+        }
+        return plan;
+    }
+
+private:
+    bool uses_rates() const {
+        for (const SweepOutput& output : form_.outputs) {
+            for (const SweepTerm& term : output.terms) {
+                if (term.source == SweepTerm::Source::rate) return true;
+            }
+        }
+        return false;
+    }
+
+    bool is_clamped(const Invariant& invariant) const {
+        return form_.last && std::find(species_.begin(), species_.end(), invariant.species) !=
+                                 species_.end();
+    }
+
+    ValueId old(KernelAssembly& assembly, std::uint32_t item) const {
+        return assembly.input(form_.old_input, item);
+    }
+
+    ValueId term(KernelAssembly& assembly, const PassLowering& values, const SweepTerm& term,
+                 std::uint32_t item) const {
+        KernelBuilder& builder = assembly.builder();
+        ValueId value{};
+        switch (term.source) {
+            case SweepTerm::Source::value: value = assembly.input(term.input, item); break;
+            case SweepTerm::Source::difference:
+                value = builder.subtract(assembly.input(term.input, item), old(assembly, item));
+                break;
+            case SweepTerm::Source::rate: value = values.value(rates_[item])[0]; break;
+        }
+        switch (term.weight) {
+            case SweepTerm::Weight::one: return value;
+            case SweepTerm::Weight::speed:
+                return builder.multiply(assembly.own_item(system_.speed_item()), value);
+            case SweepTerm::Weight::coefficient:
+                return builder.multiply(assembly.coefficient(term.coefficient), value);
+        }
+        CHECK(false, "lowering: every weight has a meaning");
+    }
+
+    void emit(KernelAssembly& assembly, const PassLowering& values, std::size_t number) const {
+        KernelBuilder& builder = assembly.builder();
+        const SweepOutput& output = form_.outputs[number];
+        std::vector<ValueId> next(system_.quantities.size());
+        for (const std::uint32_t item : species_) {
+            std::optional<ValueId> sum;
+            for (const SweepTerm& each : output.terms) {
+                const ValueId value = term(assembly, values, each, item);
+                sum = sum ? builder.add(*sum, value) : value;
+            }
+            CHECK(sum, "lowering: an output has terms");
+            next[item] = *sum;
+        }
+        if (form_.last && number == 0) clamp(assembly, values, next);
+        const bool freezes = !assembly.stage().uniform[system_.frozen_item()];
+        for (const std::uint32_t item : species_) {
+            if (freezes) {
+                const ValueId kept = output.kind == SweepOutput::Kind::state
+                                         ? old(assembly, item)
+                                         : builder.number(0);
+                next[item] = builder.select(assembly.own_item(system_.frozen_item()), kept,
+                                            next[item]);
+            }
+            assembly.result(system_.quantities[item].name, next[item]);
+        }
+    }
+
+    /// Invariants in order of writing.
+    void clamp(KernelAssembly& assembly, const PassLowering& values,
+               std::vector<ValueId>& next) const {
+        KernelBuilder& builder = assembly.builder();
+        std::size_t bound_number = 0;
+        for (const Invariant& invariant : system_.invariants) {
+            if (!is_clamped(invariant)) continue;
+            const ValueId bound = values.value(bounds_[bound_number++])[0];
+            ValueId& value = next[invariant.species];
+            value = invariant.at_least ? builder.clamp_below(value, bound)
+                                       : builder.clamp_above(value, bound);
+        }
+    }
+
+    const Program& program_;
+    std::uint32_t stage_;
+    const SweepForm& form_;
+    const System& system_;
+    std::vector<std::uint32_t> species_;  ///< Items that are written.
+    std::vector<PartId> rates_;           ///< By item.
+    std::vector<PartId> bounds_;          ///< Of the invariants that apply.
+};
+
+BoundKernel only_pass(StepPlan plan) {
+    CHECK(plan.passes.size() == 1 && plan.aggregates == 0, "lowering: the plan has one pass");
+    BoundKernel bound = std::move(plan.passes[0].bound);
+    bound.results = std::move(plan.results);
+    return bound;
 }
 
 }  // namespace
 
+StepPlan plan_uniform_start(const Program& program, std::uint32_t stage) {
+    const Stage& source = program.stages[stage];
+    const std::vector<bool> late = items_of_aggregates(source);
+    return plan_items(program, stage, {}, [&](std::uint32_t item) {
+        return source.uniform[item] && !late[item];
+    });
+}
+
+StepPlan plan_start(const Program& program, std::uint32_t stage, const PlanOptions& options) {
+    const Stage& source = program.stages[stage];
+    const std::vector<bool> late = items_of_aggregates(source);
+    return plan_items(program, stage, options, [&](std::uint32_t item) {
+        return !source.uniform[item] || late[item];
+    });
+}
+
+SweepForm euler_form() {
+    SweepForm form;
+    const SweepTerm value{SweepTerm::Source::value, 0, SweepTerm::Weight::one, 0};
+    const SweepTerm change{SweepTerm::Source::rate, 0, SweepTerm::Weight::speed, 0};
+    form.outputs.push_back({SweepOutput::Kind::state, {value, change}});
+    return form;
+}
+
+StepPlan plan_sweep(const Program& program, std::uint32_t stage, const SweepForm& form,
+                    const PlanOptions& options) {
+    return SweepEmitter(program, stage, form).plan(options);
+}
+
+StepPlan plan_step(const Program& program, std::uint32_t stage, const PlanOptions& options) {
+    return plan_sweep(program, stage, euler_form(), options);
+}
+
+StepPlan plan_rates(const Program& program, std::uint32_t stage, const PlanOptions& options) {
+    const System& system = program.system_of(stage);
+    PartGraph graph(program, stage);
+    const std::vector<PartId> rates = add_rates(graph, system);
+    const std::vector<std::uint32_t> species = species_items(system);
+    std::vector<PartId> wanted;
+    for (const std::uint32_t item : system.rate_order) wanted.push_back(rates[item]);
+    StepPlan plan = build_plan({graph, wanted, options, true, species},
+                               [&](KernelAssembly& assembly, const PassLowering& values) {
+        for (const std::uint32_t item : species) {
+            assembly.result(system.quantities[item].name, values.value(rates[item])[0]);
+        }
+    });
+    plan.results = species;
+    return plan;
+}
+
+StepPlan plan_view(const Program& program, std::span<const Formula* const> formulas,
+                   std::uint32_t stage, const PlanOptions& options) {
+    PartGraph graph(program, stage);
+    std::vector<PartId> parts;
+    for (const Formula* formula : formulas) parts.push_back(graph.add(*formula, {}));
+    return build_plan({graph, parts, options},
+                      [&](KernelAssembly& assembly, const PassLowering& values) {
+        static constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
+        for (const PartId part : parts) {
+            const Value& value = values.value(part);
+            if (graph[part].node.type != ValueType::colour) {
+                assembly.result("value", value[0]);
+                continue;
+            }
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                assembly.result(channels[channel], value[channel]);
+            }
+        }
+    });
+}
+
+StepPlan plan_view(const Program& program, const Formula& formula, std::uint32_t stage) {
+    const Formula* only = &formula;
+    return plan_view(program, std::span(&only, 1), stage);
+}
+
+std::string describe_plans(const Program& program) {
+    const PlanOptions options{Bringing::cheaper, true};
+    std::string text;
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        const std::string& name = program.stages[k].name;
+        text += fmt::format("stage '{}', starting values: {}\n", name,
+                            plan_start(program, k, options).words);
+        text += fmt::format("stage '{}', one step: {}\n", name,
+                            plan_step(program, k, options).words);
+    }
+    return text;
+}
+
 BoundKernel lower_uniform_start(const Program& program, std::uint32_t stage) {
-    return lower_start(program, stage, true);
+    return only_pass(plan_uniform_start(program, stage));
 }
 
 BoundKernel lower_cell_start(const Program& program, std::uint32_t stage) {
-    return lower_start(program, stage, false);
-}
-
-BoundKernel lower_rates(const Program& program, std::uint32_t stage) {
-    KernelAssembly assembly(program, stage);
-    const System& system = assembly.system();
-    const std::vector<std::uint32_t> species = species_items(system);
-    read_species(assembly, stage, species);
-    const std::vector<ValueId> rates = add_rates(assembly);
-    for (const std::uint32_t item : species) {
-        assembly.result(system.quantities[item].name, rates[item]);
-    }
-    return std::move(assembly).finish(species);
+    return only_pass(plan_start(program, stage));
 }
 
 BoundKernel lower_step(const Program& program, std::uint32_t stage) {
-    KernelAssembly assembly(program, stage);
-    KernelBuilder& builder = assembly.builder();
-    const System& system = assembly.system();
-    const std::vector<std::uint32_t> species = species_items(system);
-    read_species(assembly, stage, species);
-    const std::vector<ValueId> rates = add_rates(assembly);
+    return only_pass(plan_step(program, stage));
+}
 
-    std::vector<ValueId> next(system.quantities.size());
-    for (const std::uint32_t item : species) {
-        const ValueId change =
-            builder.multiply(assembly.own_item(system.speed_item()), rates[item]);
-        next[item] = builder.add(assembly.own_item(item), change);
-    }
-    for (const Invariant& invariant : system.invariants) {
-        const ValueId bound = assembly.formula(invariant.bound, {});
-        ValueId& value = next[invariant.species];
-        value = invariant.at_least ? builder.clamp_below(value, bound)
-                                   : builder.clamp_above(value, bound);
-    }
-    const bool freezes = !program.stages[stage].uniform[system.frozen_item()];
-    for (const std::uint32_t item : species) {
-        if (freezes) {
-            next[item] = builder.select(assembly.own_item(system.frozen_item()),
-                                        assembly.own_item(item), next[item]);
-        }
-        assembly.result(system.quantities[item].name, next[item]);
-    }
-    return std::move(assembly).finish(species);
+BoundKernel lower_rates(const Program& program, std::uint32_t stage) {
+    return only_pass(plan_rates(program, stage));
+}
+
+BoundKernel lower_view(const Program& program, const Formula& formula, std::uint32_t stage) {
+    return only_pass(plan_view(program, formula, stage));
 }
 
 }  // namespace cascade

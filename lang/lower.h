@@ -1,59 +1,69 @@
 // Lowering: formulas of a checked program to cell kernels. Cannot fail.
 //
-// A stage becomes four kernels. At its start `uniform_start` computes the items that are the same
-// everywhere (run on a grid of one cell) and `cell_start` those that vary; then `step` computes the
-// new value of every species from the old step:
+// A stage becomes: at its start `plan_uniform_start` computes the items that are the same
+// everywhere (run on a grid of one cell) and the plan of its starting values those that vary; then
+// the plan of a step computes the new value of every species from the old step:
 //
-//     new = old + speed · rate, clamped by the invariants in order of writing; old where frozen.
+//     new = old + speed · rate, clamped by the invariants in order of writing; old where frozen,
 //
-// A view kernel computes a picture: one result (a number) or three (a colour).
+// or the plans of the sweeps of another integrator. The plan of a view computes a picture: one
+// result (a number) or three (a colour).
 #pragma once
 
 #include "core/grid.h"
 #include "ir/cell_kernel.h"
+#include "ir/sweep_form.h"
 #include "lang/program.h"
+#include "lang/step_plan.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
 namespace cascade {
 
-/// Where the value of a kernel's slot comes from.
-struct SlotSource {
-    enum class Kind {
-        item,  ///< Item `item` of stage `stage` (a field slot, a mask slot or a uniform slot).
-        file,  ///< The file named Program::texts[item], as a field slot.
-        step,  ///< Uniform: complete steps of the stage when the step begins. (t is step × speed.)
-    };
-    Kind kind = Kind::item;
-    std::uint32_t stage = 0;
-    std::uint32_t item = 0;
-};
+/// The stage's uniform items, in their order, but for those that need an aggregate. One pass without
+/// field slots. May have no results.
+StepPlan plan_uniform_start(const Program& program, std::uint32_t stage);
 
-/// A kernel, and what to put into its slots and where its results go.
-struct BoundKernel {
-    CellKernel kernel;
-    std::vector<SlotSource> fields;
-    std::vector<SlotSource> masks;
-    std::vector<SlotSource> uniforms;
-    std::vector<std::uint32_t> results;  ///< Item numbers of the stage; empty for views.
-};
+/// Starting values of all other items. A result that is uniform (Stage::uniform) is the same in all
+/// cells of its plane. `frozen`, if it varies, is stored as a number like the others.
+StepPlan plan_start(const Program& program, std::uint32_t stage,
+                    const PlanOptions& options = {});
 
-/// Kernel of the stage's uniform items, in their order. No field slots. May have no results.
+/// One explicit Euler step, one result per species. Where `frozen` varies it is a mask slot; where
+/// it is the same everywhere it is not in the kernels at all, and the time loop takes no steps if
+/// it is true.
+StepPlan plan_step(const Program& program, std::uint32_t stage,
+                   const PlanOptions& options = {});
+
+/// One sweep of a time integrator: result o·S + s is output o of the s-th of S species written.
+/// Formulas read input 0, which are the items of the stage (SlotSource::item); further inputs are
+/// read in the own cell.
+StepPlan plan_sweep(const Program& program, std::uint32_t stage, const SweepForm& form,
+                    const PlanOptions& options = {});
+
+/// The form of an explicit Euler step of `speed`.
+SweepForm euler_form();
+
+/// The rates alone, one result per species: dt-free right-hand sides, for stability.
+StepPlan plan_rates(const Program& program, std::uint32_t stage,
+                    const PlanOptions& options = {});
+
+/// Formulas over the present state, one result each. A colour has three: red, green, blue, 0..1,
+/// not clamped.
+StepPlan plan_view(const Program& program, std::span<const Formula* const> formulas,
+                   std::uint32_t stage, const PlanOptions& options = {});
+StepPlan plan_view(const Program& program, const Formula& formula, std::uint32_t stage);
+
+// The only pass of a plan that has no more (and no aggregates).
 BoundKernel lower_uniform_start(const Program& program, std::uint32_t stage);
-
-/// Kernel of the items that vary. `frozen`, if it varies, is stored as a number like the others.
 BoundKernel lower_cell_start(const Program& program, std::uint32_t stage);
-
-/// Kernel of one explicit Euler step, one result per species. Where `frozen` varies it is a mask
-/// slot; where it is the same everywhere it is not in the kernel at all, and the time loop takes no
-/// steps if it is true.
 BoundKernel lower_step(const Program& program, std::uint32_t stage);
-
-/// Kernel of the rates alone, one result per species: dt-free right-hand sides, for stability.
 BoundKernel lower_rates(const Program& program, std::uint32_t stage);
-
-/// Kernel of a picture formula. A colour has three results: red, green, blue, 0..1, not clamped.
 BoundKernel lower_view(const Program& program, const Formula& formula, std::uint32_t stage);
+
+/// What the passes of every stage do and why, in words, for `--dump plan`.
+std::string describe_plans(const Program& program);
 
 }  // namespace cascade

@@ -1,35 +1,23 @@
-// Formulas to instructions: one loop over the parts, operands first.
+// Parts of formulas to instructions, each from the values of its operands.
 #include "lang/lower_formula.h"
 
 #include "core/check.h"
 
 namespace cascade::lowering {
 
-ValueId KernelAssembly::formula(const Formula& formula, const Noise& noise, Value* colour) {
-    Cursor cursor{formula, noise, {}, 0};
-    cursor.values.reserve(formula.nodes.size());
-    for (const Node& node : formula.nodes) {
-        Value value{};
-        switch (node.kind) {
-            case NodeKind::number:
-                value[0] = builder_.number(static_cast<float>(node.number));
-                break;
-            case NodeKind::text: break;  // Its reader looks at the node itself.
-            case NodeKind::own: value[0] = own_item(node.index); break;
-            case NodeKind::earlier: value[0] = item(node.stage, node.index); break;
-            case NodeKind::builtin: value[0] = builtin(static_cast<Builtin>(node.index)); break;
-            case NodeKind::definition: value[0] = definitions_.at(node.index); break;
-            case NodeKind::rate: value[0] = rates_.at(node.index); break;
-            case NodeKind::call:
-                if (is_random(node.function)) ++cursor.occurrences;
-                value = call(node, cursor);
-                break;
-        }
-        cursor.values.push_back(value);
+Value KernelAssembly::part(const Cursor& cursor) {
+    const Node& node = cursor.part.node;
+    switch (node.kind) {
+        case NodeKind::number: return {builder_.number(static_cast<float>(node.number))};
+        case NodeKind::text: return {};  // Its reader looks at the node itself.
+        case NodeKind::own: return {own_item(node.index)};
+        case NodeKind::earlier: return {item(node.stage, node.index)};
+        case NodeKind::builtin: return {builtin(static_cast<Builtin>(node.index))};
+        case NodeKind::call: return call(node, cursor);
+        case NodeKind::definition:
+        case NodeKind::rate: break;
     }
-    CHECK(!cursor.values.empty(), "lowering: a checked formula has parts");
-    if (colour != nullptr) *colour = cursor.values.back();
-    return cursor.values.back()[0];
+    CHECK(false, "lowering: a graph has no definitions and rates");
 }
 
 Value KernelAssembly::call(const Node& node, const Cursor& cursor) {
@@ -38,10 +26,6 @@ Value KernelAssembly::call(const Node& node, const Cursor& cursor) {
         case Function::mix:
         case Function::rgb: return colour_call(node, cursor);
         case Function::palette: return palette(node, cursor);
-        case Function::lap: {
-            const Node& species = cursor.formula.nodes[node.operands[0]];
-            return {builder_.laplacian(field_slot(stage_, species.index))};
-        }
         case Function::random:
         case Function::normal:
         case Function::white:
@@ -53,9 +37,7 @@ Value KernelAssembly::call(const Node& node, const Cursor& cursor) {
         case Function::box:
         case Function::gauss:
         case Function::stripe: return {shape(node, cursor)};
-        case Function::field: {
-            return {file(cursor.formula.nodes[node.operands[0]].index)};
-        }
+        case Function::field: return {beside(file_slot(cursor.operand(0).index))};
         case Function::clamp:
             return {builder_.minimum(
                 builder_.maximum(cursor.number(node, 0), cursor.number(node, 1)),
@@ -72,7 +54,6 @@ Value KernelAssembly::call(const Node& node, const Cursor& cursor) {
 
 Value KernelAssembly::colour_call(const Node& node, const Cursor& cursor) {
     const auto& values = cursor.values;
-    const auto& operands = node.operands;
     if (node.function == Function::rgb) {
         return {cursor.number(node, 0), cursor.number(node, 1), cursor.number(node, 2)};
     }
@@ -80,13 +61,12 @@ Value KernelAssembly::colour_call(const Node& node, const Cursor& cursor) {
     Value value{};
     for (std::size_t channel = 0; channel < channels; ++channel) {
         if (node.function == Function::if_) {
-            value[channel] = builder_.select(values[operands[0]][0], values[operands[1]][channel],
-                                             values[operands[2]][channel]);
+            value[channel] = builder_.select(values[0][0], values[1][channel], values[2][channel]);
             continue;
         }
-        const ValueId from = values[operands[0]][channel];
-        const ValueId span = builder_.subtract(values[operands[1]][channel], from);
-        value[channel] = builder_.add(from, builder_.multiply(span, values[operands[2]][0]));
+        const ValueId from = values[0][channel];
+        const ValueId span = builder_.subtract(values[1][channel], from);
+        value[channel] = builder_.add(from, builder_.multiply(span, values[2][0]));
     }
     return value;
 }

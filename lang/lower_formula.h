@@ -4,23 +4,19 @@
 #include "ir/builder.h"
 #include "ir/space.h"
 #include "lang/lower.h"
+#include "lang/part_graph.h"
+#include "lang/pass_planner.h"
 
 #include <array>
-#include <optional>
+#include <map>
 #include <string>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace cascade::lowering {
 
 /// A value of a formula: a number in the first place, or red, green and blue.
 using Value = std::array<ValueId, 3>;
-
-/// Where the random numbers of a formula come from.
-struct Noise {
-    std::string origin;       ///< The item's or definition's name, or a species' with a prime.
-    bool every_step = false;  ///< New numbers in each step.
-};
 
 /// One kernel in the making. It computes over the cells of `stage`, whose items are read from slots
 /// unless their values are set here.
@@ -33,11 +29,10 @@ public:
     const System& system() const { return program_.system_of(stage_); }
     const Stage& stage() const { return program_.stages[stage_]; }
 
-    // What formulas may read besides slots. The frozen cells of a step are a mask, not a field.
-    void set_own(std::uint32_t item, ValueId value) { own_[item] = value; }
-    void set_definition(std::uint32_t index, ValueId value) { definitions_[index] = value; }
-    void set_rate(std::uint32_t item, ValueId value) { rates_[item] = value; }
     void read_frozen_as_mask() { frozen_is_mask_ = true; }
+
+    /// What is asked for from now on is what the cell at this offset has.
+    void look_at(Offset offset) { at_ = offset; }
 
     /// The value of an item of any stage.
     ValueId item(std::uint32_t stage, std::uint32_t item);
@@ -47,27 +42,40 @@ public:
     ValueId step();
     /// The length of the step that is taken.
     ValueId time_step();
-    /// The value of a formula; of a colour the first channel, with all three in `colour`.
-    ValueId formula(const Formula& formula, const Noise& noise, Value* colour = nullptr);
+    /// A species in an input of a sweep, in the own cell. Formulas read input 0.
+    ValueId input(std::uint32_t input, std::uint32_t item);
+    ValueId coefficient(std::uint32_t index);
+    std::uint32_t temporary_slot(std::uint32_t temporary);
+    ValueId aggregate(std::uint32_t index);
+    ValueId beside(std::uint32_t slot) { return builder_.neighbour(slot, at_.dx, at_.dy, at_.dz); }
+    /// The slot of a part that lies in a plane of its own: a species, a parameter, a file.
+    std::uint32_t plane_slot(const PartGraph& graph, PartId id);
+
+    /// A part and the values of its operands, where the assembly looks at.
+    struct Cursor {
+        const PartGraph& graph;
+        const Part& part;
+        const Noise& noise;
+        std::array<Value, most_operands> values{};
+        std::size_t occurrences = 0;  ///< Of random functions in its formula, up to the part.
+
+        ValueId number(const Node&, std::size_t operand) const { return values[operand][0]; }
+        const Node& operand(std::size_t k) const { return graph[part.operands[k]].node; }
+    };
+    /// The value of a part that is no operator and no vector; of a colour all three channels.
+    Value part(const Cursor& cursor);
 
     void result(const std::string& name, ValueId value) { builder_.result(name, value); }
     BoundKernel finish(std::vector<std::uint32_t> results) &&;
 
 private:
-    /// A formula while it is lowered: the values of the parts so far.
-    struct Cursor {
-        const Formula& formula;
-        const Noise& noise;
-        std::vector<Value> values;
-        std::size_t occurrences = 0;  ///< Of random functions, up to the present part.
-
-        ValueId number(const Node& node, std::size_t operand) const {
-            return values[node.operands[operand]][0];
-        }
-    };
-
     std::string slot_name(std::uint32_t stage, std::uint32_t item) const;
-    ValueId file(std::uint32_t text);
+    std::uint32_t input_slot(std::uint32_t input, std::uint32_t item);
+    std::uint32_t file_slot(std::uint32_t text);
+    ValueId wrapped(ValueId cell, int by, std::int64_t count, Boundary boundary);
+    ValueId column();
+    ValueId row();
+    ValueId slice();
     ValueId mask(std::uint32_t item);
     ValueId uniform(const std::string& name, const SlotSource& source);
     ValueId builtin(Builtin builtin);
@@ -88,8 +96,8 @@ private:
     std::uint32_t stage_;
     KernelBuilder builder_;
     BoundKernel bound_;
-    std::unordered_map<std::uint32_t, ValueId> own_, definitions_, rates_;
-    std::array<std::optional<ValueId>, 8> builtins_;  ///< Those that were read already.
+    std::map<std::pair<std::uint32_t, Builtin>, ValueId> builtins_;  ///< By offset; those read.
+    Offset at_;
     bool frozen_is_mask_ = false;
 };
 

@@ -34,13 +34,13 @@ std::uint32_t KernelAssembly::field_slot(std::uint32_t stage, std::uint32_t item
     return slot;
 }
 
-ValueId KernelAssembly::file(std::uint32_t text) {
+std::uint32_t KernelAssembly::file_slot(std::uint32_t text) {
     const std::uint32_t slot =
         builder_.field_slot(fmt::format("field(\"{}\")", program_.texts[text]));
     if (slot == bound_.fields.size()) {
         bound_.fields.push_back({SlotSource::Kind::file, 0, text});
     }
-    return builder_.field(slot);
+    return slot;
 }
 
 ValueId KernelAssembly::mask(std::uint32_t item) {
@@ -57,16 +57,53 @@ ValueId KernelAssembly::uniform(const std::string& name, const SlotSource& sourc
     return builder_.uniform(slot);
 }
 
-ValueId KernelAssembly::item(std::uint32_t stage, std::uint32_t item) {
-    if (stage == stage_) {
-        const auto known = own_.find(item);
-        if (known != own_.end()) return known->second;
+std::uint32_t KernelAssembly::temporary_slot(std::uint32_t temporary) {
+    // No name of the language begins with a bracket.
+    const std::uint32_t slot = builder_.field_slot(fmt::format("(temporary {})", temporary));
+    if (slot == bound_.fields.size()) {
+        bound_.fields.push_back({SlotSource::Kind::temporary, 0, temporary});
     }
+    return slot;
+}
+
+ValueId KernelAssembly::aggregate(std::uint32_t index) {
+    return uniform(fmt::format("(aggregate {})", index),
+                   {SlotSource::Kind::aggregate, 0, index});
+}
+
+ValueId KernelAssembly::coefficient(std::uint32_t index) {
+    return uniform(fmt::format("(coefficient {})", index),
+                   {SlotSource::Kind::coefficient, 0, index});
+}
+
+std::uint32_t KernelAssembly::input_slot(std::uint32_t input, std::uint32_t item) {
+    if (input == 0) return field_slot(stage_, item);
+    const std::uint32_t slot =
+        builder_.field_slot(fmt::format("{} (input {})", slot_name(stage_, item), input));
+    if (slot == bound_.fields.size()) {
+        bound_.fields.push_back({SlotSource::Kind::input, input, item});
+    }
+    return slot;
+}
+
+ValueId KernelAssembly::input(std::uint32_t input, std::uint32_t item) {
+    return builder_.field(input_slot(input, item));
+}
+
+std::uint32_t KernelAssembly::plane_slot(const PartGraph& graph, PartId id) {
+    const Part& part = graph[id];
+    if (part.node.kind == NodeKind::own) return field_slot(stage_, part.node.index);
+    if (part.node.kind == NodeKind::earlier) return field_slot(part.node.stage, part.node.index);
+    CHECK(part.calls(Function::field), "lowering: a plane is an item or a file");
+    return file_slot(graph[part.operands[0]].node.index);
+}
+
+ValueId KernelAssembly::item(std::uint32_t stage, std::uint32_t item) {
     const SlotSource source{SlotSource::Kind::item, stage, item};
     if (program_.stages[stage].uniform[item]) return uniform(slot_name(stage, item), source);
     const bool is_frozen = stage == stage_ && item == program_.system_of(stage).frozen_item();
     if (is_frozen && frozen_is_mask_) return mask(item);
-    return builder_.field(field_slot(stage, item));
+    return beside(field_slot(stage, item));
 }
 
 ValueId KernelAssembly::time_step() { return own_item(system().speed_item()); }
@@ -80,21 +117,53 @@ ValueId KernelAssembly::coordinate(ValueId cell, std::int64_t side) {
     return builder_.divide(centre, builder_.number(static_cast<float>(side)));
 }
 
+/// The number of a cell beside, along one axis: beyond a side that of the opposite one, or of the
+/// cell at the side.
+ValueId KernelAssembly::wrapped(ValueId cell, int by, std::int64_t count, Boundary boundary) {
+    if (by == 0) return cell;
+    const std::int64_t first = 0;
+    const std::int64_t last = count - 1;
+    const std::int64_t at_side = by > 0 ? last : first;
+    const std::int64_t opposite = by > 0 ? first : last;
+    const ValueId moved =
+        builder_.apply(by > 0 ? Op::bits_add : Op::bits_subtract, cell, builder_.word(1));
+    const ValueId is_at_side =
+        builder_.apply(Op::equal, builder_.apply(Op::bits_to_number, cell),
+                       builder_.number(static_cast<float>(at_side)));
+    const std::int64_t beyond = boundary == Boundary::periodic ? opposite : at_side;
+    return builder_.select(is_at_side, builder_.word(static_cast<std::uint32_t>(beyond)), moved);
+}
+
+ValueId KernelAssembly::column() {
+    const Grid& grid = program_.domain.grid;
+    return wrapped(builder_.cell_column(), at_.dx, grid.width, grid.boundary.x);
+}
+
+ValueId KernelAssembly::row() {
+    const Grid& grid = program_.domain.grid;
+    return wrapped(builder_.cell_row(), at_.dy, grid.height, grid.boundary.y);
+}
+
+ValueId KernelAssembly::slice() {
+    const Grid& grid = program_.domain.grid;
+    return wrapped(builder_.cell_slice(), at_.dz, grid.depth, grid.boundary.z);
+}
+
 ValueId KernelAssembly::builtin(Builtin builtin) {
-    auto& known = builtins_[static_cast<std::size_t>(builtin)];
-    if (!known) known = make_builtin(builtin);
-    return *known;
+    const auto [known, is_new] = builtins_.try_emplace({at_.number(), builtin});
+    if (is_new) known->second = make_builtin(builtin);
+    return known->second;
 }
 
 ValueId KernelAssembly::make_builtin(Builtin builtin) {
     const Grid& grid = program_.domain.grid;
     switch (builtin) {
-        case Builtin::x: return coordinate(builder_.cell_column(), grid.longest_side());
-        case Builtin::y: return coordinate(builder_.cell_row(), grid.longest_side());
-        case Builtin::sx: return coordinate(builder_.cell_column(), grid.width);
-        case Builtin::sy: return coordinate(builder_.cell_row(), grid.height);
-        case Builtin::z: return coordinate(builder_.cell_slice(), grid.longest_side());
-        case Builtin::sz: return coordinate(builder_.cell_slice(), grid.depth);
+        case Builtin::x: return coordinate(column(), grid.longest_side());
+        case Builtin::y: return coordinate(row(), grid.longest_side());
+        case Builtin::sx: return coordinate(column(), grid.width);
+        case Builtin::sy: return coordinate(row(), grid.height);
+        case Builtin::z: return coordinate(slice(), grid.longest_side());
+        case Builtin::sz: return coordinate(slice(), grid.depth);
         case Builtin::t: return builder_.multiply(step(), time_step());
         case Builtin::step: return step();
     }

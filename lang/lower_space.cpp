@@ -9,11 +9,11 @@ namespace cascade::lowering {
 namespace {
 
 /// The operands from `first` on, `count` of them.
-std::vector<ValueId> values_of(std::span<const Value> values, const Node& node, std::size_t first,
+std::vector<ValueId> values_of(std::span<const Value> values, std::size_t first,
                                std::size_t count) {
     std::vector<ValueId> chosen;
     for (std::size_t k = first; k < first + count; ++k) {
-        chosen.push_back(values[node.operands[k]][0]);
+        chosen.push_back(values[k][0]);
     }
     return chosen;
 }
@@ -28,9 +28,9 @@ Space KernelAssembly::space() {
         return SpaceAxis{coordinate(cell, longest), static_cast<float>(length),
                          boundary == Boundary::periodic, side > 1};
     };
-    return {axis(grid.width, builder_.cell_column(), grid.boundary.x),
-            axis(grid.height, builder_.cell_row(), grid.boundary.y),
-            axis(grid.depth, builder_.cell_slice(), grid.boundary.z)};
+    return {axis(grid.width, column(), grid.boundary.x),
+            axis(grid.height, row(), grid.boundary.y),
+            axis(grid.depth, slice(), grid.boundary.z)};
 }
 
 /// The draw of a cell. Its hash knows columns and rows; slices other than the first change the draw.
@@ -45,7 +45,7 @@ ValueId KernelAssembly::draw_of_cell(ValueId draw) {
 ValueId KernelAssembly::shape(const Node& node, const Cursor& cursor) {
     const std::size_t count = operand_count(node);
     const auto number = [&](std::size_t k) { return cursor.number(node, k); };
-    const auto first = [&](std::size_t n) { return values_of(cursor.values, node, 0, n); };
+    const auto first = [&](std::size_t n) { return values_of(cursor.values, 0, n); };
     switch (node.function) {
         case Function::disc:
             return disc(builder_, space(), first(count - 1), number(count - 1));
@@ -55,7 +55,7 @@ ValueId KernelAssembly::shape(const Node& node, const Cursor& cursor) {
             return ring(builder_, space(), first(count - 2), number(count - 2), number(count - 1));
         case Function::box: {
             const std::vector<ValueId> size =
-                values_of(cursor.values, node, count / 2, count / 2);
+                values_of(cursor.values, count / 2, count / 2);
             return box(builder_, space(), first(count / 2), size);
         }
         case Function::stripe:

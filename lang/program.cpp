@@ -65,6 +65,10 @@ bool varies_by_cell(Function function) {
     return places != Places::any && places != Places::picture;
 }
 
+bool differentiates(Function function) {
+    return Function::lap <= function && function <= Function::div;
+}
+
 std::size_t operand_count(const Node& call) {
     const Arity arity = info(call.function).arity;
     return std::max(static_cast<std::size_t>(call.operand_count),

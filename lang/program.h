@@ -65,6 +65,10 @@ bool is_random(Function function);
 /// Whether the value differs from cell to cell whatever the operands are.
 bool varies_by_cell(Function function);
 
+/// Is it an operator of derivatives, or a vector that one takes? Such a function differs from cell
+/// to cell only where an operand does.
+bool differentiates(Function function);
+
 /// Values that every expression may read. `pi` is folded into a number.
 enum class Builtin : std::uint8_t { x, y, z, sx, sy, sz, t, step };
 
@@ -79,7 +83,7 @@ enum class NodeKind : std::uint8_t {
     call,        ///< `function` of `operands`
 };
 
-enum class ValueType : std::uint8_t { number, colour, text };
+enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };
 
 /// A part of a formula. Operands are positions in the same formula, before this one.
 struct Node {

@@ -2,91 +2,162 @@
 
 #include "core/check.h"
 #include "core/floating_point.h"
+#include "solvers/pass_runner.h"
 
+#include <array>
 #include <cmath>
 
 namespace cascade {
 
 namespace {
 
-const float* field_origin(const SlotSource& source, const BindingContext& context) {
+const float* plane_of(const SlotSource& source, const BindingContext& context) {
     if (source.kind == SlotSource::Kind::file) return context.files.plane(source.item).origin();
     return context.states[source.stage].field(source.item).origin();
 }
 
-float uniform_value(const SlotSource& source, const BindingContext& context) {
-    if (source.kind == SlotSource::Kind::step) return static_cast<float>(context.steps);
-    return context.states[source.stage].numbers[source.item];
+/// The halo is no part of a field's value: whoever reads neighbours fills it.
+void fill_halo_of(const float* cells, const Grid& grid) {
+    fill_halo(const_cast<float*>(cells), PlaneLayout(grid), grid.boundary);
 }
 
-std::vector<const std::uint8_t*> mask_origins(const BoundKernel& bound,
-                                              const BindingContext& context) {
-    std::vector<const std::uint8_t*> masks;
-    for (const SlotSource& source : bound.masks) {
-        masks.push_back(context.states[source.stage].frozen.origin());
-    }
-    return masks;
-}
+/// Binds the slots of a plan's passes.
+class Binder {
+public:
+    Binder(const StepPlan& plan, const BindingContext& context, const System* system,
+           std::uint32_t stage)
+        : plan_(plan), context_(context), system_(system), stage_(stage) {}
 
-std::vector<float> uniform_values(const BoundKernel& bound, const BindingContext& context) {
-    std::vector<float> uniforms;
-    for (const SlotSource& source : bound.uniforms) {
-        uniforms.push_back(uniform_value(source, context));
+    StepProblem bind(const Compile& compile) {
+        problem_.grid = context_.grid;
+        problem_.temporaries = plan_.temporaries;
+        problem_.aggregates = plan_.aggregates;
+        if (system_ != nullptr) {
+            problem_.species_needs_halo.assign(context_.states[stage_].species.size(), false);
+        }
+        temporary_needs_halo_.assign(plan_.temporaries, false);
+        for (const Pass& pass : plan_.passes) find_halos(pass);
+        for (const Pass& pass : plan_.passes) {
+            problem_.passes.push_back(bind_pass(pass));
+            problem_.passes.back().kernel = compile(pass.bound.kernel);
+        }
+        return std::move(problem_);
     }
-    return uniforms;
-}
+
+private:
+    using PlaneRef = StepProblem::PlaneRef;
+
+    bool is_species(const SlotSource& source) const {
+        return system_ != nullptr && source.kind == SlotSource::Kind::item &&
+               source.stage == stage_ && system_->is_species(source.item);
+    }
+
+    PlaneRef bind_plane(const SlotSource& source) const {
+        PlaneRef plane;
+        if (source.kind == SlotSource::Kind::temporary) {
+            plane.kind = PlaneRef::Kind::temporary;
+            plane.number = source.item;
+        } else if (is_species(source)) {
+            plane.kind = PlaneRef::Kind::species;
+            plane.number =
+                static_cast<std::uint32_t>(context_.states[stage_].species_of_item[source.item]);
+        } else {
+            plane.cells = plane_of(source, context_);
+        }
+        return plane;
+    }
+
+    void find_halos(const Pass& pass) {
+        for (std::size_t slot = 0; slot < pass.bound.fields.size(); ++slot) {
+            if (!pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) continue;
+            const PlaneRef plane = bind_plane(pass.bound.fields[slot]);
+            switch (plane.kind) {
+                case PlaneRef::Kind::species:
+                    problem_.species_needs_halo[plane.number] = true;
+                    break;
+                case PlaneRef::Kind::temporary: temporary_needs_halo_[plane.number] = true; break;
+                case PlaneRef::Kind::fixed: fill_halo_of(plane.cells, context_.grid); break;
+            }
+        }
+    }
+
+    StepProblem::Pass bind_pass(const Pass& pass) const {
+        StepProblem::Pass bound;
+        for (const Reduction& reduction : pass.reductions) {
+            bound.reductions.push_back(
+                {reduction.kind, bind_plane(reduction.operand), reduction.aggregate});
+        }
+        for (const SlotSource& source : pass.bound.fields) {
+            bound.fields.push_back(bind_plane(source));
+        }
+        for (const SlotSource& source : pass.bound.masks) {
+            bound.masks.push_back(context_.states[source.stage].frozen.origin());
+        }
+        for (const SlotSource& source : pass.bound.uniforms) bind_uniform(source, bound);
+        for (const PassTarget& target : pass.targets) bound.results.push_back(bind_result(target));
+        return bound;
+    }
+
+    void bind_uniform(const SlotSource& source, StepProblem::Pass& bound) const {
+        const auto slot = static_cast<std::uint32_t>(bound.uniforms.size());
+        using Kind = StepProblem::ChangingUniform::Kind;
+        float value = 0;
+        switch (source.kind) {
+            case SlotSource::Kind::item:
+                value = context_.states[source.stage].numbers[source.item];
+                break;
+            case SlotSource::Kind::step: bound.changing.push_back({Kind::step, slot, 0, 0, false}); break;
+            case SlotSource::Kind::aggregate:
+                bound.changing.push_back({Kind::aggregate, slot, source.item, 0, false});
+                break;
+            default: CHECK(false, "a uniform is an item, the step or an aggregate");
+        }
+        bound.uniforms.push_back(value);
+    }
+
+    StepProblem::Result bind_result(const PassTarget& target) const {
+        StepProblem::Result result;
+        result.plane.number = target.index;
+        if (target.kind == PassTarget::Kind::temporary) {
+            result.plane.kind = PlaneRef::Kind::temporary;
+            result.needs_halo = temporary_needs_halo_[target.index];
+            return result;
+        }
+        result.plane.kind = PlaneRef::Kind::species;
+        result.plane.in_register = 1;
+        result.needs_halo = system_ != nullptr && problem_.species_needs_halo[target.index];
+        return result;
+    }
+
+    const StepPlan& plan_;
+    const BindingContext& context_;
+    const System* system_;  ///< None: no species is a register.
+    std::uint32_t stage_;
+    StepProblem problem_;
+    std::vector<bool> temporary_needs_halo_;
+};
 
 }  // namespace
 
-std::vector<Field> run_once(const Kernel& kernel, const BoundKernel& bound,
-                            const BindingContext& context, const Grid& on, Team& team) {
-    const PlaneLayout layout(on);
-    std::vector<const float*> fields;
-    for (const SlotSource& source : bound.fields) fields.push_back(field_origin(source, context));
-    const auto masks = mask_origins(bound, context);
-    const auto uniforms = uniform_values(bound, context);
-    std::vector<Field> results;
-    std::vector<float*> outputs;
-    for (std::size_t r = 0; r < bound.kernel.results.size(); ++r) {
-        outputs.push_back(results.emplace_back(layout).origin());
-    }
-    const KernelArguments arguments{fields, masks, uniforms, outputs, layout};
-    team.run([&](int index) {
-        const RowRange rows = split_rows(layout.row_count(), index, team.size());
-        const FlushDenormals environment;
-        if (!rows.empty()) kernel.run(arguments, rows);
-    });
-    return results;
+StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context,
+                      const System& system, std::uint32_t stage) {
+    return Binder(plan, context, &system, stage).bind(compile);
 }
 
-StepProblem bind_step(const BoundKernel& bound, KernelPointer kernel,
-                      const BindingContext& context, const System& system, std::uint32_t stage) {
-    StepProblem problem;
-    problem.step = std::move(kernel);
-    problem.grid = context.grid;
-    const StageState& state = context.states[stage];
-    problem.species_needs_halo.assign(state.species.size(), false);
-    for (std::size_t slot = 0; slot < bound.fields.size(); ++slot) {
-        const SlotSource& source = bound.fields[slot];
-        StepProblem::FieldSlot field;
-        if (source.kind == SlotSource::Kind::item && system.is_species(source.item)) {
-            field.species = state.species_of_item[source.item];
-            if (bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) {
-                problem.species_needs_halo[static_cast<std::size_t>(field.species)] = true;
-            }
-        } else {
-            field.fixed = field_origin(source, context);
-        }
-        problem.fields.push_back(field);
+std::vector<Field> run_plan(const StepPlan& plan, const Compile& compile,
+                            const BindingContext& context, const Grid& on, Team& team) {
+    BindingContext here = context;
+    here.grid = on;
+    const StepProblem problem = Binder(plan, here, nullptr, 0).bind(compile);
+    const PlaneLayout layout(on);
+    std::vector<Field> results;
+    std::vector<float*> cells;
+    for (std::uint32_t k = 0; k < plan.result_count; ++k) {
+        cells.push_back(results.emplace_back(layout).origin());
     }
-    problem.masks = mask_origins(bound, context);
-    problem.uniforms = uniform_values(bound, context);
-    for (std::size_t slot = 0; slot < bound.uniforms.size(); ++slot) {
-        if (bound.uniforms[slot].kind == SlotSource::Kind::step) {
-            problem.step_uniform = static_cast<int>(slot);
-        }
-    }
-    return problem;
+    const std::array<std::span<float* const>, 2> registers{std::span<float* const>(), cells};
+    run_once(problem, team, registers, {context.steps, 0, 0});
+    return results;
 }
 
 Mask to_mask(const Field& field) {

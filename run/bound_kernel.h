@@ -1,4 +1,4 @@
-// Puts the values of a run into the slots of a bound kernel.
+// Puts the values of a run into the slots of plans.
 #pragma once
 
 #include "core/parallel.h"
@@ -10,6 +10,7 @@
 #include "solvers/advance.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -23,13 +24,17 @@ struct BindingContext {
     Grid grid;
 };
 
-/// Runs a kernel once over a grid, its rows shared by the team; one field per result.
-std::vector<Field> run_once(const Kernel& kernel, const BoundKernel& bound,
-                            const BindingContext& context, const Grid& on, Team& team);
+/// Makes a kernel runnable.
+using Compile = std::function<KernelPointer(const CellKernel&)>;
 
-/// A step (or rates) kernel of `stage` with all its slots but the species, for the time loop.
-StepProblem bind_step(const BoundKernel& bound, KernelPointer kernel,
-                      const BindingContext& context, const System& system, std::uint32_t stage);
+/// The passes of a plan with all their slots. Species of `stage` are those of register 0 and results
+/// go to register 1, in order; planes that do not change have their halo filled here.
+StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context,
+                      const System& system, std::uint32_t stage);
+
+/// Runs a plan once over the present values, its rows shared by the team; one field per result.
+std::vector<Field> run_plan(const StepPlan& plan, const Compile& compile,
+                            const BindingContext& context, const Grid& on, Team& team);
 
 /// 1 where the value is not 0 (NaN counts as not 0, as everywhere in the language).
 Mask to_mask(const Field& field);

@@ -77,6 +77,13 @@ Result<CompiledStep> compile_step(const Script& script, const CompileRequest& re
     if (auto good = make_per_cell(program, *stage, request.per_cell); !good) {
         return tl::unexpected(good.error());
     }
+    const StepPlan plan = plan_step(program, *stage);
+    if (plan.passes.size() > 1 || plan.aggregates > 0) {
+        return failure(fmt::format("a step of stage '{}' takes {} passes over the grid or an aggregate"
+                                   " over the domain, but a function computes one pass alone",
+                                   program.stages[*stage].name, plan.passes.size()),
+                       "--dump plan shows the passes");
+    }
     const BoundKernel bound = lower_step(program, *stage);
     const std::string name = c_identifier(
         request.function_name.empty()

@@ -17,25 +17,34 @@ namespace cascade {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kinds = {"tokens", "ast", "equations", "tex",
-                                                   "program", "ir", "llvm", "asm"};
+constexpr std::array<std::string_view, 9> kinds = {"tokens", "ast", "equations", "tex", "program",
+                                                   "plan", "ir", "llvm", "asm"};
 
 std::string dump_tokens(const Script& script) {
     Diagnostics already_reported;
     return print_tokens(lex(0, script.sources, already_reported), script.sources);
 }
 
+/// ", pass 2 of 3" where there are several.
+std::string pass_words(const StepPlan& plan, std::size_t pass) {
+    if (plan.passes.size() == 1) return "";
+    return fmt::format(", pass {} of {}", pass + 1, plan.passes.size());
+}
+
 std::string dump_ir(const Program& program) {
     std::string text;
-    const auto section = [&](const Stage& stage, std::string_view what, const BoundKernel& bound) {
-        if (bound.kernel.results.empty()) return;
-        text += fmt::format("# stage '{}': {}\n{}\n", stage.name, what, print(bound.kernel));
+    const auto section = [&](const Stage& stage, std::string_view what, const StepPlan& plan) {
+        for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
+            if (plan.passes[pass].bound.kernel.results.empty()) continue;
+            text += fmt::format("# stage '{}': {}{}\n{}\n", stage.name, what,
+                                pass_words(plan, pass), print(plan.passes[pass].bound.kernel));
+        }
     };
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
         const Stage& stage = program.stages[k];
-        section(stage, "values that are the same everywhere", lower_uniform_start(program, k));
-        section(stage, "values that vary", lower_cell_start(program, k));
-        section(stage, "one step", lower_step(program, k));
+        section(stage, "values that are the same everywhere", plan_uniform_start(program, k));
+        section(stage, "values that vary", plan_start(program, k));
+        section(stage, "one step", plan_step(program, k));
     }
     return text;
 }
@@ -66,16 +75,20 @@ Result<std::string> dump_code([[maybe_unused]] const Program& program,
 #if CASCADE_HAS_JIT
     std::string text;
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
-        const CellKernel kernel = lower_step(program, k).kernel;
+        const StepPlan plan = plan_step(program, k);
         const Stencil stencil = program.domain.grid.stencil();
-        auto code = assembly ? dump_assembly(kernel, stencil, {}) : dump_llvm(kernel, stencil, {});
-        if (!code) return code;
-        text += fmt::format("{} stage '{}': one step\n{}\n", assembly ? '#' : ';',
-                            program.stages[k].name, *code);
+        for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
+            const CellKernel& kernel = plan.passes[pass].bound.kernel;
+            auto code =
+                assembly ? dump_assembly(kernel, stencil, {}) : dump_llvm(kernel, stencil, {});
+            if (!code) return code;
+            text += fmt::format("{} stage '{}': one step{}\n{}\n", assembly ? '#' : ';',
+                                program.stages[k].name, pass_words(plan, pass), *code);
+        }
     }
     return text;
 #else
-    return failure("this build has no native compiler", "tokens, ast, program and ir can be shown");
+    return failure("this build has no native compiler", "tokens, ast, program, plan and ir can be shown");
 #endif
 }
 
@@ -90,6 +103,7 @@ Result<std::string> dump(const Script& script, std::string_view kind) {
     if (kind == "program") return print_program(*script.program);
     if (kind == "equations") return dump_equations(script, Notation::unicode);
     if (kind == "tex") return dump_equations(script, Notation::tex);
+    if (kind == "plan") return describe_plans(*script.program);
     if (kind == "ir") return dump_ir(*script.program);
     return dump_code(*script.program, kind == "asm");
 }

@@ -1,9 +1,11 @@
 #include "run/memory.h"
 
 #include "core/plane.h"
+#include "lang/lower.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -40,6 +42,14 @@ double memory_of(const Program& program) {
             }
         }
     }
+    // Temporaries of a step's passes live as long as their stage is run.
+    std::uint64_t temporaries = 0;
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        for (const StepPlan& plan : {plan_start(program, k), plan_step(program, k)}) {
+            temporaries = std::max<std::uint64_t>(temporaries, plan.temporaries);
+        }
+    }
+    planes += temporaries;
     const PlaneLayout layout(program.domain.grid);
     return static_cast<double>(planes) * static_cast<double>(layout.size()) * 4.0;
 }

@@ -58,30 +58,38 @@ struct Simulation::Implementation {
     }
 
     /// Starting values need no compiling and pictures neither: both are interpreted.
-    std::vector<Field> evaluate(const BoundKernel& bound, std::uint32_t stage,
-                                const Grid& on) const {
-        auto kernel = interpreter->compile(bound.kernel, on.stencil());
-        CHECK(kernel, "the interpreter compiles every kernel");
-        return run_once(**kernel, bound, context(stage), on, *team);
+    std::vector<Field> evaluate(const StepPlan& plan, std::uint32_t stage) const {
+        return run_plan(plan, interpreted(grid), context(stage), grid, *team);
+    }
+
+    Compile interpreted(const Grid& on) const {
+        return [this, stencil = on.stencil()](const CellKernel& kernel) {
+            auto compiled = interpreter->compile(kernel, stencil);
+            CHECK(compiled, "the interpreter compiles every kernel");
+            return *compiled;
+        };
     }
 
     void start_uniform_items(std::uint32_t k) {
-        const BoundKernel bound = lower_uniform_start(*program, k);
-        const std::vector<Field> values = evaluate(bound, k, Grid{1, 1, Boundary::periodic});
+        const StepPlan plan = plan_uniform_start(*program, k);
+        const Grid one{1, 1, Boundary::periodic};
+        const std::vector<Field> values = run_plan(plan, interpreted(one), context(k), one, *team);
         for (std::size_t r = 0; r < values.size(); ++r) {
-            states[k].numbers[bound.results[r]] = values[r].at(0, 0);
+            states[k].numbers[plan.results[r]] = values[r].at(0, 0);
         }
     }
 
     void start_varying_items(std::uint32_t k) {
-        const BoundKernel bound = lower_cell_start(*program, k);
-        std::vector<Field> values = evaluate(bound, k, grid);
+        const StepPlan plan = plan_start(*program, k);
+        std::vector<Field> values = evaluate(plan, k);
         StageState& state = states[k];
         const System& system = program->system_of(k);
         for (std::size_t r = 0; r < values.size(); ++r) {
-            const std::uint32_t item = bound.results[r];
+            const std::uint32_t item = plan.results[r];
             const int species = state.species_of_item[item];
-            if (species >= 0) {
+            if (stage(k).uniform[item]) {
+                state.numbers[item] = values[r].at(0, 0);
+            } else if (species >= 0) {
                 state.species[static_cast<std::size_t>(species)] = std::move(values[r]);
             } else {
                 if (item == system.frozen_item()) state.frozen = to_mask(values[r]);
@@ -100,8 +108,8 @@ struct Simulation::Implementation {
                                    stage(k).name, slowest));
     }
 
-    StepProblem problem(const BoundKernel& bound, KernelPointer kernel, std::uint32_t k) const {
-        return bind_step(bound, std::move(kernel), context(k), program->system_of(k), k);
+    StepProblem problem(const StepPlan& plan, const Compile& compile, std::uint32_t k) const {
+        return bind_plan(plan, compile, context(k), program->system_of(k), k);
     }
 
     bool frozen_everywhere(std::uint32_t k) const {
@@ -109,25 +117,26 @@ struct Simulation::Implementation {
         return stage(k).uniform[item] && states[k].numbers[item] != 0.0F;
     }
 
-    KernelPointer compile_step(const BoundKernel& bound, RunControl& control,
-                               const std::string& name) const {
-        auto kernel = stepper->compile(bound.kernel, grid.stencil());
-        if (kernel) return *kernel;
-        if (control.warn) {
-            control.warn(fmt::format("stage '{}' is interpreted, which is slow: {}", name,
-                                     kernel.error().message));
-        }
-        return *interpreter->compile(bound.kernel, grid.stencil());
+    /// Steps are compiled.
+    Compile compiled(RunControl& control, const std::string& name) const {
+        return [this, &control, &name](const CellKernel& kernel) {
+            auto made = stepper->compile(kernel, grid.stencil());
+            if (made) return *made;
+            if (control.warn) {
+                control.warn(fmt::format("stage '{}' is interpreted, which is slow: {}", name,
+                                         made.error().message));
+            }
+            return *interpreter->compile(kernel, grid.stencil());
+        };
     }
 
     Failure explain(const StageOutcome& outcome, std::uint32_t k);
     void warn_of_chequerboard(std::uint32_t k, RunControl& control) const;
     StabilityEstimate stability(std::uint32_t k, std::span<const Field> species) const {
-        const BoundKernel rates = lower_rates(*program, k);
-        auto kernel = interpreter->compile(rates.kernel, grid.stencil());
         // Rates know nothing of frozen cells, but those cannot blow up.
         const Mask* frozen = states[k].frozen.empty() ? nullptr : &states[k].frozen;
-        return estimate_stability(problem(rates, *kernel, k), species, frozen);
+        return estimate_stability(problem(plan_rates(*program, k), interpreted(grid), k), species,
+                                  frozen);
     }
     double speed_number(std::uint32_t k) const {
         const std::uint32_t item = program->system_of(k).speed_item();
@@ -203,7 +212,6 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     progress.stage_count = static_cast<int>(self.script->stage_count());
     progress.steps = stage.iterations;
 
-    const BoundKernel bound = lower_step(*self.program, k);
     Schedule schedule;
     schedule.first_step = state.steps;
     // Nothing moves where everything is frozen: its steps are complete as they begin.
@@ -211,7 +219,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     schedule.interval = every > 0 ? every : stage.interval;
     schedule.threads = self.threads;
     const StageOutcome outcome = advance(
-        self.problem(bound, self.compile_step(bound, control, stage.name), k), schedule,
+        self.problem(plan_step(*self.program, k), self.compiled(control, stage.name), k), schedule,
         state.species, control, progress,
         [&](std::int64_t step, std::span<const Field>) {
             state.steps = step;
@@ -237,7 +245,19 @@ void Simulation::set_species(std::uint32_t stage, std::vector<Field> species, st
 }
 
 std::vector<Field> Simulation::evaluate(const Formula& formula, std::uint32_t stage) const {
-    return self_->evaluate(lower_view(*self_->program, formula, stage), stage, self_->grid);
+    return self_->evaluate(plan_view(*self_->program, formula, stage), stage);
+}
+
+std::vector<Field> Simulation::evaluate(std::span<const Formula* const> formulas,
+                                        std::uint32_t stage) const {
+    return self_->evaluate(plan_view(*self_->program, formulas, stage), stage);
+}
+
+std::vector<float> Simulation::evaluate_numbers(std::span<const Formula* const> formulas,
+                                                std::uint32_t stage) const {
+    std::vector<float> numbers;
+    for (const Field& field : evaluate(formulas, stage)) numbers.push_back(field.at(0, 0));
+    return numbers;
 }
 
 const Program& Simulation::program() const { return *self_->program; }

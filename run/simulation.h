@@ -87,6 +87,13 @@ public:
 
     /// A formula for pictures over the present state: one field, or three for a colour.
     std::vector<Field> evaluate(const Formula& formula, std::uint32_t stage) const;
+    /// Several formulas at once: what they share is computed once.
+    std::vector<Field> evaluate(std::span<const Formula* const> formulas,
+                                std::uint32_t stage) const;
+    /// Formulas that are the same in all cells, such as aggregates over the domain (of others the
+    /// first cell's value).
+    std::vector<float> evaluate_numbers(std::span<const Formula* const> formulas,
+                                        std::uint32_t stage) const;
 
     const Program& program() const;
     const Grid& grid() const;

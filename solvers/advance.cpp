@@ -153,7 +153,6 @@ private:
 StageOutcome advance(const StepProblem& problem, const Schedule& schedule,
                      std::vector<Field>& species, RunControl& control, Progress progress,
                      const Observer& observe) {
-    CHECK(problem.step, "a stage has a step kernel");
     CHECK(schedule.check_every > 0, "steps between two looks");
     if (auto found = find_not_finite(species, schedule.first_step)) {
         StageOutcome outcome;

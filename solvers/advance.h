@@ -9,7 +9,7 @@
 #include "core/plane.h"
 #include "core/result.h"
 #include "core/run_control.h"
-#include "ir/backend.h"
+#include "solvers/step_problem.h"
 
 #include <cstdint>
 #include <functional>
@@ -19,24 +19,6 @@
 #include <vector>
 
 namespace cascade {
-
-/// A step kernel with everything its slots need except the species themselves.
-struct StepProblem {
-    /// What a field slot reads: species `species` of the old step, or, where that is −1, a plane
-    /// that does not change (`fixed`, its cell (0, 0)).
-    struct FieldSlot {
-        int species = -1;
-        const float* fixed = nullptr;
-    };
-
-    KernelPointer step;                        ///< Result k is the new value of species k.
-    Grid grid;
-    std::vector<FieldSlot> fields;
-    std::vector<bool> species_needs_halo;      ///< Per species: some slot reads its neighbours.
-    std::vector<const std::uint8_t*> masks;
-    std::vector<float> uniforms;
-    int step_uniform = -1;                     ///< This uniform is the number of complete steps.
-};
 
 /// Which steps to take and how closely to watch them.
 struct Schedule {

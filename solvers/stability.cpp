@@ -10,9 +10,10 @@
 #include "solvers/stability.h"
 
 #include "core/check.h"
-#include "core/floating_point.h"
+#include "solvers/pass_runner.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstdint>
@@ -52,14 +53,20 @@ double noise(std::uint64_t number) {
 class Jacobian {
 public:
     Jacobian(const StepProblem& rates, std::span<const Field> species, const Mask* frozen)
-        : rates_(rates), layout_(rates.grid), state_(species), moves_(layout_) {
+        : rates_(rates),
+          layout_(rates.grid),
+          state_(species),
+          moves_(layout_),
+          team_(1),
+          runner_(rates) {
+        runner_.prepare(worker_, {0, layout_.row_count()});
         for_each_cell([&](std::size_t, std::int64_t i, std::int64_t row) {
             moves_.row(row)[i] = frozen && frozen->row(row)[i] ? 0.0f : 1.0f;
         });
         for (const Field& field : species) {
             CHECK(field.layout() == layout_, "species lie as the grid says");
-            moved_.emplace_back(layout_);
-            rates_of_.emplace_back(layout_);
+            moved_cells_.push_back(moved_.emplace_back(layout_).origin());
+            rate_cells_.push_back(rates_of_.emplace_back(layout_).origin());
             scales_.push_back(root_mean_square(field));
         }
         // A species that is zero everywhere takes the scale of the others.
@@ -137,20 +144,9 @@ private:
     }
 
     void run_kernel() {
-        std::vector<const float*> inputs;
-        std::vector<float*> outputs;
-        for (Field& field : moved_) {
-            fill_halo(field.origin(), layout_, rates_.grid.boundary);
-        }
-        for (const StepProblem::FieldSlot& slot : rates_.fields) {
-            inputs.push_back(slot.species < 0
-                                 ? slot.fixed
-                                 : moved_[static_cast<std::size_t>(slot.species)].origin());
-        }
-        for (Field& field : rates_of_) outputs.push_back(field.origin());
-        const FlushDenormals environment;
-        rates_.step->run({inputs, rates_.masks, rates_.uniforms, outputs, layout_},
-                         {0, layout_.row_count()});
+        for (Field& field : moved_) fill_halo(field.origin(), layout_, rates_.grid.boundary);
+        const std::array<std::span<float* const>, 2> registers{moved_cells_, rate_cells_};
+        team_.run([&](int) { runner_.run(worker_, team_, registers, {}); });
     }
 
     const StepProblem& rates_;
@@ -158,7 +154,11 @@ private:
     std::span<const Field> state_;
     Field moves_;  ///< 1 where a cell moves, 0 where it is frozen.
     std::vector<Field> moved_, rates_of_;
+    std::vector<float*> moved_cells_, rate_cells_;
     std::vector<double> scales_;
+    Team team_;
+    PassRunner runner_;
+    PassRunner::Worker worker_;
 };
 
 /// The root of λ² + pλ + q of larger magnitude that fits w₂ + p w₁ + q w₀ ≈ 0 best, w₀ of length 1;
@@ -198,7 +198,7 @@ std::complex<double> leading_eigenvalue(Jacobian& jacobian, double shift) {
 
 StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const Field> species,
                                      const Mask* frozen) {
-    CHECK(rates.step && !species.empty(), "a kernel of rates and its species");
+    CHECK(!rates.passes.empty() && !species.empty(), "a kernel of rates and its species");
     Jacobian jacobian(rates, species, frozen);
     std::complex<double> fastest = leading_eigenvalue(jacobian, 0);
     StabilityEstimate estimate;

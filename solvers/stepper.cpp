@@ -24,7 +24,8 @@ int worthwhile_threads(const Grid& grid, std::size_t species, int most) {
 Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads)
     : problem_(problem),
       layout_(problem.grid),
-      team_(worthwhile_threads(problem.grid, species.size(), most_threads)) {
+      team_(worthwhile_threads(problem.grid, species.size(), most_threads)),
+      runner_(problem) {
     CHECK(problem.species_needs_halo.size() == species.size(), "a flag for every species");
     copies_[0] = std::move(species);
     for (Field& field : copies_[0]) {
@@ -34,11 +35,13 @@ Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int mos
         copies_[2].emplace_back(layout_);
     }
     for (std::size_t copy = 0; copy < 3; ++copy) {
-        for (Field& field : copies_[copy]) outputs_[copy].push_back(field.origin());
-        for (const StepProblem::FieldSlot& slot : problem.fields) {
-            inputs_[copy].push_back(slot.species < 0
-                                        ? slot.fixed
-                                        : outputs_[copy][static_cast<std::size_t>(slot.species)]);
+        for (Field& field : copies_[copy]) cells_[copy].push_back(field.origin());
+    }
+    for (std::uint32_t k = 2; k < problem.registers; ++k) {
+        std::vector<Field>& planes = scratch_.emplace_back();
+        std::vector<float*>& cells = scratch_cells_.emplace_back();
+        for (std::size_t s = 0; s < copies_[0].size(); ++s) {
+            cells.push_back(planes.emplace_back(layout_).origin());
         }
     }
     use_threads(team_.size());
@@ -49,8 +52,7 @@ void Stepper::use_threads(int threads) {
     workers_.resize(static_cast<std::size_t>(threads));
     for (int index = 0; index < threads; ++index) {
         Worker& worker = workers_[static_cast<std::size_t>(index)];
-        worker.rows = split_rows(layout_.row_count(), index, threads);
-        worker.uniforms = problem_.uniforms;
+        runner_.prepare(worker.passes, split_rows(layout_.row_count(), index, threads));
     }
 }
 
@@ -83,38 +85,17 @@ void Stepper::work(Worker& worker, std::int64_t complete, std::int64_t count, bo
 }
 
 void Stepper::step(Worker& worker, CopyRoles roles, std::int64_t complete) {
-    const auto from = static_cast<std::size_t>(roles.current);
-    const auto to = static_cast<std::size_t>(roles.target());
-    if (problem_.step_uniform >= 0) {
-        worker.uniforms[static_cast<std::size_t>(problem_.step_uniform)] =
-            static_cast<float>(complete);
-    }
-    const KernelArguments arguments{inputs_[from], problem_.masks, worker.uniforms, outputs_[to],
-                                    layout_};
-    // The halo's columns lie beside rows that were just written: filled a band at a time they are
-    // still in the cache.
-    const std::int64_t band = rows_of_a_band();
-    for (std::int64_t row = worker.rows.begin; row < worker.rows.end; row += band) {
-        const RowRange rows{row, std::min(row + band, worker.rows.end)};
-        problem_.step->run(arguments, rows);
-        for (std::size_t k = 0; k < outputs_[to].size(); ++k) {
-            if (!problem_.species_needs_halo[k]) continue;
-            fill_halo_from_rows(outputs_[to][k], layout_, problem_.grid.boundary, rows.begin,
-                                rows.end);
-        }
-    }
-}
-
-std::int64_t Stepper::rows_of_a_band() const {
-    constexpr std::int64_t elements_in_cache = 65536;  // A quarter of a MiB of results.
-    const auto results = static_cast<std::int64_t>(outputs_[0].size());
-    return std::max<std::int64_t>(8, elements_in_cache / (layout_.stride * results));
+    worker.registers.clear();  // The old step, the new one, then scratch.
+    worker.registers.emplace_back(cells_[static_cast<std::size_t>(roles.current)]);
+    worker.registers.emplace_back(cells_[static_cast<std::size_t>(roles.target())]);
+    for (const std::vector<float*>& cells : scratch_cells_) worker.registers.emplace_back(cells);
+    runner_.run(worker.passes, team_, worker.registers, {complete, 0, 0});
 }
 
 bool Stepper::rows_finite(const Worker& worker, int copy) const {
     const std::vector<Field>& fields = copies_[static_cast<std::size_t>(copy)];
     return std::all_of(fields.begin(), fields.end(), [&](const Field& field) {
-        return rows_are_finite(field, worker.rows);
+        return rows_are_finite(field, worker.passes.rows);
     });
 }
 

@@ -8,11 +8,12 @@
 
 #include "core/parallel.h"
 #include "core/plane.h"
-#include "ir/backend.h"
-#include "solvers/advance.h"
+#include "solvers/pass_runner.h"
+#include "solvers/step_problem.h"
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -54,15 +55,13 @@ public:
     void use_threads(int threads);
 
 private:
-    /// What one thread needs, on cache lines of its own.
-    struct alignas(64) Worker {
-        RowRange rows;
-        std::vector<float> uniforms;
+    struct Worker {
+        PassRunner::Worker passes;
+        std::vector<std::span<float* const>> registers;
         bool finite = true;
     };
 
     void work(Worker& worker, std::int64_t complete, std::int64_t count, bool look);
-    std::int64_t rows_of_a_band() const;
     void step(Worker& worker, CopyRoles roles, std::int64_t complete);
     bool rows_finite(const Worker& worker, int copy) const;
     bool all_finite() const;
@@ -70,10 +69,12 @@ private:
     const StepProblem& problem_;
     PlaneLayout layout_;
     std::array<std::vector<Field>, 3> copies_;
-    std::array<std::vector<const float*>, 3> inputs_;  ///< Field slots, a copy being the old step.
-    std::array<std::vector<float*>, 3> outputs_;       ///< Species of a copy as the new step.
+    std::array<std::vector<float*>, 3> cells_;   ///< Species of a copy.
+    std::vector<std::vector<Field>> scratch_;    ///< Registers from 2 on.
+    std::vector<std::vector<float*>> scratch_cells_;
     CopyRoles roles_;
     Team team_;
+    PassRunner runner_;
     std::vector<Worker> workers_;  ///< One for each thread in use.
 };
 

@@ -3,7 +3,11 @@
 #include "random_scripts.h"
 
 #include "core/file.h"
+#include "core/parallel.h"
+#include "ir/interpreter.h"
 #include "lang/lower.h"
+#include "run/bound_kernel.h"
+#include "run/input_files.h"
 #include "run/simulation.h"
 #include "support/kernel_comparison.h"
 #include "support/random_kernels.h"
@@ -75,9 +79,10 @@ TEST(Agreement, RandomScripts) {
 
         Script script = load_script("random", text, ".");
         for (std::uint32_t k = 0; k < script.program->stages.size(); ++k) {
-            const CellKernel step = lower_step(*script.program, k).kernel;
-            EXPECT_EQ(verify(step), "") << text;
-            counts.add(step);
+            for (const Pass& pass : plan_step(*script.program, k).passes) {
+                EXPECT_EQ(verify(pass.bound.kernel), "") << text;
+                counts.add(pass.bound.kernel);
+            }
         }
     }
     // Most scripts must get through to the end, or little was compared.
@@ -85,6 +90,38 @@ TEST(Agreement, RandomScripts) {
     std::printf("%s%d of %d scripts ended in values that are not finite\n",
                 counts.report().c_str(), failed, scripts);
     EXPECT_EQ(counts.missing(), "");
+}
+
+/// What operators need at neighbours may be computed there again or read from a plane.
+TEST(Agreement, HoweverOperandsComeToNeighbours) {
+    Team team(2);
+    const InputFiles no_files;
+    int passes_differ = 0;
+    for (int seed = 0; seed < 400; ++seed) {
+        const std::string text = random_script(static_cast<std::uint64_t>(seed));
+        Script script = load_script("random", text, ".");
+        ASSERT_TRUE(script.program) << text;
+        auto simulation = Simulation::create(script, interpreted()).value();
+        if (!simulation->start_stage(0)) continue;
+        const Grid& grid = simulation->grid();
+        const auto backend = make_interpreter();
+        const auto compile = [&](const CellKernel& kernel) {
+            return *backend->compile(kernel, grid.stencil());
+        };
+        const BindingContext context{{&simulation->state(0), 1}, no_files, 3, grid};
+        std::vector<std::vector<Field>> found;
+        std::size_t passes = 0;
+        for (const Bringing bringing :
+             {Bringing::cheaper, Bringing::recomputing, Bringing::writing}) {
+            const StepPlan plan = plan_rates(*script.program, 0, {bringing});
+            passes_differ += bringing == Bringing::writing && plan.passes.size() != passes ? 1 : 0;
+            passes = plan.passes.size();
+            found.push_back(run_plan(plan, compile, context, grid, team));
+            EXPECT_EQ(same_bits(found[0], found.back()), "") << text;
+        }
+        if (::testing::Test::HasFailure()) return;
+    }
+    EXPECT_GT(passes_differ, 50);
 }
 
 std::vector<std::filesystem::path> examples() {

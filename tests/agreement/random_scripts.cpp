@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -37,9 +38,15 @@ public:
 
     std::string write() {
         const int systems = 1 + static_cast<int>(stream_.below(2));
-        text_ = fmt::format("domain {{ grid: {}, {}; boundary: {}; seed: {} }}\n",
-                            2 + stream_.below(37), 1 + stream_.below(9),
-                            stream_.chance(50) ? "periodic" : "noflux", stream_.below(1000));
+        static constexpr std::array<std::string_view, 3> boundaries = {"periodic", "noflux",
+                                                                       "periodic, noflux"};
+        const bool has_slices = stream_.chance(25);
+        text_ = fmt::format(
+            "domain {{ grid: {}, {}{}; boundary: {}; spacing: {}; seed: {} }}\n",
+            2 + stream_.below(37), (has_slices ? 2 : 1) + stream_.below(9),
+            has_slices ? fmt::format(", {}", 2 + stream_.below(5)) : "",
+            has_slices ? boundaries[stream_.below(2)] : stream_.pick<std::string_view>(boundaries),
+            stream_.chance(50) ? "1" : "0.75", stream_.below(1000));
         for (int s = 0; s < systems; ++s) write_system(s);
         const int stages = 1 + static_cast<int>(stream_.below(3));
         for (int k = 0; k < stages; ++k) write_stage(k, stream_.below(static_cast<std::uint64_t>(systems)));
@@ -57,7 +64,8 @@ private:
 
     /// A name, a number, or a coordinate.
     std::string leaf(Place place) {
-        static constexpr std::array<std::string_view, 4> coordinates = {"x", "y", "sx", "sy"};
+        static constexpr std::array<std::string_view, 6> coordinates = {"x",  "y",  "z",
+                                                                        "sx", "sy", "sz"};
         static constexpr std::array<std::string_view, 2> times = {"t", "step"};
         const std::uint32_t kind = stream_.below(10);
         if (kind < 5 && !readable_.empty()) return stream_.pick<std::string>(readable_);
@@ -76,7 +84,12 @@ private:
         if (row.spelling == "mod") {
             return fmt::format("mod({}, 0.75 + {})", expression(place, depth - 1), leaf(place));
         }
-        if (row.spelling == "lap") return fmt::format("lap({})", stream_.pick<std::string>(species_));
+        if (row.spelling.ends_with(" over domain")) {
+            const std::string_view name = row.spelling.substr(0, row.spelling.find(' '));
+            return fmt::format("{}({} over domain)", name, expression(place, depth - 1));
+        }
+        if (row.spelling == "div") return fmt::format("div({})", flux(place, depth - 1));
+        if (is_stencil(row.spelling)) return stencil(row, place, depth);
         std::string arguments = expression(place, depth - 1);
         if (!is_word(row.spelling) && row.arity.most == 1) {
             return fmt::format("({} ({}))", row.spelling, arguments);
@@ -97,8 +110,53 @@ private:
         return fmt::format("{}({})", row.spelling, arguments);
     }
 
+    static bool is_stencil(std::string_view spelling) {
+        static constexpr std::array<std::string_view, 13> stencils = {
+            "lap", "dx",  "dy",  "dz",    "dxx",    "dyy",    "dzz",
+            "dxy", "dxz", "dyz", "grad2", "advect", "diffuse"};
+        return std::find(stencils.begin(), stencils.end(), spelling) != stencils.end();
+    }
+
+    /// What is no number for certain: derivatives of those are refused.
+    std::string varying(Place place, int depth) {
+        return fmt::format("(x * {} + {})", leaf(place), expression(place, depth));
+    }
+
+    std::string stencil(const FunctionRow& row, Place place, int depth) {
+        if (row.spelling == "diffuse") {
+            return fmt::format("diffuse({}, {}, {}, {})", varying(place, depth - 1), leaf(place),
+                               leaf(place), expression(place, depth - 2));
+        }
+        if (row.spelling != "advect") {
+            return fmt::format("{}({})", row.spelling, varying(place, depth - 1));
+        }
+        return fmt::format("advect({}, {}, {}{})", expression(place, depth - 2), leaf(place),
+                           stream_.chance(50) ? "0.5, " : "", varying(place, depth - 1));
+    }
+
+    /// A vector.
+    std::string flux(Place place, int depth) {
+        switch (depth > 0 ? stream_.below(8) : 0) {
+            case 1: return fmt::format("{} * ({})", leaf(place), flux(place, depth - 1));
+            case 2: return fmt::format("({}) / (0.75 + {})", flux(place, depth - 1), leaf(place));
+            case 3: return fmt::format("-({})", flux(place, depth - 1));
+            case 4: return fmt::format("({}) + ({})", flux(place, depth - 1), flux(place, depth - 1));
+            case 5: return fmt::format("({}) - ({})", flux(place, depth - 1), flux(place, depth - 1));
+            case 6: return fmt::format("vector({}, {})", expression(place, depth - 1), leaf(place));
+            case 7:
+                return fmt::format("tensor({}, {}, {}) * ({})", leaf(place), leaf(place),
+                                   expression(place, depth - 1), flux(place, depth - 1));
+            default: return fmt::format("grad({})", varying(place, depth - 1));
+        }
+    }
+
     bool fits(const FunctionRow& row, Place place) const {
-        if (row.spelling.find(" over ") != std::string_view::npos) return false;
+        static constexpr std::array<std::string_view, 3> only_in_fluxes = {"grad", "vector",
+                                                                           "tensor"};
+        if (std::find(only_in_fluxes.begin(), only_in_fluxes.end(), row.spelling) !=
+            only_in_fluxes.end()) {
+            return false;
+        }
         switch (row.places) {
             case Places::any:
             case Places::cells: return true;

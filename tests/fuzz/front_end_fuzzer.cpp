@@ -18,11 +18,14 @@ namespace {
 
 void lower_stages(const Program& program) {
     for (std::uint32_t stage = 0; stage < program.stages.size(); ++stage) {
-        for (const BoundKernel& bound :
-             {lower_uniform_start(program, stage), lower_cell_start(program, stage),
-              lower_step(program, stage), lower_rates(program, stage),
-              lower_view(program, program.stages[stage].show, stage)}) {
-            CHECK(verify(bound.kernel).empty(), "every kernel that lowering makes is sound");
+        for (const StepPlan& plan :
+             {plan_uniform_start(program, stage), plan_start(program, stage),
+              plan_step(program, stage), plan_rates(program, stage),
+              plan_view(program, program.stages[stage].show, stage)}) {
+            for (const Pass& pass : plan.passes) {
+                CHECK(verify(pass.bound.kernel).empty(),
+                      "every kernel that lowering makes is sound");
+            }
         }
     }
 }
@@ -34,8 +37,9 @@ void lower_picture(const ast::Script& script, Program& program, const Sources& s
     const auto last = static_cast<std::uint32_t>(program.stages.size() - 1);
     const auto view = check_view(script, *expression, last, last, program, sources, diagnostics);
     if (!view) return;
-    const BoundKernel bound = lower_view(program, *view, last);
-    CHECK(verify(bound.kernel).empty(), "the kernel of a picture is sound");
+    for (const Pass& pass : plan_view(program, *view, last).passes) {
+        CHECK(verify(pass.bound.kernel).empty(), "the kernel of a picture is sound");
+    }
 }
 
 void run_front_end(const std::string& text) {
@@ -48,6 +52,7 @@ void run_front_end(const std::string& text) {
     CHECK(program || diagnostics.has_errors(), "a script that is refused has a message");
     if (program && !diagnostics.has_errors()) {
         print_program(*program);
+        describe_plans(*program);
         lower_stages(*program);
         lower_picture(script, *program, sources, diagnostics);
     }

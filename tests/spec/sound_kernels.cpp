@@ -9,12 +9,14 @@ namespace cascade {
 
 void expect_sound_kernels(const Program& program) {
     for (std::uint32_t stage = 0; stage < program.stages.size(); ++stage) {
-        for (const auto lower :
-             {lower_uniform_start, lower_cell_start, lower_step, lower_rates}) {
-            EXPECT_EQ(verify(lower(program, stage).kernel), "") << "stage " << stage + 1;
+        for (const StepPlan& plan :
+             {plan_uniform_start(program, stage), plan_start(program, stage),
+              plan_step(program, stage), plan_rates(program, stage),
+              plan_view(program, program.stages[stage].show, stage)}) {
+            for (const Pass& pass : plan.passes) {
+                EXPECT_EQ(verify(pass.bound.kernel), "") << "stage " << stage + 1;
+            }
         }
-        const BoundKernel shown = lower_view(program, program.stages[stage].show, stage);
-        EXPECT_EQ(verify(shown.kernel), "") << "what stage " << stage + 1 << " shows";
     }
 }
 

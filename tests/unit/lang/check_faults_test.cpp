@@ -153,9 +153,6 @@ TEST(CheckFaults, ArgumentsAndTypes) {
                             "only numbers, operators and functions of them can stand here"));
     EXPECT_THAT(stage_faults("iterations: disc(0, 0, 1)"),
                 ElementsAre("2:13: iterations must be one number, but disc is varying by cell"));
-    EXPECT_THAT(stage_faults("ka: lap(1)"),
-                ElementsAre("2:5: lap cannot stand here | "
-                            "it belongs in rates and definitions of a system"));
     EXPECT_THAT(stage_faults("ka: rgb(1, 0, 0)"),
                 ElementsAre("2:5: rgb cannot stand here | colours belong in pictures"));
     EXPECT_THAT(stage_faults("ka: 1 + \"a\""),
@@ -163,13 +160,10 @@ TEST(CheckFaults, ArgumentsAndTypes) {
                             "palette(v, low, high, \"grey\"), field(\"a.npy\")"));
     EXPECT_THAT(stage_faults("ka: field(leopard)"),
                 ElementsAre("2:11: a text in quotes is expected here | \"leopard\""));
-    EXPECT_THAT(system_faults("a' += lap(2 * a)"),
-                ElementsAre("2:11: lap takes a species | "
-                            "expressions and parameters come in a later version of the language"));
     EXPECT_THAT(system_faults("a' += field(\"a.npy\")"),
                 ElementsAre("2:7: field cannot stand here | it belongs in values (name: …)"));
-    EXPECT_THAT(stage_faults("ka: grad(1)"),
-                ElementsAre("2:5: 'grad' is not in this version of the language"));
+    EXPECT_THAT(stage_faults("ka: attr(1)"),
+                ElementsAre("2:5: 'attr' is not in this version of the language"));
 }
 
 TEST(CheckFaults, TimeBelongsInSteps) {

@@ -38,10 +38,11 @@ struct Mixture {
             results[2] = still ? count : count + cell.uniform(1);
         });
         problem.species_needs_halo[2] = false;
-        problem.fields.push_back({-1, parameter.origin()});
-        problem.masks = {frozen.origin()};
-        problem.uniforms = {7, -1};
-        problem.step_uniform = 1;
+        problem.passes[0].results[2].needs_halo = false;
+        problem.passes[0].fields.push_back(fixed_plane(parameter.origin()));
+        problem.passes[0].masks = {frozen.origin()};
+        problem.passes[0].uniforms = {7, -1};
+        problem.passes[0].changing = {{.slot = 1}};
     }
 
     std::vector<Field> start() const {
@@ -142,7 +143,7 @@ TEST(Advance, NeighboursReadFrozenCells) {
     });
     Mask frozen{PlaneLayout(grid)};
     frozen.at(0, 0) = 1;
-    problem.masks = {frozen.origin()};
+    problem.passes[0].masks = {frozen.origin()};
     std::vector<Field> species;
     species.push_back(make_field(grid, [](auto i, auto) { return i == 0 ? 8.0 : 0.0; }));
     advance_quietly(problem, {.last_step = 2}, species);
@@ -295,7 +296,7 @@ StepProblem exploding(const Grid& grid, const Mask& where) {
         results[0] = cell.field(0);
         results[1] = cell.mask(0) ? cell.field(1) * 4 : cell.field(1);
     });
-    problem.masks = {where.origin()};
+    problem.passes[0].masks = {where.origin()};
     return problem;
 }
 

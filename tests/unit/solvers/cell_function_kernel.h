@@ -64,14 +64,30 @@ private:
     Stencil stencil_;
 };
 
-/// A problem whose slot k is species k, all read at neighbours.
-inline StepProblem make_problem(const Grid& grid, int species, CellFunction function) {
+/// The slot of a plane that does not change.
+inline StepProblem::PlaneRef fixed_plane(const float* cells) {
+    return {StepProblem::PlaneRef::Kind::fixed, 0, 0, cells};
+}
+
+/// A step of one pass whose slot k is species k, all read at neighbours.
+inline StepProblem make_problem(const Grid& grid, int species, KernelPointer kernel) {
     StepProblem problem;
-    problem.step = std::make_shared<CellFunctionKernel>(std::move(function), grid.stencil());
+    StepProblem::Pass& pass = problem.passes.emplace_back();
+    pass.kernel = std::move(kernel);
     problem.grid = grid;
-    for (int k = 0; k < species; ++k) problem.fields.push_back({k, nullptr});
+    using Kind = StepProblem::PlaneRef::Kind;
+    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(species); ++k) {
+        pass.fields.push_back({Kind::species, k, 0, nullptr});
+        pass.results.push_back({{Kind::species, k, 1, nullptr}, true});
+    }
     problem.species_needs_halo.assign(static_cast<std::size_t>(species), true);
     return problem;
+}
+
+inline StepProblem make_problem(const Grid& grid, int species, CellFunction function) {
+    return make_problem(
+        grid, species,
+        std::make_shared<CellFunctionKernel>(std::move(function), grid.stencil()));
 }
 
 /// One explicit step of heat conduction: uniform 0 is diffusion times the time step.
@@ -79,7 +95,7 @@ inline StepProblem heat_problem(const Grid& grid, float diffusion) {
     StepProblem problem = make_problem(grid, 1, [](const CellView& cell, float* results) {
         results[0] = cell.field(0) + cell.uniform(0) * cell.laplacian(0);
     });
-    problem.uniforms = {diffusion};
+    problem.passes[0].uniforms = {diffusion};
     return problem;
 }
 

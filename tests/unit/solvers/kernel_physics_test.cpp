@@ -32,17 +32,13 @@ StepProblem heat(const Grid& grid, const Mask* frozen) {
     const ValueId flow =
         builder.multiply(builder.uniform(builder.uniform_slot("d")), builder.laplacian(slot));
     ValueId next = builder.add(c, flow);
-    StepProblem problem;
     if (frozen) {
         next = builder.select(builder.mask(builder.mask_slot("frozen")), c, next);
-        problem.masks = {frozen->origin()};
     }
     builder.result("c", next);
-    problem.step = interpreted(std::move(builder), grid);
-    problem.grid = grid;
-    problem.fields = {{0, nullptr}};
-    problem.species_needs_halo = {true};
-    problem.uniforms = {0.125f};
+    StepProblem problem = make_problem(grid, 1, interpreted(std::move(builder), grid));
+    if (frozen) problem.passes[0].masks = {frozen->origin()};
+    problem.passes[0].uniforms = {0.125f};
     return problem;
 }
 
@@ -106,12 +102,8 @@ StepProblem turing(const Grid& grid, float diff_a, float diff_b, bool step) {
     const ValueId rate_b = k.add(made_b, diffusion("diff_b", b_slot));
     k.result("a", step ? k.add(a, rate_a) : rate_a);
     k.result("b", step ? k.maximum(k.add(b, rate_b), k.number(0)) : rate_b);
-    StepProblem problem;
-    problem.step = interpreted(std::move(k), grid);
-    problem.grid = grid;
-    problem.fields = {{0, nullptr}, {1, nullptr}};
-    problem.species_needs_halo = {true, true};
-    problem.uniforms = {diff_a, diff_b};
+    StepProblem problem = make_problem(grid, 2, interpreted(std::move(k), grid));
+    problem.passes[0].uniforms = {diff_a, diff_b};
     return problem;
 }
 
@@ -194,10 +186,10 @@ TEST(KernelPhysics, AnUnstableStepIsNoticedAsAChequerboard) {
     std::vector<Field> species;
     species.push_back(make_field(grid, scatter));
     EXPECT_LT(chequerboard(species[0]), chequerboard_threshold);
-    problem.uniforms = {0.24f};
+    problem.passes[0].uniforms = {0.24f};
     advance_quietly(problem, {.last_step = 300}, species);
     EXPECT_LT(chequerboard(species[0]), chequerboard_threshold);
-    problem.uniforms = {0.27f};
+    problem.passes[0].uniforms = {0.27f};
     advance_quietly(problem, {.last_step = 150}, species);
     EXPECT_GT(chequerboard(species[0]), chequerboard_threshold);
     const StageOutcome outcome = advance_quietly(problem, {.last_step = 2000}, species);

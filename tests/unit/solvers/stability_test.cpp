@@ -14,7 +14,7 @@ StepProblem diffusion_rates(const Grid& grid, float diffusion) {
     StepProblem problem = make_problem(grid, 1, [](const CellView& cell, float* results) {
         results[0] = cell.uniform(0) * cell.laplacian(0);
     });
-    problem.uniforms = {diffusion};
+    problem.passes[0].uniforms = {diffusion};
     return problem;
 }
 
@@ -64,7 +64,7 @@ TEST(Stability, DecayAndGrowth) {
         StepProblem problem = make_problem(grid, 1, [](const CellView& cell, float* results) {
             results[0] = cell.uniform(0) * cell.field(0);
         });
-        problem.uniforms = {k};
+        problem.passes[0].uniforms = {k};
         return problem;
     };
     const auto species = one(make_field(grid, scatter));
@@ -156,7 +156,7 @@ TEST(Stability, TuringsChequerboard) {
     // diagonal and -4/80, 3/80 beside it.
     const Grid grid{64, 64, Boundary::periodic};
     StepProblem rates = make_problem(grid, 2, turing_rates);
-    rates.uniforms = {0.25f, 0.0625f};
+    rates.passes[0].uniforms = {0.25f, 0.0625f};
     const StabilityEstimate estimate = estimate_stability(rates, turing_start(grid));
     const double u = -2 - 4.0 / 80, v = -0.5 + 3.0 / 80;
     const double middle = (u + v) / 2;
@@ -177,7 +177,7 @@ TEST(Stability, TheEstimateDividesRunsThatDampFromRunsThatExplode) {
             results[0] = cell.field(0) + cell.uniform(2) * rates[0];
             results[1] = cell.field(1) + cell.uniform(2) * rates[1];
         });
-        step.uniforms = {0.25f, 0.0625f, static_cast<float>(speed)};
+        step.passes[0].uniforms = {0.25f, 0.0625f, static_cast<float>(speed)};
         std::vector<Field> species = turing_start(grid);
         advance_quietly(step, {.last_step = 250}, species);
         double sum = 0;
@@ -188,7 +188,7 @@ TEST(Stability, TheEstimateDividesRunsThatDampFromRunsThatExplode) {
         return std::abs(sum) / 1024;
     };
     StepProblem rates = make_problem(grid, 2, turing_rates);
-    rates.uniforms = {0.25f, 0.0625f};
+    rates.passes[0].uniforms = {0.25f, 0.0625f};
     const auto estimate = estimate_stability(rates, turing_start(grid));
     ASSERT_TRUE(estimate.largest_speed);
     EXPECT_LT(largest_chequerboard(0.97 * *estimate.largest_speed), 1e-6);

@@ -1,11 +1,9 @@
-// Palettes as arithmetic, and the kernels of pictures.
+// Palettes as arithmetic.
 #include "core/check.h"
 #include "core/palette.h"
 #include "lang/lower_formula.h"
 
-namespace cascade {
-
-namespace lowering {
+namespace cascade::lowering {
 
 /// A palette is a sum of ramps, one for each stretch between two stops:
 ///
@@ -13,8 +11,7 @@ namespace lowering {
 ///
 /// A position that is no number gives colour_of_nan.
 Value KernelAssembly::palette(const Node& node, const Cursor& cursor) {
-    const Node& name = cursor.formula.nodes[node.operands[3]];
-    const Palette* palette = find_palette(program_.texts[name.index]);
+    const Palette* palette = find_palette(program_.texts[cursor.operand(3).index]);
     CHECK(palette != nullptr, "lowering: the checker has found every palette");
     const ValueId low = cursor.number(node, 1);
     const ValueId range = builder_.subtract(cursor.number(node, 2), low);
@@ -46,21 +43,4 @@ Value KernelAssembly::palette(const Node& node, const Cursor& cursor) {
     return colour;
 }
 
-}  // namespace lowering
-
-BoundKernel lower_view(const Program& program, const Formula& formula, std::uint32_t stage) {
-    lowering::KernelAssembly assembly(program, stage);
-    lowering::Value colour{};
-    const ValueId number = assembly.formula(formula, {}, &colour);
-    if (formula.nodes.back().type == ValueType::colour) {
-        const std::array<const char*, 3> names{"red", "green", "blue"};
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-            assembly.result(names[channel], colour[channel]);
-        }
-    } else {
-        assembly.result("value", number);
-    }
-    return std::move(assembly).finish({});
-}
-
-}  // namespace cascade
+}  // namespace cascade::lowering

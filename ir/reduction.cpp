@@ -1,0 +1,73 @@
+#include "ir/reduction.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace cascade {
+namespace {
+
+/// Cells i, i + 8, i + 16, … of a row make one of so many partial results; a vector's lanes.
+constexpr std::size_t partial_results = 8;
+
+double take_together(ReductionKind kind, double a, double b) {
+    switch (kind) {
+        case ReductionKind::sum:
+        case ReductionKind::mean: return a + b;
+        case ReductionKind::least: return std::isnan(a) || a < b ? a : b;
+        case ReductionKind::largest: return std::isnan(a) || a > b ? a : b;
+    }
+    return a;
+}
+
+/// Neighbours in pairs until one is left.
+double fold_pairs(ReductionKind kind, std::span<double> values) {
+    for (std::size_t count = values.size(); count > 1; count = (count + 1) / 2) {
+        for (std::size_t k = 0; 2 * k < count; ++k) {
+            values[k] = 2 * k + 1 < count
+                            ? take_together(kind, values[2 * k], values[2 * k + 1])
+                            : values[2 * k];
+        }
+    }
+    return values[0];
+}
+
+template <typename Take>
+void take_row(std::span<double, partial_results> partial, const float* cells, std::int64_t count,
+              const Take& take) {
+    const auto width = static_cast<std::int64_t>(partial_results);
+    std::int64_t i = width;
+    for (; i + width <= count; i += width) {
+        for (std::size_t k = 0; k < partial_results; ++k) {
+            partial[k] = take(partial[k], static_cast<double>(cells[i + static_cast<std::int64_t>(k)]));
+        }
+    }
+    for (std::size_t k = 0; i < count; ++i, ++k) {
+        partial[k] = take(partial[k], static_cast<double>(cells[i]));
+    }
+}
+
+}  // namespace
+
+double reduce_row(ReductionKind kind, const float* cells, std::int64_t count) {
+    std::array<double, partial_results> partial{};
+    const auto start = static_cast<std::size_t>(
+        count < static_cast<std::int64_t>(partial_results)
+            ? count
+            : static_cast<std::int64_t>(partial_results));
+    for (std::size_t k = 0; k < start; ++k) partial[k] = static_cast<double>(cells[k]);
+    if (kind == ReductionKind::sum || kind == ReductionKind::mean) {
+        take_row(partial, cells, count, [](double a, double b) { return a + b; });
+    } else {
+        take_row(partial, cells, count,
+                 [kind](double a, double b) { return take_together(kind, a, b); });
+    }
+    return fold_pairs(kind, std::span(partial).first(start));
+}
+
+float reduce_rows(ReductionKind kind, std::span<double> rows, std::int64_t cells) {
+    const double all = fold_pairs(kind, rows);
+    return static_cast<float>(kind == ReductionKind::mean ? all / static_cast<double>(cells) : all);
+}
+
+}  // namespace cascade

@@ -1,0 +1,73 @@
+// Plans in words, for `--dump plan`.
+#include "lang/plan_builder.h"
+#include "lang/print_formula.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cascade::lowering {
+
+namespace {
+
+/// Longer formulas are only counted.
+constexpr std::uint32_t most_parts_shown = 60;
+
+std::string plural(std::size_t count, std::string_view what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : what.ends_with("s") ? "es" : "s");
+}
+
+/// How a part is written, or what it is called.
+std::string name_of(const PartGraph& graph, PartId id) {
+    const std::string& name = graph.name(id);
+    if (!name.empty()) return name;
+    const Part& part = graph[id];
+    if (part.formula == nullptr) return "an entry of the tensor";
+    if (part.position > most_parts_shown) return "a long expression";
+    Formula formula;
+    const auto& nodes = part.formula->nodes;
+    formula.nodes.assign(nodes.begin(), nodes.begin() + part.position + 1);
+    return print_formula(graph.program(), graph.program().system_of(graph.stage()), formula);
+}
+
+std::string describe_brought(const PartGraph& graph, const PassPlanner::Brought& brought) {
+    const std::string reader = name_of(graph, brought.reader);
+    const std::string operand = name_of(graph, brought.operand);
+    if (brought.places == 0) {
+        return fmt::format("{} is written to a plane: {} takes all its cells", operand, reader);
+    }
+    const std::string neighbours = plural(brought.places, "neighbour");
+    if (!brought.is_written) {
+        return fmt::format("{} is computed again at {} for {}", operand, neighbours, reader);
+    }
+    return fmt::format("{} is written to a plane: {} reads it at {}, where {}", operand, reader,
+                       neighbours,
+                       brought.is_forced
+                           ? "it cannot be computed again"
+                           : "computing it again would take longer than reading it");
+}
+
+}  // namespace
+
+std::string describe(const PartGraph& graph, const PassPlanner& planner, const StepPlan& plan) {
+    std::string text = plural(plan.passes.size(), "pass");
+    if (plan.temporaries > 0) text += ", " + plural(plan.temporaries, "temporary plane");
+    if (plan.aggregates > 0) text += ", " + plural(plan.aggregates, "aggregate");
+    for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
+        const std::vector<std::string>& results = plan.passes[pass].bound.kernel.result_names;
+        if (results.empty()) continue;
+        text += fmt::format("\n  pass {}", pass + 1);
+        if (!plan.passes[pass].reductions.empty()) {
+            text += fmt::format(", after {}",
+                                plural(plan.passes[pass].reductions.size(), "aggregate"));
+        }
+        text += ": ";
+        for (std::size_t k = 0; k < results.size(); ++k) text += (k > 0 ? ", " : "") + results[k];
+    }
+    for (const PassPlanner::Brought& brought : planner.brought()) {
+        text += "\n  " + describe_brought(graph, brought);
+    }
+    return text;
+}
+
+}  // namespace cascade::lowering

@@ -1,0 +1,84 @@
+// The formulas of a stage as one graph of parts (internal to lowering).
+//
+// Definitions and rates are replaced by what they stand for, equal parts are one part, and operands
+// come before what reads them. Where a part is computed, and how often, is decided later
+// (lang/pass_planner.h).
+#pragma once
+
+#include "lang/program.h"
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace cascade::lowering {
+
+/// Where the random numbers of a formula come from.
+struct Noise {
+    std::string origin;       ///< The item's or definition's name, or a species' with a prime.
+    bool every_step = false;  ///< New numbers in each step.
+};
+
+/// Number of a part in its graph.
+using PartId = std::uint32_t;
+
+struct Part {
+    Node node;                         ///< Its operands are positions in a formula: see below.
+    std::array<PartId, most_operands> operands{};
+    std::uint32_t operand_count = 0;
+    const Formula* formula = nullptr;  ///< Where it is written; none of parts that are made here.
+    std::uint32_t position = 0;        ///< In that formula.
+    const Noise* noise = nullptr;      ///< Of parts that draw random numbers.
+    std::size_t draw = 0;              ///< Which draw of its formula, from 1.
+    bool is_uniform = false;           ///< The same in all cells.
+
+    bool calls(Function function) const {
+        return node.kind == NodeKind::call && node.function == function;
+    }
+};
+
+/// Is it an operator that reads its last operand at neighbours? (`div` reads at faces instead.)
+bool is_stencil(Function function);
+
+class PartGraph {
+public:
+    PartGraph(const Program& program, std::uint32_t stage)
+        : program_(program), stage_(stage) {}
+
+    /// Adds a formula and returns the part that is its value. What it reads of `own` items,
+    /// definitions and rates is taken from the parts set for them; own items without one are read
+    /// from planes and numbers.
+    PartId add(const Formula& formula, const Noise& noise);
+    void set_own(std::uint32_t item, PartId part) { own_[item] = part; }
+    void set_definition(std::uint32_t index, PartId part);
+    void set_rate(std::uint32_t item, PartId part);
+    /// The part that reads an item of this stage from its plane or number.
+    PartId item(std::uint32_t item);
+    /// The definition or rate that a part is the value of, as a user calls it; "" for others.
+    const std::string& name(PartId part) const;
+
+    const Program& program() const { return program_; }
+    std::uint32_t stage() const { return stage_; }
+    std::size_t size() const { return parts_.size(); }
+    const Part& operator[](PartId id) const { return parts_[id]; }
+
+private:
+    PartId intern(const Part& part);
+    PartId call(Function function, std::initializer_list<PartId> operands,
+                ValueType type = ValueType::number);
+    PartId tensor(const Part& part);
+    bool is_uniform(const Part& part) const;
+
+    const Program& program_;
+    std::uint32_t stage_;
+    std::vector<Part> parts_;
+    std::deque<Noise> noises_;
+    std::unordered_multimap<std::uint64_t, PartId> known_;
+    std::unordered_map<std::uint32_t, PartId> own_, definitions_, rates_;
+    std::unordered_map<PartId, std::string> names_;
+};
+
+}  // namespace cascade::lowering

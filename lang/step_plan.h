@@ -1,0 +1,86 @@
+// What is computed from planes, in order: passes over the grid, and reductions between them.
+//
+// Most formulas need one pass: every cell reads planes and writes its results. More are needed
+// where an operator is applied to what contains an operator itself, as in lap(c^3 - c - lap(c)):
+// the inner part is written to a temporary plane by one pass and read at neighbours by a later one.
+// Aggregates over the domain are computed between passes.
+#pragma once
+
+#include "ir/cell_kernel.h"
+#include "ir/reduction.h"
+#include "lang/program.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// Where the value of a kernel's slot comes from.
+struct SlotSource {
+    enum class Kind {
+        item,       ///< Item `item` of stage `stage` (a field slot, a mask slot or a uniform slot).
+        file,       ///< The file named Program::texts[item], as a field slot.
+        step,       ///< Uniform: complete steps of the stage when the step begins.
+        temporary,  ///< Temporary plane `item`, as a field slot.
+        aggregate,  ///< Uniform: aggregate `item` of the plan.
+        input,      ///< The stage's species `item` in input `stage` of a sweep, as a field slot.
+        coefficient,  ///< Uniform: coefficient `item` of a sweep.
+    };
+    Kind kind = Kind::item;
+    std::uint32_t stage = 0;
+    std::uint32_t item = 0;
+};
+
+/// A kernel, and what to put into its slots and where its results go.
+struct BoundKernel {
+    CellKernel kernel;
+    std::vector<SlotSource> fields;
+    std::vector<SlotSource> masks;
+    std::vector<SlotSource> uniforms;
+    std::vector<std::uint32_t> results;  ///< Item numbers of the stage; empty for views.
+};
+
+/// What becomes of one result of a pass.
+struct PassTarget {
+    enum class Kind { result, temporary };
+    Kind kind = Kind::result;
+    std::uint32_t index = 0;  ///< Of the plan's results or temporaries.
+};
+
+/// An aggregate over the domain, computed from a plane.
+struct Reduction {
+    ReductionKind kind = ReductionKind::sum;
+    SlotSource operand;            ///< An item, a file or a temporary.
+    std::uint32_t aggregate = 0;   ///< Which aggregate of the plan it is.
+};
+
+struct Pass {
+    std::vector<Reduction> reductions;  ///< Done before the pass, after the one before it.
+    BoundKernel bound;
+    std::vector<PassTarget> targets;    ///< One for each result of the kernel.
+};
+
+struct StepPlan {
+    std::vector<Pass> passes;           ///< The last one writes all results. Never empty.
+    std::vector<std::uint32_t> results; ///< Item numbers of the stage; empty for views.
+    std::uint32_t result_count = 0;
+    std::uint32_t temporaries = 0;      ///< Planes that passes write for later ones.
+    std::uint32_t aggregates = 0;
+    bool is_uniform = false;            ///< Every result is the same in all cells.
+    std::string words;                  ///< What the passes do and why, where it was asked for.
+};
+
+/// How operands of operators are brought to the neighbours. All choices give the same bits.
+enum class Bringing : std::uint8_t {
+    cheaper,      ///< What is cheap is recomputed at neighbours, what is dear is written to a plane.
+    recomputing,  ///< As much as possible is recomputed.
+    writing,      ///< Everything but planes is written.
+};
+
+struct PlanOptions {
+    Bringing bringing = Bringing::cheaper;
+    bool describe = false;  ///< Fill in StepPlan::words.
+};
+
+}  // namespace cascade

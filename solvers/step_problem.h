@@ -1,0 +1,74 @@
+// What the time loop computes in one step: passes over planes, with aggregates between them.
+#pragma once
+
+#include "core/grid.h"
+#include "core/plane.h"
+#include "ir/backend.h"
+#include "ir/reduction.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cascade {
+
+struct StepProblem {
+    /// A plane that a pass reads or writes.
+    struct PlaneRef {
+        enum class Kind : std::uint8_t {
+            species,    ///< Species `number` in register `in_register`.
+            temporary,  ///< Temporary `number`.
+            fixed,      ///< A plane that does not change: `cells` is its cell (0, 0, 0).
+        };
+        Kind kind = Kind::fixed;
+        std::uint32_t number = 0;
+        std::uint32_t in_register = 0;
+        const float* cells = nullptr;
+    };
+
+    /// A uniform that is not the same in all steps.
+    struct ChangingUniform {
+        enum class Kind : std::uint8_t {
+            step,         ///< Complete steps when the step begins.
+            time,         ///< t when the step begins, plus `value` times its length.
+            aggregate,    ///< Aggregate `number`.
+            coefficient,  ///< `value`, times the length of the step if `times_step`.
+        };
+        Kind kind = Kind::step;
+        std::uint32_t slot = 0;
+        std::uint32_t number = 0;
+        double value = 0;
+        bool times_step = false;
+    };
+
+    struct Reduction {
+        ReductionKind kind = ReductionKind::sum;
+        PlaneRef operand;
+        std::uint32_t aggregate = 0;
+    };
+
+    struct Result {
+        PlaneRef plane;
+        bool needs_halo = false;  ///< Something reads it at neighbours.
+    };
+
+    struct Pass {
+        std::vector<Reduction> reductions;  ///< Done before the kernel is run.
+        KernelPointer kernel;
+        std::vector<PlaneRef> fields;       ///< Of the kernel's field slots.
+        std::vector<const std::uint8_t*> masks;
+        std::vector<float> uniforms;
+        std::vector<ChangingUniform> changing;
+        std::vector<Result> results;
+    };
+
+    Grid grid;
+    std::vector<Pass> passes;               ///< In order. At least one.
+    /// The planes of all species at one moment are a register: 0 is the old step, 1 becomes the new
+    /// one, further ones are scratch.
+    std::uint32_t registers = 2;
+    std::uint32_t temporaries = 0;
+    std::uint32_t aggregates = 0;
+    std::vector<bool> species_needs_halo;   ///< Per species: the old step is read at neighbours.
+};
+
+}  // namespace cascade

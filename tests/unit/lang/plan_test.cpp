@@ -1,0 +1,168 @@
+// The planner: how many passes formulas take, what is written to planes and what is computed again.
+#include "check_helpers.h"
+
+#include "lang/lower.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace cascade::testing {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// The plan of a step of a system of these sentences.
+StepPlan step_of(const std::string& sentences, PlanOptions options = {Bringing::cheaper, true}) {
+    const auto checked = check_text("system s {\n" + sentences + "\n}\nstage only: s {}\n");
+    EXPECT_TRUE(checked->program) << sentences;
+    if (!checked->program) return {};
+    StepPlan plan = plan_step(*checked->program, 0, options);
+    for (const Pass& pass : plan.passes) EXPECT_EQ(verify(pass.bound.kernel), "") << sentences;
+    return plan;
+}
+
+std::size_t passes(const std::string& rate) { return step_of("u: x; u' = " + rate).passes.size(); }
+
+TEST(Plan, OnePassIsEnoughWithoutOperatorsInOperators) {
+    EXPECT_EQ(passes("lap(u) - u^3"), 1u);
+    EXPECT_EQ(passes("lap(u^3 - u)"), 1u);
+    EXPECT_EQ(passes("div(u * grad(u)) + grad2(u) + advect(1, u, u) + diffuse(u, 1, u, x)"), 1u);
+    EXPECT_EQ(passes("dx(u) * dy(u)"), 1u);
+}
+
+TEST(Plan, EveryLayerOfOperatorsTakesAPass) {
+    EXPECT_EQ(passes("lap(lap(u))"), 2u);
+    EXPECT_EQ(passes("lap(lap(lap(u)))"), 3u);
+    EXPECT_EQ(passes("lap(lap(u)) + dx(lap(dy(u)))"), 3u);
+    EXPECT_EQ(passes("div(lap(u) * grad(u))"), 2u);
+    EXPECT_EQ(passes("div(div(u * grad(u)) * grad(lap(u)))"), 2u);
+    EXPECT_EQ(passes("div(tensor(1, 2, lap(u)) * grad(u))"), 2u);
+    EXPECT_EQ(passes("diffuse(u, 1, 2, lap(u))"), 1u) << "the tensor is the cell's own";
+    EXPECT_EQ(passes("advect(dx(u), dy(u), u)"), 1u) << "so is the velocity";
+}
+
+TEST(Plan, PartsOfOneLayerShareAPass) {
+    const StepPlan plan = step_of("u: x; v: y; u' = lap(lap(u) + v); v' = lap(lap(v)) + lap(lap(u) + v)");
+    ASSERT_EQ(plan.passes.size(), 2u);
+    EXPECT_EQ(plan.temporaries, 2u) << "equal parts are one part";
+    EXPECT_EQ(plan.passes[0].targets.size(), 2u);
+}
+
+TEST(Plan, WhatIsDearIsWritten) {
+    EXPECT_EQ(passes("lap(exp(u) * sin(u))"), 2u);
+    EXPECT_EQ(passes("lap(random(u, 1))"), 2u);
+    EXPECT_EQ(passes("lap(disc(0.5, 0.5, 0.1) * u)"), 2u);
+    EXPECT_EQ(passes("div(tensor(1, 2, x + u) * grad(u))"), 2u) << "sine and cosine are dear";
+    EXPECT_EQ(passes("div(tensor(1, 2, 0.3) * grad(u))"), 1u);
+    const std::string words = step_of("u: x; u' = lap(exp(u))").words;
+    EXPECT_THAT(words, HasSubstr("2 passes, 1 temporary plane"));
+    EXPECT_THAT(words, HasSubstr("exp(u) is written to a plane: u' reads it at 4 neighbours"));
+    EXPECT_THAT(step_of("u: x; u' = lap(2 * u)").words,
+                HasSubstr("2 * u is computed again at 4 neighbours for u'"));
+}
+
+TEST(Plan, CanBeForced) {
+    const std::string rates = "u: x; u' = lap(exp(u)) + div(u^2 * grad(u + 1))";
+    EXPECT_EQ(step_of(rates, {Bringing::recomputing}).passes.size(), 1u);
+    EXPECT_EQ(step_of(rates, {Bringing::writing}).passes.size(), 2u);
+    EXPECT_EQ(step_of(rates, {Bringing::writing}).temporaries, 3u);
+}
+
+TEST(Plan, PlanesAreUsedAgain) {
+    const StepPlan plan = step_of("u: x; u' = lap(lap(lap(lap(lap(u)))))");
+    EXPECT_EQ(plan.passes.size(), 5u);
+    EXPECT_EQ(plan.temporaries, 2u);
+    // No pass reads what it writes.
+    for (const Pass& pass : plan.passes) {
+        std::set<std::uint32_t> written;
+        for (const PassTarget& target : pass.targets) {
+            if (target.kind == PassTarget::Kind::temporary) written.insert(target.index);
+        }
+        for (const SlotSource& source : pass.bound.fields) {
+            if (source.kind != SlotSource::Kind::temporary) continue;
+            EXPECT_FALSE(written.contains(source.item));
+        }
+    }
+}
+
+TEST(Plan, AggregatesStandBetweenPasses) {
+    const StepPlan direct = step_of("u: x; u' = mean(u over domain) - u");
+    ASSERT_EQ(direct.passes.size(), 1u) << "a species is a plane already";
+    EXPECT_EQ(direct.passes[0].reductions.size(), 1u);
+    const StepPlan written = step_of("u: x; u' = u * mean(u^2 over domain) + sum(u^2 over domain)");
+    ASSERT_EQ(written.passes.size(), 2u);
+    EXPECT_EQ(written.temporaries, 1u);
+    EXPECT_EQ(written.passes[1].reductions.size(), 2u);
+    EXPECT_EQ(step_of("u: x; u' = lap(u * mean(u over domain))").passes.size(), 1u)
+        << "a number can be used at neighbours";
+    EXPECT_EQ(step_of("u: x; u' = max(u - mean(u over domain) over domain) - u").passes.size(), 2u);
+}
+
+TEST(Plan, UnusedDefinitionsTakeNoPass) {
+    EXPECT_EQ(step_of("u: x; waste = lap(lap(u)); u' = lap(u)").passes.size(), 1u);
+}
+
+TEST(Plan, WideAndDeepFormulasArePlannedQuickly) {
+    std::string deep = "u";
+    for (int k = 0; k < 2000; ++k) deep = "(" + deep + " * u + 1)";
+    EXPECT_EQ(passes("lap(" + deep + ")"), 2u);
+    std::string wide = "u";
+    for (int k = 0; k < 500; ++k) wide += fmt::format(" + lap(u * {} + lap(u) * {})", k, k);
+    const StepPlan plan = step_of("u: x; u' = " + wide);
+    EXPECT_EQ(plan.passes.size(), 2u);
+    EXPECT_EQ(plan.temporaries, 500u);
+}
+
+TEST(PlanFaults, AreExplained) {
+    const auto faults = [](const std::string& rate) {
+        return check_text("system s {\nu: x\nu' = " + rate + "\n}").get()->faults();
+    };
+    const std::string takes = " | it takes something that can differ from cell to cell";
+    EXPECT_THAT(faults("lap(3)"), ElementsAre("3:10: lap of a number is 0 everywhere" + takes));
+    EXPECT_THAT(faults("div(u * grad(2 + 1))"),
+                ElementsAre("3:19: grad of a number is 0 everywhere" + takes));
+    EXPECT_THAT(faults("diffuse(1, 1, 1, 0)"),
+                ElementsAre("3:14: diffuse of a number is 0 everywhere" + takes));
+    EXPECT_THAT(faults("advect(u, u, 4)"),
+                ElementsAre("3:19: advect of a number is 0 everywhere" + takes));
+    EXPECT_THAT(faults("grad(u)"),
+                ElementsAre("3:6: a vector is no number | div(…) makes a number of it"));
+    EXPECT_THAT(faults("u + grad(u)"),
+                ElementsAre("3:6: a number and a vector cannot be added"));
+    EXPECT_THAT(faults("div(u)"),
+                ElementsAre("3:10: div takes a vector | "
+                            "such as grad(e), d * grad(e) or vector(ex, ey)"));
+    EXPECT_THAT(faults("div(grad(u) * grad(u))"),
+                ElementsAre("3:10: a vector cannot be multiplied by a vector | "
+                            "a number or a tensor can multiply a vector"));
+    EXPECT_THAT(faults("div(grad(u) * tensor(1, 1, 0))"),
+                ElementsAre("3:10: a vector cannot be multiplied by a tensor | "
+                            "the tensor stands before the vector"));
+    EXPECT_THAT(faults("div(u / grad(u))"),
+                ElementsAre("3:10: a number cannot be divided by a vector"));
+    EXPECT_THAT(faults("tensor(1, 1, 0)"),
+                ElementsAre("3:6: a tensor is no number | "
+                            "it multiplies a vector: div(tensor(a1, a2, theta) * grad(e))"));
+    EXPECT_THAT(faults("sin(grad(u))"),
+                ElementsAre("3:10: a vector is no number | div(…) makes a number of it"));
+    EXPECT_THAT(faults("div(if(u, grad(u), grad(u)))"),
+                ElementsAre("3:25: if chooses between two numbers or two colours"));
+    EXPECT_THAT(faults("advect(1, u)"), ElementsAre("3:6: advect takes 3 or 4 values, not 2 | "
+                                                    "advect(vx, vy, e): (vx, vy) · gradient of e, "
+                                                    "taken from where it flows"));
+    EXPECT_THAT(faults("u\nu >= lap(u)"),
+                Contains("4:6: lap cannot stand here | "
+                         "a bound is made of numbers and parameters only"));
+    std::string deep = "u";
+    for (int k = 0; k < 40; ++k) deep = "lap(" + deep + ")";
+    EXPECT_THAT(faults(deep), ElementsAre(HasSubstr("operators lie too deep in each other | "
+                                                    "at most 32 may")));
+}
+
+}  // namespace
+}  // namespace cascade::testing

@@ -1,0 +1,313 @@
+// Operators against calculus: manufactured solutions and their orders, what is conserved, directions,
+// aggregates. Parameters of a stage are computed from others, so a stage that takes no step is
+// enough to see what an operator gives.
+#include "run/simulation.h"
+
+#include "core/grid.h"
+#include "run/script.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <string>
+
+namespace cascade {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A script that has been started, and perhaps has run.
+class Started {
+public:
+    explicit Started(const std::string& text, bool runs = false)
+        : script_(load_script("test", text, ".")) {
+        EXPECT_TRUE(script_.program) << script_.messages(false) << text;
+        if (!script_.program) return;
+        simulation_ = Simulation::create(script_, {BackendKind::interpreter, 0, 2}).value();
+        for (std::uint32_t k = 0; k < script_.program->stages.size(); ++k) {
+            EXPECT_TRUE(simulation_->start_stage(k)) << text;
+            if (!runs) continue;
+            RunControl control;
+            const auto end = simulation_->advance_stage(
+                k, script_.program->stages[k].iterations, control, nullptr);
+            EXPECT_TRUE(end) << (end ? "" : end.error().message);
+        }
+    }
+
+    const Field& field(const std::string& name, std::uint32_t stage = 0) const {
+        return simulation_->state(stage).field(item(name, stage));
+    }
+    float number(const std::string& name, std::uint32_t stage = 0) const {
+        return simulation_->state(stage).numbers[item(name, stage)];
+    }
+    bool is_uniform(const std::string& name) const {
+        return script_.program->stages[0].uniform[item(name, 0)];
+    }
+    double sum(const std::string& name) const {
+        const Field& cells = field(name);
+        double sum = 0;
+        for (std::int64_t row = 0; row < cells.layout().row_count(); ++row) {
+            for (std::int64_t i = 0; i < cells.layout().width; ++i) sum += cells.row(row)[i];
+        }
+        return sum;
+    }
+
+private:
+    std::uint32_t item(const std::string& name, std::uint32_t stage) const {
+        const System& system = script_.program->system_of(stage);
+        for (std::uint32_t k = 0; k < system.quantities.size(); ++k) {
+            if (system.quantities[k].name == name) return k;
+        }
+        ADD_FAILURE() << "no item " << name;
+        return 0;
+    }
+
+    Script script_;
+    std::unique_ptr<Simulation> simulation_;
+};
+
+using Function2 = std::function<double(double x, double y)>;
+
+/// The largest error of `operation`, applied to f, on a square of `side` cells that is 1 wide.
+/// `derivatives` counts its derivatives, for operators are in units of the cell.
+double largest_error(const std::string& operation, const std::string& extra, int side,
+                     int derivatives, const Function2& exact, const std::string& boundary) {
+    const Started run(fmt::format(
+        "system s {{ u: 0; u' = 0 * u\n {}\n r: {} }}\n"
+        "domain {{ grid: {}, {}; boundary: {} }}\nstage only: s {{ iterations: 0 }}\n",
+        extra, operation, side, side, boundary));
+    const double scale = std::pow(side, derivatives);
+    double largest = 0;
+    for (int j = 0; j < side; ++j) {
+        for (int i = 0; i < side; ++i) {
+            const double found = scale * static_cast<double>(run.field("r").at(i, j));
+            largest = std::max(largest, std::abs(found - exact((i + 0.5) / side, (j + 0.5) / side)));
+        }
+    }
+    return largest;
+}
+
+/// The derivative of a function by a difference so small that only rounding is left.
+double along_x(const Function2& f, double x, double y) {
+    return (f(x + 1e-5, y) - f(x - 1e-5, y)) / 2e-5;
+}
+double along_y(const Function2& f, double x, double y) {
+    return (f(x, y + 1e-5) - f(x, y - 1e-5)) / 2e-5;
+}
+
+struct Case {
+    std::string operation;
+    int derivatives;
+    double order;
+    Function2 exact;
+};
+
+void expect_orders(const std::vector<Case>& cases, const std::string& extra,
+                   const std::string& boundary) {
+    for (const Case& each : cases) {
+        const double coarse =
+            largest_error(each.operation, extra, 24, each.derivatives, each.exact, boundary);
+        const double fine =
+            largest_error(each.operation, extra, 48, each.derivatives, each.exact, boundary);
+        const double order = std::log2(coarse / fine);
+        EXPECT_NEAR(order, each.order, 0.2) << each.operation << " with " << boundary << ": "
+                                            << coarse << ", " << fine;
+        std::printf("%-44s order %.2f, error %.2g on 48²\n", each.operation.c_str(), order, fine);
+    }
+}
+
+TEST(Operators, ConvergeAtTheirOrders) {
+    const Function2 f = [](double x, double y) { return std::sin(2 * pi * (x + 2 * y)); };
+    const auto c = [](double x, double y) { return std::cos(2 * pi * (x + 2 * y)); };
+    const Function2 fx = [=](double x, double y) { return 2 * pi * c(x, y); };
+    const Function2 fy = [=](double x, double y) { return 4 * pi * c(x, y); };
+    const Function2 k = [](double x, double) { return 2 + std::cos(2 * pi * x); };
+    const double cosine = std::cos(0.6), sine = std::sin(0.6);
+    const auto tensor = [=](double a1, double a2) {
+        return std::array{a1 * a1 * cosine * cosine + a2 * a2 * sine * sine,
+                          (a1 * a1 - a2 * a2) * sine * cosine,
+                          a1 * a1 * sine * sine + a2 * a2 * cosine * cosine};
+    };
+    const auto constant = tensor(2, 0.5);
+    const Function2 flux_x = [=](double x, double y) {
+        const auto a = tensor(k(x, y), 0.5);
+        return a[0] * fx(x, y) + a[1] * fy(x, y);
+    };
+    const Function2 flux_y = [=](double x, double y) {
+        const auto a = tensor(k(x, y), 0.5);
+        return a[1] * fx(x, y) + a[2] * fy(x, y);
+    };
+    const double p2 = pi * pi;
+    const auto of_constant = [=](double x, double y) {
+        return -p2 * (4 * constant[0] + 16 * constant[2] + 16 * constant[1]) * f(x, y);
+    };
+    expect_orders(
+        {
+            {"lap(f)", 2, 2, [=](double x, double y) { return -20 * p2 * f(x, y); }},
+            {"lap(2 * f + 1)", 2, 2, [=](double x, double y) { return -40 * p2 * f(x, y); }},
+            {"lap(lap(f))", 4, 2, [=](double x, double y) { return 400 * p2 * p2 * f(x, y); }},
+            {"dx(f)", 1, 2, fx},
+            {"dy(f)", 1, 2, fy},
+            {"dxx(f)", 2, 2, [=](double x, double y) { return -4 * p2 * f(x, y); }},
+            {"dyy(f)", 2, 2, [=](double x, double y) { return -16 * p2 * f(x, y); }},
+            {"dxy(f)", 2, 2, [=](double x, double y) { return -8 * p2 * f(x, y); }},
+            {"dx(dy(f))", 2, 2, [=](double x, double y) { return -8 * p2 * f(x, y); }},
+            {"grad2(f)", 2, 2, [=](double x, double y) { return 20 * p2 * c(x, y) * c(x, y); }},
+            {"advect(0.7, -0.4, f)", 1, 1,
+             [=](double x, double y) { return 0.7 * fx(x, y) - 0.4 * fy(x, y); }},
+            {"div(grad(f))", 2, 2, [=](double x, double y) { return -20 * p2 * f(x, y); }},
+            {"div(k * grad(f))", 2, 2,
+             [=](double x, double y) {
+                 return -20 * p2 * k(x, y) * f(x, y) + along_x(k, x, y) * fx(x, y);
+             }},
+            {"div(grad(f) / k - -grad(f))", 2, 2,
+             [=](double x, double y) {
+                 const Function2 flux = [=](double s, double t) {
+                     return fx(s, t) * (1 / k(s, t) + 1);
+                 };
+                 return along_x(flux, x, y) - 16 * p2 * f(x, y) * (1 / k(x, y) + 1);
+             }},
+            {"div(vector(k * f, f))", 1, 2,
+             [=](double x, double y) {
+                 return along_x([=](double s, double t) { return k(s, t) * f(s, t); }, x, y) +
+                        fy(x, y);
+             }},
+            {"diffuse(f, 2, 0.5, 0.6)", 2, 2, of_constant},
+            {"div(tensor(2, 0.5, 0.6) * grad(f))", 2, 2, of_constant},
+            {"div(tensor(k, 0.5, 0.6) * grad(f))", 2, 2,
+             [=](double x, double y) { return along_x(flux_x, x, y) + along_y(flux_y, x, y); }},
+            {"diffuse(f, k, 0.5, 0.6)", 2, 2,
+             [=](double x, double y) {
+                 const auto a = tensor(k(x, y), 0.5);
+                 return -p2 * (4 * a[0] + 16 * a[2] + 16 * a[1]) * f(x, y);
+             }},
+        },
+        "f: sin(2 * pi * (x + 2 * y))\n k: 2 + cos(2 * pi * x)", "periodic");
+}
+
+TEST(Operators, ConvergeAtSidesThatMirror) {
+    const Function2 f = [](double x, double y) { return std::cos(pi * x) * std::cos(2 * pi * y); };
+    const double p2 = pi * pi;
+    const Function2 minus5 = [=](double x, double y) { return -5 * p2 * f(x, y); };
+    expect_orders({{"lap(f)", 2, 2, minus5},
+                   {"lap(exp(log(2 + f)) - 2)", 2, 2, minus5},
+                   {"div(grad(f))", 2, 2, minus5},
+                   {"dx(f)", 1, 2,
+                    [](double x, double y) {
+                        return -pi * std::sin(pi * x) * std::cos(2 * pi * y);
+                    }}},
+                  "f: cos(pi * x) * cos(2 * pi * y)", "noflux");
+}
+
+/// Waves along and across the direction theta decay with a1² and a2² (Witkin & Kass, section 3).
+TEST(Operators, DirectionsTurnFromXTowardsY) {
+    const std::string waves = "theta: atan2(1, 2)\n along: sin(2 * pi * (2 * x + y))\n"
+                              "across: sin(2 * pi * (2 * y - x))";
+    for (const char* of : {"diffuse({}, 2, 0.1, theta)", "div(tensor(2, 0.1, theta) * grad({}))"}) {
+        const double q2 = 20 * pi * pi;
+        const auto exact = [&](double rate, double a, double b) -> Function2 {
+            return [=](double x, double y) {
+                return -rate * q2 * std::sin(2 * pi * (a * x + b * y));
+            };
+        };
+        const std::string along = fmt::format(fmt::runtime(of), "along");
+        const std::string across = fmt::format(fmt::runtime(of), "across");
+        EXPECT_LT(largest_error(along, waves, 64, 2, exact(4, 2, 1), "periodic"), 0.05 * 4 * q2);
+        EXPECT_LT(largest_error(across, waves, 64, 2, exact(0.01, -1, 2), "periodic"),
+                  0.01 * 4 * q2);
+    }
+}
+
+TEST(Operators, OfWhatIsTheSameEverywhereAreZero) {
+    const Started run("system s { u: 0.1; k: 0.3; u' = lap(k) + div(k * grad(k)) + advect(1, 1, k)"
+                      " + diffuse(k, 1, 2, 3)\n r: lap(k) + grad2(k * 3) }\n"
+                      "stage only: s { iterations: 3 }\n", true);
+    EXPECT_TRUE(run.is_uniform("r"));
+    EXPECT_EQ(run.number("r"), 0.0f);
+    EXPECT_EQ(run.field("u").at(5, 5), 0.1f);
+}
+
+TEST(Operators, AlongAnAxisOfOneCellAreZero) {
+    const Started run("system s { u: x; u' = dy(u) + dyy(u) + dxy(u) + dz(u) + dzz(u)"
+                      " + advect(0, 1, u) + div(vector(0, u)) }\n"
+                      "domain { grid: 32, 1; boundary: noflux }\n"
+                      "stage only: s { iterations: 3 }\n", true);
+    EXPECT_EQ(run.field("u").at(8, 0), 8.5f / 32);
+}
+
+/// What is lost or won by rounding is far below what any flux moves.
+TEST(Operators, FluxFormConservesSums) {
+    struct Conserved {
+        const char* name;
+        const char* system;
+        double speed;
+    };
+    const Conserved systems[] = {
+        {"Cahn-Hilliard", "c: random(0.2, 0.1); mu = c^3 - c - 0.5 * lap(c); c' = lap(mu)", 0.02},
+        {"chemotaxis",
+         "c: random(1, 0.1); bait: 1\n c' = lap(c) - div(5 * c * grad(bait))\n"
+         "bait' = 10 * lap(bait) + c / (1 + c) - bait", 0.02},
+        {"tensor",
+         "c: random(1, 0.5); c' = div(tensor(0.5 + x, 0.3, 6 * y) * grad(c) + vector(c * y, -c))",
+         0.05},
+        {"dear mobility", "c: random(1, 0.5); c' = div(exp(-c * c) * grad(log(c)))", 0.05},
+    };
+    for (const Conserved& each : systems) {
+        for (const char* boundary : {"periodic", "noflux"}) {
+            const auto text = [&](int steps) {
+                return fmt::format("system s {{ {} }}\ndomain {{ grid: 48, 40; boundary: {} }}\n"
+                                   "stage only: s {{ iterations: {}; speed: {} }}\n",
+                                   each.system, boundary, steps, each.speed);
+            };
+            const Started before(text(0)), after(text(400), true);
+            EXPECT_NEAR(after.sum("c") / before.sum("c"), 1, 2e-6) << each.name << ", " << boundary;
+            // Something has moved.
+            EXPECT_GT(std::abs(after.field("c").at(7, 7) - before.field("c").at(7, 7)), 1e-3)
+                << each.name;
+        }
+    }
+}
+
+TEST(Aggregates, AreSumsMeansAndExtremes) {
+    const Started run("system s { u: 0; u' = 0 * u; f: x * 2 + y\n"
+                      "mean_f: mean(f over domain); sum_f: sum(f over domain)\n"
+                      "least: min(f over domain); largest: max(f * f over domain)\n"
+                      "again: mean(f - mean(f over domain) over domain) + least\n"
+                      "scaled: f - mean_f\n steep: max(grad2(f) over domain) }\n"
+                      "domain { grid: 40, 20; boundary: noflux }\nstage only: s { iterations: 0 }\n");
+    EXPECT_TRUE(run.is_uniform("mean_f"));
+    EXPECT_FALSE(run.is_uniform("scaled"));
+    EXPECT_FLOAT_EQ(run.number("mean_f"), 1.25f);
+    EXPECT_FLOAT_EQ(run.number("sum_f"), 1000.0f);
+    EXPECT_FLOAT_EQ(run.number("least"), 0.0375f);
+    const double most = 2 * 39.5 / 40 + 19.5 / 40;
+    EXPECT_FLOAT_EQ(run.number("largest"), static_cast<float>(most * most));
+    EXPECT_NEAR(run.number("again"), 0.0375, 1e-6);
+    EXPECT_NEAR(run.sum("scaled"), 0, 1e-3);
+    EXPECT_NEAR(run.number("steep"), 5.0 / 1600, 1e-8);
+}
+
+TEST(Aggregates, AreTakenAnewInEveryStep) {
+    // u' = mean(u) − u keeps the mean; a constant loss spread over all cells lowers it by 1 each.
+    const Started run("system s { u: x; v: x; u' = mean(u over domain) - u\n"
+                      "v' = -v / sum(v over domain) }\n"
+                      "domain { grid: 32, 32 }\nstage only: s { iterations: 64; speed: 0.25 }\n",
+                      true);
+    EXPECT_NEAR(run.field("u").at(0, 0), 0.5, 1e-6);
+    EXPECT_NEAR(run.sum("v"), 512 - 16, 1e-3);
+}
+
+TEST(Aggregates, SeeNaN) {
+    const Started run("system s { u: 0; u' = 0 * u; f: if(x < 0.5, 1, log(-x))\n"
+                      "largest: max(f over domain); least: min(f over domain) }\n"
+                      "stage only: s { iterations: 0 }\n");
+    EXPECT_TRUE(std::isnan(run.number("largest")));
+    EXPECT_TRUE(std::isnan(run.number("least")));
+}
+
+}  // namespace
+}  // namespace cascade
