@@ -3,6 +3,7 @@
 #include "app/add_value.h"
 #include "app/help.h"
 #include "core/palette.h"
+#include "lang/program.h"
 #include "run/dump.h"
 #include "run/simulation.h"
 
@@ -44,6 +45,10 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
                    "A parameter or setting: ka=1/400, large.ka=1/400;\nmay be given again")
         ->allow_extra_args(false)
         ->type_name("NAME=EXPR")
+        ->group(group);
+    add_value(app, "--solver", "NAME",
+              help::in_lines(solver_names()) + "\nfor every stage, which takes as much time as before",
+              one_of(solver_names()), [&](auto solver) { overrides.solver = solver; })
         ->group(group);
     add_value(app, "--steps", "N", "At most so many steps in every stage",
               whole_number(0, std::numeric_limits<std::int64_t>::max()),

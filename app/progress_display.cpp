@@ -28,6 +28,7 @@ std::string draw_bar(double share, int width) {
 }
 
 double share_of(const Progress& progress) {
+    if (progress.duration > 0) return std::clamp(progress.t / progress.duration, 0.0, 1.0);
     if (progress.steps <= 0) return 1.0;
     return static_cast<double>(progress.step) / static_cast<double>(progress.steps);
 }
@@ -98,7 +99,9 @@ std::string fitting_bar(const std::string& left, double share, const std::vector
 
 std::string progress_bar(const Progress& progress, int columns) {
     std::vector<std::string> facts = {
-        fmt::format("{}/{}", with_commas(progress.step), with_commas(progress.steps))};
+        progress.duration > 0
+            ? fmt::format("t {:.5g}/{:.5g}", progress.t, progress.duration)
+            : fmt::format("{}/{}", with_commas(progress.step), with_commas(progress.steps))};
     if (auto text = left_text(progress); !text.empty()) facts.push_back(text);
     if (auto text = rate_text(progress.steps_per_second); !text.empty()) facts.push_back(text);
     return fitting_bar("stage " + stage_text(progress) + " ", share_of(progress), facts, columns);
@@ -117,8 +120,12 @@ std::string progress_line(const SweepProgress& progress) {
 }
 
 std::string progress_line(const Progress& progress) {
-    std::string line = fmt::format("stage {}: {} of {} steps", stage_text(progress),
-                                   with_commas(progress.step), with_commas(progress.steps));
+    std::string line =
+        progress.duration > 0
+            ? fmt::format("stage {}: t = {:.6g} of {:.6g}, {} steps", stage_text(progress), progress.t,
+                          progress.duration, with_commas(progress.step))
+            : fmt::format("stage {}: {} of {} steps", stage_text(progress),
+                          with_commas(progress.step), with_commas(progress.steps));
     for (const std::string& fact : {rate_text(progress.steps_per_second), left_text(progress)}) {
         if (!fact.empty()) line += ", " + fact;
     }

@@ -15,6 +15,8 @@ struct Progress {
     int stage_count = 1;
     std::int64_t step = 0;       ///< Complete steps of this stage.
     std::int64_t steps = 0;      ///< Steps this stage will take.
+    double t = 0;                ///< The stage's time, where its end is given by time,
+    double duration = 0;         ///< and that end; 0 where it is given by steps.
     double steps_per_second = 0; ///< Recent rate; 0 while unknown.
     double seconds_left = -1;    ///< Of this stage at that rate; negative while unknown.
     bool stage_done = false;

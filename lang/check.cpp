@@ -103,8 +103,10 @@ std::optional<ast::Expression> picture_expression(const ast::Script& script) {
 std::vector<std::string> known_names(const Program& program) {
     std::set<std::string> names{"system", "stage", "domain", "picture", "system_name", "grid",
                                 "boundary", "seed", "color", "periodic", "noflux",
-                                "iterations", "interval", "frozen", "speed", "show",
+                                "auto", "steady",
                                 "x", "y", "z", "sx", "sy", "sz", "t", "step", "pi", "and", "or", "not"};
+    names.insert(checking::setting_names().begin(), checking::setting_names().end());
+    for (std::string& solver : solver_names()) names.insert(std::move(solver));
     for (std::size_t i = 0; i < function_count; ++i) {
         const FunctionInfo& row = info(static_cast<Function>(i));
         if (!row.is_operator && !row.is_aggregate) names.emplace(row.spelling);

@@ -84,7 +84,7 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
 /// Words that belong to the language and are no values of a stage.
 bool report_reserved(Workspace& work, const Scope& scope, std::string_view name, Span span) {
     const Reserved kind = reserved(name);
-    if (kind == Reserved::later_builtin || kind == Reserved::later_setting) {
+    if (kind == Reserved::later_builtin) {
         report(work, span, fmt::format("'{}' is not in this version of the language", name), "");
         return true;
     }

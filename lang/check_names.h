@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -77,8 +78,11 @@ struct Scope {
 };
 
 /// Whether the language gives a word a meaning of its own, so that nobody can declare it.
-enum class Reserved : std::uint8_t { no, setting, later_setting, builtin, later_builtin };
+enum class Reserved : std::uint8_t { no, setting, builtin, later_builtin };
 Reserved reserved(std::string_view name);
+
+/// The settings of a stage.
+std::span<const std::string_view> setting_names();
 
 /// The table of a system's names.
 NameTable names_of(const System& system);

@@ -30,9 +30,7 @@ void report_unknown_override(Workspace& work, const ast::Word& name) {
             names.push_back(std::move(each));
         }
     }
-    for (const char* setting : {"iterations", "interval", "frozen", "speed", "show"}) {
-        names.emplace_back(setting);
-    }
+    names.insert(names.end(), setting_names().begin(), setting_names().end());
     work.diagnostics.error(name.span, fmt::format("no stage has a parameter '{}'", name.text),
                            did_you_mean(work, name.text, names));
 }

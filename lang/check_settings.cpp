@@ -1,5 +1,7 @@
-// Settings: iterations, interval, frozen, speed, show, in systems and in stages.
+// Settings: iterations, interval, frozen, speed, show, in systems and in stages. Those of time are
+// in check_time.cpp.
 #include "lang/check_blocks.h"
+#include "lang/check_time.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +10,6 @@
 namespace cascade::checking {
 
 namespace {
-
-constexpr double most_iterations = 1e9;
 
 Span span_of(const ast::Script& script, ast::Expression expression) {
     return script.expressions[expression.root].span;
@@ -31,12 +31,12 @@ std::optional<std::int64_t> check_count(Workspace& work, const ast::Script& scri
     const Span span = span_of(script, sentence.values[0]);
     const auto value = check_constant(work, script, sentence.values[0], name);
     if (!value) return std::nullopt;
-    const double least = name == "interval" ? 1 : 0;
+    const double least = name == "iterations" ? 0 : 1;
     if (*value < least) {
         work.diagnostics.error(span, fmt::format("{} must be at least {}", name, least));
         return std::nullopt;
     }
-    if (*value > most_iterations) {
+    if (*value > static_cast<double>(most_iterations)) {
         work.diagnostics.error(span, fmt::format("{} must be at most 1000000000", name));
         return std::nullopt;
     }
@@ -55,6 +55,8 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Senten
         settings.iterations = check_count(work, script, sentence);
     } else if (name == "interval") {
         settings.interval = check_count(work, script, sentence);
+    } else if (is_time_setting(script, sentence)) {
+        check_time_setting(work, script, sentence, scope, settings);
     } else if (name == "show") {
         Scope picture = scope;
         picture.place = Place::picture;
@@ -68,7 +70,14 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Senten
             work.diagnostics.error(span_of(script, sentence.values[0]), "speed must be above 0");
             return;
         }
+        if (name == "speed") settings.time.automatic_speed = false;
         (name == "speed" ? settings.speed : settings.frozen) = std::move(checked->formula);
+    }
+    if ((name == "duration" || name == "iterations") && settings.time.duration &&
+        settings.iterations) {
+        work.diagnostics.error(sentence.name.span,
+                               "a stage ends by its iterations or by its duration, not by both",
+                               "leave one of them out");
     }
 }
 

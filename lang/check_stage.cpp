@@ -4,6 +4,7 @@
 #include "lang/check_circles.h"
 #include "lang/check_expression.h"
 #include "lang/library.h"
+#include "lang/check_time.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +18,6 @@ constexpr std::size_t most_stages = 1000;
 /// Defaults are copied into every stage; a script whose copies hold more parts than this is
 /// refused before it fills the memory.
 constexpr std::size_t most_copied_nodes = 8u << 20;
-constexpr std::int64_t default_iterations = 1000;
 
 Formula number_formula(double value, Span span) {
     Node node;
@@ -124,10 +124,13 @@ void StageChecker::run(const ast::Block& block,
     from_system_.assign(system().item_count(), false);
     for (const Statement& statement : statements) set(statement);
     for (const Formula& formula : stage().items) mark_reads(work_, formula, stage().system);
-    if (settings_.show) mark_reads(work_, *settings_.show, stage().system);
+    for (const auto* formula : {&settings_.show, &settings_.time.until}) {
+        if (*formula) mark_reads(work_, **formula, stage().system);
+    }
     fill_defaults();
     order_items();
     find_uniform();
+    check_time(work_, index_);
 }
 
 void StageChecker::set(const Statement& statement) {
@@ -136,11 +139,6 @@ void StageChecker::set(const Statement& statement) {
     const Reserved kind = reserved(name);
     if (kind == Reserved::setting) {
         check_setting(work_, script_, sentence, scope(), settings_);
-        return;
-    }
-    if (kind == Reserved::later_setting) {
-        work_.diagnostics.error(sentence.name.span,
-                                fmt::format("'{}' is not in this version of the language", name));
         return;
     }
     const Meaning* meaning = find(work_.names[stage().system], name);
@@ -178,9 +176,7 @@ void StageChecker::report_unknown(const Statement& statement) {
         std::vector<std::string> names = quantity_names(system());
         diagnostic.notes.push_back({std::nullopt, fmt::format("{} has {}", system().name,
                                                               list_names(names))});
-        for (const char* setting : {"iterations", "interval", "frozen", "speed", "show"}) {
-            names.emplace_back(setting);
-        }
+        names.insert(names.end(), setting_names().begin(), setting_names().end());
         diagnostic.hint = did_you_mean(work_, statement.name, names);
     }
     work_.diagnostics.add(std::move(diagnostic));
@@ -220,10 +216,7 @@ void StageChecker::fill_defaults() {
     take_default(from.speed_item(), pick(defaults.speed, std::nullopt), 1);
 
     Stage& target = stage();
-    target.iterations =
-        settings_.iterations.value_or(defaults.iterations.value_or(default_iterations));
-    const std::int64_t interval = std::max<std::int64_t>(1, target.iterations / 10);
-    target.interval = settings_.interval.value_or(defaults.interval.value_or(interval));
+    fill_time(target, settings_, defaults);
     if (const Formula* show = pick(settings_.show, defaults.show)) {
         target.show = *show;
         return;

@@ -86,11 +86,6 @@ void SystemChecker::run() {
 bool SystemChecker::can_declare(const Statement& statement) {
     const std::string_view name = statement.sentence->name.text;
     const Reserved kind = reserved(name);
-    if (kind == Reserved::later_setting) {
-        work_.diagnostics.error(
-            statement.span(), fmt::format("'{}' is not in this version of the language", name));
-        return false;
-    }
     if (kind == Reserved::builtin || kind == Reserved::later_builtin) {
         work_.diagnostics.error(
             statement.span(), fmt::format("'{}' is built in and cannot be declared", name));
@@ -308,7 +303,8 @@ void SystemChecker::check_settings() {
         check_setting(work_, *statement->script, *statement->sentence,
                       scope(Place::value, *statement), settings);
     }
-    for (const auto* formula : {&settings.frozen, &settings.speed, &settings.show}) {
+    for (const auto* formula :
+         {&settings.frozen, &settings.speed, &settings.show, &settings.time.until}) {
         if (*formula) mark_reads(work_, **formula, index_);
     }
     system().settings = std::move(settings);

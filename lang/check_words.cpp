@@ -16,6 +16,10 @@ constexpr std::size_t most_suggestions = 200;
 constexpr std::size_t most_names_compared = 1'000'000;
 constexpr std::size_t most_listed = 24;
 
+constexpr std::array<std::string_view, 11> settings{
+    "iterations", "interval", "frozen", "speed", "show", "duration",
+    "solver",     "tolerance", "until", "check", "start"};
+
 template <std::size_t count>
 bool among(const std::array<std::string_view, count>& words, std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
@@ -24,20 +28,17 @@ bool among(const std::array<std::string_view, count>& words, std::string_view wo
 }  // namespace
 
 Reserved reserved(std::string_view name) {
-    static constexpr std::array<std::string_view, 5> settings{"iterations", "interval", "frozen",
-                                                              "speed", "show"};
-    static constexpr std::array<std::string_view, 6> later_settings{
-        "duration", "solver", "tolerance", "until", "check", "start"};
     static constexpr std::array<std::string_view, 9> builtins{"x",  "y",  "z", "sx",  "sy",
                                                               "sz", "t", "step", "pi"};
     static constexpr std::array<std::string_view, 4> later_builtins{"nx", "ny", "nz",
                                                                     "curvature"};
     if (among(settings, name)) return Reserved::setting;
-    if (among(later_settings, name)) return Reserved::later_setting;
     if (among(builtins, name)) return Reserved::builtin;
     if (among(later_builtins, name)) return Reserved::later_builtin;
     return Reserved::no;
 }
+
+std::span<const std::string_view> setting_names() { return settings; }
 
 NameTable names_of(const System& system) {
     NameTable table;

@@ -42,6 +42,8 @@ public:
     ValueId step();
     /// The length of the step that is taken.
     ValueId time_step();
+    /// The time when rates are evaluated.
+    ValueId time();
     /// A species in an input of a sweep, in the own cell. Formulas read input 0.
     ValueId input(std::uint32_t input, std::uint32_t item);
     ValueId coefficient(std::uint32_t index);

@@ -106,7 +106,19 @@ ValueId KernelAssembly::item(std::uint32_t stage, std::uint32_t item) {
     return beside(field_slot(stage, item));
 }
 
-ValueId KernelAssembly::time_step() { return own_item(system().speed_item()); }
+/// The stage's speed, unless the time loop gives steps another length.
+ValueId KernelAssembly::time_step() {
+    const StageTime& time = stage().time;
+    if (!time.has_duration() && !time.chooses_steps()) return own_item(system().speed_item());
+    return uniform("time step", {SlotSource::Kind::time_step, stage_, 0});
+}
+
+/// One time for all cells is kept by the time loop.
+ValueId KernelAssembly::time() {
+    const std::uint32_t speed = system().speed_item();
+    if (stage().uniform[speed]) return uniform("t", {SlotSource::Kind::time, stage_, 0});
+    return builder_.multiply(step(), time_step());
+}
 
 ValueId KernelAssembly::step() { return uniform("step", {SlotSource::Kind::step, stage_, 0}); }
 
@@ -164,7 +176,7 @@ ValueId KernelAssembly::make_builtin(Builtin builtin) {
         case Builtin::sy: return coordinate(row(), grid.height);
         case Builtin::z: return coordinate(slice(), grid.longest_side());
         case Builtin::sz: return coordinate(slice(), grid.depth);
-        case Builtin::t: return builder_.multiply(step(), time_step());
+        case Builtin::t: return time();
         case Builtin::step: return step();
     }
     CHECK(false, "lowering: every built-in value has a meaning");

@@ -54,11 +54,30 @@ const char* kind_of(const Program& program, std::uint32_t index, std::uint32_t i
     return program.stages[index].uniform[item] ? "uniform" : "varies";
 }
 
+/// What is not as it is by default.
+void print_time(const Program& program, const System& system, const Stage& stage,
+                std::uint32_t index, Output out) {
+    const StageTime& time = stage.time;
+    if (time.solver != Solver::euler) fmt::format_to(out, "  solver: {}\n", name_of(time.solver));
+    if (is_adaptive(time.solver)) fmt::format_to(out, "  tolerance: {}\n", time.tolerance);
+    if (time.duration) fmt::format_to(out, "  duration: {}\n", *time.duration);
+    if (time.duration_in_steps) {
+        fmt::format_to(out, "  duration: {} * [speed]\n", *time.duration_in_steps);
+    }
+    if (time.automatic_speed) fmt::format_to(out, "  speed: auto\n");
+    if (time.steady) fmt::format_to(out, "  until: steady({})\n", *time.steady);
+    if (time.until) {
+        fmt::format_to(out, "  until: {}\n", print_formula(program, system, *time.until, index));
+    }
+    if (time.steady || time.until) fmt::format_to(out, "  check: {}\n", time.check);
+}
+
 void print_stage(const Program& program, std::uint32_t index, Output out) {
     const Stage& stage = program.stages[index];
     const System& system = program.system_of(index);
     fmt::format_to(out, "stage {}: {} {{  # in order of computing\n", stage.name, system.name);
     fmt::format_to(out, "  iterations: {}\n  interval: {}\n", stage.iterations, stage.interval);
+    print_time(program, system, stage, index, out);
     for (const std::uint32_t item : stage.order) {
         fmt::format_to(out, "  {}: {}  # {}\n", system.item_name(item),
                        print_formula(program, system, stage.items[item], index),

@@ -4,6 +4,7 @@
 
 #include "core/grid.h"
 #include "core/source.h"
+#include "ir/solver.h"
 
 #include <array>
 #include <cstdint>
@@ -135,6 +136,36 @@ struct Invariant {
     Formula bound;              ///< Of numbers and parameters.
 };
 
+/// Settings of time that a system may give as defaults and a stage may replace.
+struct TimeSettings {
+    std::optional<Solver> solver;
+    std::optional<double> tolerance;
+    std::optional<double> duration;
+    std::optional<bool> automatic_speed;  ///< `speed: auto`; false where `speed` is an expression.
+    std::optional<Formula> until;         ///< Either a condition …
+    std::optional<double> steady;         ///< … or `steady(…)`.
+    std::optional<std::int64_t> check;
+};
+
+/// How the time of a stage goes on (spec/time.md).
+struct StageTime {
+    Solver solver = Solver::euler;
+    double tolerance = 1e-4;          ///< Of an adaptive solver: relative error of a step.
+    /// The stage ends when t is so large; empty where it ends after its iterations.
+    std::optional<double> duration;
+    /// The duration is so many times the speed when the stage starts.
+    std::optional<std::int64_t> duration_in_steps;
+    bool open_end = false;            ///< Only `until` ends it, or the most steps it may take.
+    bool automatic_speed = false;     ///< The step is as long as stability allows.
+    std::optional<Formula> until;     ///< The stage ends where this, the same in all cells, is true.
+    std::optional<double> steady;     ///< The stage ends when nothing changes by more.
+    std::int64_t check = 100;         ///< Steps between two looks at `until`.
+
+    bool has_duration() const { return duration || duration_in_steps; }
+    /// Are the steps of different length, chosen as the stage runs?
+    bool chooses_steps() const { return automatic_speed || is_adaptive(solver); }
+};
+
 /// Settings that a system may give as defaults and a stage may replace.
 struct Settings {
     std::optional<std::int64_t> iterations;
@@ -142,6 +173,7 @@ struct Settings {
     std::optional<Formula> frozen;
     std::optional<Formula> speed;
     std::optional<Formula> show;   ///< What a picture of a stage shows by default.
+    TimeSettings time;
 };
 
 /// An index of a system's families, `i: 1..3`.
@@ -184,9 +216,10 @@ struct Stage {
     std::vector<Formula> items;        ///< Starting value of every item.
     std::vector<std::uint32_t> order;  ///< Items in an order in which each can be evaluated.
     std::vector<bool> uniform;         ///< Per item: the same in all cells. Species never are.
-    std::int64_t iterations = 0;
-    std::int64_t interval = 1;
+    std::int64_t iterations = 0;       ///< With a duration: the most steps it may take.
+    std::int64_t interval = 1;         ///< 0 where looks are at tenths of the duration.
     Formula show;
+    StageTime time;
 };
 
 struct DomainSettings {

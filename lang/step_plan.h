@@ -22,6 +22,8 @@ struct SlotSource {
         item,       ///< Item `item` of stage `stage` (a field slot, a mask slot or a uniform slot).
         file,       ///< The file named Program::texts[item], as a field slot.
         step,       ///< Uniform: complete steps of the stage when the step begins.
+        time,       ///< Uniform: the stage's t when the rates are evaluated.
+        time_step,  ///< Uniform: the length of the step that is taken.
         temporary,  ///< Temporary plane `item`, as a field slot.
         aggregate,  ///< Uniform: aggregate `item` of the plan.
         input,      ///< The stage's species `item` in input `stage` of a sweep, as a field slot.

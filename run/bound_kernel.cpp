@@ -4,6 +4,7 @@
 #include "core/floating_point.h"
 #include "solvers/pass_runner.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -25,18 +26,22 @@ void fill_halo_of(const float* cells, const Grid& grid) {
 class Binder {
 public:
     Binder(const StepPlan& plan, const BindingContext& context, const System* system,
-           std::uint32_t stage)
-        : plan_(plan), context_(context), system_(system), stage_(stage) {}
-
-    StepProblem bind(const Compile& compile) {
-        problem_.grid = context_.grid;
-        problem_.temporaries = plan_.temporaries;
-        problem_.aggregates = plan_.aggregates;
+           std::uint32_t stage, const SweepForm* form = nullptr, const Sweep* sweep = nullptr)
+        : plan_(plan), context_(context), system_(system), stage_(stage), form_(form), sweep_(sweep) {
         if (system_ != nullptr) {
             problem_.species_needs_halo.assign(context_.states[stage_].species.size(), false);
         }
         temporary_needs_halo_.assign(plan_.temporaries, false);
         for (const Pass& pass : plan_.passes) find_halos(pass);
+    }
+
+    /// Which species are read at neighbours. Other plans of the same step may need more.
+    std::vector<bool>& species_needs_halo() { return problem_.species_needs_halo; }
+
+    StepProblem bind(const Compile& compile) {
+        problem_.grid = context_.grid;
+        problem_.temporaries = plan_.temporaries;
+        problem_.aggregates = plan_.aggregates;
         for (const Pass& pass : plan_.passes) {
             problem_.passes.push_back(bind_pass(pass));
             problem_.passes.back().kernel = compile(pass.bound.kernel);
@@ -61,10 +66,23 @@ private:
             plane.kind = PlaneRef::Kind::species;
             plane.number =
                 static_cast<std::uint32_t>(context_.states[stage_].species_of_item[source.item]);
+            plane.in_register = register_of(plane.number);
+        } else if (source.kind == SlotSource::Kind::input) {
+            plane.kind = PlaneRef::Kind::species;
+            plane.number =
+                static_cast<std::uint32_t>(context_.states[stage_].species_of_item[source.item]);
+            plane.in_register = source.stage == 0 ? register_of(plane.number)
+                                                  : sweep_->inputs[source.stage];
         } else {
             plane.cells = plane_of(source, context_);
         }
         return plane;
+    }
+
+    /// Where rates read a species.
+    std::uint32_t register_of(std::uint32_t species) const {
+        if (sweep_ == nullptr) return old_register;
+        return species < sweep_->renewed ? new_register : sweep_->inputs[0];
     }
 
     void find_halos(const Pass& pass) {
@@ -110,7 +128,20 @@ private:
             case SlotSource::Kind::aggregate:
                 bound.changing.push_back({Kind::aggregate, slot, source.item, 0, false});
                 break;
-            default: CHECK(false, "a uniform is an item, the step or an aggregate");
+            case SlotSource::Kind::time:
+                bound.changing.push_back({Kind::time, slot, 0, sweep_ ? sweep_->time : 0, false});
+                break;
+            case SlotSource::Kind::time_step:
+                value = static_cast<float>(context_.states[stage_].time.clock.step);
+                bound.changing.push_back({Kind::coefficient, slot, 0, 1, true});
+                break;
+            case SlotSource::Kind::coefficient: {
+                const Sweep::Coefficient& coefficient = sweep_->coefficients[source.item];
+                bound.changing.push_back(
+                    {Kind::coefficient, slot, 0, coefficient.value, coefficient.times_step});
+                break;
+            }
+            default: CHECK(false, "a uniform is one number for all cells");
         }
         bound.uniforms.push_back(value);
     }
@@ -124,7 +155,17 @@ private:
             return result;
         }
         result.plane.kind = PlaneRef::Kind::species;
-        result.plane.in_register = 1;
+        result.plane.in_register = new_register;
+        if (form_ != nullptr) {
+            // Output after output, each of all species that are written.
+            const std::size_t written =
+                form_->species.empty() ? problem_.species_needs_halo.size() : form_->species.size();
+            result.plane.in_register = sweep_->outputs[target.index / written];
+            const auto position = static_cast<std::uint32_t>(target.index % written);
+            result.plane.number = form_->species.empty() ? position : form_->species[position];
+            result.needs_halo = problem_.species_needs_halo[result.plane.number];
+            return result;
+        }
         result.needs_halo = system_ != nullptr && problem_.species_needs_halo[target.index];
         return result;
     }
@@ -133,6 +174,8 @@ private:
     const BindingContext& context_;
     const System* system_;  ///< None: no species is a register.
     std::uint32_t stage_;
+    const SweepForm* form_;   ///< Of a sweep; none for a plan that is no part of a scheme.
+    const Sweep* sweep_;
     StepProblem problem_;
     std::vector<bool> temporary_needs_halo_;
 };
@@ -142,6 +185,32 @@ private:
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context,
                       const System& system, std::uint32_t stage) {
     return Binder(plan, context, &system, stage).bind(compile);
+}
+
+StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
+                        const Compile& compile, const BindingContext& context,
+                        const System& system, std::uint32_t stage) {
+    std::vector<Binder> binders;
+    StepProblem whole;
+    whole.grid = context.grid;
+    whole.registers = scheme.registers;
+    whole.error_register = scheme.error_register;
+    whole.species_needs_halo.assign(context.states[stage].species.size(), false);
+    for (const Sweep& sweep : scheme.sweeps) {
+        Binder& binder = binders.emplace_back(plans[sweep.form], context, &system, stage,
+                                              &scheme.forms[sweep.form], &sweep);
+        for (std::size_t k = 0; k < whole.species_needs_halo.size(); ++k) {
+            if (binder.species_needs_halo()[k]) whole.species_needs_halo[k] = true;
+        }
+    }
+    for (Binder& binder : binders) {
+        binder.species_needs_halo() = whole.species_needs_halo;
+        StepProblem sweep = binder.bind(compile);
+        whole.temporaries = std::max(whole.temporaries, sweep.temporaries);
+        whole.aggregates = std::max(whole.aggregates, sweep.aggregates);
+        for (StepProblem::Pass& pass : sweep.passes) whole.passes.push_back(std::move(pass));
+    }
+    return whole;
 }
 
 std::vector<Field> run_plan(const StepPlan& plan, const Compile& compile,
@@ -156,7 +225,7 @@ std::vector<Field> run_plan(const StepPlan& plan, const Compile& compile,
         cells.push_back(results.emplace_back(layout).origin());
     }
     const std::array<std::span<float* const>, 2> registers{std::span<float* const>(), cells};
-    run_once(problem, team, registers, {context.steps, 0, 0});
+    run_once(problem, team, registers, {context.steps, context.t, 0});
     return results;
 }
 
@@ -181,6 +250,18 @@ float smallest(const Field& field) {
         }
     }
     return least;
+}
+
+float largest_value(const Field& field) {
+    float most = -INFINITY;
+    for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
+        for (std::int64_t i = 0; i < field.layout().width; ++i) {
+            const float value = field.row(row)[i];
+            if (std::isnan(value)) return value;
+            most = value > most ? value : most;
+        }
+    }
+    return most;
 }
 
 std::string species_name(const System& system, std::size_t species) {

@@ -8,6 +8,7 @@
 #include "run/input_files.h"
 #include "run/simulation.h"
 #include "solvers/advance.h"
+#include "solvers/scheme.h"
 
 #include <cstdint>
 #include <functional>
@@ -22,6 +23,7 @@ struct BindingContext {
     const InputFiles& files;
     std::int64_t steps = 0;   ///< Complete steps of the stage the kernel belongs to.
     Grid grid;
+    double t = 0;             ///< Its time.
 };
 
 /// Makes a kernel runnable.
@@ -32,6 +34,11 @@ using Compile = std::function<KernelPointer(const CellKernel&)>;
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context,
                       const System& system, std::uint32_t stage);
 
+/// The passes of all sweeps of a scheme; `plans` are those of its forms (plan_sweep).
+StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
+                        const Compile& compile, const BindingContext& context,
+                        const System& system, std::uint32_t stage);
+
 /// Runs a plan once over the present values, its rows shared by the team; one field per result.
 std::vector<Field> run_plan(const StepPlan& plan, const Compile& compile,
                             const BindingContext& context, const Grid& on, Team& team);
@@ -41,6 +48,8 @@ Mask to_mask(const Field& field);
 
 /// The smallest value of a field's cells; NaN if one is NaN.
 float smallest(const Field& field);
+/// The largest.
+float largest_value(const Field& field);
 
 /// The name of species number `species`.
 std::string species_name(const System& system, std::size_t species);

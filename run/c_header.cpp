@@ -28,6 +28,8 @@ std::string identifier(std::string_view item) {
 
 std::string item_path(const Program& program, const SlotSource& source) {
     if (source.kind == SlotSource::Kind::step) return "number of complete steps";
+    if (source.kind == SlotSource::Kind::time) return "time t when the step begins";
+    if (source.kind == SlotSource::Kind::time_step) return "length of the step";
     const Stage& stage = program.stages[source.stage];
     return fmt::format("{} of stage '{}'", program.system_of(source.stage).item_name(source.item),
                        stage.name);
@@ -113,6 +115,10 @@ std::string enumeration(const std::string& prefix, const std::vector<SlotSource>
         const SlotSource& source = sources[k];
         if (source.kind == SlotSource::Kind::step) {
             text += fmt::format("#define {}_STEP {}\n", prefix, k);
+        } else if (source.kind == SlotSource::Kind::time) {
+            text += fmt::format("#define {}_T {}\n", prefix, k);
+        } else if (source.kind == SlotSource::Kind::time_step) {
+            text += fmt::format("#define {}_TIME_STEP {}\n", prefix, k);
         } else if (source.kind == SlotSource::Kind::item && source.stage == stage) {
             text += fmt::format(
                 "#define {}_{} {}\n", prefix,

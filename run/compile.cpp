@@ -77,6 +77,11 @@ Result<CompiledStep> compile_step(const Script& script, const CompileRequest& re
     if (auto good = make_per_cell(program, *stage, request.per_cell); !good) {
         return tl::unexpected(good.error());
     }
+    if (const Solver solver = program.stages[*stage].time.solver; solver != Solver::euler) {
+        return failure(fmt::format("stage '{}' is solved by {}, but a function computes a step of euler",
+                                   program.stages[*stage].name, name_of(solver)),
+                       "--solver euler compiles that");
+    }
     const StepPlan plan = plan_step(program, *stage);
     if (plan.passes.size() > 1 || plan.aggregates > 0) {
         return failure(fmt::format("a step of stage '{}' takes {} passes over the grid or an aggregate"

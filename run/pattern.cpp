@@ -43,7 +43,8 @@ struct Pattern::Implementation {
 
     const Stage& current() const { return script.program->stages[stage]; }
     bool stage_is_done() const {
-        return simulation->state(stage).steps >= current().iterations;
+        const StageState& state = simulation->state(stage);
+        return state.done || state.steps >= current().iterations;
     }
     bool is_last_stage() const { return stage + 1 == script.program->stages.size(); }
 

@@ -50,6 +50,7 @@ std::string overrides_to_json(const Overrides& overrides) {
     if (overrides.steps) json["steps"] = *overrides.steps;
     if (overrides.until_stage) json["until_stage"] = *overrides.until_stage;
     if (!overrides.used.empty()) json["used"] = overrides.used;
+    if (overrides.solver) json["solver"] = *overrides.solver;
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -76,6 +77,7 @@ Result<Overrides> overrides_from_json(const std::string& text) {
             overrides.until_stage = json.at("until_stage").get<std::string>();
         }
         if (json.contains("used")) json.at("used").get_to(overrides.used);
+        if (json.contains("solver")) overrides.solver = json.at("solver").get<std::string>();
         return overrides;
     } catch (const std::exception&) {
         return failure(unreadable);
@@ -87,6 +89,7 @@ Overrides merge(Overrides base, const Overrides& changes) {
     if (changes.grid) base.grid = changes.grid;
     if (changes.seed) base.seed = changes.seed;
     if (changes.steps) base.steps = changes.steps;
+    if (changes.solver) base.solver = changes.solver;
     if (changes.until_stage) base.until_stage = changes.until_stage;
     base.reads = changes.reads;
     return base;

@@ -236,8 +236,9 @@ std::int64_t Runner::observation_interval(const Stage& stage) const {
 void Runner::observe(std::uint32_t k) {
     const Stage& stage = script_.program->stages[k];
     const std::int64_t step = simulation_->state(k).steps;
-    if (step % stage.interval == 0) look();
-    if (log_ && step % log_->every(stage) == 0) log_->record(*simulation_, k);
+    if (stage.interval == 0 || step % stage.interval == 0) look();
+    const std::int64_t every = log_ ? log_->every(stage) : 0;
+    if (log_ && (every == 0 || step % every == 0)) log_->record(*simulation_, k);
 }
 
 void Runner::look() {

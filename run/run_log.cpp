@@ -52,7 +52,9 @@ Result<void> check_rows(const Script& script, const LogRequest& request) {
     std::int64_t rows = 0;
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
         const Stage& stage = script.program->stages[k];
-        rows += stage.iterations / (request.every > 0 ? request.every : stage.interval);
+        // A stage that gives no interval is looked at ten times.
+        const std::int64_t every = request.every > 0 ? request.every : stage.interval;
+        rows += every > 0 ? stage.iterations / every : 10;
         if (rows <= most_log_rows) continue;
         return failure(fmt::format("the log would have more than {} rows", most_log_rows),
                        "let more steps pass between them, with --log-every");

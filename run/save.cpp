@@ -2,8 +2,10 @@
 
 #include "core/file.h"
 #include "picture/npy.h"
+#include "run/bound_kernel.h"
 #include "run/png_texts.h"
 #include "run/run.h"
+#include "run/saved_time.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -29,7 +31,8 @@ std::string manifest(const Script& script, const Simulation& simulation) {
         if (!state.started) break;
         stages.push_back({{"name", script.program->stages[k].name},
                           {"steps", state.steps},
-                          {"done", state.done}});
+                          {"done", state.done},
+                          {"time", to_json(state)}});
     }
     const nlohmann::json json = {
         {"cascade", version()},
@@ -63,14 +66,19 @@ Failure damaged(const std::filesystem::path& folder, const std::string& why) {
     return {fmt::format("the saved run in {} is damaged: {}", folder.string(), why), ""};
 }
 
+/// Species as they were at the last look of `until: steady(…)` have this behind their names.
+constexpr std::string_view last_look = ".last";
+
 Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
-                                        const Program& program, std::uint32_t stage) {
+                                        const Program& program, std::uint32_t stage,
+                                        std::string_view suffix = "") {
     std::vector<Field> species;
     const System& system = program.system_of(stage);
     const Grid& grid = program.domain.grid;
     for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
         if (!system.is_species(item)) continue;
-        const auto path = array_path(folder, program.stages[stage], system.item_name(item));
+        const auto path = array_path(folder, program.stages[stage],
+                                     fmt::format("{}{}", system.item_name(item), suffix));
         const auto array = read_npy(path);
         if (!array) return tl::unexpected(damaged(folder, array.error().message));
         if (!fits(*array, grid)) {
@@ -111,6 +119,16 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
             }
             written.push_back(path);
         }
+        const std::span<const Field> looked_at = simulation.state(k).watch.last();
+        for (std::size_t species = 0; species < looked_at.size(); ++species) {
+            const auto path =
+                array_path(folder, program.stages[k],
+                           fmt::format("{}{}", species_name(system, species), last_look));
+            if (auto done = write_npy(path, looked_at[species]); !done) {
+                return tl::unexpected(done.error());
+            }
+            written.push_back(path);
+        }
     }
     if (auto done = write_file(path_of_manifest, manifest(script, simulation)); !done) {
         return tl::unexpected(done.error());
@@ -122,8 +140,8 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
 Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes) {
     auto json = read_manifest(folder);
     if (!json) return tl::unexpected(json.error());
-    if (!changes.sets.empty() || changes.grid || changes.seed) {
-        return failure("a resumed run keeps its grid, seed and parameters",
+    if (!changes.sets.empty() || changes.grid || changes.seed || changes.solver) {
+        return failure("a resumed run keeps its grid, seed, parameters and solver",
                        "only --steps and --until-stage can change");
     }
     try {
@@ -163,6 +181,16 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             auto species = read_species(folder, *script.program, k);
             if (!species) return tl::unexpected(species.error());
             simulation.set_species(k, std::move(*species), steps, done);
+            if (!stages[k].contains("time")) continue;
+            const auto time = saved_time_from(stages[k].at("time"));
+            if (!time) return tl::unexpected(damaged(folder, "its time makes no sense"));
+            SteadyWatch watch;
+            if (time->last_look) {
+                auto looked_at = read_species(folder, *script.program, k, last_look);
+                if (!looked_at) return tl::unexpected(looked_at.error());
+                watch.remember(std::move(*looked_at), *time->last_look);
+            }
+            simulation.set_time(k, time->t, time->state, std::move(watch));
         }
     } catch (const nlohmann::json::exception&) {
         return tl::unexpected(damaged(folder, "run.json lacks something or has it wrong"));

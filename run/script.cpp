@@ -85,6 +85,16 @@ void apply_grid(Script& script) {
     }
 }
 
+void apply_solver(Script& script) {
+    if (!script.overrides.solver) return;
+    const Span span = option_span(script.sources, "--solver", *script.overrides.solver);
+    if (const auto solver = solver_of(*script.overrides.solver)) {
+        change_solver(*script.program, *solver, span, script.diagnostics);
+    } else {
+        script.diagnostics.error(span, "there is no such solver");
+    }
+}
+
 void apply_steps(Script& script) {
     if (!script.overrides.steps) return;
     for (Stage& stage : script.program->stages) {
@@ -136,6 +146,7 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
 
     if (script.overrides.seed) script.program->domain.seed = *script.overrides.seed;
     apply_grid(script);
+    apply_solver(script);
     apply_steps(script);
     check_until_stage(script);
     if (!script.diagnostics.has_errors()) check_picture_block(script);

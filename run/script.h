@@ -29,6 +29,7 @@ struct Overrides {
     /// can so be drawn again without them.
     std::vector<std::pair<std::string, std::string>> used;
     ReadAccess reads;                                            ///< Travels nowhere.
+    std::optional<std::string> solver;                           ///< Of every stage.
 
     friend bool operator==(const Overrides&, const Overrides&) = default;
 };

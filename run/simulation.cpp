@@ -8,6 +8,7 @@
 #include "run/input_files.h"
 #include "run/memory.h"
 #include "run/not_finite.h"
+#include "run/stage_time.h"
 #include "solvers/stability.h"
 #if CASCADE_HAS_JIT
 #include "jit/jit.h"
@@ -54,7 +55,7 @@ struct Simulation::Implementation {
     const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
 
     BindingContext context(std::uint32_t stage) const {
-        return {states, files, states[stage].steps, grid};
+        return {states, files, states[stage].steps, grid, states[stage].t};
     }
 
     /// Starting values need no compiling and pictures neither: both are interpreted.
@@ -130,7 +131,10 @@ struct Simulation::Implementation {
         };
     }
 
+    /// What the time of a stage needs to know of it.
+    StageTools tools(std::uint32_t k, RunControl& control) const;
     Failure explain(const StageOutcome& outcome, std::uint32_t k);
+    Failure explain(const StepTooShort& place, std::uint32_t k) const;
     void warn_of_chequerboard(std::uint32_t k, RunControl& control) const;
     StabilityEstimate stability(std::uint32_t k, std::span<const Field> species) const {
         // Rates know nothing of frozen cells, but those cannot blow up.
@@ -140,6 +144,7 @@ struct Simulation::Implementation {
     }
     double speed_number(std::uint32_t k) const {
         const std::uint32_t item = program->system_of(k).speed_item();
+        if (states[k].time.clock.step > 0) return states[k].time.clock.step;
         return stage(k).uniform[item] ? states[k].numbers[item] : NAN;
     }
 };
@@ -206,32 +211,39 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     const Stage& stage = self.stage(k);
     CHECK(state.started, "a stage is started before it advances");
 
+    StageTimer timer(*self.program, k, state, self.tools(k, control));
+    // Nothing moves where everything is frozen: its steps are complete as they begin.
+    if (self.frozen_everywhere(k)) {
+        state.steps = stage.time.has_duration() ? 0 : last_step;
+        state.done = stage.time.has_duration() || state.steps >= stage.iterations;
+        return state.done ? StageEnd::finished : StageEnd::stopped;
+    }
     Progress progress;
     progress.stage = stage.name;
     progress.stage_number = static_cast<int>(k) + 1;
     progress.stage_count = static_cast<int>(self.script->stage_count());
     progress.steps = stage.iterations;
-
-    Schedule schedule;
-    schedule.first_step = state.steps;
-    // Nothing moves where everything is frozen: its steps are complete as they begin.
-    schedule.last_step = self.frozen_everywhere(k) ? state.steps : last_step;
-    schedule.interval = every > 0 ? every : stage.interval;
+    Schedule schedule = timer.schedule(last_step, every > 0 ? every : stage.interval);
     schedule.threads = self.threads;
-    const StageOutcome outcome = advance(
-        self.problem(plan_step(*self.program, k), self.compiled(control, stage.name), k), schedule,
-        state.species, control, progress,
-        [&](std::int64_t step, std::span<const Field>) {
-            state.steps = step;
-            if (observe) observe();
-            return true;
-        });
+    const StageOutcome outcome = advance(timer.problem(), schedule, state.species, control, progress,
+                                         [&](std::int64_t step, double t, std::span<const Field>) {
+                                             state.steps = step;
+                                             state.t = t;
+                                             if (observe) observe();
+                                             return true;
+                                         });
     state.steps = outcome.steps;
+    state.t = outcome.t;
+    state.time = outcome.time;
     if (outcome.not_finite) return tl::unexpected(self.explain(outcome, k));
-    if (self.frozen_everywhere(k) && !outcome.cancelled) state.steps = last_step;
+    if (outcome.too_short) return tl::unexpected(self.explain(*outcome.too_short, k));
     self.warn_of_chequerboard(k, control);
     if (outcome.cancelled) return StageEnd::cancelled;
-    state.done = state.steps >= stage.iterations;
+    state.done = outcome.ended || state.steps >= stage.iterations;
+    if (stage.time.open_end && !outcome.ended && state.done && control.warn) {
+        control.warn(fmt::format("stage '{}' took {} steps and 'until' has not ended it", stage.name,
+                                 state.steps));
+    }
     return state.done ? StageEnd::finished : StageEnd::stopped;
 }
 
@@ -242,6 +254,14 @@ void Simulation::set_species(std::uint32_t stage, std::vector<Field> species, st
     state.species = std::move(species);
     state.steps = steps;
     state.done = done;
+}
+
+void Simulation::set_time(std::uint32_t stage, double t, const TimeState& time,
+                          SteadyWatch watch) {
+    StageState& state = self_->states[stage];
+    state.t = t;
+    state.time = time;
+    state.watch = std::move(watch);
 }
 
 std::vector<Field> Simulation::evaluate(const Formula& formula, std::uint32_t stage) const {
@@ -265,7 +285,9 @@ const Grid& Simulation::grid() const { return self_->grid; }
 const StageState& Simulation::state(std::uint32_t stage) const { return self_->states[stage]; }
 
 double Simulation::time(std::uint32_t stage) const {
-    return static_cast<double>(self_->states[stage].steps) * self_->speed_number(stage);
+    const StageState& state = self_->states[stage];
+    const bool is_timed = self_->program->stages[stage].uniform[self_->program->system_of(stage).speed_item()];
+    return is_timed ? state.t : NAN;
 }
 
 std::optional<std::uint32_t> Simulation::shown_stage() const {
@@ -275,6 +297,42 @@ std::optional<std::uint32_t> Simulation::shown_stage() const {
         if (self_->states[k].started && self_->states[k].steps > 0) shown = k;
     }
     return shown;
+}
+
+StageTools Simulation::Implementation::tools(std::uint32_t k, RunControl& control) const {
+    StageTools tools;
+    tools.bind = [this, k, &control](const Scheme& scheme) {
+        std::vector<StepPlan> plans;
+        for (const SweepForm& form : scheme.forms) plans.push_back(plan_sweep(*program, k, form));
+        return bind_scheme(scheme, plans, compiled(control, stage(k).name), context(k),
+                           program->system_of(k), k);
+    };
+    tools.largest = [this, k](std::span<const Formula* const> formulas) {
+        std::vector<double> largest;
+        for (const Field& field : evaluate(plan_view(*program, formulas, k), k)) {
+            largest.push_back(largest_value(field));
+        }
+        return largest;
+    };
+    tools.is_true = [this, k](const Formula& formula) {
+        return evaluate(plan_view(*program, formula, k), k)[0].at(0, 0) != 0;
+    };
+    tools.estimate = [this, k] {
+        const auto limit = stability(k, states[k].species).largest_speed;
+        return limit ? 2 / *limit : 0;
+    };
+    return tools;
+}
+
+Failure Simulation::Implementation::explain(const StepTooShort& place, std::uint32_t k) const {
+    Failure failure;
+    failure.message = fmt::format(
+        "stage '{}' ({}): steps shrink to nothing: at t = {:.6g} one of {:.2g} is too long still, for "
+        "{} at column {}, row {}",
+        stage(k).name, program->system_of(k).name, place.t, place.step,
+        species_name(program->system_of(k), place.species), place.column, place.row);
+    failure.hint = "something jumps or grows without bound there; a larger tolerance or euler may pass it";
+    return failure;
 }
 
 Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::uint32_t k) {

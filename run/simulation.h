@@ -8,6 +8,7 @@
 #include "lang/lower.h"
 #include "run/script.h"
 #include "solvers/advance.h"
+#include "solvers/steady.h"
 
 #include <cstdint>
 #include <functional>
@@ -32,6 +33,9 @@ struct StageState {
     bool started = false;
     bool done = false;                  ///< All its steps are taken.
     std::int64_t steps = 0;             ///< Complete steps.
+    double t = 0;                       ///< The time then; 0 where speed varies by cell.
+    TimeState time;                     ///< What steps of other lengths go on from.
+    SteadyWatch watch;                  ///< The last look of `until: steady(…)`.
     std::vector<float> numbers;         ///< Per item; meaningful where it is uniform.
     std::vector<Field> fields;          ///< Per item; empty where uniform, and for species.
     std::vector<Field> species;         ///< In order of the species' items.
@@ -84,6 +88,10 @@ public:
     /// Replaces the species of a started stage (resume, the prompt's :load).
     void set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps,
                      bool done);
+
+    /// Sets the time of a stage whose species were replaced; without it its steps are taken as of
+    /// the stage's speed.
+    void set_time(std::uint32_t stage, double t, const TimeState& time, SteadyWatch watch);
 
     /// A formula for pictures over the present state: one field, or three for a colour.
     std::vector<Field> evaluate(const Formula& formula, std::uint32_t stage) const;

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <type_traits>
 #include <utility>
 
 namespace cascade {
@@ -41,24 +43,40 @@ public:
           progress_(std::move(progress)),
           pace_(Clock::now(), schedule.first_step),
           tuner_(stepper_.most_threads()),
+          time_(schedule.time),
+          control_of_steps_(schedule.time.control, schedule.error_order),
           step_(schedule.first_step),
           kept_step_(schedule.first_step) {
         progress_.steps = std::max(progress_.steps, schedule.last_step);
+        if (has_end_time()) progress_.duration = schedule.end_time;
+        tenths_seen_ = tenths(now());
+        stepper_.set_clock(time_.clock);
     }
 
     StageOutcome run() {
         report(Clock::now(), false);
+        outcome_.ended = is_over();
+        if (step_ == 0) choose();
         bool going_on = true;
-        while (going_on && step_ < schedule_.last_step && !control_.cancel) going_on = batch();
-        outcome_.cancelled = going_on && step_ < schedule_.last_step;
+        while (going_on && !outcome_.ended && step_ < schedule_.last_step && !control_.cancel) {
+            going_on = batch();
+        }
+        outcome_.cancelled = going_on && !outcome_.ended && step_ < schedule_.last_step;
         if (outcome_.cancelled && !stepper_.is_finite()) replay();
         outcome_.steps = step_;
+        outcome_.t = now();
+        time_.control = control_of_steps_.state();
+        outcome_.time = time_;
         species_ = std::move(stepper_.current());
         report(Clock::now(), true);
         return std::move(outcome_);
     }
 
 private:
+    bool is_adaptive() const { return schedule_.tolerance > 0; }
+    bool has_end_time() const { return std::isfinite(schedule_.end_time); }
+    double now() const { return time_.clock.at(step_); }
+
     /// Takes some steps and does what is due behind them; false ends the loop.
     bool batch() {
         const std::int64_t stop = next_stop();
@@ -66,10 +84,18 @@ private:
         const bool look = step_ + count == stop;
         stepper_.use_threads(tuner_.threads());
         const Clock::time_point before = Clock::now();
-        const bool finite = stepper_.advance(step_, count, look);
+        const bool good = is_adaptive() ? take_adaptive_step() : take_steps(count, look);
         const Clock::time_point after = Clock::now();
         pace_.took(count, after - before);
         tuner_.took(count, after - before);
+        if (!good) return false;
+        if (pace_.report_due(after)) report(after, false);
+        return !look || do_what_is_due();
+    }
+
+    /// Steps of one length.
+    bool take_steps(std::int64_t count, bool look) {
+        const bool finite = stepper_.advance(step_, count, look);
         step_ += count;
         if (!finite) {
             replay();
@@ -79,28 +105,144 @@ private:
             stepper_.keep();
             kept_step_ = step_;
         }
-        if (pace_.report_due(after)) report(after, false);
-        return !observation_due() || observe();
+        return true;
+    }
+
+    /// What a look is for besides finding values that are not finite; false ends the loop.
+    bool do_what_is_due() {
+        outcome_.ended = is_over();
+        if (observation_due() && !lend([&] { return observe_(step_, now(), species_); })) return false;
+        if (schedule_.check > 0 && step_ % schedule_.check == 0 &&
+            lend([&] { return schedule_.ends(step_, now(), species_); })) {
+            outcome_.ended = true;
+        }
+        if (!outcome_.ended) choose();
+        return true;
     }
 
     /// The next step behind which values are looked at: no picture is made of values that are not
-    /// finite, and no stage ends with them.
-    std::int64_t next_stop() const {
-        std::int64_t stop = std::min(kept_step_ + schedule_.check_every, schedule_.last_step);
-        if (schedule_.interval > 0) stop = std::min(stop, next_multiple(step_, schedule_.interval));
-        return stop;
+    /// finite, no stage ends with them, and steps change their length only there, so that those
+    /// since the last look can be taken again.
+    std::int64_t next_stop() {
+        if (is_adaptive()) return step_ + 1;
+        std::int64_t stop = kept_step_ + schedule_.check_every;
+        for (const std::int64_t of :
+             {schedule_.interval, schedule_.check, schedule_.choose_every}) {
+            if (of > 0) stop = std::min(stop, next_multiple(step_, of));
+        }
+        stop = std::min(stop, schedule_.last_step);
+        if (!has_end_time()) return stop;
+        if (schedule_.interval == 0) {
+            stop = std::min(stop, step_ + steps_until((tenths_seen_ + 1) * schedule_.end_time / 10));
+        }
+        const double left = schedule_.end_time - now();
+        const std::int64_t whole = whole_steps(left);
+        if (whole > 0) return std::min(stop, step_ + whole);
+        // What is left is shorter than a step.
+        set_step(left);
+        return step_ + 1;
     }
 
-    bool observation_due() const {
-        return observe_ && schedule_.interval > 0 && step_ % schedule_.interval == 0;
+    /// Whole steps that fit into a stretch of time, of which rounding may have taken some.
+    std::int64_t whole_steps(double stretch) const {
+        return static_cast<std::int64_t>(std::floor(stretch / time_.clock.step + rounding_of_time));
+    }
+    /// The steps after which t has come so far; at least one.
+    std::int64_t steps_until(double t) const {
+        const double steps = std::ceil((t - now()) / time_.clock.step - rounding_of_time);
+        return static_cast<std::int64_t>(std::clamp(steps, 1.0, 1e9));
+    }
+    bool is_over() const {
+        return schedule_.end_time - now() <= rounding_of_time * time_.clock.step;
+    }
+    double tenths(double t) const {
+        return has_end_time() ? std::floor(10 * t / schedule_.end_time + 1e-9) : 0;
+    }
+
+    void set_step(double length) {
+        time_.clock.set_step(step_, length);
+        stepper_.set_clock(time_.clock);
+    }
+
+    /// Lets the caller choose how long the next steps are.
+    void choose() {
+        if (schedule_.choose_every <= 0 || step_ % schedule_.choose_every != 0) return;
+        const StepChoice choice = lend([&] { return schedule_.choose(step_, species_); });
+        if (choice.problem != nullptr) stepper_.use(*choice.problem);
+        time_.stages = choice.stages;
+        set_step(choice.step);
+    }
+
+    bool observation_due() {
+        if (!observe_) return false;
+        if (schedule_.interval > 0) return step_ % schedule_.interval == 0;
+        const double seen = tenths(now());
+        const bool due = seen > tenths_seen_;
+        tenths_seen_ = seen;
+        return due;
     }
 
     /// The caller's vector holds the species while he looks at it.
-    bool observe() {
+    template <typename Look>
+    std::invoke_result_t<Look> lend(Look look) {
         species_ = std::move(stepper_.current());
-        const bool going_on = observe_(step_, species_);
+        auto answer = look();
         stepper_.current() = std::move(species_);
-        return going_on;
+        return answer;
+    }
+
+    /// Tries steps until one's error is small enough; those before are as if they had not been.
+    /// False where steps have become too short.
+    bool take_adaptive_step() {
+        const double t = now(), left = schedule_.end_time - t;
+        while (true) {
+            // A last step that would leave a crumb is made a little longer.
+            const double wanted = control_of_steps_.step();
+            const double length = left < 1.01 * wanted ? left : wanted;
+            set_step(length);
+            const CopyRoles before = stepper_.roles();
+            const bool finite = stepper_.advance(step_, 1, true);
+            const double error = finite ? stepper_.error(schedule_.tolerance) : NAN;
+            if (control_of_steps_.judge(length, error)) break;
+            if (control_of_steps_.step() < least_step(t)) {
+                outcome_.too_short = where_error_is_largest(t);
+                stepper_.undo(before);
+                return false;
+            }
+            stepper_.undo(before);
+        }
+        ++step_;
+        stepper_.keep();
+        kept_step_ = step_;
+        return true;
+    }
+
+    /// Shorter steps would not end in anybody's lifetime.
+    double least_step(double t) const {
+        return 1e-10 * (has_end_time() ? schedule_.end_time : std::max(t, 1.0));
+    }
+
+    StepTooShort where_error_is_largest(double t) const {
+        StepTooShort place;
+        place.t = t;
+        place.step = control_of_steps_.step();
+        double most = -1;
+        const std::vector<Field>& errors = stepper_.error_planes();
+        for (std::size_t k = 0; k < errors.size(); ++k) {
+            const PlaneLayout& layout = errors[k].layout();
+            for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+                for (std::int64_t i = 0; i < layout.width; ++i) {
+                    // What is not a number is larger than any.
+                    const double size = std::abs(double{errors[k].row(row)[i]});
+                    if (std::isnan(most) || size <= most) continue;
+                    most = size;
+                    place.species = k;
+                    place.column = i;
+                    place.row = row;
+                }
+            }
+        }
+        return place;
     }
 
     /// Goes back to the kept copy and takes the same steps again, one by one, up to the one that
@@ -122,18 +264,23 @@ private:
         CHECK(false, "a replay takes the same steps");
     }
 
-    void report(Clock::time_point now, bool done) {
-        pace_.reported(now, step_);
+    void report(Clock::time_point moment, bool done) {
+        pace_.reported(moment, step_);
         if (!control_.report) return;
         progress_.step = step_;
+        progress_.t = now();
         progress_.steps_per_second = pace_.steps_per_second();
+        const double left = has_end_time()
+                                ? (schedule_.end_time - now()) / time_.clock.step
+                                : static_cast<double>(schedule_.last_step - step_);
         progress_.seconds_left =
-            progress_.steps_per_second > 0
-                ? static_cast<double>(schedule_.last_step - step_) / progress_.steps_per_second
-                : -1;
+            progress_.steps_per_second > 0 ? left / progress_.steps_per_second : -1;
         progress_.stage_done = done;
         control_.report(progress_);
     }
+
+    /// Parts of a step by which sums of time may be wrong.
+    static constexpr double rounding_of_time = 1e-6;
 
     const Schedule& schedule_;
     RunControl& control_;
@@ -143,8 +290,11 @@ private:
     Progress progress_;
     Pace pace_;
     ThreadTuner tuner_;
+    TimeState time_;
+    StepControl control_of_steps_;
     std::int64_t step_;
     std::int64_t kept_step_;
+    double tenths_seen_ = 0;
     StageOutcome outcome_;
 };
 
@@ -153,6 +303,7 @@ private:
 StageOutcome advance(const StepProblem& problem, const Schedule& schedule,
                      std::vector<Field>& species, RunControl& control, Progress progress,
                      const Observer& observe) {
+    CHECK(!problem.passes.empty(), "a step has a pass");
     CHECK(schedule.check_every > 0, "steps between two looks");
     if (auto found = find_not_finite(species, schedule.first_step)) {
         StageOutcome outcome;

@@ -1,6 +1,6 @@
-// The time loop of one stage: applies a step kernel again and again.
+// The time loop of one stage: takes a step again and again.
 //
-// Simultaneous update: a step reads the old fields and writes new ones, then the two change places.
+// Simultaneous update: a step reads the old planes and writes new ones, then the two change places.
 // Between steps the halo of every species that is read at neighbours is filled. Rows are shared by
 // a team of threads; results do not depend on how many.
 #pragma once
@@ -9,10 +9,12 @@
 #include "core/plane.h"
 #include "core/result.h"
 #include "core/run_control.h"
+#include "solvers/stage_clock.h"
 #include "solvers/step_problem.h"
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,11 +22,37 @@
 
 namespace cascade {
 
+/// Called on the caller's thread with the number of complete steps, not for `first_step`; the
+/// species (the same vector that was given to advance()) are as that step left them, and have been
+/// found finite. Returns false to end the stage there.
+using Observer = std::function<bool(std::int64_t step, double t, std::span<const Field> species)>;
+/// The same, but returns true where the stage is to end.
+using EndTest = Observer;
+
+/// How the next steps are taken.
+struct StepChoice {
+    double step = 0;                        ///< Their length.
+    std::uint32_t stages = 0;               ///< Of a stabilised solver, to be kept with the state.
+    const StepProblem* problem = nullptr;   ///< Their sweeps; nullptr for those in use.
+};
+using StepChooser = std::function<StepChoice(std::int64_t step, std::span<const Field> species)>;
+
 /// Which steps to take and how closely to watch them.
 struct Schedule {
     std::int64_t first_step = 0;      ///< Complete steps so far (more than 0 after a resume).
     std::int64_t last_step = 0;       ///< Stop when so many are complete.
-    std::int64_t interval = 0;        ///< `observe` is called at multiples of this; 0 for never.
+    TimeState time = {};              ///< At `first_step`.
+    /// Stop when t is so large; the last step is shortened to end there.
+    double end_time = std::numeric_limits<double>::infinity();
+    /// `observe` is called at multiples of this. Where it is 0 and there is an end time, at the
+    /// first step that reaches a tenth of it, two tenths, …
+    std::int64_t interval = 0;
+    std::int64_t check = 0;           ///< `ends` is asked at multiples of this; 0 for never.
+    EndTest ends = {};
+    std::int64_t choose_every = 0;    ///< `choose` is asked at multiples of this, 0 included.
+    StepChooser choose = {};
+    double tolerance = 0;             ///< Above 0: steps are adaptive, with this relative error.
+    int error_order = 1;              ///< The error of an adaptive step is proportional to step^this.
     std::int64_t check_every = 64;    ///< Steps between two looks for values that are not finite.
     int threads = 1;
 };
@@ -37,19 +65,25 @@ struct NotFinite {
                                       ///< Schedule::first_step where a start value was so already.
 };
 
+/// An adaptive step that has become too short to get anywhere.
+struct StepTooShort {
+    double t = 0, step = 0;
+    std::size_t species = 0;          ///< Where the error is largest,
+    std::int64_t column = 0, row = 0; ///< and the cell.
+};
+
 struct StageOutcome {
     std::int64_t steps = 0;           ///< Complete steps when the loop ended.
+    double t = 0;                     ///< The time then.
+    TimeState time;                   ///< To go on from there.
     bool cancelled = false;
+    bool ended = false;               ///< By its end time or by `ends`.
+    std::optional<StepTooShort> too_short;
     std::optional<NotFinite> not_finite;
     /// Only with `not_finite`: the species at the last look before, up to `check_every` steps
     /// earlier, when growth was slight still. A good state to estimate stability at.
     std::vector<Field> last_checked;
 };
-
-/// Called on the caller's thread with the number of complete steps, not for `first_step`; the
-/// species (the same vector that was given to advance()) are as that step left them, and have been
-/// found finite. Returns false to end the stage there.
-using Observer = std::function<bool(std::int64_t step, std::span<const Field> species)>;
 
 /// Advances `species` (start values in, last complete step out). When a look finds a value that is
 /// not finite, the steps since the last look, at most `check_every`, are replayed from a kept copy

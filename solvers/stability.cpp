@@ -146,7 +146,8 @@ private:
     void run_kernel() {
         for (Field& field : moved_) fill_halo(field.origin(), layout_, rates_.grid.boundary);
         const std::array<std::span<float* const>, 2> registers{moved_cells_, rate_cells_};
-        team_.run([&](int) { runner_.run(worker_, team_, registers, {}); });
+        // Noise needs some length of a step; it cancels from differences.
+        team_.run([&](int) { runner_.run(worker_, team_, registers, {0, 0, 1}); });
     }
 
     const StepProblem& rates_;

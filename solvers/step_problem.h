@@ -66,6 +66,7 @@ struct StepProblem {
     /// The planes of all species at one moment are a register: 0 is the old step, 1 becomes the new
     /// one, further ones are scratch.
     std::uint32_t registers = 2;
+    std::uint32_t error_register = 0;       ///< An estimate of the step's error; 0 for none.
     std::uint32_t temporaries = 0;
     std::uint32_t aggregates = 0;
     std::vector<bool> species_needs_halo;   ///< Per species: the old step is read at neighbours.

@@ -2,9 +2,11 @@
 #include "solvers/stepper.h"
 
 #include "core/check.h"
+#include "solvers/field_norms.h"
 #include "solvers/finite.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cascade {
 namespace {
@@ -22,10 +24,10 @@ int worthwhile_threads(const Grid& grid, std::size_t species, int most) {
 }  // namespace
 
 Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads)
-    : problem_(problem),
+    : problem_(&problem),
       layout_(problem.grid),
       team_(worthwhile_threads(problem.grid, species.size(), most_threads)),
-      runner_(problem) {
+      runner_(std::in_place, problem) {
     CHECK(problem.species_needs_halo.size() == species.size(), "a flag for every species");
     copies_[0] = std::move(species);
     for (Field& field : copies_[0]) {
@@ -47,12 +49,33 @@ Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int mos
     use_threads(team_.size());
 }
 
+void Stepper::use(const StepProblem& problem) {
+    CHECK(problem.grid == problem_->grid && problem.registers <= scratch_.size() + first_scratch,
+          "planes for all passes");
+    problem_ = &problem;
+    runner_.emplace(problem);
+    for (Worker& worker : workers_) runner_->prepare(worker.passes, worker.passes.rows);
+}
+
+double Stepper::error(double tolerance) const {
+    const std::vector<Field>& fields = copies_[static_cast<std::size_t>(roles_.current)];
+    double largest = 0;
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+        const double error = root_mean_square(error_planes()[k]);
+        if (std::isnan(error)) return error;
+        if (error == 0) continue;
+        const double unit = tolerance * std::max(root_mean_square(fields[k]), 1e-30);
+        largest = std::max(largest, error / unit);
+    }
+    return largest;
+}
+
 void Stepper::use_threads(int threads) {
     if (static_cast<std::size_t>(threads) == workers_.size()) return;
     workers_.resize(static_cast<std::size_t>(threads));
     for (int index = 0; index < threads; ++index) {
         Worker& worker = workers_[static_cast<std::size_t>(index)];
-        runner_.prepare(worker.passes, split_rows(layout_.row_count(), index, threads));
+        runner_->prepare(worker.passes, split_rows(layout_.row_count(), index, threads));
     }
 }
 
@@ -89,7 +112,7 @@ void Stepper::step(Worker& worker, CopyRoles roles, std::int64_t complete) {
     worker.registers.emplace_back(cells_[static_cast<std::size_t>(roles.current)]);
     worker.registers.emplace_back(cells_[static_cast<std::size_t>(roles.target())]);
     for (const std::vector<float*>& cells : scratch_cells_) worker.registers.emplace_back(cells);
-    runner_.run(worker.passes, team_, worker.registers, {complete, 0, 0});
+    runner_->run(worker.passes, team_, worker.registers, {complete, clock_.at(complete), clock_.step});
 }
 
 bool Stepper::rows_finite(const Worker& worker, int copy) const {

@@ -9,10 +9,12 @@
 #include "core/parallel.h"
 #include "core/plane.h"
 #include "solvers/pass_runner.h"
+#include "solvers/stage_clock.h"
 #include "solvers/step_problem.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,6 +38,21 @@ public:
     /// Takes `count` steps, at least one; `complete` were complete before. With `look`, returns
     /// whether the new values are all finite; without, true.
     bool advance(std::int64_t complete, std::int64_t count, bool look);
+
+    /// Time and length of the steps from now on.
+    void set_clock(const StageClock& clock) { clock_ = clock; }
+    /// Takes steps by other passes from now on, over no more registers. The problem must live as
+    /// long as it is in use.
+    void use(const StepProblem& problem);
+
+    /// The error of the step just taken, in units of the tolerance: of each species the root mean
+    /// square over that of its new values, times `tolerance`; the largest of all; NaN if one is. Of
+    /// a problem with an error register.
+    double error(double tolerance) const;
+    /// The planes of that estimate, one for each species.
+    const std::vector<Field>& error_planes() const {
+        return scratch_[problem_->error_register - first_scratch];
+    }
 
     /// Are all current values finite?
     bool is_finite();
@@ -66,15 +83,18 @@ private:
     bool rows_finite(const Worker& worker, int copy) const;
     bool all_finite() const;
 
-    const StepProblem& problem_;
+    static constexpr std::uint32_t first_scratch = 2;
+
+    const StepProblem* problem_;
     PlaneLayout layout_;
+    StageClock clock_;
     std::array<std::vector<Field>, 3> copies_;
     std::array<std::vector<float*>, 3> cells_;   ///< Species of a copy.
     std::vector<std::vector<Field>> scratch_;    ///< Registers from 2 on.
     std::vector<std::vector<float*>> scratch_cells_;
     CopyRoles roles_;
     Team team_;
-    PassRunner runner_;
+    std::optional<PassRunner> runner_;
     std::vector<Worker> workers_;  ///< One for each thread in use.
 };
 

@@ -140,5 +140,16 @@ TEST(Progress, quiet_is_quiet) {
     EXPECT_EQ(watched.written, "");
 }
 
+TEST(Progress, OfAStageThatEndsByItsDuration) {
+    Progress progress;
+    progress.stage = "spots";
+    progress.step = 1340;
+    progress.steps = 1'000'000'000;
+    progress.t = 12000;
+    progress.duration = 28000;
+    EXPECT_EQ(progress_line(progress), "stage 'spots': t = 12000 of 28000, 1,340 steps");
+    EXPECT_THAT(progress_bar(progress, 80), HasSubstr("t 12000/28000"));
+}
+
 }  // namespace
 }  // namespace cascade

@@ -222,10 +222,8 @@ TEST(CheckFaults, Declarations) {
                 ElementsAre("2:1: 'x' is built in and cannot be declared"));
     EXPECT_THAT(system_faults("speed = 3"),
                 ElementsAre("2:1: 'speed' is a setting and no definition | write speed: …"));
-    EXPECT_THAT(system_faults("duration: 3"),
-                ElementsAre("2:1: 'duration' is not in this version of the language"));
-    EXPECT_THAT(stage_faults("solver: 3"),
-                ElementsAre("2:1: 'solver' is not in this version of the language"));
+    EXPECT_THAT(system_faults("duration = 3"),
+                ElementsAre("2:1: 'duration' is a setting and no definition | write duration: …"));
     EXPECT_THAT(system_faults("u' = 1"),
                 ElementsAre("2:1: species 'u' has no starting value | add u: …"));
     EXPECT_THAT(faults("system s { a: 1 }"),

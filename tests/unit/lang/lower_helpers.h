@@ -112,8 +112,11 @@ private:
         }
         std::vector<float> uniforms;
         for (const SlotSource& source : bound.uniforms) {
-            uniforms.push_back(source.kind == SlotSource::Kind::step
-                                   ? static_cast<float>(stages_[stage].steps)
+            const auto steps = static_cast<float>(stages_[stage].steps);
+            const std::uint32_t speed = program_.system_of(stage).speed_item();
+            uniforms.push_back(source.kind == SlotSource::Kind::step ? steps
+                               : source.kind == SlotSource::Kind::time
+                                   ? steps * stages_[stage].numbers[speed]
                                    : stages_[source.stage].numbers[source.item]);
         }
         std::vector<Field> results;

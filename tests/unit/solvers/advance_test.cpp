@@ -191,7 +191,7 @@ TEST(Advance, ObservesAtMultiplesOfTheInterval) {
     std::vector<Field> species = mixture.start();
     RunControl control;
     std::vector<std::int64_t> seen;
-    const Observer observer = [&](std::int64_t step, std::span<const Field> shown) {
+    const Observer observer = [&](std::int64_t step, double, std::span<const Field> shown) {
         seen.push_back(step);
         EXPECT_EQ(shown.data(), species.data());
         // The third species adds up the step numbers: 0.5 + 0 + 1 + ... + (step - 1).
@@ -215,7 +215,7 @@ TEST(Advance, ObservesAfterAResumeAndAtTheEnd) {
     RunControl control;
     std::vector<std::int64_t> seen;
     advance(mixture.problem, {.first_step = 60, .last_step = 90, .interval = 15}, species, control,
-            Progress{}, [&](std::int64_t step, std::span<const Field>) {
+            Progress{}, [&](std::int64_t step, double, std::span<const Field>) {
                 seen.push_back(step);
                 return true;
             });
@@ -228,7 +228,7 @@ TEST(Advance, ObserverEndsTheStage) {
     RunControl control;
     const StageOutcome outcome =
         advance(mixture.problem, {.last_step = 1000, .interval = 40}, species, control, Progress{},
-                [](std::int64_t step, std::span<const Field>) { return step < 80; });
+                [](std::int64_t step, double, std::span<const Field>) { return step < 80; });
     EXPECT_EQ(outcome.steps, 80);
     EXPECT_FALSE(outcome.cancelled);
     std::vector<Field> expected = mixture.start();
@@ -343,7 +343,7 @@ TEST(Advance, NoPictureIsMadeOfValuesThatAreNotFinite) {
     std::int64_t last_seen = 0;
     const StageOutcome outcome =
         advance(exploding(grid, where), {.last_step = 200, .interval = 3, .check_every = 50},
-                species, control, Progress{}, [&](std::int64_t step, std::span<const Field>) {
+                species, control, Progress{}, [&](std::int64_t step, double, std::span<const Field>) {
                     last_seen = step;
                     return true;
                 });

@@ -1,0 +1,73 @@
+// What is known of each solver by its name.
+#include "ir/solver.h"
+
+#include "core/check.h"
+
+#include <algorithm>
+#include <array>
+
+namespace cascade {
+namespace {
+
+struct Row {
+    std::string_view name;
+    int order;
+    double interval;  ///< Of stability on the negative axis; of those without stages.
+};
+
+/// In the order of Solver. The intervals are the zeros of |R(z)| = 1 on the negative axis, R being
+/// the stability polynomial (E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II",
+/// 1996, section IV.2); of Dormand-Prince the one of its fifth order formula.
+constexpr std::array<Row, 8> rows{{{"euler", 1, 2.0},
+                                   {"symplectic", 1, 2.0},
+                                   {"rk2", 2, 2.0},
+                                   {"rk4", 4, 2.785},
+                                   {"rk23", 3, 2.512},
+                                   {"rk45", 5, 3.306},
+                                   {"rkl1", 1, 0},
+                                   {"rkl2", 2, 0}}};
+
+const Row& row(Solver solver) { return rows[static_cast<std::size_t>(solver)]; }
+
+}  // namespace
+
+std::string_view name_of(Solver solver) { return row(solver).name; }
+
+std::optional<Solver> solver_of(std::string_view name) {
+    const auto found = std::find_if(rows.begin(), rows.end(),
+                                    [&](const Row& each) { return each.name == name; });
+    if (found == rows.end()) return std::nullopt;
+    return static_cast<Solver>(found - rows.begin());
+}
+
+std::vector<std::string> solver_names() {
+    std::vector<std::string> names;
+    for (const Row& each : rows) names.emplace_back(each.name);
+    return names;
+}
+
+bool is_adaptive(Solver solver) { return solver == Solver::rk23 || solver == Solver::rk45; }
+bool is_stabilised(Solver solver) { return solver == Solver::rkl1 || solver == Solver::rkl2; }
+bool takes_speed_by_cell(Solver solver) {
+    return solver == Solver::euler || solver == Solver::symplectic;
+}
+int order_of(Solver solver) { return row(solver).order; }
+
+/// Meyer, Balsara, Aslam 2014, equations 15 and 24: (s² + s) / 2 and (s² + s − 2) / 4 Euler steps,
+/// each of which is stable down to −2.
+double stability_interval(Solver solver, std::uint32_t stages) {
+    const double s = stages;
+    if (solver == Solver::rkl1) return s * s + s;
+    if (solver == Solver::rkl2) return (s * s + s - 2) / 2;
+    return row(solver).interval;
+}
+
+std::uint32_t stages_for(Solver solver, double ratio) {
+    CHECK(is_stabilised(solver), "only stabilised solvers choose their stages");
+    std::uint32_t stages = 3;
+    // Not a ratio below the interval, NaN included, goes on to the end.
+    while (stages < most_stages && !(stability_interval(solver, stages) >= 2 * ratio)) stages += 2;
+    return stages;
+}
+
+}  // namespace cascade

@@ -1,0 +1,23 @@
+// The time of a stage in the manifest of a saved run: what it needs to go on with the same bits.
+#pragma once
+
+#include "run/simulation.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <optional>
+
+namespace cascade {
+
+struct SavedTime {
+    double t = 0;
+    TimeState state;
+    std::optional<double> last_look;  ///< Of `until: steady(…)`; its species are arrays of their own.
+};
+
+nlohmann::json to_json(const StageState& state);
+
+/// Throws what the JSON library throws; empty where a number cannot be meant.
+std::optional<SavedTime> saved_time_from(const nlohmann::json& json);
+
+}  // namespace cascade

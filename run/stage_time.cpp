@@ -1,0 +1,122 @@
+#include "run/stage_time.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// Where nothing says how long a stage takes, steps of chosen length are no longer than a part of
+/// this.
+constexpr double usual_duration = 10000;
+/// What is not known to be reaction or diffusion is taken for diffusion in the main.
+constexpr double share_of_reaction = 0.02;
+
+}  // namespace
+
+double duration_of(const Stage& stage, const System& system, const StageState& state) {
+    if (stage.time.duration) return *stage.time.duration;
+    if (!stage.time.duration_in_steps) return std::numeric_limits<double>::infinity();
+    return static_cast<double>(*stage.time.duration_in_steps) *
+           static_cast<double>(state.numbers[system.speed_item()]);
+}
+
+StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& state,
+                       StageTools tools)
+    : stage_(program.stages[stage]),
+      state_(state),
+      tools_(std::move(tools)),
+      species_(static_cast<std::uint32_t>(state.species.size())) {
+    const System& system = program.system_of(stage);
+    uniform_speed_ = stage_.uniform[system.speed_item()];
+    speed_ = uniform_speed_ ? static_cast<double>(state.numbers[system.speed_item()]) : 1;
+    duration_ = duration_of(stage_, system, state);
+    if (chooses()) bound_ = jacobian_bound(program, stage);
+    // A stage whose time is known goes on as it was.
+    if (state_.steps > 0 && state_.time.control.step > 0) return;
+    state_.time = {};
+    state_.time.clock.step = uniform_speed_ ? speed_ : 0;
+    state_.time.control.step = speed_;
+    state_.time.stages = is_stabilised(stage_.time.solver) ? 3 : 0;
+    state_.t = state_.time.clock.at(state_.steps);
+}
+
+/// Are steps or stages chosen by the state of the species?
+bool StageTimer::chooses() const {
+    return is_stabilised(stage_.time.solver) ||
+           (stage_.time.automatic_speed && !is_adaptive(stage_.time.solver));
+}
+
+const StepProblem& StageTimer::problem() { return problem_of(state_.time.stages); }
+
+const StepProblem& StageTimer::problem_of(std::uint32_t stages) {
+    const auto known = problems_.find(stages);
+    if (known != problems_.end()) return known->second;
+    // The item itself is the step where it is the same throughout.
+    const bool by_item = takes_speed_by_cell(stage_.time.solver) && !stage_.time.automatic_speed &&
+                         !std::isfinite(duration_);
+    const Scheme scheme = make_scheme(stage_.time.solver, species_, by_item, std::max(stages, 3u));
+    return problems_.emplace(stages, tools_.bind(scheme)).first->second;
+}
+
+RateBounds StageTimer::bounds() const {
+    if (bound_) {
+        const Formula* const formulas[] = {&bound_->whole, &bound_->reaction};
+        const std::vector<double> largest = tools_.largest(formulas);
+        if (std::isfinite(largest[0]) && std::isfinite(largest[1])) return {largest[0], largest[1]};
+    }
+    const double whole = tools_.estimate();
+    return {whole, share_of_reaction * whole};
+}
+
+StepChoice StageTimer::choose(std::int64_t step) {
+    state_.steps = step;
+    const Solver solver = stage_.time.solver;
+    StepChoice choice;
+    if (stage_.time.automatic_speed) {
+        choice = choose_step(solver, bounds(), std::isfinite(duration_) ? duration_ : usual_duration);
+    } else {
+        choice.step = speed_;
+        choice.stages = choose_stages(solver, bounds(), speed_);
+    }
+    choice.problem = &problem_of(choice.stages);
+    return choice;
+}
+
+bool StageTimer::has_ended(double t) {
+    state_.t = t;
+    if (stage_.time.until) return tools_.is_true(*stage_.time.until);
+    // Steps of different length in different cells are counted, not timed.
+    const double age = uniform_speed_ ? t : static_cast<double>(state_.steps);
+    return state_.watch.settled(state_.species, age, *stage_.time.steady);
+}
+
+Schedule StageTimer::schedule(std::int64_t last_step, std::int64_t interval) {
+    Schedule schedule;
+    schedule.first_step = state_.steps;
+    schedule.last_step = last_step;
+    schedule.time = state_.time;
+    schedule.end_time = duration_;
+    schedule.interval = interval;
+    if (stage_.time.until || stage_.time.steady) {
+        schedule.check = stage_.time.check;
+        schedule.ends = [this](std::int64_t step, double t, std::span<const Field>) {
+            state_.steps = step;
+            return has_ended(t);
+        };
+    }
+    if (is_adaptive(stage_.time.solver)) {
+        schedule.tolerance = stage_.time.tolerance;
+        schedule.error_order = order_of(stage_.time.solver);
+    }
+    if (chooses()) {
+        schedule.choose_every = choose_every(stage_.time.solver);
+        schedule.choose = [this](std::int64_t step, std::span<const Field>) { return choose(step); };
+    }
+    return schedule;
+}
+
+}  // namespace cascade

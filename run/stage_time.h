@@ -1,0 +1,60 @@
+// The time of one stage in a run: the passes of its solver, how long steps are, when it ends.
+#pragma once
+
+#include "lang/derivative.h"
+#include "lang/program.h"
+#include "run/automatic_speed.h"
+#include "run/simulation.h"
+#include "solvers/scheme.h"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace cascade {
+
+/// What the time of a stage asks of the simulation it belongs to. All look at the present values.
+struct StageTools {
+    std::function<StepProblem(const Scheme&)> bind;
+    /// Each formula's largest value over the cells; NaN if one cell's is.
+    std::function<std::vector<double>(std::span<const Formula* const>)> largest;
+    std::function<bool(const Formula&)> is_true;
+    /// A bound of the eigenvalues by a power iteration, where there is none by rule.
+    std::function<double()> estimate;
+};
+
+class StageTimer {
+public:
+    /// `state` is that of the stage; a stage that has not taken a step begins its time here.
+    StageTimer(const Program& program, std::uint32_t stage, StageState& state, StageTools tools);
+
+    /// The passes of the first step.
+    const StepProblem& problem();
+    /// All of a schedule but its threads. `interval` as in Schedule.
+    Schedule schedule(std::int64_t last_step, std::int64_t interval);
+
+private:
+    bool chooses() const;
+    RateBounds bounds() const;
+    StepChoice choose(std::int64_t step);
+    const StepProblem& problem_of(std::uint32_t stages);
+    bool has_ended(double t);
+
+    const Stage& stage_;
+    StageState& state_;
+    StageTools tools_;
+    std::uint32_t species_;
+    bool uniform_speed_;
+    double speed_;      ///< The item's value; 1 where it varies by cell.
+    double duration_;   ///< Infinite where there is none.
+    std::optional<JacobianBound> bound_;
+    std::map<std::uint32_t, StepProblem> problems_;  ///< By the number of stages.
+};
+
+/// The duration of a stage that has started; infinite where it has none.
+double duration_of(const Stage& stage, const System& system, const StageState& state);
+
+}  // namespace cascade

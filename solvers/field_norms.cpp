@@ -1,0 +1,71 @@
+// Numbers that sum up fields.
+#include "solvers/field_norms.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace cascade {
+namespace {
+
+/// Sums value(i) for i of [0, count): sixteen sums side by side, which a compiler can keep in
+/// vectors, then those one by one.
+template <typename Value>
+double sum(std::int64_t count, Value value) {
+    constexpr std::int64_t lanes = 16;
+    std::array<double, lanes> sums{};
+    std::int64_t i = 0;
+    for (; i + lanes <= count; i += lanes) {
+        for (std::int64_t lane = 0; lane < lanes; ++lane) {
+            sums[static_cast<std::size_t>(lane)] += value(i + lane);
+        }
+    }
+    for (; i < count; ++i) sums[0] += value(i);
+    double total = 0;
+    for (const double each : sums) total += each;
+    return total;
+}
+
+template <typename ValueOfRow>
+double mean_over_cells(const PlaneLayout& layout, ValueOfRow value_of_row) {
+    double total = 0;
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+        total += sum(layout.width, value_of_row(row));
+    }
+    return total / static_cast<double>(layout.width * layout.row_count());
+}
+
+}  // namespace
+
+FieldMoments moments(const Field& field) {
+    FieldMoments result;
+    result.mean = mean_over_cells(field.layout(), [&](std::int64_t row) {
+        return [cells = field.row(row)](std::int64_t i) { return double{cells[i]}; };
+    });
+    result.root_mean_square = root_mean_square(field);
+    // About the mean: the difference of two squares would lose a pattern of small amplitude.
+    result.deviation = std::sqrt(mean_over_cells(field.layout(), [&](std::int64_t row) {
+        return [cells = field.row(row), mean = result.mean](std::int64_t i) {
+            return (cells[i] - mean) * (cells[i] - mean);
+        };
+    }));
+    return result;
+}
+
+double root_mean_square(const Field& field) {
+    return std::sqrt(mean_over_cells(field.layout(), [&](std::int64_t row) {
+        return [cells = field.row(row)](std::int64_t i) { return double{cells[i]} * cells[i]; };
+    }));
+}
+
+double root_mean_square_of_difference(const Field& a, const Field& b) {
+    return std::sqrt(mean_over_cells(a.layout(), [&](std::int64_t row) {
+        return [p = a.row(row), q = b.row(row)](std::int64_t i) {
+            const double difference = double{p[i]} - q[i];
+            return difference * difference;
+        };
+    }));
+}
+
+}  // namespace cascade

@@ -1,0 +1,34 @@
+// Explicit Runge-Kutta methods by their Butcher tableaux (internal to solvers/).
+#pragma once
+
+#include "solvers/scheme.h"
+
+#include <vector>
+
+namespace cascade {
+
+/// Stage i is evaluated at old + step · Σ a[i][j] k_j, at the time step · Σ a[i][j]; the new step is
+/// old + step · Σ b[j] k_j.
+struct ButcherTableau {
+    std::vector<std::vector<double>> a;  ///< Row i has i entries.
+    std::vector<double> b;
+    /// The error is step · Σ error[j] k_j, where a last k belongs to the new step itself; empty
+    /// where the method has no estimate.
+    std::vector<double> error;
+};
+
+/// The midpoint rule.
+ButcherTableau midpoint();
+/// The classical method of order 4 (W. Kutta, 1901).
+ButcherTableau classical();
+/// P. Bogacki, L. F. Shampine, "A 3(2) pair of Runge-Kutta formulas", Applied Mathematics Letters 2,
+/// 1989, 321-325.
+ButcherTableau bogacki_shampine();
+/// J. R. Dormand, P. J. Prince, "A family of embedded Runge-Kutta formulae", Journal of
+/// Computational and Applied Mathematics 6, 1980, 19-26.
+ButcherTableau dormand_prince();
+
+/// The sweeps of a tableau: one for each stage, and one for the error.
+Scheme explicit_runge_kutta(const ButcherTableau& tableau);
+
+}  // namespace cascade

@@ -1,0 +1,175 @@
+// Schemes of one and of several sweeps. Those of a Butcher tableau are in runge_kutta.cpp.
+//
+// Stabilised Runge-Kutta-Legendre: C. D. Meyer, D. S. Balsara, T. D. Aslam, "A stabilized
+// Runge-Kutta-Legendre method for explicit super-time-stepping of parabolic and mixed equations",
+// Journal of Computational Physics 257, 2014, 594-626: equations 17 (first order) and 27 (second).
+#include "solvers/scheme.h"
+
+#include "core/check.h"
+#include "solvers/runge_kutta.h"
+
+namespace cascade {
+namespace {
+
+using Source = SweepTerm::Source;
+using Weight = SweepTerm::Weight;
+
+Scheme euler(bool by_item) {
+    Scheme scheme;
+    SweepForm form;
+    Sweep sweep;
+    SweepTerm rate{Source::rate, 0, by_item ? Weight::speed : Weight::coefficient, 0};
+    if (!by_item) {
+        form.coefficients = 1;
+        sweep.coefficients = {{1, true}};
+    }
+    form.outputs = {{SweepOutput::Kind::state, {{}, rate}}};
+    sweep.inputs = {old_register};
+    sweep.outputs = {new_register};
+    scheme.forms = {form};
+    scheme.sweeps = {sweep};
+    return scheme;
+}
+
+/// A sweep for each species, in order of writing: it sees the new values of those before it.
+Scheme symplectic(std::uint32_t species, bool by_item) {
+    const Scheme whole = euler(by_item);
+    Scheme scheme;
+    for (std::uint32_t number = 0; number < species; ++number) {
+        scheme.forms.push_back(whole.forms[0]);
+        scheme.forms.back().species = {number};
+        scheme.sweeps.push_back(whole.sweeps[0]);
+        scheme.sweeps.back().form = number;
+        scheme.sweeps.back().renewed = number;
+    }
+    return scheme;
+}
+
+/// Coefficients of one stage j of a Runge-Kutta-Legendre step, by their names in the paper.
+struct LegendreStage {
+    double mu = 0, nu = 0, mu_tilde = 0, gamma_tilde = 0;
+};
+
+double b(std::uint32_t j) {
+    if (j < 2) return 1.0 / 3.0;
+    const double n = j;
+    return (n * n + n - 2) / (2 * n * (n + 1));
+}
+
+LegendreStage legendre_stage(Solver solver, std::uint32_t j, std::uint32_t stages) {
+    const double n = j, s = stages;
+    LegendreStage stage;
+    if (solver == Solver::rkl1) {
+        const double w = 2 / (s * s + s);
+        stage.mu = (2 * n - 1) / n;
+        stage.nu = (1 - n) / n;
+        stage.mu_tilde = stage.mu * w;
+        return stage;
+    }
+    const double w = 4 / (s * s + s - 2);
+    if (j == 1) {
+        stage.mu_tilde = b(1) * w;
+        return stage;
+    }
+    stage.mu = (2 * n - 1) / n * b(j) / b(j - 1);
+    stage.nu = -(n - 1) / n * b(j) / b(j - 2);
+    stage.mu_tilde = stage.mu * w;
+    stage.gamma_tilde = -(1 - b(j - 1)) * stage.mu_tilde;
+    return stage;
+}
+
+/// The moment of stage j, as a part of the step.
+double legendre_time(Solver solver, std::uint32_t j, std::uint32_t stages) {
+    const double n = j, s = stages;
+    if (solver == Solver::rkl1) return (n * n + n) / (s * s + s);
+    if (j == 1) return b(1) * 4 / (s * s + s - 2);
+    return (n * n + n - 2) / (s * s + s - 2);
+}
+
+/// Y₁ = Y₀ + μ̃₁ τ L(Y₀), with L(Y₀) kept for the second order.
+SweepForm first_legendre_form(bool keeps_rates) {
+    SweepForm form;
+    form.last = false;
+    form.coefficients = 1;
+    form.outputs = {{SweepOutput::Kind::state, {{}, {Source::rate, 0, Weight::coefficient, 0}}}};
+    if (keeps_rates) form.outputs.push_back({SweepOutput::Kind::change, {{Source::rate}}});
+    return form;
+}
+
+/// Y_j = ((μ (Y_{j−1} − Y₀) + ν (Y_{j−2} − Y₀)) + μ̃ τ L(Y_{j−1}) + γ̃ τ L(Y₀)) + Y₀, which is the
+/// paper's sum in another order. Inputs: Y_{j−1}, Y₀, then Y_{j−2} unless it is Y₀, then L(Y₀).
+SweepForm legendre_form(bool second, bool keeps_rates, bool last) {
+    SweepForm form;
+    form.last = last;
+    form.inputs = 2;
+    form.old_input = 1;
+    std::vector<SweepTerm> terms;
+    const auto add = [&](Source source, std::uint32_t input) {
+        terms.push_back({source, input, Weight::coefficient, form.coefficients++});
+    };
+    add(Source::difference, 0);
+    if (!second) add(Source::difference, form.inputs++);
+    add(Source::rate, 0);
+    if (keeps_rates) add(Source::value, form.inputs++);
+    terms.push_back({Source::value, 1});
+    form.outputs = {{SweepOutput::Kind::state, std::move(terms)}};
+    return form;
+}
+
+/// Registers: 0 and 1, three of stages that change places, and L(Y₀).
+Scheme legendre(Solver solver, std::uint32_t stages) {
+    CHECK(stages >= 3 && stages % 2 == 1, "an odd number of stages");
+    constexpr std::uint32_t first_scratch = 2, rates_register = 5;
+    const bool keeps_rates = solver == Solver::rkl2;
+    const auto place = [&](std::uint32_t j) {
+        if (j == 0) return old_register;
+        return j == stages ? new_register : first_scratch + j % 3;
+    };
+    Scheme scheme;
+    scheme.registers = keeps_rates ? 6 : 5;
+    scheme.forms = {first_legendre_form(keeps_rates), legendre_form(true, keeps_rates, false),
+                    legendre_form(false, keeps_rates, false),
+                    legendre_form(false, keeps_rates, true)};
+    for (std::uint32_t j = 1; j <= stages; ++j) {
+        const LegendreStage stage = legendre_stage(solver, j, stages);
+        Sweep sweep;
+        sweep.form = j == 1 ? 0 : j == 2 ? 1 : j < stages ? 2 : 3;
+        sweep.inputs = {place(j - 1)};
+        sweep.outputs = {place(j)};
+        if (j > 1) {
+            sweep.time = legendre_time(solver, j - 1, stages);
+            sweep.inputs.push_back(old_register);
+            sweep.coefficients.push_back({stage.mu, false});
+        }
+        if (j > 2) {
+            sweep.inputs.push_back(place(j - 2));
+            sweep.coefficients.push_back({stage.nu, false});
+        }
+        sweep.coefficients.push_back({stage.mu_tilde, true});
+        if (keeps_rates && j == 1) sweep.outputs.push_back(rates_register);
+        if (keeps_rates && j > 1) {
+            sweep.inputs.push_back(rates_register);
+            sweep.coefficients.push_back({stage.gamma_tilde, true});
+        }
+        scheme.sweeps.push_back(std::move(sweep));
+    }
+    return scheme;
+}
+
+}  // namespace
+
+Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint32_t stages) {
+    switch (solver) {
+        case Solver::euler: return euler(by_item);
+        case Solver::symplectic: return symplectic(species, by_item);
+        case Solver::rk2: return explicit_runge_kutta(midpoint());
+        case Solver::rk4: return explicit_runge_kutta(classical());
+        case Solver::rk23: return explicit_runge_kutta(bogacki_shampine());
+        case Solver::rk45: return explicit_runge_kutta(dormand_prince());
+        case Solver::rkl1:
+        case Solver::rkl2: return legendre(solver, stages);
+    }
+    CHECK(false, "every solver has a scheme");
+}
+
+}  // namespace cascade

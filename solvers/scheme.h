@@ -1,0 +1,31 @@
+// Time integrators: how a step is put together from sweeps of the rates.
+//
+// A scheme is data: forms (each becomes a kernel) and the sweeps of one step. The coefficients
+// multiply the time step when a step is taken, so that it may change from step to step.
+#pragma once
+
+#include "ir/solver.h"
+#include "ir/sweep_form.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cascade {
+
+struct Scheme {
+    std::uint32_t registers = 2;
+    std::vector<SweepForm> forms;
+    std::vector<Sweep> sweeps;  ///< In order; the last form with `last` writes the new step.
+    /// The register that holds an estimate of the step's error, proportional to step^order_of; 0
+    /// where there is none.
+    std::uint32_t error_register = 0;
+};
+
+/// Builds the scheme of a solver.
+///
+/// `species` counts the system's species. `by_item`: the step of `euler` and `symplectic` is the
+/// stage's item `speed` (which may vary by cell) and not the time loop's. `stages` is of
+/// stabilised solvers only: an odd number from 3.
+Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint32_t stages = 3);
+
+}  // namespace cascade

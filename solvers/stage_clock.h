@@ -1,0 +1,37 @@
+// The time of a stage, as its steps go on.
+#pragma once
+
+#include "solvers/step_control.h"
+
+#include <cstdint>
+
+namespace cascade {
+
+/// Time from the number of complete steps. Steps are of one length until set_step() changes it; then
+/// time is counted from there. So the time of a step is rounded once and does not depend on the
+/// steps at which a run was interrupted.
+struct StageClock {
+    std::int64_t base_step = 0;  ///< Where steps of this length began,
+    double base_time = 0;        ///< and the time then.
+    double step = 0;             ///< The length of a step; 0 where it varies by cell.
+
+    double at(std::int64_t complete) const {
+        return base_time + static_cast<double>(static_cast<float>(complete - base_step)) * step;
+    }
+    /// Steps are so long from `complete` on.
+    void set_step(std::int64_t complete, double length) {
+        if (length == step) return;
+        base_time = at(complete);
+        base_step = complete;
+        step = length;
+    }
+};
+
+/// What a stage that is interrupted must keep of its time to go on with the same bits.
+struct TimeState {
+    StageClock clock;
+    std::uint32_t stages = 0;      ///< Of a stabilised solver.
+    StepControl::State control;    ///< Of an adaptive one.
+};
+
+}  // namespace cascade

@@ -1,0 +1,39 @@
+// The length of adaptive steps.
+//
+// The controller is proportional-integral (K. Gustafsson, "Control theoretic techniques for
+// stepsize selection in explicit Runge-Kutta methods", ACM Transactions on Mathematical Software
+// 17, 1991; with the constants of E. Hairer, G. Wanner, "Solving Ordinary Differential Equations
+// II", 1996, section IV.2): next = step · 0.9 · error^(−0.7/k) · previous error^(0.4/k), k the order
+// of the error estimate, between a fifth and five times the step. A rejected step is followed by a
+// shorter one, step · 0.9 · error^(−1/k), a tenth at least.
+#pragma once
+
+namespace cascade {
+
+class StepControl {
+public:
+    /// What must be kept to go on later exactly as without a break.
+    struct State {
+        double step = 0;            ///< The next step to try; above 0.
+        double error_before = 1;    ///< Of the last accepted step.
+        bool rejected = false;      ///< The last step was rejected: the next grows no longer.
+    };
+
+    /// `order` is the power of the step that the error estimate is proportional to.
+    StepControl(double first_step, int order) : state_{first_step, 1, false}, order_(order) {}
+    StepControl(const State& state, int order) : state_(state), order_(order) {}
+
+    double step() const { return state_.step; }
+    const State& state() const { return state_; }
+
+    /// Judges a step of length `taken` (step() or shorter, where the end of a stage is near) by its
+    /// error in units of the tolerance. Returns whether it is accepted: an error of at most 1.
+    /// NaN and infinity are not.
+    bool judge(double taken, double error);
+
+private:
+    State state_;
+    int order_;
+};
+
+}  // namespace cascade

@@ -1,0 +1,126 @@
+// Derivatives against differences of the rates themselves, and bounds of the Jacobian against
+// eigenvalues that are known.
+#include "lang/derivative.h"
+
+#include "lower_helpers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cascade::testing {
+namespace {
+
+/// A stage on a small grid; u goes from 0.2 to 1.4 over its columns, v from 2 to 0.5.
+std::unique_ptr<Checked> rates_of(const std::string& sentences) {
+    auto checked = check_text("system s {\n u: 0.2 + 1.2 * sx\n v: 2 - 1.5 * sx\n k: 3\n" + sentences +
+                              "\n}\nstage one: s { }\ndomain { grid: 16, 4 }\n");
+    EXPECT_TRUE(checked->program) << sentences << checked->faults().front();
+    return checked;
+}
+
+void shift(Field& field, float by) {
+    for (std::int64_t j = 0; j < field.layout().height; ++j) {
+        for (std::int64_t i = 0; i < field.layout().width; ++i) field.at(i, j) += by;
+    }
+}
+
+/// Item 0 is u, 1 is v; so are the species.
+void expect_derivatives(const std::string& rate) {
+    const auto checked = rates_of(" u' = " + rate + "\n v' = k * u\n");
+    const Program& program = *checked->program;
+    ScriptRun run(program);
+    run.start(0);
+    for (const std::uint32_t by : {0u, 1u}) {
+        const auto derivative = rate_derivative(program, 0, 0, by);
+        ASSERT_TRUE(derivative) << rate;
+        const Field found = std::move(run.view(*derivative, 0)[0]);
+        Field& species = run.field(0, by == 0 ? "u" : "v");
+        constexpr float h = 0.005f;
+        shift(species, h);
+        const Field above = std::move(run.rates(0)[0]);
+        shift(species, -2 * h);
+        const Field below = std::move(run.rates(0)[0]);
+        shift(species, h);
+        for (std::int64_t i = 0; i < 16; ++i) {
+            const double difference = (double{above.at(i, 0)} - below.at(i, 0)) / (2 * h);
+            EXPECT_NEAR(found.at(i, 0), difference, 2e-3 * (1 + std::abs(difference)))
+                << rate << " by " << by << ", column " << i;
+        }
+    }
+}
+
+TEST(Derivative, AgreesWithDifferences) {
+    for (const char* rate :
+         {"3", "u", "-u * v", "u^2 * v - k * u", "(u + v) / (1 + u * v)", "u^3", "u^-2", "u^1.5",
+          "u^v", "2^u", "exp(-u) * v", "log(u) + sqrt(v)", "sin(u) * cos(v)", "tan(0.5 * u)",
+          "tanh(u - v)", "asin(0.5 * u) + acos(0.3 * v)", "atan(u * v)", "atan2(u, v)",
+          "sinh(u) - cosh(v)", "cbrt(u) * hypot(u, v)", "abs(u - 5) * abs(v)", "min(u, 5) + max(v, 9)",
+          "clamp(u, 0, 3) * clamp(v, 3, 4)", "mix(u, v, 0.25)", "mix(1, 2, u)",
+          "smoothstep(0, 3, u)", "if(k > 2, u * v, 7)", "pow(u, 2)", "mod(u, 50) + floor(v * 0.1)",
+          "u * random(1, 0)", "x * u + y * v", "k^2 * u / (k + u^2)"}) {
+        expect_derivatives(rate);
+    }
+}
+
+TEST(Derivative, GoesThroughDefinitionsAndRates) {
+    expect_derivatives("w * w\n w = u * v + q\n q = exp(-u)");
+    expect_derivatives("v' + u^2");
+}
+
+/// The largest of a bound over the cells at the start.
+std::pair<double, double> bound_at_start(const Checked& checked) {
+    const Program& program = *checked.program;
+    ScriptRun run(program);
+    run.start(0);
+    const auto bound = jacobian_bound(program, 0);
+    EXPECT_TRUE(bound);
+    if (!bound) return {};
+    const auto largest = [&](const Formula& formula) {
+        const Field field = std::move(run.view(formula, 0)[0]);
+        double most = 0;
+        for (std::int64_t i = 0; i < field.layout().width; ++i) {
+            most = std::max(most, double{field.at(i, 0)});
+        }
+        return most;
+    };
+    return {largest(bound->whole), largest(bound->reaction)};
+}
+
+TEST(JacobianBound, IsTheSpectrumOfDiffusion) {
+    // On a plane the eigenvalues of lap reach −8.
+    const auto [whole, reaction] = bound_at_start(*rates_of(" u' = 0.25 * lap(u)\n v' = k * lap(v)\n"));
+    EXPECT_DOUBLE_EQ(whole, 24);
+    EXPECT_DOUBLE_EQ(reaction, 0);
+}
+
+TEST(JacobianBound, AddsReactionToDiffusion) {
+    const auto [whole, reaction] =
+        bound_at_start(*rates_of(" u' = -2 * u - v + lap(u)\n v' = u\n"));
+    EXPECT_DOUBLE_EQ(whole, 11);
+    EXPECT_DOUBLE_EQ(reaction, 3);
+}
+
+TEST(JacobianBound, IsThatOfTuringsSpots) {
+    // Row of a: |ka b| + |ka a| + 8 diff_a; of b: |ka (a − 1)| + |ka b| + 8 diff_b, at a = b = 4.
+    const auto checked = check_text("stage one: turing_spots { beta: 12 }\ndomain { grid: 16, 16 }");
+    const auto [whole, reaction] = bound_at_start(*checked);
+    EXPECT_NEAR(whole, 8.0 / 80 + 1, 1e-6);
+    EXPECT_NEAR(reaction, 8.0 / 80, 1e-6);
+}
+
+TEST(JacobianBound, IsEmptyWhereThereIsNoRule) {
+    const auto checked = rates_of(" u' = smoothstep(u, 3, 0.5)\n v' = v\n");
+    EXPECT_FALSE(jacobian_bound(*checked->program, 0));
+    EXPECT_TRUE(jacobian_bound(*rates_of(" u' = smoothstep(k, 4, x)\n v' = v\n")->program, 0));
+}
+
+TEST(JacobianBound, OfLongFormulasIsFound) {
+    std::string rate = "u";
+    for (int n = 0; n < 3000; ++n) rate += " * 0.999 + u";
+    EXPECT_TRUE(jacobian_bound(*rates_of(" u' = " + rate + "\n v' = v\n")->program, 0));
+}
+
+}  // namespace
+}  // namespace cascade::testing

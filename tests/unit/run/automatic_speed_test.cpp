@@ -1,0 +1,40 @@
+// Steps and stages from bounds of the Jacobian.
+#include "run/automatic_speed.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace cascade {
+namespace {
+
+TEST(AutomaticSpeed, EulerStaysBelowItsLimit) {
+    EXPECT_DOUBLE_EQ(choose_step(Solver::euler, {2, 0.5}, 1e4).step, 0.9);
+    EXPECT_DOUBLE_EQ(choose_step(Solver::rk4, {2, 0.5}, 1e4).step, 0.9 * 2.785 / 2);
+    EXPECT_EQ(choose_step(Solver::euler, {2, 0.5}, 1e4).stages, 0u);
+}
+
+TEST(AutomaticSpeed, StabilisedSolversStepAsTheReactionAllows) {
+    for (const Solver solver : {Solver::rkl1, Solver::rkl2}) {
+        const StepChoice choice = choose_step(solver, {1 + 0.035, 0.035}, 1e4);
+        EXPECT_DOUBLE_EQ(choice.step, 0.7 / 0.035);
+        EXPECT_GE(0.9 * stability_interval(solver, choice.stages), choice.step * 1.035);
+        EXPECT_LT(0.9 * stability_interval(solver, choice.stages - 2), choice.step * 1.035);
+    }
+}
+
+TEST(AutomaticSpeed, TakesNoMoreStagesThanThereAre) {
+    const StepChoice choice = choose_step(Solver::rkl1, {1e9, 1e-3}, 1e6);
+    EXPECT_EQ(choice.stages, most_stages);
+    EXPECT_LE(choice.step * 1e9, stability_interval(Solver::rkl1, most_stages));
+}
+
+TEST(AutomaticSpeed, NeverStepsOverAStage) {
+    EXPECT_DOUBLE_EQ(choose_step(Solver::euler, {0, 0}, 10).step, 0.5);
+    EXPECT_DOUBLE_EQ(choose_step(Solver::rkl2, {0, 0}, 10).step, 0.5);
+    EXPECT_DOUBLE_EQ(choose_step(Solver::rkl2, {NAN, 1}, 10).step, 0.01);
+    EXPECT_DOUBLE_EQ(choose_step(Solver::euler, {INFINITY, 1}, 10).step, 0.01);
+}
+
+}  // namespace
+}  // namespace cascade

@@ -1,0 +1,296 @@
+// Solvers through the language: orders against solutions that are known, what they conserve, the
+// same bits on every backend and after a break, and how stages end.
+#include "run_fixture.h"
+
+#include "run/simulation.h"
+#include "solvers/field_norms.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cascade {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A script whose stages are run to their ends.
+struct Ran {
+    Script script;
+    std::unique_ptr<Simulation> simulation;
+    std::string failure;
+    std::vector<std::string> warnings;
+
+    const StageState& state(std::uint32_t stage = 0) const { return simulation->state(stage); }
+};
+
+Ran run_text(const std::string& text, const SimulationOptions& options = {BackendKind::interpreter, 0, 1},
+             const Overrides& overrides = {}) {
+    Ran ran;
+    ran.script = load_script("test", text, ".", overrides);
+    EXPECT_TRUE(ran.script.program) << ran.script.messages(false);
+    if (!ran.script.program) return ran;
+    auto made = Simulation::create(ran.script, options);
+    EXPECT_TRUE(made);
+    ran.simulation = std::move(*made);
+    RunControl control;
+    control.warn = [&](const std::string& warning) { ran.warnings.push_back(warning); };
+    for (std::uint32_t k = 0; k < ran.script.stage_count() && ran.failure.empty(); ++k) {
+        auto started = ran.simulation->start_stage(k);
+        EXPECT_TRUE(started);
+        const std::int64_t most = ran.script.program->stages[k].iterations;
+        auto end = ran.simulation->advance_stage(k, most, control, {});
+        if (!end) ran.failure = end.error().message + " | " + end.error().hint;
+    }
+    return ran;
+}
+
+/// u = 1 + cos t · cos 2πx: what a source makes it beside diffusion, whose eigenvalue on 16 cells is
+/// known; v swings with the angle sin t.
+std::string manufactured(const std::string& settings) {
+    return "system made {\n"
+           "  u: 1 + cos(2 * pi * x)\n  v: 0\n  w: 1\n"
+           "  q = 2 - 2 * cos(2 * pi / 16)\n"
+           "  u' = 0.5 * lap(u) + (0.5 * q * cos(t) - sin(t)) * cos(2 * pi * x)\n"
+           "  v' = w * cos(t)\n  w' = -v * cos(t)\n}\n"
+           "stage s: made {\n" + settings + "\n}\ndomain { grid: 16, 1 }\n";
+}
+
+double manufactured_error(const Ran& ran) {
+    const double t = 2;
+    double most = 0;
+    for (std::int64_t i = 0; i < 16; ++i) {
+        const double x = (static_cast<double>(i) + 0.5) / 16;
+        const double u = 1 + std::cos(t) * std::cos(2 * std::numbers::pi * x);
+        most = std::max(most, std::abs(ran.state().species[0].at(i, 0) - u));
+        most = std::max(most, std::abs(ran.state().species[1].at(i, 0) - std::sin(std::sin(t))));
+        most = std::max(most, std::abs(ran.state().species[2].at(i, 0) - std::cos(std::sin(t))));
+    }
+    return most;
+}
+
+double error_of(const std::string& solver, int steps) {
+    const Ran ran = run_text(manufactured(fmt::format("solver: {}; speed: 2/{}; iterations: {}",
+                                                      solver, steps, steps)));
+    EXPECT_EQ(ran.failure, "");
+    EXPECT_NEAR(ran.state().t, 2, 1e-5);
+    return manufactured_error(ran);
+}
+
+TEST(Solvers, OrdersThroughTheLanguage) {
+    struct Case { const char* solver; int steps; };
+    for (const auto& [solver, steps] :
+         {Case{"euler", 64}, Case{"symplectic", 64}, Case{"rk2", 16}, Case{"rk4", 8},
+          Case{"rkl1", 64}, Case{"rkl2", 16}}) {
+        const double order = std::log2(error_of(solver, steps) / error_of(solver, 2 * steps));
+        RecordProperty(solver, fmt::format("{:.2f}", order));
+        EXPECT_NEAR(order, order_of(*solver_of(solver)), 0.3) << solver;
+    }
+}
+
+TEST(Solvers, AdaptiveOnesKeepTheirTolerance) {
+    for (const char* solver : {"rk23", "rk45"}) {
+        std::int64_t steps_before = 0;
+        for (const double tolerance : {1e-2, 1e-4}) {
+            const Ran ran = run_text(manufactured(
+                fmt::format("solver: {}; tolerance: {}; duration: 2; speed: 1", solver, tolerance)));
+            EXPECT_EQ(ran.failure, "");
+            EXPECT_DOUBLE_EQ(ran.state().t, 2);
+            EXPECT_LT(manufactured_error(ran), 10 * tolerance) << solver;
+            EXPECT_GT(ran.state().steps, steps_before) << solver;
+            steps_before = ran.state().steps;
+            EXPECT_LT(steps_before, 200) << solver;
+        }
+    }
+}
+
+/// Σ v² / 2 + |∇u|² / 2 of a wave, relative to its start.
+double energy(const Ran& ran) {
+    const Field& u = ran.state().species[0];
+    const Field& v = ran.state().species[1];
+    double sum = 0;
+    for (std::int64_t i = 0; i < 64; ++i) {
+        const double slope = u.at((i + 1) % 64, 0) - u.at(i, 0);
+        sum += 0.5 * v.at(i, 0) * v.at(i, 0) + 0.5 * slope * slope;
+    }
+    return sum;
+}
+
+TEST(Solvers, SymplecticBoundsTheEnergyOfAWave) {
+    const auto wave = [](const char* solver, int steps) {
+        return energy(run_text(fmt::format(
+            "system wave {{ u: sin(2 * pi * x) + 0.3 * sin(6 * pi * x); v: 0\n u' = v\n v' = lap(u) }}\n"
+            "stage s: wave {{ solver: {}; speed: 0.5; iterations: {} }}\ndomain {{ grid: 64, 1 }}",
+            solver, steps)));
+    };
+    const double start = wave("symplectic", 0);
+    for (const int steps : {1000, 5003, 20000}) {
+        EXPECT_NEAR(wave("symplectic", steps) / start, 1, 0.1) << steps;
+    }
+    EXPECT_GT(wave("euler", 1000) / start, 10);
+}
+
+constexpr const char* frozen_spots =
+    "system s {\n a: 4; b: 4; beta: random(12, 0.1)\n a' = 0.05 * (16 - a*b) + 0.125 * lap(a) + 0.001 * sin(t)\n"
+    " b' = 0.05 * (a*b - b - beta) + 0.03125 * lap(b)\n b >= 3.9\n}\n";
+
+std::string frozen_script(const std::string& settings) {
+    return std::string(frozen_spots) + "stage one: s { frozen: x > 0.8 and y < 0.5; " + settings +
+           " }\ndomain { grid: 45, 39; boundary: noflux }\n";
+}
+
+const std::vector<std::string>& all_settings() {
+    static const std::vector<std::string> settings{
+        "solver: euler; duration: 30.7; speed: 0.5", "solver: symplectic; iterations: 60",
+        "solver: rk2; iterations: 60",               "solver: rk4; iterations: 60",
+        "solver: rk23; duration: 60",                "solver: rk45; duration: 60",
+        "solver: rkl1; speed: 7; iterations: 25",    "solver: rkl2; speed: auto; duration: 200",
+        "speed: auto; duration: 150.3",              "iterations: 5000; until: steady(0.5)"};
+    return settings;
+}
+
+TEST(Solvers, SameBitsOnEveryBackendAndThread) {
+    if (!has_jit()) GTEST_SKIP() << "no native code in this build";
+    for (const std::string& settings : all_settings()) {
+        const std::string text = frozen_script(settings);
+        const Ran expected = run_text(text);
+        EXPECT_EQ(expected.failure, "") << settings;
+        EXPECT_GT(expected.state().steps, 3) << settings;
+        for (const int lanes : {4, 16}) {
+            const Ran found = run_text(text, {BackendKind::jit, lanes, 3});
+            EXPECT_EQ(found.state().steps, expected.state().steps) << settings;
+            for (std::size_t k = 0; k < 2; ++k) {
+                EXPECT_EQ(root_mean_square_of_difference(found.state().species[k],
+                                                         expected.state().species[k]), 0)
+                    << settings;
+            }
+        }
+    }
+}
+
+TEST(Solvers, FrozenCellsStayAndInvariantsHold) {
+    for (const std::string& settings : all_settings()) {
+        const Ran ran = run_text(frozen_script(settings));
+        EXPECT_EQ(ran.state().species[0].at(44, 0), 4) << settings;
+        float least = 10, most = 0;
+        for (std::int64_t i = 0; i < 30; ++i) {
+            least = std::min(least, ran.state().species[1].at(i, 30));
+            most = std::max(most, ran.state().species[0].at(i, 30));
+        }
+        EXPECT_GE(least, 3.9f) << settings;
+        EXPECT_NE(most, 4) << settings;
+    }
+}
+
+class SolversRun : public RunTest {};
+
+TEST_F(SolversRun, ResumeWithTheSameBits) {
+    for (const std::string& settings : all_settings()) {
+        const std::string text = frozen_script(settings);
+        Script whole = load(text);
+        RunRequest wanted = request();
+        wanted.save = path("whole");
+        run_well(whole, wanted);
+        Script part = load(text);
+        RunRequest first = request();
+        first.save = path("part");
+        first.stop_at = StopAt{"one", 7};
+        run_well(part, first);
+        auto rest = load_saved_script(path("part"), {});
+        ASSERT_TRUE(rest) << settings;
+        RunRequest second = request();
+        second.resume = path("part");
+        second.save = path("rest");
+        EXPECT_EQ(run_well(*rest, second).status, RunStatus::finished);
+        for (const char* name : {"one.a.npy", "one.b.npy"}) {
+            EXPECT_EQ(bytes(std::string("whole/") + name), bytes(std::string("rest/") + name))
+                << settings;
+        }
+    }
+}
+
+TEST(Solvers, LegendreGrowsTheSameSpotsAsEuler) {
+    const auto spots = [](const Overrides& overrides) {
+        SimulationOptions options;
+        options.threads = 1;
+        if (!has_jit()) options.backend = BackendKind::interpreter;
+        return run_text("stage s: turing_spots { iterations: 12000; ka: 1/200 }\ndomain { grid: 48, 48 }",
+                        options, overrides);
+    };
+    const Ran euler = spots({});
+    for (const char* solver : {"rkl1", "rkl2"}) {
+        Overrides changes;
+        changes.solver = solver;
+        const Ran legendre = spots(changes);
+        EXPECT_DOUBLE_EQ(legendre.state().t, 12000);
+        EXPECT_LT(legendre.state().steps, 1500);
+        const Field& a = euler.state().species[1];
+        const Field& b = legendre.state().species[1];
+        const double difference = root_mean_square_of_difference(a, b) / moments(a).deviation;
+        // The correlation of two fields of one mean and deviation is 1 − difference² / 2.
+        EXPECT_LT(difference, std::sqrt(2 * (1 - 0.99))) << solver;
+    }
+}
+
+TEST(Solvers, ADurationIsMetByTheLastStep) {
+    const Ran ran = run_text(
+        "system clock { u: 0; k: 1; u' = k }\nstage s: clock { speed: 0.3; duration: 1 }\ndomain { grid: 4, 1 }");
+    EXPECT_EQ(ran.state().steps, 4);
+    EXPECT_DOUBLE_EQ(ran.state().t, 1);
+    EXPECT_NEAR(ran.state().species[0].at(0, 0), 1, 1e-6);
+    EXPECT_TRUE(ran.state().done);
+}
+
+TEST(Solvers, AConditionEndsAStageAtItsNextCheck) {
+    const Ran ran = run_text(
+        "system clock { u: 0; k: 1; u' = k }\n"
+        "stage s: clock { speed: 0.125; check: 10; until: max(u over domain) > 2.6 }\n"
+        "stage by_time: clock { speed: 0.125; check: 7; until: t >= 2; iterations: 100 }\n"
+        "stage never: clock { until: step < 0; iterations: 30 }\n"
+        "domain { grid: 4, 1 }");
+    EXPECT_EQ(ran.state(0).steps, 30);
+    EXPECT_EQ(ran.state(1).steps, 21);
+    EXPECT_EQ(ran.state(2).steps, 30);
+    EXPECT_TRUE(ran.state(2).done);
+}
+
+TEST(Solvers, AStepThatShrinksToNothingIsToldWithItsPlace) {
+    const Ran ran = run_text(
+        "system burst { u: 1 + (sx > 0.5 and sx < 0.6); u' = u^2 }\n"
+        "stage s: burst { solver: rk23; duration: 2; speed: 0.1 }\ndomain { grid: 16, 1 }");
+    EXPECT_THAT(ran.failure, HasSubstr("stage 's' (burst): steps shrink to nothing: at t = 0.5"));
+    EXPECT_THAT(ran.failure, HasSubstr("for u at column"));
+}
+
+TEST(Solvers, ABlowUpNamesItsStep) {
+    const Ran ran = run_text(
+        "system burst { u: 1; u' = u^2 }\nstage s: burst { solver: rk2; speed: 0.125; iterations: 300 }\n"
+        "domain { grid: 4, 4 }");
+    EXPECT_THAT(ran.failure, HasSubstr("u is not finite any more at column 0, row 0, after step "));
+}
+
+TEST(Solvers, TheOptionKeepsTheTimeOfEachStage) {
+    Overrides changes;
+    changes.solver = "rk23";
+    const Ran ran = run_text(
+        "system decay { u: 1; u' = -u }\nstage s: decay { speed: 0.25; iterations: 8 }\ndomain { grid: 4, 1 }",
+        {BackendKind::interpreter, 0, 1}, changes);
+    EXPECT_DOUBLE_EQ(ran.state().t, 2);
+    EXPECT_NEAR(ran.state().species[0].at(0, 0), std::exp(-2.0), 1e-3);
+}
+
+TEST(Solvers, TheOptionSaysWhichStageCannotTakeIt) {
+    Overrides changes;
+    changes.solver = "rk4";
+    const Script script = load_script(
+        "test", "system decay { u: 1; u' = -u }\nstage s: decay { speed: 0.25 + 0.1 * x }", ".", changes);
+    EXPECT_FALSE(script.program);
+    EXPECT_THAT(script.messages(false),
+                HasSubstr("rk4 cannot take the speed of stage 's', which varies by cell"));
+}
+
+}  // namespace
+}  // namespace cascade

@@ -1,0 +1,90 @@
+// Steps of a scheme over plain vectors in double precision: what the kernels of its forms compute,
+// written a second time, so that integrators are tested apart from kernels.
+#pragma once
+
+#include "solvers/scheme.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace cascade::testing {
+
+/// One entry for each species, each a vector of cells.
+using PlainState = std::vector<std::vector<double>>;
+using PlainRates = std::function<PlainState(const PlainState& state, double t)>;
+
+class SchemeRunner {
+public:
+    SchemeRunner(Scheme scheme, PlainRates rates, PlainState start, double speed = 0)
+        : scheme_(std::move(scheme)), rates_(std::move(rates)), speed_(speed) {
+        registers_.assign(scheme_.registers, PlainState(start.size(), std::vector<double>(
+                                                                          start[0].size())));
+        registers_[old_register] = std::move(start);
+    }
+
+    /// Takes a step and stays at the old one; accept() goes on to the new one.
+    void attempt(double step) {
+        for (const Sweep& sweep : scheme_.sweeps) run(sweep, step);
+        step_ = step;
+    }
+    void accept() {
+        registers_[old_register] = registers_[new_register];
+        time_ += step_;
+    }
+    void step(double step) {
+        attempt(step);
+        accept();
+    }
+
+    const PlainState& state() const { return registers_[old_register]; }
+    const PlainState& attempted() const { return registers_[new_register]; }
+    const PlainState& error() const { return registers_[scheme_.error_register]; }
+    double time() const { return time_; }
+
+private:
+    void run(const Sweep& sweep, double step) {
+        const SweepForm& form = scheme_.forms[sweep.form];
+        PlainState evaluated = registers_[sweep.inputs[0]];
+        for (std::uint32_t s = 0; s < sweep.renewed; ++s) {
+            evaluated[s] = registers_[new_register][s];
+        }
+        const PlainState rates = rates_(evaluated, time_ + sweep.time * step);
+        std::vector<PlainState> inputs;
+        for (const std::uint32_t input : sweep.inputs) inputs.push_back(registers_[input]);
+        std::vector<std::uint32_t> species = form.species;
+        if (species.empty()) {
+            for (std::uint32_t s = 0; s < rates.size(); ++s) species.push_back(s);
+        }
+        for (std::size_t o = 0; o < form.outputs.size(); ++o) {
+            for (const std::uint32_t s : species) {
+                for (std::size_t cell = 0; cell < rates[s].size(); ++cell) {
+                    double sum = 0;
+                    for (const SweepTerm& term : form.outputs[o].terms) {
+                        double value = rates[s][cell];
+                        if (term.source != SweepTerm::Source::rate) value = inputs[term.input][s][cell];
+                        if (term.source == SweepTerm::Source::difference) {
+                            value -= inputs[form.old_input][s][cell];
+                        }
+                        if (term.weight == SweepTerm::Weight::speed) value *= speed_;
+                        if (term.weight == SweepTerm::Weight::coefficient) {
+                            const auto& coefficient = sweep.coefficients[term.coefficient];
+                            value *= coefficient.value * (coefficient.times_step ? step : 1);
+                        }
+                        sum += value;
+                    }
+                    registers_[sweep.outputs[o]][s][cell] = sum;
+                }
+            }
+        }
+    }
+
+    Scheme scheme_;
+    PlainRates rates_;
+    double speed_;
+    std::vector<PlainState> registers_;
+    double time_ = 0, step_ = 0;
+};
+
+}  // namespace cascade::testing
