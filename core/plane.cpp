@@ -4,6 +4,7 @@
 #include "core/check.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -16,67 +17,110 @@ namespace {
 constexpr std::size_t cache_line = 64;
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 
-/// Where the ends of an axis of `count` cells see their cells beyond, as cells of the axis.
-struct Ends {
-    std::int64_t before;  ///< The cell that stands at −1.
-    std::int64_t behind;  ///< The cell that stands at `count`.
+/// The cell of an axis of `count` cells, the first or the last, from which the one beyond a side
+/// comes.
+std::int64_t source_of(const SideRule& rule, Side side, std::int64_t count) {
+    const bool is_before = static_cast<int>(side) % 2 == 0;
+    return is_before == (rule.kind == SideKind::periodic) ? count - 1 : 0;
+}
 
-    Ends(Boundary boundary, std::int64_t count)
-        : before(boundary == Boundary::periodic ? count - 1 : 0), behind(count - 1 - before) {}
-};
+float beyond(const SideRule& rule, float cell, float value, float spacing) {
+    return rule.kind == SideKind::fixed ? 2.0f * value - cell : cell + spacing * value;
+}
 
 /// Fills the halo that comes from some rows of a slice.
 class HaloFill {
 public:
-    HaloFill(float* origin, const PlaneLayout& layout, const Boundaries& boundary)
-        : origin_(origin),
-          layout_(layout),
-          columns_(boundary.x, layout.width),
-          rows_(boundary.y, layout.height),
-          slices_(boundary.z, layout.depth) {}
-
-    /// Every row of the halo is a copy of one row of cells, and it is filled along with that.
-    void from_rows(std::int64_t slice, std::int64_t begin, std::int64_t end) const {
-        for (std::int64_t j = begin; j < end; ++j) {
-            float* cells = row(j, slice);
-            cells[-1] = cells[columns_.before];
-            cells[layout_.width] = cells[columns_.behind];
+    HaloFill(float* origin, const PlaneLayout& layout, const SideRules& sides)
+        : origin_(origin), layout_(layout), sides_(sides) {
+        const std::int64_t cells[3] = {layout.width, layout.height, layout.depth};
+        for (std::size_t side = 0; side < side_count; ++side) {
+            sources_[side] = source_of(sides.at[side], static_cast<Side>(side), cells[side / 2]);
         }
-        copy_outer_rows(slice, begin, end, slice);
+    }
+
+    /// Every row of the halo comes from one row of cells, and it is filled along with that.
+    void from_rows(std::int64_t slice, std::int64_t begin, std::int64_t end) const {
+        fill_columns(slice, begin, end);
+        const auto is_given = [&](Side side) {
+            return begin <= source(side) && source(side) < end;
+        };
+        if (is_given(Side::top)) fill_row(Side::top, {source(Side::top), slice}, {-1, slice});
+        if (is_given(Side::bottom)) {
+            fill_row(Side::bottom, {source(Side::bottom), slice}, {layout_.height, slice});
+        }
         if (!layout_.has_halo_slices()) return;
-        if (slice == slices_.before) copy_rows(slice, begin, end, -1);
-        if (slice == slices_.behind) copy_rows(slice, begin, end, layout_.depth);
+        for (const Side side : {Side::front, Side::back}) {
+            if (slice != source(side)) continue;
+            const std::int64_t to = side == Side::front ? -1 : layout_.depth;
+            for (std::int64_t j = begin; j < end; ++j) fill_row(side, {j, slice}, {j, to});
+            if (is_given(Side::top)) fill_row(side, {-1, slice}, {-1, to});
+            if (is_given(Side::bottom)) {
+                fill_row(side, {layout_.height, slice}, {layout_.height, to});
+            }
+        }
     }
 
 private:
-    float* row(std::int64_t row, std::int64_t slice) const {
-        return origin_ + slice * layout_.slice_stride + row * layout_.stride;
+    struct RowPlace {
+        std::int64_t row, slice;
+    };
+
+    std::int64_t source(Side side) const { return sources_[static_cast<std::size_t>(side)]; }
+    std::int64_t start(RowPlace place) const {
+        return place.slice * layout_.slice_stride + place.row * layout_.stride;
     }
 
-    /// With the halo columns.
-    void copy_row(std::int64_t from, std::int64_t slice, std::int64_t to,
-                  std::int64_t to_slice) const {
-        std::memcpy(row(to, to_slice) - 1, row(from, slice) - 1,
-                    static_cast<std::size_t>(layout_.width + 2) * sizeof(float));
+    void fill_columns(std::int64_t slice, std::int64_t begin, std::int64_t end) const {
+        const SideRule& left = sides_[Side::left];
+        const SideRule& right = sides_[Side::right];
+        const std::int64_t behind = layout_.width;
+        for (std::int64_t j = begin; j < end; ++j) {
+            float* cells = origin_ + start({j, slice});
+            cells[-1] = cells[source(Side::left)];
+            cells[behind] = cells[source(Side::right)];
+        }
+        if (!left.has_value() && !right.has_value()) return;
+        for (std::int64_t j = begin; j < end; ++j) {
+            const std::int64_t row = start({j, slice});
+            float* cells = origin_ + row;
+            const auto value = [&](const SideRule& rule, std::int64_t i) {
+                return rule.values ? rule.values[row + i] : rule.value;
+            };
+            if (left.has_value()) {
+                cells[-1] = beyond(left, cells[0], value(left, 0), sides_.spacing);
+            }
+            if (right.has_value()) {
+                cells[behind] = beyond(right, cells[behind - 1], value(right, behind - 1),
+                                       sides_.spacing);
+            }
+        }
     }
 
-    /// The halo rows of `to_slice` that come from some rows of a slice.
-    void copy_outer_rows(std::int64_t slice, std::int64_t begin, std::int64_t end,
-                         std::int64_t to_slice) const {
-        const auto is_given = [&](std::int64_t row) { return begin <= row && row < end; };
-        if (is_given(rows_.before)) copy_row(rows_.before, slice, -1, to_slice);
-        if (is_given(rows_.behind)) copy_row(rows_.behind, slice, layout_.height, to_slice);
-    }
-
-    void copy_rows(std::int64_t slice, std::int64_t begin, std::int64_t end,
-                   std::int64_t to_slice) const {
-        for (std::int64_t j = begin; j < end; ++j) copy_row(j, slice, j, to_slice);
-        copy_outer_rows(slice, begin, end, to_slice);
+    /// A row of the halo beyond a side, with its halo columns.
+    void fill_row(Side side, RowPlace from, RowPlace to) const {
+        const SideRule& rule = sides_[side];
+        const float* cells = origin_ + start(from) - 1;
+        float* halo = origin_ + start(to) - 1;
+        const std::int64_t count = layout_.width + 2;
+        if (!rule.has_value()) {
+            std::memcpy(halo, cells, static_cast<std::size_t>(count) * sizeof(float));
+        } else if (rule.values) {
+            const float* values = rule.values + start(from) - 1;
+            for (std::int64_t i = 0; i < count; ++i) {
+                halo[i] = beyond(rule, cells[i], values[i], sides_.spacing);
+            }
+        } else {
+            for (std::int64_t i = 0; i < count; ++i) {
+                halo[i] = beyond(rule, cells[i], rule.value, sides_.spacing);
+            }
+        }
     }
 
     float* origin_;
     const PlaneLayout& layout_;
-    Ends columns_, rows_, slices_;
+    const SideRules& sides_;
+    std::array<std::int64_t, side_count> sources_{};
 };
 
 }  // namespace
@@ -95,14 +139,14 @@ void* allocate_plane(std::size_t bytes) {
 
 void free_plane(void* plane) { std::free(plane); }
 
-void fill_halo(float* origin, const PlaneLayout& layout, const Boundaries& boundary) {
-    fill_halo_from_rows(origin, layout, boundary, 0, layout.row_count());
+void fill_halo(float* origin, const PlaneLayout& layout, const SideRules& sides) {
+    fill_halo_from_rows(origin, layout, sides, 0, layout.row_count());
 }
 
-void fill_halo_from_rows(float* origin, const PlaneLayout& layout, const Boundaries& boundary,
+void fill_halo_from_rows(float* origin, const PlaneLayout& layout, const SideRules& sides,
                          std::int64_t begin, std::int64_t end) {
     CHECK(0 <= begin && end <= layout.row_count(), "a halo comes from rows of the plane");
-    const HaloFill fill(origin, layout, boundary);
+    const HaloFill fill(origin, layout, sides);
     while (begin < end) {
         const std::int64_t slice = begin / layout.height;
         const std::int64_t first = begin - slice * layout.height;

@@ -1,7 +1,7 @@
 // A plane of values, one per cell of a grid, with a halo.
 #pragma once
 
-#include "core/grid.h"
+#include "core/side.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -66,14 +66,14 @@ using Field = Plane<float>;         ///< A species, or a parameter that varies o
 using Mask = Plane<std::uint8_t>;   ///< 1 where a cell is frozen, else 0.
 
 /// Fills the halo of a field, edges and corners included: columns −1 and width, rows −1 and height
-/// and, where there is more than one slice, slices −1 and depth, by the boundary along each axis.
+/// and, where there is more than one slice, slices −1 and depth, by the rules of its sides.
 /// Columns come first, then rows with the halo columns, then slices with both.
-void fill_halo(float* origin, const PlaneLayout& layout, const Boundaries& boundary);
+void fill_halo(float* origin, const PlaneLayout& layout, const SideRules& sides);
 
 /// All of the halo whose values come from rows [begin, end), numbered through all slices. Threads
 /// that call it on parts of the rows have filled the whole halo together, without reading each
 /// other's rows.
-void fill_halo_from_rows(float* origin, const PlaneLayout& layout, const Boundaries& boundary,
+void fill_halo_from_rows(float* origin, const PlaneLayout& layout, const SideRules& sides,
                          std::int64_t begin, std::int64_t end);
 
 }  // namespace cascade

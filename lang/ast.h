@@ -106,6 +106,7 @@ struct Block {
     /// from, empty where it is derived from none.
     Word base;
     std::vector<Sentence> sentences;
+    std::vector<Sentence> sides;  ///< `u.left: …`; their names hold the dot.
     std::string doc;  ///< The text of its doc comments, joined to one line.
 };
 

@@ -35,6 +35,7 @@ void check_systems(Workspace& work, const ast::Script& script,
         if (each.base) base = numbers[*each.base];
         const std::size_t errors_before = work.diagnostics.error_count();
         numbers.push_back(checking::check_system(work, each, base));
+        checking::check_system_sides(work, *each.from.script, *each.from.block, numbers.back(), base);
         const bool is_sound = work.diagnostics.error_count() == errors_before;
         CHECK(is_sound || !each.from.built_in, "the systems of the library are sound");
     }
@@ -65,6 +66,7 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
         checking::functions_of(work, script);  // Those that nothing calls are checked too.
         checking::check_stages(work, script);
         checking::check_domain(work, script);
+        checking::check_stage_sides(work, script);
         checking::check_picture(work, script);
         // What could not be read may have been what reads a parameter.
         if (!own.has_errors() && !diagnostics.has_errors()) checking::warn_unread(work);

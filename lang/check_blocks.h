@@ -39,6 +39,20 @@ void report_unknown_system(Workspace& work, const ast::Word& name);
 /// All stages of a script, with the overrides.
 void check_stages(Workspace& work, const ast::Script& script);
 
+/// The sides that the block of system `index` gives its species, behind those of system `base`,
+/// which it is derived from.
+void check_system_sides(Workspace& work, const ast::Script& script, const ast::Block& block,
+                        std::uint32_t index, std::optional<std::uint32_t> base);
+
+/// A sentence of the domain about a side, for all species.
+void check_domain_side(Workspace& work, const ast::Script& script, const ast::Sentence& sentence);
+
+/// The sides of all stages, when systems, stages and the domain are known.
+void check_stage_sides(Workspace& work, const ast::Script& script);
+
+/// left, right, top, bottom, front, back or sides.
+bool is_side_word(std::string_view word);
+
 /// The `domain` block, if there is one.
 void check_domain(Workspace& work, const ast::Script& script);
 

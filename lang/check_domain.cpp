@@ -152,13 +152,17 @@ void check_domain_sentence(Workspace& work, const ast::Script& script,
         check_boundary(work, script, sentence);
     } else if (key == "spacing") {
         check_spacing(work, script, sentence);
+    } else if (is_side_word(key)) {
+        check_domain_side(work, script, sentence);
     } else if (key == "seed") {
         check_seed(work, script, sentence);
     } else if (key == "mesh" || key == "cells" || key == "unit") {
         work.diagnostics.error(sentence.name.span,
                                fmt::format("'{}' is not in this version of the language", key));
     } else {
-        std::string hint = did_you_mean(work, key, {"grid", "spacing", "boundary", "seed"});
+        std::string hint = did_you_mean(work, key, {"grid", "spacing", "boundary", "seed", "left",
+                                                   "right", "top", "bottom", "front", "back",
+                                                   "sides"});
         if (hint.empty()) hint = "a domain has grid, spacing, boundary and seed";
         work.diagnostics.error(sentence.name.span,
                                fmt::format("'{}' is not a setting of the domain", key),

@@ -40,7 +40,7 @@ void ScriptParser::parse_item() {
     if (parse_function_or_use()) return;
     if (!in_classic_stage_) return parse_outside_sentence();
     if (auto sentence = parse_sentence()) {
-        script_.blocks.back().sentences.push_back(std::move(*sentence));
+        add_sentence(script_.blocks.back(), std::move(*sentence));
     }
 }
 
@@ -138,7 +138,7 @@ void ScriptParser::parse_body(ast::Block& block) {
         if (cursor_.take_if(TokenKind::close_curly)) return;
         if (cursor_.take_if(TokenKind::newline) || cursor_.take_if(TokenKind::semicolon)) continue;
         if (refuse_function_or_use()) continue;
-        if (auto sentence = parse_sentence()) block.sentences.push_back(std::move(*sentence));
+        if (auto sentence = parse_sentence()) add_sentence(block, std::move(*sentence));
     }
     if (is_open && !cursor_.lost_in_text(open, "}")) report_unclosed(open, block);
 }

@@ -2,10 +2,13 @@
 #include "lang/script_parser.h"
 
 #include "core/near_name.h"
+#include "core/side.h"
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
 namespace cascade {
 
@@ -19,12 +22,35 @@ std::optional<ast::Sentence> ScriptParser::parse_sentence() {
     ast::Sentence sentence;
     sentence.doc = docs_before();
     sentence.name = cursor_.word(cursor_.take());
+    parse_side(sentence);
     if (!parse_index(sentence)) return std::nullopt;
     if (!parse_relation(sentence)) return std::nullopt;
     parse_values(sentence);
     sentence.span = join(sentence.name.span, cursor_.previous().span);
     add_docs(sentence.doc, docs_behind(sentence.name.span.begin));
     return sentence;
+}
+
+/// The `.left` of `u.left: e`, if there is one: it becomes part of the name.
+void ScriptParser::parse_side(ast::Sentence& sentence) {
+    const bool is_dotted = cursor_.at(TokenKind::dot) && cursor_.kind(1) == TokenKind::name &&
+                           cursor_.kind(2) == TokenKind::colon &&
+                           cursor_.peek().span.begin == sentence.name.span.end &&
+                           cursor_.peek(1).span.begin == cursor_.peek().span.end;
+    if (!is_dotted) return;
+    const std::string_view word = cursor_.text(cursor_.peek(1));
+    const bool is_side = word == "sides" ||
+                         std::find(side_names.begin(), side_names.end(), word) != side_names.end();
+    if (!is_side) return;
+    cursor_.take();
+    const Span whole = join(sentence.name.span, cursor_.take().span);
+    sentence.name = {whole, cursor_.text(whole)};
+}
+
+/// Sentences about sides go to a place of their own.
+void ScriptParser::add_sentence(ast::Block& block, ast::Sentence sentence) {
+    const bool is_side = sentence.name.text.find('.') != std::string_view::npos;
+    (is_side ? block.sides : block.sentences).push_back(std::move(sentence));
 }
 
 std::string ScriptParser::docs_before() {
@@ -119,8 +145,7 @@ bool ScriptParser::parse_relation(ast::Sentence& sentence) {
             cursor_.error(token.span, "an invariant is written with '<='", "write '<='");
             break;
         case TokenKind::dot:
-            cursor_.error(sentence.name.span, "a sentence sets a name of its own stage only",
-                          "write the name without a stage");
+            report_dot(sentence);
             cursor_.skip_sentence();
             return false;
         case TokenKind::garbage: cursor_.skip_sentence(); return false;
@@ -128,6 +153,19 @@ bool ScriptParser::parse_relation(ast::Sentence& sentence) {
     }
     cursor_.take();
     return true;
+}
+
+/// `large.ka: 1`, or a side with a slip.
+void ScriptParser::report_dot(const ast::Sentence& sentence) {
+    std::string near;
+    if (cursor_.kind(1) == TokenKind::name) {
+        std::vector<std::string> sides(side_names.begin(), side_names.end());
+        sides.emplace_back("sides");
+        near = nearest_name(cursor_.text(cursor_.peek(1)), sides);
+    }
+    cursor_.error(sentence.name.span, "a sentence sets a name of its own stage only",
+                  near.empty() ? "write the name without a stage"
+                               : fmt::format("did you mean {}.{}?", sentence.name.text, near));
 }
 
 bool ScriptParser::parse_rate_relation(ast::Sentence& sentence) {

@@ -104,6 +104,9 @@ PassPlanner::PassPlanner(const PartGraph& graph, std::span<const PartId> roots, 
       stays_(graph.size(), false),
       pass_(graph.size(), 0),
       beside_(graph.size(), 0) {
+    // A plane's halo mirrors, and what a species is beyond a side with a value it does not know.
+    const Stage& stage = graph.program().stages[graph.stage()];
+    if (!stage.sides.empty()) bringing_ = Bringing::recomputing;
     mark_needed(roots);
     for (PartId id = 0; id < graph.size(); ++id) {
         if (needed_[id]) decide(id);

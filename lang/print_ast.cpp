@@ -143,6 +143,9 @@ std::string print_ast(const ast::Script& script, const Sources& sources) {
         if (!block.name.empty()) result += fmt::format(" {}", block.name.text);
         if (!block.base.empty()) result += fmt::format(": {}", block.base.text);
         result += fmt::format("  # line {}\n", location.line);
+        for (const ast::Sentence& sentence : block.sides) {
+            result += "    " + print_sentence(sentence, printer);
+        }
         for (const ast::Sentence& sentence : block.sentences) {
             result += "    " + print_sentence(sentence, printer);
         }

@@ -72,6 +72,21 @@ void print_time(const Program& program, const System& system, const Stage& stage
     if (time.steady || time.until) fmt::format_to(out, "  check: {}\n", time.check);
 }
 
+void print_sides(const Program& program, std::uint32_t index, std::uint32_t item,
+                 const std::array<SideSetting, side_count>& sides, Output out) {
+    const System& system = program.system_of(index);
+    for (std::size_t side = 0; side < side_count; ++side) {
+        const SideSetting& setting = sides[side];
+        if (setting.span.end == 0) continue;  // As the boundary says.
+        fmt::format_to(out, "  {}.{}: {}", system.item_name(item), side_names[side],
+                       side_kind_words[static_cast<std::size_t>(setting.kind)]);
+        if (takes_value(setting.kind)) {
+            fmt::format_to(out, "({})", print_formula(program, system, setting.value, index));
+        }
+        fmt::format_to(out, "\n");
+    }
+}
+
 void print_stage(const Program& program, std::uint32_t index, Output out) {
     const Stage& stage = program.stages[index];
     const System& system = program.system_of(index);
@@ -82,6 +97,10 @@ void print_stage(const Program& program, std::uint32_t index, Output out) {
         fmt::format_to(out, "  {}: {}  # {}\n", system.item_name(item),
                        print_formula(program, system, stage.items[item], index),
                        kind_of(program, index, item));
+    }
+    std::size_t species = 0;
+    for (std::uint32_t item = 0; item < system.quantities.size() && !stage.sides.empty(); ++item) {
+        if (system.is_species(item)) print_sides(program, index, item, stage.sides[species++], out);
     }
     fmt::format_to(out, "  show: {}\n}}\n\n", print_formula(program, system, stage.show, index));
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/grid.h"
+#include "core/side.h"
 #include "core/source.h"
 #include "ir/solver.h"
 
@@ -184,6 +185,20 @@ struct Index {
     std::int64_t high = 1;
 };
 
+/// What a species is at a side.
+struct SideSetting {
+    SideKind kind = SideKind::no_flux;
+    Formula value;  ///< Of fixed and flux: found when a stage starts; its `own` nodes are of the stage.
+    Span span;      ///< Where it was written; empty where it comes from the boundary.
+};
+
+/// A rule of one species.
+struct SpeciesSide {
+    std::uint32_t species = 0;  ///< Its item.
+    Side side = Side::left;
+    SideSetting setting;
+};
+
 struct System {
     std::string name;
     Span span;
@@ -197,6 +212,7 @@ struct System {
     std::vector<Formula> rates;            ///< One per quantity; empty nodes for parameters.
     std::vector<std::uint32_t> rate_order; ///< Species items, each after those whose rate it reads.
     std::vector<Invariant> invariants;
+    std::vector<SpeciesSide> sides;        ///< Later ones replace earlier ones.
     Settings settings;
 
     // A stage's items are its quantities, then `frozen`, then `speed`.
@@ -220,11 +236,14 @@ struct Stage {
     std::int64_t interval = 1;         ///< 0 where looks are at tenths of the duration.
     Formula show;
     StageTime time;
+    /// By species, in their order; empty where nothing is said of any side but the boundary.
+    std::vector<std::array<SideSetting, side_count>> sides;
 };
 
 struct DomainSettings {
     Grid grid;                   ///< 64 × 64, periodic, unless said otherwise.
     std::uint32_t seed = 1;
+    std::array<std::optional<SideSetting>, side_count> sides;  ///< Of all species.
     Span grid_span;              ///< For messages about its size; empty when it is the default.
 };
 

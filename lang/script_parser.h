@@ -51,6 +51,9 @@ private:
 
     // Sentences (parser_sentences.cpp).
     std::optional<ast::Sentence> parse_sentence();
+    void parse_side(ast::Sentence& sentence);
+    static void add_sentence(ast::Block& block, ast::Sentence sentence);
+    void report_dot(const ast::Sentence& sentence);
     bool parse_relation(ast::Sentence& sentence);
     bool parse_rate_relation(ast::Sentence& sentence);
     bool report_missing_colon(const ast::Sentence& sentence);

@@ -18,8 +18,8 @@ const float* plane_of(const SlotSource& source, const BindingContext& context) {
 }
 
 /// The halo is no part of a field's value: whoever reads neighbours fills it.
-void fill_halo_of(const float* cells, const Grid& grid) {
-    fill_halo(const_cast<float*>(cells), PlaneLayout(grid), grid.boundary);
+void fill_halo_of(const float* cells, const Grid& grid, const SideRules& sides) {
+    fill_halo(const_cast<float*>(cells), PlaneLayout(grid), sides);
 }
 
 /// Binds the slots of a plan's passes.
@@ -29,6 +29,7 @@ public:
            std::uint32_t stage, const SweepForm* form = nullptr, const Sweep* sweep = nullptr)
         : plan_(plan), context_(context), system_(system), stage_(stage), form_(form), sweep_(sweep) {
         if (system_ != nullptr) {
+            problem_.sides = context_.states[stage_].sides;
             problem_.species_needs_halo.assign(context_.states[stage_].species.size(), false);
         }
         temporary_needs_halo_.assign(plan_.temporaries, false);
@@ -85,6 +86,18 @@ private:
         return species < sweep_->renewed ? new_register : sweep_->inputs[0];
     }
 
+    /// Of a plane that is read at neighbours and does not change.
+    SideRules sides_of(const SlotSource& source) const {
+        if (source.kind == SlotSource::Kind::item) {
+            const StageState& state = context_.states[source.stage];
+            const int species = state.species_of_item[source.item];
+            if (species >= 0 && !state.sides.empty()) {
+                return state.sides[static_cast<std::size_t>(species)];
+            }
+        }
+        return context_.grid.boundary;
+    }
+
     void find_halos(const Pass& pass) {
         for (std::size_t slot = 0; slot < pass.bound.fields.size(); ++slot) {
             if (!pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) continue;
@@ -94,7 +107,9 @@ private:
                     problem_.species_needs_halo[plane.number] = true;
                     break;
                 case PlaneRef::Kind::temporary: temporary_needs_halo_[plane.number] = true; break;
-                case PlaneRef::Kind::fixed: fill_halo_of(plane.cells, context_.grid); break;
+                case PlaneRef::Kind::fixed: 
+                    fill_halo_of(plane.cells, context_.grid, sides_of(pass.bound.fields[slot]));
+                    break;
             }
         }
     }
@@ -262,6 +277,16 @@ float largest_value(const Field& field) {
         }
     }
     return most;
+}
+
+bool is_same_everywhere(const Field& field) {
+    const PlaneLayout& layout = field.layout();
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+        for (std::int64_t i = 0; i < layout.width; ++i) {
+            if (to_bits(field.row(row)[i]) != to_bits(field.at(0, 0))) return false;
+        }
+    }
+    return true;
 }
 
 std::string species_name(const System& system, std::size_t species) {

@@ -51,6 +51,9 @@ float smallest(const Field& field);
 /// The largest.
 float largest_value(const Field& field);
 
+/// Do all cells hold the same word?
+bool is_same_everywhere(const Field& field);
+
 /// The name of species number `species`.
 std::string species_name(const System& system, std::size_t species);
 

@@ -100,6 +100,11 @@ Result<CompiledStep> compile_step(const Script& script, const CompileRequest& re
         return failure("a grid with slices is not compiled to an object file in this version",
                        "'cascade run' compiles it in memory");
     }
+    if (!program.stages[*stage].sides.empty()) {
+        return failure(fmt::format("stage '{}' gives its species sides of their own, which object "
+                                   "files do not have in this version",
+                                   program.stages[*stage].name));
+    }
     ObjectOptions options;
     options.function_name = name + "_rows";
     options.target = request.target;

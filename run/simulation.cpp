@@ -99,6 +99,8 @@ struct Simulation::Implementation {
         }
     }
 
+    void find_sides(std::uint32_t k);
+
     Result<void> check_speed(std::uint32_t k) const {
         const System& system = program->system_of(k);
         const std::uint32_t item = system.speed_item();
@@ -198,6 +200,7 @@ Result<void> Simulation::start_stage(std::uint32_t k) {
     }
     self.start_uniform_items(k);
     self.start_varying_items(k);
+    self.find_sides(k);
     state.started = true;
     return self.check_speed(k);
 }
@@ -333,6 +336,28 @@ Failure Simulation::Implementation::explain(const StepTooShort& place, std::uint
         species_name(program->system_of(k), place.species), place.column, place.row);
     failure.hint = "something jumps or grows without bound there; a larger tolerance or euler may pass it";
     return failure;
+}
+
+/// Values of sides are found once, by formulas that may read whatever the stage starts with. One
+/// that is the same everywhere is kept as a number.
+void Simulation::Implementation::find_sides(std::uint32_t k) {
+    StageState& state = states[k];
+    for (const auto& settings : stage(k).sides) {
+        SideRules rules;
+        rules.spacing = static_cast<float>(grid.spacing);
+        for (std::size_t side = 0; side < side_count; ++side) {
+            SideRule& rule = rules.at[side];
+            rule.kind = settings[side].kind;
+            if (!rule.has_value()) continue;
+            Field values = std::move(
+                evaluate(plan_view(*program, settings[side].value, k), k)[0]);
+            rule.value = values.at(0, 0);
+            if (is_same_everywhere(values)) continue;
+            fill_halo(values.origin(), values.layout(), grid.boundary);
+            rule.values = state.side_values.emplace_back(std::move(values)).origin();
+        }
+        state.sides.push_back(rules);
+    }
 }
 
 Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::uint32_t k) {

@@ -41,6 +41,8 @@ struct StageState {
     std::vector<Field> species;         ///< In order of the species' items.
     std::vector<int> species_of_item;   ///< Per item; −1 for parameters.
     Mask frozen;                        ///< Only where `frozen` varies.
+    std::vector<SideRules> sides;       ///< By species; empty where the boundary holds for all.
+    std::vector<Field> side_values;     ///< What the rules of sides point to.
 
     /// The plane of an item that varies (a species or a varying parameter).
     const Field& field(std::uint32_t item) const {

@@ -121,8 +121,8 @@ void PassRunner::run_kernel(Worker& worker, const StepProblem::Pass& pass, std::
         pass.kernel->run(arguments, rows);
         for (std::size_t k = 0; k < pass.results.size(); ++k) {
             if (!pass.results[k].needs_halo) continue;
-            fill_halo_from_rows(worker.results[k], layout_, problem_.grid.boundary, rows.begin,
-                                rows.end);
+            fill_halo_from_rows(worker.results[k], layout_,
+                                problem_.sides_of(pass.results[k].plane), rows.begin, rows.end);
         }
     }
 }

@@ -144,7 +144,9 @@ private:
     }
 
     void run_kernel() {
-        for (Field& field : moved_) fill_halo(field.origin(), layout_, rates_.grid.boundary);
+        for (std::size_t k = 0; k < moved_.size(); ++k) {
+            fill_halo(moved_[k].origin(), layout_, rates_.sides_of(k));
+        }
         const std::array<std::span<float* const>, 2> registers{moved_cells_, rate_cells_};
         // Noise needs some length of a step; it cancels from differences.
         team_.run([&](int) { runner_.run(worker_, team_, registers, {0, 0, 1}); });

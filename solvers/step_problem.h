@@ -69,7 +69,17 @@ struct StepProblem {
     std::uint32_t error_register = 0;       ///< An estimate of the step's error; 0 for none.
     std::uint32_t temporaries = 0;
     std::uint32_t aggregates = 0;
+    std::vector<SideRules> sides;           ///< Per species; none: the grid's boundary for all.
     std::vector<bool> species_needs_halo;   ///< Per species: the old step is read at neighbours.
+
+    /// What holds at the sides of a plane that a pass writes. What is no species is mirrored.
+    SideRules sides_of(const PlaneRef& plane) const {
+        const bool is_species = plane.kind == PlaneRef::Kind::species;
+        return is_species && !sides.empty() ? sides[plane.number] : SideRules(grid.boundary);
+    }
+    SideRules sides_of(std::size_t species) const {
+        return sides.empty() ? SideRules(grid.boundary) : sides[species];
+    }
 };
 
 }  // namespace cascade

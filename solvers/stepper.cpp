@@ -32,7 +32,8 @@ Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int mos
     copies_[0] = std::move(species);
     for (Field& field : copies_[0]) {
         CHECK(field.layout() == layout_, "species lie as the grid says");
-        fill_halo(field.origin(), layout_, problem.grid.boundary);
+        const auto number = static_cast<std::size_t>(&field - copies_[0].data());
+        fill_halo(field.origin(), layout_, problem.sides_of(number));
         copies_[1].emplace_back(layout_);
         copies_[2].emplace_back(layout_);
     }

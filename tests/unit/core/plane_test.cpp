@@ -2,6 +2,7 @@
 #include "core/plane.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
@@ -113,6 +114,56 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Halo,
                                     std::to_string(tested.param.height) + "x" +
                                     std::to_string(tested.param.depth);
                          });
+
+/// What stands at a place of the halo by the definition: x first, then y, then z.
+float expected_beyond(const Field& cells, const Grid& grid, const SideRules& sides,
+                      const Field& values, std::array<std::int64_t, 3> at) {
+    const std::int64_t counts[3] = {grid.width, grid.height, grid.depth};
+    for (std::size_t axis = 3; axis-- > 0;) {
+        if (0 <= at[axis] && at[axis] < counts[axis]) continue;
+        const SideRule& rule = sides.at[2 * axis + (at[axis] < 0 ? 0 : 1)];
+        std::array<std::int64_t, 3> inside = at;
+        const bool is_periodic = rule.kind == SideKind::periodic;
+        inside[axis] = beyond(is_periodic ? Boundary::periodic : Boundary::no_flux, at[axis],
+                              counts[axis]);
+        const float cell = expected_beyond(cells, grid, sides, values, inside);
+        const float value = rule.values ? values.at(inside[0], inside[1], inside[2]) : rule.value;
+        if (rule.kind == SideKind::fixed) return 2 * value - cell;
+        return rule.kind == SideKind::flux ? cell + sides.spacing * value : cell;
+    }
+    return cells.at(at[0], at[1], at[2]);
+}
+
+TEST_P(Halo, SidesWithValues) {
+    const Grid grid{GetParam().width, GetParam().height, Boundary::no_flux, GetParam().depth};
+    Field values = numbered(grid);
+    fill_halo(values.origin(), values.layout(), grid.boundary);
+    const SideKind kinds[] = {SideKind::no_flux, SideKind::fixed, SideKind::flux};
+    for (int mixture = 0; mixture < 729; mixture += 7) {
+        SideRules sides;
+        sides.spacing = 0.5f;
+        int digits = mixture;
+        for (std::size_t side = 0; side < side_count; ++side, digits /= 3) {
+            sides.at[side] = {kinds[digits % 3], static_cast<float>(side) + 0.25f, nullptr};
+            if ((mixture + static_cast<int>(side)) % 2 == 0) sides.at[side].values = values.origin();
+        }
+        if (mixture % 3 == 1) sides.at[0].kind = sides.at[1].kind = SideKind::periodic;
+        Field field = numbered(grid);
+        const std::int64_t rows = field.layout().row_count();
+        fill_halo_from_rows(field.origin(), field.layout(), sides, rows / 2, rows);
+        fill_halo_from_rows(field.origin(), field.layout(), sides, 0, rows / 2);
+        const std::int64_t halo = grid.depth > 1 ? 1 : 0;
+        for (std::int64_t k = -halo; k < grid.depth + halo; ++k) {
+            for (std::int64_t j = -1; j <= grid.height; ++j) {
+                for (std::int64_t i = -1; i <= grid.width; ++i) {
+                    ASSERT_EQ(field.at(i, j, k),
+                              expected_beyond(field, grid, sides, values, {i, j, k}))
+                        << mixture << ": " << i << " " << j << " " << k;
+                }
+            }
+        }
+    }
+}
 
 TEST(PlaneLayout, RowsGoThroughAllSlices) {
     Field field = numbered(Grid{5, 4, {}, 3});

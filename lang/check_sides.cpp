@@ -1,0 +1,257 @@
+// Sides: what a species is at the sides of the grid. `u.left: fixed(1)` in a system or a stage,
+// `left: fixed(0)` of all species in the domain.
+#include "lang/check_blocks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace cascade::checking {
+
+namespace {
+
+std::optional<SideKind> kind_of_word(std::string_view word) {
+    const auto found = std::find(side_kind_words.begin(), side_kind_words.end(), word);
+    if (found == side_kind_words.end()) return std::nullopt;
+    return static_cast<SideKind>(found - side_kind_words.begin());
+}
+
+/// What is said of a side: its kind, and where its value stands.
+struct WrittenSide {
+    SideKind kind = SideKind::no_flux;
+    std::optional<ast::Expression> value;
+};
+
+/// `periodic`, `noflux`, `fixed(e)` or `flux(e)`; nothing, with a message, for all else.
+std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
+                                     const ast::Sentence& sentence) {
+    if (sentence.kind != ast::SentenceKind::value) {
+        work.diagnostics.error(sentence.span, "a side is given with ':'",
+                               fmt::format("write {}: …", sentence.name.text));
+        return std::nullopt;
+    }
+    if (!has_one_value(work, script, sentence)) return std::nullopt;
+    const ast::Expression written = sentence.values[0];
+    const ast::Expr& value = script.expressions[written.root];
+    if (std::holds_alternative<ast::Garbage>(value.node)) return std::nullopt;
+    const auto* name = std::get_if<ast::Name>(&value.node);
+    const auto* call = std::get_if<ast::Call>(&value.node);
+    const std::string_view word = name ? name->name : call ? call->function.text : std::string_view();
+    const auto kind = kind_of_word(word);
+    if (!kind) {
+        work.diagnostics.error(value.span, "a side is periodic, noflux, fixed(…) or flux(…)",
+                               did_you_mean(work, word, {"periodic", "noflux", "fixed", "flux"}));
+        return std::nullopt;
+    }
+    if (takes_value(*kind) && (!call || call->argument_count != 1)) {
+        work.diagnostics.error(value.span, fmt::format("{} takes one value", word),
+                               fmt::format("write {}(0)", word));
+        return std::nullopt;
+    }
+    if (!takes_value(*kind) && call) {
+        work.diagnostics.error(value.span, fmt::format("{} takes no value", word),
+                               fmt::format("write {}", word));
+        return std::nullopt;
+    }
+    if (!call) return WrittenSide{*kind, std::nullopt};
+    // The parts of the only argument stand directly before the call.
+    return WrittenSide{*kind,
+                       ast::Expression{written.first, script.arguments[call->first_argument]}};
+}
+
+/// The sides that a word means; empty for a word that means none.
+std::vector<Side> sides_of_word(std::string_view word) {
+    std::vector<Side> sides;
+    for (std::size_t side = 0; side < side_count; ++side) {
+        if (word == side_names[side] || word == "sides") sides.push_back(static_cast<Side>(side));
+    }
+    return sides;
+}
+
+/// The sentences with those of `sides` first, since one side alone says more than all.
+std::vector<const ast::Sentence*> in_order(const std::vector<ast::Sentence>& sentences) {
+    std::vector<const ast::Sentence*> ordered;
+    for (const ast::Sentence& sentence : sentences) ordered.push_back(&sentence);
+    std::stable_partition(ordered.begin(), ordered.end(), [](const ast::Sentence* sentence) {
+        return sentence->name.text.ends_with(".sides") || sentence->name.text == "sides";
+    });
+    return ordered;
+}
+
+std::vector<std::string> species_names(const System& system) {
+    std::vector<std::string> names;
+    for (const Quantity& quantity : system.quantities) {
+        if (quantity.is_species) names.push_back(quantity.name);
+    }
+    return names;
+}
+
+/// The rules of a block, in an order in which later ones replace earlier ones.
+std::vector<SpeciesSide> check_rules(Workspace& work, const ast::Script& script,
+                                     const ast::Block& block, const Scope& scope) {
+    std::vector<SpeciesSide> rules;
+    const System& system = work.program.systems[scope.system];
+    std::unordered_map<std::string, Span> seen;
+    for (const ast::Sentence* sentence : in_order(block.sides)) {
+        const std::string_view text = sentence->name.text;
+        const std::size_t dot = text.rfind('.');
+        const std::string_view name = text.substr(0, dot);
+        const auto [first, is_new] = seen.try_emplace(std::string(text), sentence->name.span);
+        if (!is_new) {
+            report_twice(work, sentence->name.span, first->second,
+                         fmt::format("'{}' is given twice", text));
+            continue;
+        }
+        const Meaning* meaning = find(work.names[scope.system], name);
+        if (meaning != nullptr && meaning->is_faulty) continue;
+        if (meaning == nullptr || meaning->is_definition || !system.is_species(meaning->index)) {
+            work.diagnostics.error(sentence->name.span,
+                                   fmt::format("'{}' is not a species of {}", name, system.name),
+                                   did_you_mean(work, name, species_names(system)));
+            continue;
+        }
+        const auto written = read_side(work, script, *sentence);
+        if (!written) continue;
+        SideSetting setting{written->kind, {}, sentence->span};
+        if (written->value) {
+            auto checked = check_number(work, script, *written->value, scope);
+            if (!checked) continue;
+            setting.value = std::move(checked->formula);
+            mark_reads(work, setting.value, scope.system);
+        }
+        for (const Side side : sides_of_word(text.substr(dot + 1))) {
+            rules.push_back({meaning->index, side, setting});
+        }
+    }
+    return rules;
+}
+
+using AllSides = std::array<SideSetting, side_count>;
+
+/// What holds where no species says otherwise.
+AllSides sides_of_domain(const DomainSettings& domain) {
+    AllSides sides;
+    const SideRules boundary(domain.grid.boundary);
+    for (std::size_t side = 0; side < side_count; ++side) {
+        sides[side].kind = boundary.at[side].kind;
+        if (domain.sides[side]) sides[side] = *domain.sides[side];
+    }
+    return sides;
+}
+
+/// The two sides of an axis are both periodic or neither is. False, with a message, where one is.
+bool are_pairs(Workspace& work, const AllSides& sides) {
+    for (std::size_t side = 0; side < side_count; side += 2) {
+        const bool first = sides[side].kind == SideKind::periodic;
+        const bool second = sides[side + 1].kind == SideKind::periodic;
+        if (first == second) continue;
+        const std::size_t other = first ? side + 1 : side;
+        const std::size_t periodic = first ? side : side + 1;
+        // The span is that of the rule which one of them was given.
+        const Span span = sides[other].span.end > 0 ? sides[other].span : sides[periodic].span;
+        work.diagnostics.error(
+            span,
+            fmt::format("{} is {}, but {} is periodic", side_names[other],
+                        side_kind_words[static_cast<std::size_t>(sides[other].kind)],
+                        side_names[periodic]),
+            fmt::format("give {} a rule too, or write boundary: noflux in the domain",
+                        side_names[span == sides[other].span ? periodic : other]));
+        return false;
+    }
+    return true;
+}
+
+/// Puts together what holds for each species of a stage.
+void resolve(Workspace& work, Stage& stage, const std::vector<SpeciesSide>& own) {
+    const System& system = work.program.systems[stage.system];
+    const AllSides base = sides_of_domain(work.program.domain);
+    const bool is_plain = own.empty() && system.sides.empty() &&
+                          std::none_of(work.program.domain.sides.begin(),
+                                       work.program.domain.sides.end(),
+                                       [](const auto& side) { return side.has_value(); });
+    if (is_plain) return;
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        if (!system.is_species(item)) continue;
+        AllSides sides = base;
+        for (const auto* rules : {&system.sides, &own}) {
+            for (const SpeciesSide& rule : *rules) {
+                if (rule.species == item) sides[static_cast<std::size_t>(rule.side)] = rule.setting;
+            }
+        }
+        if (!are_pairs(work, sides)) return;
+        stage.sides.push_back(std::move(sides));
+    }
+}
+
+}  // namespace
+
+bool is_side_word(std::string_view word) { return !sides_of_word(word).empty(); }
+
+void check_system_sides(Workspace& work, const ast::Script& script, const ast::Block& block,
+                        std::uint32_t index, std::optional<std::uint32_t> base) {
+    Scope scope;
+    scope.system = index;
+    System& system = work.program.systems[index];
+    if (base) {
+        const System& from = work.program.systems[*base];
+        // Species keep their names, but not always their numbers.
+        for (SpeciesSide side : from.sides) {
+            const Meaning* meaning = find(work.names[index], from.item_name(side.species));
+            if (meaning == nullptr || !system.is_species(meaning->index)) continue;
+            side.species = meaning->index;
+            for (Node& node : side.setting.value.nodes) {
+                if (node.kind != NodeKind::own) continue;
+                const Meaning* own = find(work.names[index], from.item_name(node.index));
+                if (own != nullptr) node.index = own->index;
+            }
+            mark_reads(work, side.setting.value, index);
+            system.sides.push_back(std::move(side));
+        }
+    }
+    for (SpeciesSide& rule : check_rules(work, script, block, scope)) {
+        system.sides.push_back(std::move(rule));
+    }
+}
+
+void check_domain_side(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    const auto written = read_side(work, script, sentence);
+    if (!written) return;
+    SideSetting setting{written->kind, {}, sentence.span};
+    if (written->value) {
+        const auto value = check_constant(work, script, *written->value,
+                                          "the value of a side of all species");
+        if (!value) return;
+        Node node;
+        node.number = *value;
+        node.span = sentence.span;
+        setting.value = {{node}};
+    }
+    const bool is_for_all = sentence.name.text == "sides";
+    for (const Side side : sides_of_word(sentence.name.text)) {
+        auto& target = work.program.domain.sides[static_cast<std::size_t>(side)];
+        if (!is_for_all || !target) target = setting;
+    }
+}
+
+void check_stage_sides(Workspace& work, const ast::Script& script) {
+    AllSides domain = sides_of_domain(work.program.domain);
+    if (!are_pairs(work, domain)) return;
+    std::uint32_t index = 0;
+    for (const ast::Block& block : script.blocks) {
+        const bool is_stage =
+            block.kind == ast::BlockKind::stage || block.kind == ast::BlockKind::classic_stage;
+        if (!is_stage) continue;
+        Stage& stage = work.program.stages[index];
+        Scope scope;
+        scope.system = stage.system;
+        scope.stage = scope.last_stage = index;
+        ++index;
+        if (stage.system == unknown_system) continue;
+        resolve(work, stage, check_rules(work, script, block, scope));
+    }
+}
+
+}  // namespace cascade::checking
