@@ -172,7 +172,8 @@ void ExpressionChecker::check_types(const Node& node) {
             need(operands[2], ValueType::number);
             return check_choice(formula_.nodes.back(), operands[0], operands[1]);
         case Function::palette: return check_palette(node);
-        case Function::field: return need(operands[0], ValueType::text);
+        case Function::field:
+        case Function::image: return need(operands[0], ValueType::text);
         case Function::noise:
         case Function::lattice:
         case Function::diamond: check_lattice(formula_.nodes.back()); break;

@@ -37,7 +37,9 @@ Value KernelAssembly::call(const Node& node, const Cursor& cursor) {
         case Function::box:
         case Function::gauss:
         case Function::stripe: return {shape(node, cursor)};
-        case Function::field: return {beside(file_slot(cursor.operand(0).index))};
+        case Function::field:
+        case Function::image:
+            return {beside(file_slot(node.function, cursor.operand(0).index))};
         case Function::clamp:
             return {builder_.minimum(
                 builder_.maximum(cursor.number(node, 0), cursor.number(node, 1)),

@@ -17,7 +17,8 @@ bool PassLowering::can_read_as_plane(PartId id) const {
     const Part& part = graph_[id];
     if (part.is_uniform) return false;
     if (planner_.is_plane_in(id, pass_)) return true;
-    if (part.calls(Function::field) || part.node.kind == NodeKind::earlier) return true;
+    if (part.node.kind == NodeKind::earlier) return true;
+    if (part.node.kind == NodeKind::call) return reads_file(part.node.function);
     const System& system = graph_.program().system_of(graph_.stage());
     return part.node.kind == NodeKind::own && part.node.index != system.frozen_item();
 }

@@ -34,11 +34,13 @@ std::uint32_t KernelAssembly::field_slot(std::uint32_t stage, std::uint32_t item
     return slot;
 }
 
-std::uint32_t KernelAssembly::file_slot(std::uint32_t text) {
-    const std::uint32_t slot =
-        builder_.field_slot(fmt::format("field(\"{}\")", program_.texts[text]));
+std::uint32_t KernelAssembly::file_slot(Function function, std::uint32_t text) {
+    const bool is_image = function == Function::image;
+    const std::uint32_t slot = builder_.field_slot(
+        fmt::format("{}(\"{}\")", info(function).spelling, program_.texts[text]));
     if (slot == bound_.fields.size()) {
-        bound_.fields.push_back({SlotSource::Kind::file, 0, text});
+        const auto kind = is_image ? SlotSource::Kind::image : SlotSource::Kind::file;
+        bound_.fields.push_back({kind, 0, text});
     }
     return slot;
 }
@@ -94,8 +96,9 @@ std::uint32_t KernelAssembly::plane_slot(const PartGraph& graph, PartId id) {
     const Part& part = graph[id];
     if (part.node.kind == NodeKind::own) return field_slot(stage_, part.node.index);
     if (part.node.kind == NodeKind::earlier) return field_slot(part.node.stage, part.node.index);
-    CHECK(part.calls(Function::field), "lowering: a plane is an item or a file");
-    return file_slot(graph[part.operands[0]].node.index);
+    CHECK(part.node.kind == NodeKind::call && reads_file(part.node.function),
+          "lowering: a plane is an item or a file");
+    return file_slot(part.node.function, graph[part.operands[0]].node.index);
 }
 
 ValueId KernelAssembly::item(std::uint32_t stage, std::uint32_t item) {

@@ -35,6 +35,10 @@ bool is_same(const Part& a, const Part& b) {
 
 }  // namespace
 
+bool reads_file(Function function) {
+    return function == Function::field || function == Function::image;
+}
+
 bool is_stencil(Function function) {
     switch (function) {
         case Function::lap:

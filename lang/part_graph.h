@@ -40,6 +40,8 @@ struct Part {
     }
 };
 
+/// Does it read a file, which lies in a plane of its own?
+bool reads_file(Function function);
 /// Is it an operator that reads its last operand at neighbours? (`div` reads at faces instead.)
 bool is_stencil(Function function);
 

@@ -131,7 +131,7 @@ bool PassPlanner::is_plane(PartId id) const {
     switch (part.node.kind) {
         case NodeKind::own: return part.node.index != system.frozen_item();
         case NodeKind::earlier: return true;
-        case NodeKind::call: return part.node.function == Function::field;
+        case NodeKind::call: return reads_file(part.node.function);
         default: return false;
     }
 }
@@ -203,7 +203,7 @@ void PassPlanner::decide_own(PartId id) {
     stays_[id] = !part.is_uniform &&
                  (is_stencil(function) || function == Function::div ||
                   (varies_by_cell(function) && !differentiates(function) &&
-                   function != Function::field));
+                   !reads_file(function)));
     for (std::uint32_t k = 0; k < part.operand_count; ++k) {
         const PartId operand = part.operands[k];
         const bool is_moved = reads_beside && (is_vector || k + 1 == part.operand_count);

@@ -110,8 +110,10 @@ private:
         if (planner_.is_written(id)) {
             return {SlotSource::Kind::temporary, 0, storage_.temporary[id]};
         }
-        if (part.calls(Function::field)) {
-            return {SlotSource::Kind::file, 0, graph_[part.operands[0]].node.index};
+        if (part.node.kind == NodeKind::call) {
+            const auto kind = part.calls(Function::image) ? SlotSource::Kind::image
+                                                          : SlotSource::Kind::file;
+            return {kind, 0, graph_[part.operands[0]].node.index};
         }
         const bool is_own = part.node.kind == NodeKind::own;
         return {SlotSource::Kind::item, is_own ? graph_.stage() : part.node.stage,

@@ -20,7 +20,8 @@ namespace cascade {
 struct SlotSource {
     enum class Kind {
         item,       ///< Item `item` of stage `stage` (a field slot, a mask slot or a uniform slot).
-        file,       ///< The file named Program::texts[item], as a field slot.
+        file,       ///< The array named Program::texts[item], as a field slot.
+        image,      ///< The picture named Program::texts[item], as a field slot.
         step,       ///< Uniform: complete steps of the stage when the step begins.
         time,       ///< Uniform: the stage's t when the rates are evaluated.
         time_step,  ///< Uniform: the length of the step that is taken.

@@ -3,19 +3,15 @@
 // libpng reads texts before the picture's data with ease, those behind it only by inflating the
 // picture. So we walk over the file's chunks ourselves and show libpng a short file: the header and
 // the texts. It checks and inflates them within the limits set here.
-// As in write_png.cpp, libpng's errors jump to Decoder::run over frames that own nothing.
 #include "core/file.h"
 #include "picture/image.h"
+#include "picture/png_reader.h"
 
 #include <fmt/format.h>
-#include <png.h>
 
-#include <algorithm>
-#include <array>
-#include <csetjmp>
-#include <cstring>
 #include <new>
 #include <optional>
+#include <span>
 
 namespace cascade {
 namespace {
@@ -58,65 +54,21 @@ Result<std::string> file_of_texts(std::string_view bytes) {
     return file + std::string("\0\0\0\0IDAT", 8);
 }
 
-/// Reads a PNG's chunks up to the picture's data and keeps the texts.
-class Decoder {
-public:
-    explicit Decoder(std::string_view bytes) : bytes_(bytes) {}
-    ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
-    Decoder(const Decoder&) = delete;
-    Decoder& operator=(const Decoder&) = delete;
-
-    bool run();
-    std::span<const png_text> texts() const;
-    const char* error() const { return error_.data(); }
-
-private:
-    static void take(png_structp png, png_bytep data, png_size_t size);
-    [[noreturn]] static void fail(png_structp png, png_const_charp message);
-
-    std::string_view bytes_;
-    std::size_t position_ = 0;
-    std::array<char, 200> error_{};
-    png_structp png_ = nullptr;
-    png_infop info_ = nullptr;
-};
-
-void Decoder::take(png_structp png, png_bytep data, png_size_t size) {
-    auto& self = *static_cast<Decoder*>(png_get_io_ptr(png));
-    if (size > self.bytes_.size() - self.position_) png_error(png, "it ends too early");
-    std::memcpy(data, self.bytes_.data() + self.position_, size);
-    self.position_ += size;
+/// Reads the chunks up to the picture's data.
+bool read_texts(PngReader& reader) {
+    return reader.open() && reader.guarded([&reader] {
+        png_set_chunk_malloc_max(reader.png(), text_room);
+        // What libpng forgives elsewhere (a text that does not inflate, say) is an error here: a
+        // picture is read for its script, and half a script is none.
+        png_set_benign_errors(reader.png(), 0);
+        png_read_info(reader.png(), reader.info());
+    });
 }
 
-void Decoder::fail(png_structp png, png_const_charp message) {
-    auto& error = static_cast<Decoder*>(png_get_error_ptr(png))->error_;
-    std::strncpy(error.data(), message, error.size() - 1);
-    png_longjmp(png, 1);
-}
-
-bool Decoder::run() {
-    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, fail, [](auto, auto) {});
-    if (png_ != nullptr) info_ = png_create_info_struct(png_);
-    if (info_ == nullptr) {
-        std::strncpy(error_.data(), "there is not enough memory", error_.size() - 1);
-        return false;
-    }
-    if (setjmp(png_jmpbuf(png_)) != 0) return false;
-    png_set_read_fn(png_, this, take);
-    png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-    png_set_chunk_malloc_max(png_, text_room);
-    png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-    // What libpng forgives elsewhere (a text that does not inflate, say) is an error here: a
-    // picture is read for its script, and half a script is none.
-    png_set_benign_errors(png_, 0);
-    png_read_info(png_, info_);
-    return true;
-}
-
-std::span<const png_text> Decoder::texts() const {
+std::span<const png_text> texts_of(const PngReader& reader) {
     png_textp texts = nullptr;
     int count = 0;
-    png_get_text(png_, info_, &texts, &count);
+    png_get_text(reader.png(), reader.info(), &texts, &count);
     return {texts, static_cast<std::size_t>(count)};
 }
 
@@ -146,19 +98,16 @@ std::string text_of(const png_text& chunk) {
 }  // namespace
 
 Result<PngTexts> parse_png_texts(std::string_view bytes) {
-    const auto* start = reinterpret_cast<png_const_bytep>(bytes.data());
-    if (bytes.size() < signature_size || png_sig_cmp(start, 0, signature_size) != 0) {
-        return failure("it is not a PNG file");
-    }
+    if (!has_png_signature(bytes)) return failure("it is not a PNG file");
     try {
         const Result<std::string> short_file = file_of_texts(bytes);
         if (!short_file) return tl::unexpected<Failure>(short_file.error());
-        Decoder decoder(*short_file);
-        if (!decoder.run()) {
-            return failure(fmt::format("the PNG file is damaged: {}", decoder.error()));
+        PngReader reader(*short_file);
+        if (!read_texts(reader)) {
+            return failure(fmt::format("the PNG file is damaged: {}", reader.error()));
         }
         PngTexts texts;
-        for (const png_text& chunk : decoder.texts()) {
+        for (const png_text& chunk : texts_of(reader)) {
             texts.emplace(utf8_of_latin1(chunk.key), text_of(chunk));
         }
         return texts;

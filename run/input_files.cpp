@@ -1,5 +1,6 @@
 #include "run/input_files.h"
 
+#include "picture/grey_picture.h"
 #include "picture/npy.h"
 
 #include <fmt/format.h>
@@ -39,17 +40,34 @@ void read_one(Script& script, const Node& node, InputFiles& files) {
     }
 }
 
+void read_image(Script& script, const Node& node, InputFiles& files) {
+    const std::string& name = script.program->texts[node.index];
+    const Grid& grid = script.program->domain.grid;
+    const auto path = readable_path(script.folder, name, script.overrides.reads);
+    if (!path) return script.diagnostics.error(node.span, path.error().message, path.error().hint);
+    const auto picture = read_grey_picture(*path);
+    if (!picture) {
+        return script.diagnostics.error(node.span, picture.error().message, picture.error().hint);
+    }
+    files.add_image(node.index, to_field(resized(*picture, grid.width, grid.height), grid));
+}
+
 }  // namespace
 
 Result<InputFiles> read_input_files(Script& script) {
     InputFiles files;
-    std::set<std::uint32_t> seen;  // A file is read, and its fault told, once.
+    std::set<std::uint32_t> arrays, images;  // A file is read, and its fault told, once.
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
         for (const Formula& formula : script.program->stages[k].items) {
             for (const Node& node : formula.nodes) {
-                if (node.kind != NodeKind::call || node.function != Function::field) continue;
+                if (node.kind != NodeKind::call) continue;
                 const Node& path = formula.nodes[node.operands[0]];
-                if (seen.insert(path.index).second) read_one(script, path, files);
+                if (node.function == Function::field && arrays.insert(path.index).second) {
+                    read_one(script, path, files);
+                }
+                if (node.function == Function::image && images.insert(path.index).second) {
+                    read_image(script, path, files);
+                }
             }
         }
     }

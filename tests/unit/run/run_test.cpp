@@ -1,6 +1,10 @@
 #include "run_fixture.h"
 
+#include "core/file.h"
+#include "picture/image.h"
 #include "run/png_texts.h"
+
+#include <gmock/gmock.h>
 
 namespace cascade {
 namespace {
@@ -116,6 +120,36 @@ TEST_F(RunTest, ReadsAFieldAsStartingValue) {
     second.save = path("second");
     run_well(reader, second);
     EXPECT_EQ(bytes("small.b.npy"), bytes("second/s.b.npy"));
+}
+
+TEST_F(RunTest, ReadsAPictureAsStartingValue) {
+    Image image(4, 2);
+    for (std::size_t k = 0; k < 8; ++k) image.pixels[k] = k % 4 < 2 ? Colour{1, 1, 1} : Colour{0, 0, 0};
+    ASSERT_TRUE(write_png(path("half.png"), image, PngDepth::eight, {}));
+    Script script = load(
+        "domain { grid: 8, 6; boundary: noflux }\n"
+        "system s { u: 0; u' = 0 * u }\n"
+        "stage one: s { iterations: 0; u: 3 * image(\"half.png\") + image(\"half.png\") }\n");
+    RunRequest wanted = request();
+    wanted.save = folder_;
+    run_well(script, wanted);
+    const Result<NpyArray> array = read_npy(path("one.u.npy"));
+    ASSERT_TRUE(array);
+    const std::vector<float> row{4, 4, 4, 3, 1, 0, 0, 0};
+    for (std::size_t k = 0; k < 48; ++k) EXPECT_FLOAT_EQ(array->values[k], row[k % 8]) << k;
+}
+
+TEST_F(RunTest, APictureThatCannotBeReadIsAnErrorAtItsPath) {
+    ASSERT_TRUE(write_file(path("text.png"), "no picture"));
+    Script script = load("stage s: turing_spots { a: image(\"none.png\"); b: image(\"text.png\") }\n");
+    run_badly(script, request());
+    const std::string messages = script.messages(false);
+    EXPECT_THAT(messages, ::testing::HasSubstr("test.cascade:1:34: error: cannot read"));
+    EXPECT_THAT(messages, ::testing::HasSubstr("text.png': it is not a PNG file"));
+    EXPECT_EQ(script.diagnostics.error_count(), 2U);
+    Script outside = load("stage s: turing_spots { a: image(\"/dev/zero\") }\n");
+    run_badly(outside, request());
+    EXPECT_EQ(outside.diagnostics.error_count(), 1U);
 }
 
 TEST_F(RunTest, AFieldOfAnotherShapeIsAnErrorAtItsPath) {
