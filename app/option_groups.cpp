@@ -99,6 +99,12 @@ void add_picture_options(CLI::App& app, PictureChanges& picture) {
     add_value(app, "--scale", "N", "Pixels for the side of a cell (1 to 64)", whole_number(1, 64),
               [&](auto scale) { picture.scale = static_cast<int>(scale); })
         ->group(group);
+    app.add_flag("--flat", picture.flat, "Of a surface: the texture alone, without the surface")
+        ->group(group);
+    add_value(app, "--view", "AROUND,ABOVE",
+              "Of a surface: from where it is seen, in degrees around\nit and above the horizon",
+              parse_view, [&](auto view) { picture.view = view; })
+        ->group(group);
     app.add_flag("--space-time", picture.space_time,
                  "A line of cells over time: a row of pixels for each\ninterval")
         ->group(group);

@@ -72,6 +72,18 @@ Result<ValueRange> parse_range(std::string_view text) {
                    "write the values of the palette's two ends, as in --range 0,8");
 }
 
+Result<View> parse_view(std::string_view text) {
+    const std::size_t comma = text.find(',');
+    View view;
+    if (comma != std::string_view::npos && read_all(text.substr(0, comma), view.azimuth) &&
+        read_all(text.substr(comma + 1), view.elevation) && std::abs(view.azimuth) <= 360 &&
+        std::abs(view.elevation) <= 89) {
+        return view;
+    }
+    return failure(fmt::format("'{}' is not a place to look from", text),
+                   "write degrees around (-360 to 360) and above (-89 to 89), as in --view 30,25");
+}
+
 Result<StopAt> parse_stop_at(std::string_view text) {
     const std::size_t colon = text.rfind(':');
     if (colon != std::string_view::npos && colon > 0) {

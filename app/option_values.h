@@ -27,6 +27,9 @@ Result<Slice> parse_slice(std::string_view text);
 /// "0,8": two different finite numbers. The first may be the larger one: colours turn around.
 Result<ValueRange> parse_range(std::string_view text);
 
+/// "30,25": degrees around, −360 … 360, and above the horizon, −89 … 89.
+Result<View> parse_view(std::string_view text);
+
 /// "large:12000": a stage and a number of complete steps.
 Result<StopAt> parse_stop_at(std::string_view text);
 

@@ -251,6 +251,8 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
     if (changes.depth) request.depth = *changes.depth;
     if (changes.space_time) request.space_time = true;
     if (changes.slice) request.slice = *changes.slice;
+    if (changes.flat) request.flat = true;
+    if (changes.view) request.view = *changes.view;
     return request;
 }
 

@@ -29,6 +29,8 @@ struct PictureChanges {
     std::optional<int> depth;
     bool space_time = false;
     std::optional<Slice> slice;
+    bool flat = false;
+    std::optional<View> view;
 };
 
 PictureRequest apply(const PictureChanges& changes, PictureRequest request);

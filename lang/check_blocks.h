@@ -56,6 +56,10 @@ bool is_side_word(std::string_view word);
 /// The `domain` block, if there is one.
 void check_domain(Workspace& work, const ast::Script& script);
 
+/// Settings of the domain that belong to a surface; looked at when the grid is known.
+bool is_surface_setting(std::string_view name);
+void check_surface(Workspace& work, const ast::Script& script, const ast::Block& domain);
+
 /// The `picture` block, if there is one: read as by the last stage that takes a step.
 void check_picture(Workspace& work, const ast::Script& script);
 

@@ -113,6 +113,9 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
         return false;
     };
     const bool varies = row.is_aggregate || varies_by_cell(function);
+    if (place == Place::position && !fold(function, std::vector<double>(most_operands, 1.0))) {
+        return refuse("a surface is made of numbers, sx, sy and functions of numbers");
+    }
     if (place == Place::constant && varies) {
         fault(span, fmt::format("{} must be one number, but {} is {}", scope_.subject,
                                 row.spelling,

@@ -156,7 +156,9 @@ void check_domain_sentence(Workspace& work, const ast::Script& script,
         check_domain_side(work, script, sentence);
     } else if (key == "seed") {
         check_seed(work, script, sentence);
-    } else if (key == "mesh" || key == "cells" || key == "unit") {
+    } else if (is_surface_setting(key)) {
+        return;  // They come together, see below.
+    } else if (key == "mesh" || key == "cells") {
         work.diagnostics.error(sentence.name.span,
                                fmt::format("'{}' is not in this version of the language", key));
     } else {
@@ -212,6 +214,7 @@ void check_domain(Workspace& work, const ast::Script& script) {
                          fmt::format("'{}' is given a value twice", sentence.name.text));
         }
     }
+    check_surface(work, script, *block);
 }
 
 void check_picture(Workspace& work, const ast::Script& script) {

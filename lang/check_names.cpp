@@ -33,9 +33,19 @@ void report(Workspace& work, Span span, std::string message, std::string hint,
     work.diagnostics.add(std::move(diagnostic));
 }
 
+/// Are the names of systems out of reach?
+bool is_constant(const Scope& scope) {
+    return scope.place == Place::constant || scope.place == Place::position;
+}
+
 bool varies_by_cell(std::string_view builtin) { return builtin != "t" && builtin != "step"; }
 
 void report_constant(Workspace& work, const Scope& scope, std::string_view name, Span span) {
+    if (scope.place == Place::position) {
+        report(work, span, fmt::format("a surface knows nothing of '{}'", name),
+               "it is made of numbers, sx, sy, pi and functions of them");
+        return;
+    }
     if (reserved(name) == Reserved::builtin && varies_by_cell(name)) {
         report(work, span,
                fmt::format("{} must be one number, but '{}' is varying by cell", scope.subject,
@@ -72,6 +82,10 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
         report(work, span, "a bound is made of numbers and parameters only", "");
         return std::nullopt;
     }
+    if (scope.place == Place::position && !varies_by_cell(name)) {
+        report(work, span, fmt::format("a surface cannot depend on '{}'", name), "it stays as it is");
+        return std::nullopt;
+    }
     if (scope.place == Place::value && !varies_by_cell(name)) {
         report(work, span, fmt::format("'{}' has no value when a stage starts", name),
                "it can be read in rates, definitions and pictures");
@@ -88,7 +102,7 @@ bool report_reserved(Workspace& work, const Scope& scope, std::string_view name,
         report(work, span, fmt::format("'{}' is not in this version of the language", name), "");
         return true;
     }
-    if (scope.place == Place::constant) {
+    if (is_constant(scope)) {
         report_constant(work, scope, name, span);
         return true;
     }
@@ -263,7 +277,7 @@ std::optional<std::uint32_t> find_stage(Workspace& work, const Scope& scope,
 std::optional<Node> resolve_bare(Workspace& work, const Scope& scope, std::string_view name,
                                  Span span) {
     if (reserved(name) == Reserved::builtin) return resolve_builtin(work, scope, name, span);
-    if (scope.place == Place::constant) {
+    if (is_constant(scope)) {
         report_reserved(work, scope, name, span);
         return std::nullopt;
     }
@@ -275,7 +289,7 @@ std::optional<Node> resolve_bare(Workspace& work, const Scope& scope, std::strin
 
 std::optional<Node> resolve_bracketed(Workspace& work, const Scope& scope, const ast::Word& name,
                                       Span span) {
-    if (scope.place == Place::constant) {
+    if (is_constant(scope)) {
         report_constant(work, scope, name.text, span);
         return std::nullopt;
     }
@@ -286,7 +300,7 @@ std::optional<Node> resolve_bracketed(Workspace& work, const Scope& scope, const
 
 std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
                                       const ast::Qualified& qualified, Span span) {
-    if (scope.place == Place::constant) {
+    if (is_constant(scope)) {
         report_constant(work, scope, qualified.name.text, span);
         return std::nullopt;
     }
@@ -324,7 +338,7 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
 
 std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast::Word& name,
                                  Span span) {
-    if (scope.place == Place::constant) {
+    if (is_constant(scope)) {
         report_constant(work, scope, name.text, span);
         return std::nullopt;
     }

@@ -59,6 +59,7 @@ enum class Place : std::uint8_t {
     rate,      ///< name' = e and definitions
     bound,     ///< name >= e
     picture,   ///< what a picture shows
+    position,  ///< where a point of a surface lies
     constant,  ///< one number that is known now: iterations, the size of the grid, …
 };
 

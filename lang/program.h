@@ -73,6 +73,7 @@ bool differentiates(Function function);
 
 /// Values that every expression may read. `pi` is folded into a number.
 enum class Builtin : std::uint8_t { x, y, z, sx, sy, sz, t, step };
+inline constexpr std::size_t builtin_count = 8;
 
 enum class NodeKind : std::uint8_t {
     number,      ///< `number`
@@ -240,8 +241,17 @@ struct Stage {
     std::vector<std::array<SideSetting, side_count>> sides;
 };
 
+/// A surface in space on which the grid lies.
+struct SurfaceSettings {
+    std::array<Formula, 3> position;  ///< Of numbers, coordinates and functions of numbers.
+    bool has_metric = true;           ///< False: cells count as squares all the same.
+    std::optional<double> unit;       ///< Length of one unit; empty: the mean cell has area 1.
+    Span span;
+};
+
 struct DomainSettings {
     Grid grid;                   ///< 64 × 64, periodic, unless said otherwise.
+    std::optional<SurfaceSettings> surface;  ///< Without one the plane.
     std::uint32_t seed = 1;
     std::array<std::optional<SideSetting>, side_count> sides;  ///< Of all species.
     Span grid_span;              ///< For messages about its size; empty when it is the default.

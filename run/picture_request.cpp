@@ -3,6 +3,7 @@
 #include "core/near_name.h"
 #include "lang/check.h"
 #include "lang/parse.h"
+#include "run/surface_picture.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,9 @@ namespace {
 bool makes_sense(const PictureRequest& request) {
     if (request.scale < 1 || request.scale > 64) return false;
     if (request.depth != 8 && request.depth != 16) return false;
+    if (!(std::abs(request.view.azimuth) <= 360 && std::abs(request.view.elevation) <= 89)) {
+        return false;
+    }
     // A range that runs downwards turns the palette over.
     if (request.range && (!std::isfinite(request.range->low) || !std::isfinite(request.range->high) ||
                           request.range->low == request.range->high)) {
@@ -41,7 +45,9 @@ std::string to_json(const PictureRequest& request) {
     nlohmann::json json = {{"palette", request.palette},
                            {"scale", request.scale},
                            {"depth", request.depth},
-                           {"space_time", request.space_time}};
+                           {"space_time", request.space_time},
+                           {"flat", request.flat},
+                           {"view", {request.view.azimuth, request.view.elevation}}};
     if (!request.show.empty()) json["show"] = request.show;
     if (request.slice != Slice{}) {
         json["slice"] = {std::string(1, axis_letters[static_cast<std::size_t>(request.slice.axis)]),
@@ -65,6 +71,11 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
             const std::size_t axis = axis_letters.find(json.at("slice").at(0).get<std::string>());
             if (axis >= axis_letters.size()) return failure("the stored picture options make no sense");
             request.slice = {static_cast<Axis>(axis), json.at("slice").at(1).get<double>()};
+        }
+        request.flat = json.value("flat", request.flat);
+        if (json.contains("view")) {
+            request.view.azimuth = json.at("view").at(0).get<float>();
+            request.view.elevation = json.at("view").at(1).get<float>();
         }
         if (json.contains("range")) {
             request.range = ValueRange{json.at("range").at(0).get<float>(),
@@ -132,14 +143,26 @@ Canvas Painter::canvas(const Simulation& simulation) {
     return canvas;
 }
 
-Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) const {
-    if (canvas.is_colour()) {
-        return enlarge(paint(canvas.fields[0], canvas.fields[1], canvas.fields[2]),
-                       request_.scale);
-    }
+Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range) const {
+    if (canvas.is_colour()) return paint(canvas.fields[0], canvas.fields[1], canvas.fields[2]);
     const ValueRange used =
         request_.range ? *request_.range : range ? *range : value_range(canvas.fields[0]);
-    return enlarge(paint(canvas.fields[0], used, *palette_), request_.scale);
+    return paint(canvas.fields[0], used, *palette_);
+}
+
+Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) const {
+    const Image flat = texture(canvas, range);
+    const DomainSettings& domain = script_->program->domain;
+    if (!domain.surface || request_.flat) return enlarge(flat, request_.scale);
+    DrawOptions options;
+    options.width *= request_.scale;
+    options.height *= request_.scale;
+    options.view = request_.view;
+    const Boundaries& sides = domain.grid.boundary;
+    Team team(hardware_threads());
+    return draw_on_surface(function_of(*domain.surface), flat,
+                           sides.x == Boundary::periodic, sides.y == Boundary::periodic, options,
+                           team);
 }
 
 Image draw_sheet(const Simulation& simulation, const PictureRequest& request) {

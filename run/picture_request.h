@@ -4,6 +4,7 @@
 #include "core/result.h"
 #include "picture/image.h"
 #include "picture/slice.h"
+#include "render/camera.h"
 #include "run/simulation.h"
 
 #include <optional>
@@ -21,6 +22,8 @@ struct PictureRequest {
     int depth = 8;                     ///< Bits: 8 or 16.
     bool space_time = false;           ///< 1-D grids: a row of pixels per interval.
     Slice slice;                       ///< 3-D grids: what a picture shows of them.
+    bool flat = false;                 ///< Of a surface: the texture alone.
+    View view;                         ///< Of a surface: from where it is seen.
 };
 
 std::string to_json(const PictureRequest& request);
@@ -45,11 +48,13 @@ public:
     Canvas values(const Simulation& simulation);
     bool fell_back() const { return fell_back_; }
 
-    /// The canvas as an image, enlarged. `range` overrides the automatic one.
+    /// The canvas as an image, enlarged; where the domain lies on a surface, drawn on it. `range`
+    /// overrides the automatic one.
     Image image(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
     const PictureRequest& request() const { return request_; }
 
 private:
+    Image texture(const Canvas& canvas, std::optional<ValueRange> range) const;
     std::optional<Formula> formula_for(std::uint32_t stage, std::uint32_t last_stage);
 
     Script* script_ = nullptr;

@@ -3,7 +3,7 @@
 set -u
 cd "${SOURCE:-$(dirname "${BASH_SOURCE[0]}")/..}" || exit 1
 
-rooms='core ir lang jit solvers picture measure run app'
+rooms='core ir lang jit solvers picture measure surface render run app'
 declare -A may=(
     [core]='core'
     [ir]='ir core'
@@ -12,7 +12,9 @@ declare -A may=(
     [solvers]='solvers ir core'
     [picture]='picture core'
     [measure]='measure core'
-    [run]='run picture measure solvers jit lang ir core cascade'
+    [surface]='surface core'
+    [render]='render picture core'
+    [run]='run render surface measure picture solvers jit lang ir core cascade'
     [app]='app run picture measure lang core'
 )
 

@@ -1,0 +1,78 @@
+// Framing: the eye moves back, and sideways, until every vertex is inside the picture.
+#include "render/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cascade {
+
+namespace {
+
+constexpr float margin = 1.12F;         ///< Room around the mesh.
+constexpr float half_field = 0.22F;     ///< Tangent of half the field of view: 12.4 degrees.
+
+/// An angle in degrees. Computed in binary64, which rounds to the same binary32 everywhere.
+struct Turn {
+    float cosine, sine;
+    explicit Turn(float degrees) {
+        const double angle = static_cast<double>(degrees) * std::numbers::pi / 180;
+        cosine = static_cast<float>(std::cos(angle));
+        sine = static_cast<float>(std::sin(angle));
+    }
+};
+
+/// What fills the picture along one axis. Seen from the eye every vertex must lie between the
+/// slopes −half and half: for each the eye has to be far enough back, the more the further the
+/// vertex is to one side and to the front.
+struct Extent {
+    float low = -INFINITY, high = -INFINITY;
+    void add(float offset, float backward, float half) {
+        low = std::max(low, -offset + half * backward);
+        high = std::max(high, offset + half * backward);
+    }
+    /// Eye's offset and distance at which both edges touch.
+    float offset() const { return (high - low) / 2; }
+    float distance(float half) const { return (low + high) / (2 * half); }
+};
+
+}  // namespace
+
+Camera::Camera(const TriangleMesh& mesh, const View& view, std::int64_t width,
+               std::int64_t height) {
+    const Turn around(view.azimuth);
+    const Turn above(view.elevation);
+    // The axis towards the viewer at azimuth 0, and the one to his right.
+    const Vector3 front = view.up.z != 0 ? Vector3{0, -1, 0}
+                        : view.up.y != 0 ? Vector3{0, 0, 1}
+                                         : Vector3{0, 1, 0};
+    const Vector3 side = cross(view.up, front);
+    const Vector3 level = front * around.cosine + side * around.sine;
+    backward_ = unit(level * above.cosine + view.up * above.sine);
+    right_ = unit(cross(view.up, backward_));
+    up_ = cross(backward_, right_);
+
+    const auto pixels_wide = static_cast<float>(width);
+    const auto pixels_high = static_cast<float>(height);
+    const float smaller = std::min(pixels_wide, pixels_high);
+    const float half_x = half_field * pixels_wide / smaller / margin;
+    const float half_y = half_field * pixels_high / smaller / margin;
+    Extent x, y;
+    for (const Vector3& p : mesh.positions) {
+        x.add(dot(p, right_), dot(p, backward_), half_x);
+        y.add(dot(p, up_), dot(p, backward_), half_y);
+    }
+    const float distance = std::max(x.distance(half_x), y.distance(half_y));
+    eye_ = right_ * x.offset() + up_ * y.offset() + backward_ * distance;
+    pixel_ = 2 * half_field / smaller;
+    centre_x_ = pixels_wide / 2;
+    centre_y_ = pixels_high / 2;
+}
+
+Ray Camera::ray(float x, float y) const {
+    const Vector3 direction = right_ * ((x - centre_x_) * pixel_) +
+                              up_ * ((centre_y_ - y) * pixel_) - backward_;
+    return {eye_, unit(direction)};
+}
+
+}  // namespace cascade

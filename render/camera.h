@@ -1,0 +1,40 @@
+// A camera that frames what it looks at by itself.
+#pragma once
+
+#include "render/triangle_mesh.h"
+
+#include <cstdint>
+
+namespace cascade {
+
+/// From where a picture is taken.
+struct View {
+    float azimuth = 30;    ///< Degrees around the axis that points up, from the front to the right.
+    float elevation = 25;  ///< Degrees above the horizon, −89 … 89.
+    Vector3 up{0, 0, 1};   ///< One of the axes x, y, z.
+};
+
+struct Ray {
+    Vector3 origin;
+    Vector3 direction;  ///< Of length 1.
+};
+
+class Camera {
+public:
+    /// Looks at `mesh` so that it fills a picture of width × height pixels but for a margin.
+    Camera(const TriangleMesh& mesh, const View& view, std::int64_t width, std::int64_t height);
+
+    /// Through a point of the picture, in pixels from its upper left corner.
+    Ray ray(float x, float y) const;
+
+    Vector3 right() const { return right_; }
+    Vector3 up() const { return up_; }
+    Vector3 backward() const { return backward_; }
+
+private:
+    Vector3 right_, up_, backward_, eye_;
+    float pixel_ = 0;  ///< Side of a pixel at distance 1.
+    float centre_x_ = 0, centre_y_ = 0;
+};
+
+}  // namespace cascade

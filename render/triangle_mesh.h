@@ -1,0 +1,29 @@
+// What is drawn: triangles with smooth normals.
+#pragma once
+
+#include "render/vector3.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace cascade {
+
+struct TriangleMesh {
+    std::vector<Vector3> positions;
+    std::vector<Vector3> normals;  ///< One per position, of length 1.
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Sets the normals: of each position the sum of its triangles' normals, each as long as twice the
+/// triangle's area, scaled to length 1.
+void smooth_normals(TriangleMesh& mesh);
+
+/// The smallest box that holds a mesh.
+struct Box {
+    Vector3 low, high;
+    Vector3 centre() const { return (low + high) * 0.5F; }
+};
+Box bounds(const TriangleMesh& mesh);
+
+}  // namespace cascade

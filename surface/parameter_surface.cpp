@@ -1,0 +1,129 @@
+#include "surface/parameter_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace cascade {
+
+namespace {
+
+/// Half the width of a central difference: its error and that of rounding are both about 1e-10.
+constexpr double difference = 1e-5;
+/// A cell of less than this part of the mean area counts as having none.
+constexpr double least_area = 1e-6;
+
+/// The metric tensor JᵀJ of a cell, J being the derivatives by column and by row.
+struct MetricTensor {
+    double m11 = 0, m12 = 0, m22 = 0;
+    double area() const { return std::sqrt(std::max(0.0, m11 * m22 - m12 * m12)); }
+};
+
+Position derivative(const Position& ahead, const Position& behind, double cells) {
+    Position result{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        result[k] = (ahead[k] - behind[k]) / (2 * difference * cells);
+    }
+    return result;
+}
+
+double dot(const Position& a, const Position& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+MetricTensor metric_at(const SurfaceFunction& surface, const Grid& grid, double sx, double sy) {
+    const Position along_row = derivative(surface(sx + difference, sy), surface(sx - difference, sy),
+                                          static_cast<double>(grid.width));
+    const Position along_column = derivative(surface(sx, sy + difference),
+                                             surface(sx, sy - difference),
+                                             static_cast<double>(grid.height));
+    return {dot(along_row, along_row), dot(along_row, along_column),
+            dot(along_column, along_column)};
+}
+
+double centre(std::int64_t cell, std::int64_t side) {
+    return (static_cast<double>(cell) + 0.5) / static_cast<double>(side);
+}
+
+std::string place_of(const Grid& grid, std::int64_t i, std::int64_t j) {
+    return fmt::format("at sx = {:.6g}, sy = {:.6g} (column {}, row {})", centre(i, grid.width),
+                       centre(j, grid.height), i, j);
+}
+
+}  // namespace
+
+Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid& grid,
+                                      std::optional<double> unit) {
+    std::vector<MetricTensor> tensors;
+    tensors.reserve(static_cast<std::size_t>(grid.cell_count()));
+    double whole = 0;
+    for (std::int64_t j = 0; j < grid.height; ++j) {
+        for (std::int64_t i = 0; i < grid.width; ++i) {
+            const MetricTensor tensor =
+                metric_at(surface, grid, centre(i, grid.width), centre(j, grid.height));
+            if (!std::isfinite(tensor.m11 + tensor.m12 + tensor.m22)) {
+                return failure("the surface is not finite " + place_of(grid, i, j));
+            }
+            whole += tensor.area();
+            tensors.push_back(tensor);
+        }
+    }
+    const double mean = whole / static_cast<double>(grid.cell_count());
+    SurfaceMetric metric;
+    const PlaneLayout layout(grid);
+    for (Field* field : {&metric.inverse_11, &metric.inverse_12, &metric.inverse_22, &metric.area}) {
+        *field = Field(layout);
+    }
+    metric.unit = unit.value_or(std::sqrt(mean));
+    for (std::int64_t j = 0; j < grid.height; ++j) {
+        for (std::int64_t i = 0; i < grid.width; ++i) {
+            const MetricTensor& tensor = tensors[static_cast<std::size_t>(j * grid.width + i)];
+            const double area = tensor.area();
+            // Also where all areas are nothing, and where two directions are nearly parallel.
+            if (!(area > least_area * mean) ||
+                !(area > least_area * std::sqrt(tensor.m11 * tensor.m22))) {
+                return failure("the surface has no area " + place_of(grid, i, j),
+                               "its directions along sx and sy must differ and have a length in "
+                               "every cell; keep away from poles");
+            }
+            // Ṽ = [√m11, m12/√m11; 0, area/√m11], upper triangular, so its inverse is so too.
+            const double row_length = std::sqrt(tensor.m11);
+            metric.inverse_11.at(i, j) = static_cast<float>(metric.unit / row_length);
+            metric.inverse_12.at(i, j) =
+                static_cast<float>(-metric.unit * tensor.m12 / (row_length * area));
+            metric.inverse_22.at(i, j) = static_cast<float>(metric.unit * row_length / area);
+            metric.area.at(i, j) = static_cast<float>(area / (metric.unit * metric.unit));
+        }
+    }
+    return metric;
+}
+
+Result<void> check_closed(const SurfaceFunction& surface, bool periodic_x, bool periodic_y) {
+    constexpr int places = 17;
+    double size = 0, gap_x = 0, gap_y = 0;
+    const Position origin = surface(0, 0);
+    const auto apart = [](const Position& a, const Position& b) {
+        return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    };
+    for (int k = 0; k < places; ++k) {
+        const double s = static_cast<double>(k) / (places - 1);
+        gap_x = std::max(gap_x, apart(surface(0, s), surface(1, s)));
+        gap_y = std::max(gap_y, apart(surface(s, 0), surface(s, 1)));
+        for (int l = 0; l < places; ++l) {
+            const double other = static_cast<double>(l) / (places - 1);
+            size = std::max(size, apart(origin, surface(s, other)));
+        }
+    }
+    const auto open = [&](bool periodic, double gap) { return periodic && gap > 1e-6 * size; };
+    if (open(periodic_x, gap_x)) {
+        return failure("the left and the right side are periodic, but do not meet on the surface");
+    }
+    if (open(periodic_y, gap_y)) {
+        return failure("the top and the bottom side are periodic, but do not meet on the surface");
+    }
+    return {};
+}
+
+}  // namespace cascade

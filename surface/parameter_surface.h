@@ -1,0 +1,46 @@
+// Surfaces given by a function of two parameters: torus, cylinder, vase, sheared sheet. The grid
+// lies in the square of the parameters; its metric says how cells are stretched on the surface.
+#pragma once
+
+#include "core/grid.h"
+#include "core/plane.h"
+#include "core/result.h"
+
+#include <array>
+#include <functional>
+#include <optional>
+
+namespace cascade {
+
+/// A point in space, in the user's unit.
+using Position = std::array<double, 3>;
+
+/// Where the point (sx, sy) of the square 0..1 × 0..1 lies in space.
+using SurfaceFunction = std::function<Position(double sx, double sy)>;
+
+/// How each cell lies on the surface: the inverse of the matrix Ṽ of A. Witkin and M. Kass,
+/// "Reaction-Diffusion Textures" (1991), equation 8, and the cell's area. Ṽ takes steps of one
+/// column and one row to lengths along two perpendicular directions of the tangent plane, of which
+/// the first is that of a row of cells:
+///
+///     Ṽ⁻¹ = | inverse_11  inverse_12 |      A tensor A in those directions is Ṽ⁻¹ A Ṽ⁻ᵀ in
+///           |     0       inverse_22 |      columns and rows. (The paper's last step prints ṼᵀAṼ.)
+///
+/// Lengths are in units: with the unit left open it is √(area of the surface / number of cells),
+/// so that a script of the plane makes patterns of the same size in cells.
+struct SurfaceMetric {
+    Field inverse_11, inverse_12, inverse_22;  ///< Cells per unit.
+    Field area;                                ///< Of the cell, in square units.
+    double unit = 0;                           ///< Of length, in the units of the function.
+};
+
+/// Measures the surface at the centre of every cell; derivatives are central differences in
+/// binary64. `unit`, above 0: the length of one unit. Fails, naming the place, where the surface is
+/// not finite or where it has no area: its two directions are parallel or one has no length.
+Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid& grid,
+                                      std::optional<double> unit);
+
+/// Do two sides that are joined (periodic) meet in space? Names the first pair that does not.
+Result<void> check_closed(const SurfaceFunction& surface, bool periodic_x, bool periodic_y);
+
+}  // namespace cascade

@@ -1,0 +1,180 @@
+// Pictures of surfaces whose looks are known.
+#include "render/draw.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cascade {
+namespace {
+
+/// Positions on a grid of the unit square, mapped by `place`.
+template <typename Place>
+TriangleMesh sheet(std::uint32_t columns, std::uint32_t rows, Place place) {
+    TriangleMesh mesh;
+    for (std::uint32_t j = 0; j <= rows; ++j) {
+        for (std::uint32_t i = 0; i <= columns; ++i) {
+            mesh.positions.push_back(place(static_cast<float>(i) / static_cast<float>(columns),
+                                           static_cast<float>(j) / static_cast<float>(rows)));
+        }
+    }
+    for (std::uint32_t j = 0; j < rows; ++j) {
+        for (std::uint32_t i = 0; i < columns; ++i) {
+            const std::uint32_t corner = j * (columns + 1) + i;
+            mesh.triangles.push_back({corner, corner + 1, corner + columns + 2});
+            mesh.triangles.push_back({corner, corner + columns + 2, corner + columns + 1});
+        }
+    }
+    smooth_normals(mesh);
+    return mesh;
+}
+
+TriangleMesh sphere(float radius) {
+    return sheet(96, 48, [radius](float u, float v) {
+        const float around = 2 * std::numbers::pi_v<float> * u;
+        const float down = std::numbers::pi_v<float> * v;
+        return Vector3{std::sin(down) * std::cos(around), std::sin(down) * std::sin(around),
+                       std::cos(down)} * radius;
+    });
+}
+
+Image picture_of(const TriangleMesh& mesh, const DrawOptions& options, const SurfaceColour& colour,
+                 int threads = 1) {
+    Team team(threads);
+    return draw(mesh, colour, options, team);
+}
+
+Colour red(const Hit&) { return {0.8F, 0, 0}; }
+
+bool is_red(const Colour& pixel) { return pixel[0] - pixel[1] > 0.1F; }
+
+DrawOptions small_picture() {
+    DrawOptions options;
+    options.width = 160;
+    options.height = 120;
+    options.samples = 2;
+    options.ground = false;
+    return options;
+}
+
+TEST(Draw, ASphereIsADiscThatFillsThePicture) {
+    for (const float radius : {0.01F, 1.0F, 4000.0F}) {
+        const Image image = picture_of(sphere(radius), small_picture(), red);
+        std::int64_t count = 0, left = 160, right = 0, top = 120, bottom = 0;
+        for (std::int64_t y = 0; y < 120; ++y) {
+            for (std::int64_t x = 0; x < 160; ++x) {
+                if (!is_red(image.at(x, y))) continue;
+                ++count;
+                left = std::min(left, x);
+                right = std::max(right, x);
+                top = std::min(top, y);
+                bottom = std::max(bottom, y);
+            }
+        }
+        // The margin leaves 1/1.12 of the height.
+        const double diameter = 120 / 1.12;
+        EXPECT_NEAR(static_cast<double>(bottom - top + 1), diameter, 3) << radius;
+        EXPECT_NEAR(static_cast<double>(right - left + 1), diameter, 3) << radius;
+        EXPECT_NEAR(static_cast<double>(count),
+                    std::numbers::pi / 4 * diameter * diameter, 0.04 * diameter * diameter);
+        EXPECT_NEAR(static_cast<double>(left + right) / 2, 79.5, 1.5);
+    }
+}
+
+TEST(Draw, TheSunStandsBehindTheLeftShoulder) {
+    const Image image = picture_of(sphere(1), small_picture(), red);
+    EXPECT_GT(image.at(62, 40)[0], image.at(98, 80)[0] + 0.1F);
+}
+
+TEST(Draw, ColoursAreThoseOfTheTriangleThatIsSeen) {
+    // A wall whose left half, seen from the front, is blue.
+    const TriangleMesh wall =
+        sheet(2, 1, [](float u, float v) { return Vector3{u - 0.5F, 0, 0.75F * (0.5F - v)}; });
+    DrawOptions options = small_picture();
+    options.view.azimuth = 0;
+    options.view.elevation = 0;
+    const Image image = picture_of(wall, options, [](const Hit& hit) {
+        return hit.triangle < 2 ? Colour{0, 0, 0.8F} : Colour{0.8F, 0, 0};
+    });
+    EXPECT_GT(image.at(50, 60)[2], 2 * image.at(50, 60)[0]);
+    EXPECT_GT(image.at(110, 60)[0], 2 * image.at(110, 60)[2]);
+    EXPECT_GT(image.at(2, 2)[1], 0.999F);
+}
+
+TEST(Draw, BarycentricPlacesInterpolate) {
+    // The colour is the height along the wall: it grows evenly from left to right.
+    const TriangleMesh wall =
+        sheet(1, 1, [](float u, float v) { return Vector3{u, 0, 0.75F * (1 - v)}; });
+    DrawOptions options = small_picture();
+    options.view = {0, 0, {0, 0, 1}};
+    const auto across = [&](const Hit& hit) {
+        const auto& [a, b, c] = wall.triangles[hit.triangle];
+        const float x = wall.positions[a].x * (1 - hit.u - hit.v) + wall.positions[b].x * hit.u +
+                        wall.positions[c].x * hit.v;
+        return x < 0.25F ? Colour{0, 0, 0.8F} : Colour{0.8F, 0, 0};
+    };
+    const Image image = picture_of(wall, options, across);
+    const double width = 160 / 1.12;
+    const double edge = 80 - width / 2 + width / 4;
+    const auto before = static_cast<std::int64_t>(edge - 4);
+    EXPECT_GT(image.at(before, 60)[2], 0.2F);
+    EXPECT_LT(image.at(before, 60)[0], 0.2F);
+    EXPECT_GT(image.at(before + 8, 60)[0], 0.2F);
+}
+
+TEST(Draw, TheGroundHasAShadow) {
+    DrawOptions options = small_picture();
+    options.ground = true;
+    const Image image = picture_of(sphere(1), options, red);
+    std::int64_t grey = 0;
+    for (const Colour& pixel : image.pixels) {
+        if (pixel[0] < 0.95F && std::abs(pixel[0] - pixel[1]) < 0.01F) ++grey;
+    }
+    EXPECT_GT(grey, 200);
+    EXPECT_GT(image.at(2, 2)[0], 0.98F);
+}
+
+TEST(Draw, ThreadsDoNotMatter) {
+    const TriangleMesh mesh = sphere(1);
+    DrawOptions options = small_picture();
+    options.ground = true;
+    const Image one = picture_of(mesh, options, red, 1);
+    const Image three = picture_of(mesh, options, red, 3);
+    EXPECT_TRUE(one.pixels == three.pixels);
+}
+
+TEST(RayCaster, FindsTheNearestTriangle) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 2}, {4, 0, 2}, {0, 4, 2}};
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+    smooth_normals(mesh);
+    const RayCaster caster(mesh);
+    const auto hit = caster.nearest({{1, 2, 10}, {0, 0, -1}});
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->triangle, 1u);
+    EXPECT_FLOAT_EQ(hit->distance, 8);
+    EXPECT_FLOAT_EQ(hit->u, 0.25F);
+    EXPECT_FLOAT_EQ(hit->v, 0.5F);
+    EXPECT_FALSE(caster.nearest({{5, 5, 10}, {0, 0, -1}}));
+    EXPECT_TRUE(caster.is_blocked({{1, 2, 10}, {0, 0, -1}}, 9));
+    EXPECT_FALSE(caster.is_blocked({{1, 2, 10}, {0, 0, -1}}, 7));
+}
+
+TEST(Camera, EveryAxisCanPointUp) {
+    const TriangleMesh mesh = sphere(2);
+    for (const Vector3 up : {Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}}) {
+        const Camera camera(mesh, {30, 25, up}, 100, 100);
+        const Ray middle = camera.ray(50, 50);
+        // The middle of the picture is the middle of the sphere.
+        const Vector3 closest =
+            middle.origin + middle.direction * -dot(middle.origin, middle.direction);
+        EXPECT_LT(length(closest), 0.05F);
+        EXPECT_NEAR(dot(camera.up(), up), std::cos(25 * std::numbers::pi / 180), 1e-5);
+        EXPECT_NEAR(dot(camera.right(), up), 0, 1e-6);
+    }
+}
+
+}  // namespace
+}  // namespace cascade
