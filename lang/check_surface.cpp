@@ -82,6 +82,11 @@ void check_surface(Workspace& work, const ast::Script& script, const ast::Block&
         work.diagnostics.error(surface->name.span, "a surface needs a grid of two axes",
                                "grid: 128, 128");
     }
+    if (grid.spacing != 1) {
+        work.diagnostics.error(surface->name.span,
+                               "a domain has a surface or a spacing, not both",
+                               "unit: … is the length of one unit on a surface");
+    }
     if (metric != nullptr) check_metric(work, script, *metric);
     if (unit != nullptr) check_unit(work, script, *unit);
 }

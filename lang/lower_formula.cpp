@@ -13,6 +13,7 @@ Value KernelAssembly::part(const Cursor& cursor) {
         case NodeKind::own: return {own_item(node.index)};
         case NodeKind::earlier: return {item(node.stage, node.index)};
         case NodeKind::builtin: return {builtin(static_cast<Builtin>(node.index))};
+        case NodeKind::metric: return {beside(metric_slot(node.index))};
         case NodeKind::call: return call(node, cursor);
         case NodeKind::definition:
         case NodeKind::rate: break;

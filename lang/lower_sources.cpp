@@ -45,6 +45,17 @@ std::uint32_t KernelAssembly::file_slot(Function function, std::uint32_t text) {
     return slot;
 }
 
+std::uint32_t KernelAssembly::metric_slot(std::uint32_t plane) {
+    static constexpr std::array<const char*, metric_plane_count> names{
+        "(metric 11)", "(metric 12)", "(metric 22)", "(area)", "(flow 11)", "(flow 12)",
+        "(flow 22)"};
+    const std::uint32_t slot = builder_.field_slot(names[plane]);
+    if (slot == bound_.fields.size()) {
+        bound_.fields.push_back({SlotSource::Kind::metric, 0, plane});
+    }
+    return slot;
+}
+
 ValueId KernelAssembly::mask(std::uint32_t item) {
     const std::uint32_t slot = builder_.mask_slot(slot_name(stage_, item));
     if (slot == bound_.masks.size()) {
@@ -96,6 +107,7 @@ std::uint32_t KernelAssembly::plane_slot(const PartGraph& graph, PartId id) {
     const Part& part = graph[id];
     if (part.node.kind == NodeKind::own) return field_slot(stage_, part.node.index);
     if (part.node.kind == NodeKind::earlier) return field_slot(part.node.stage, part.node.index);
+    if (part.node.kind == NodeKind::metric) return metric_slot(part.node.index);
     CHECK(part.node.kind == NodeKind::call && reads_file(part.node.function),
           "lowering: a plane is an item or a file");
     return file_slot(part.node.function, graph[part.operands[0]].node.index);

@@ -72,7 +72,8 @@ bool PartGraph::is_uniform(const Part& part) const {
             return builtin == Builtin::t && program_.stages[stage_].uniform[speed];
         }
         case NodeKind::definition:
-        case NodeKind::rate: return false;
+        case NodeKind::rate:
+        case NodeKind::metric: return false;
         case NodeKind::call: break;
     }
     if (info(part.node.function).is_aggregate) return true;
@@ -189,14 +190,17 @@ PartId PartGraph::add(const Formula& formula, const Noise& noise) {
         }
         if (part.calls(Function::tensor)) {
             ids.push_back(tensor(part));
-        } else if (part.calls(Function::diffuse)) {
+            continue;
+        }
+        if (part.calls(Function::diffuse)) {
             // Operands: the tensor, then what is differentiated.
             Part of;
             for (std::uint32_t k = 0; k < 3; ++k) of.operands[k] = part.operands[k + 1];
-            ids.push_back(call(Function::diffuse, {tensor(of), part.operands[0]}));
-        } else {
-            ids.push_back(intern(part));
+            part.operands = {tensor(of), part.operands[0]};
+            part.operand_count = part.node.operand_count = 2;
         }
+        const bool measures = has_metric_ && part.node.kind == NodeKind::call;
+        ids.push_back(measures ? on_surface(part) : intern(part));
     }
     return ids.back();
 }

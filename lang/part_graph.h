@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -48,7 +49,9 @@ bool is_stencil(Function function);
 class PartGraph {
 public:
     PartGraph(const Program& program, std::uint32_t stage)
-        : program_(program), stage_(stage) {}
+        : program_(program),
+          stage_(stage),
+          has_metric_(program.domain.surface && program.domain.surface->has_metric) {}
 
     /// Adds a formula and returns the part that is its value. What it reads of `own` items,
     /// definitions and rates is taken from the parts set for them; own items without one are read
@@ -72,6 +75,20 @@ private:
     PartId call(Function function, std::initializer_list<PartId> operands,
                 ValueType type = ValueType::number);
     PartId tensor(const Part& part);
+
+    // On a surface (surface_parts.cpp).
+    /// What a call becomes there; calls of what is no operator stay as they are.
+    PartId on_surface(const Part& part);
+    PartId metric(MetricPlane plane);
+    PartId sum_of_products(PartId a, PartId b, PartId c, PartId d);
+    PartId in_cells(PartId tensor);
+    PartId flow_tensor(PartId tensor);
+    PartId flow_of_gradient(PartId gradient);
+    PartId flow_of_vector(PartId along, PartId across);
+    PartId flow_times_tensor(PartId tensor, PartId flow);
+    PartId along_row(PartId of);
+    PartId across_row(PartId of);
+
     bool is_uniform(const Part& part) const;
 
     const Program& program_;
@@ -81,6 +98,9 @@ private:
     std::unordered_multimap<std::uint64_t, PartId> known_;
     std::unordered_map<std::uint32_t, PartId> own_, definitions_, rates_;
     std::unordered_map<PartId, std::string> names_;
+    bool has_metric_ = false;
+    /// What the simplest flows on a surface are made of: a gradient, or two components.
+    std::unordered_map<PartId, std::pair<PartId, std::optional<PartId>>> flows_;
 };
 
 }  // namespace cascade::lowering

@@ -130,7 +130,8 @@ bool PassPlanner::is_plane(PartId id) const {
     const System& system = graph_.program().system_of(graph_.stage());
     switch (part.node.kind) {
         case NodeKind::own: return part.node.index != system.frozen_item();
-        case NodeKind::earlier: return true;
+        case NodeKind::earlier:
+        case NodeKind::metric: return true;
         case NodeKind::call: return reads_file(part.node.function);
         default: return false;
     }

@@ -115,6 +115,9 @@ private:
                                                           : SlotSource::Kind::file;
             return {kind, 0, graph_[part.operands[0]].node.index};
         }
+        if (part.node.kind == NodeKind::metric) {
+            return {SlotSource::Kind::metric, 0, part.node.index};
+        }
         const bool is_own = part.node.kind == NodeKind::own;
         return {SlotSource::Kind::item, is_own ? graph_.stage() : part.node.stage,
                 part.node.index};

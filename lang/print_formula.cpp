@@ -133,6 +133,7 @@ private:
             case NodeKind::builtin: return builtins[node.index];
             case NodeKind::definition: return system_.definitions[node.index].name;
             case NodeKind::rate: return system_.quantities[node.index].name + "'";
+            case NodeKind::metric:
             case NodeKind::call: break;
         }
         return "";

@@ -75,6 +75,14 @@ bool differentiates(Function function);
 enum class Builtin : std::uint8_t { x, y, z, sx, sy, sz, t, step };
 inline constexpr std::size_t builtin_count = 8;
 
+/// What operators read of the surface, a plane each (surface/parameter_surface.h).
+enum class MetricPlane : std::uint8_t {
+    inverse_11, inverse_12, inverse_22,  ///< Ṽ⁻¹.
+    area,                                ///< s, of the cell.
+    flow_11, flow_12, flow_22,           ///< s Ṽ⁻¹ Ṽ⁻ᵀ: times the differences, what flows.
+};
+inline constexpr std::size_t metric_plane_count = 7;
+
 enum class NodeKind : std::uint8_t {
     number,      ///< `number`
     text,        ///< Program::texts[index]
@@ -84,6 +92,7 @@ enum class NodeKind : std::uint8_t {
     definition,  ///< definition `index` of the stage's system
     rate,        ///< rate of species item `index`
     call,        ///< `function` of `operands`
+    metric,      ///< MetricPlane `index`; only lowering makes such nodes
 };
 
 enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };

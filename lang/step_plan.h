@@ -22,6 +22,7 @@ struct SlotSource {
         item,       ///< Item `item` of stage `stage` (a field slot, a mask slot or a uniform slot).
         file,       ///< The array named Program::texts[item], as a field slot.
         image,      ///< The picture named Program::texts[item], as a field slot.
+        metric,     ///< MetricPlane `item` of the surface, as a field slot.
         step,       ///< Uniform: complete steps of the stage when the step begins.
         time,       ///< Uniform: the stage's t when the rates are evaluated.
         time_step,  ///< Uniform: the length of the step that is taken.

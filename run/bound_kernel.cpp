@@ -15,6 +15,7 @@ namespace {
 const float* plane_of(const SlotSource& source, const BindingContext& context) {
     if (source.kind == SlotSource::Kind::image) return context.files.image(source.item).origin();
     if (source.kind == SlotSource::Kind::file) return context.files.plane(source.item).origin();
+    if (source.kind == SlotSource::Kind::metric) return context.metric[source.item].origin();
     return context.states[source.stage].field(source.item).origin();
 }
 

@@ -24,6 +24,7 @@ struct BindingContext {
     std::int64_t steps = 0;   ///< Complete steps of the stage the kernel belongs to.
     Grid grid;
     double t = 0;             ///< Its time.
+    std::span<const Field> metric = {};  ///< By MetricPlane; empty without a surface.
 };
 
 /// Makes a kernel runnable.

@@ -3,6 +3,7 @@
 #include "core/near_name.h"
 #include "lang/check.h"
 #include "lang/parse.h"
+#include "run/metric_planes.h"
 #include "run/surface_picture.h"
 
 #include <fmt/format.h>

@@ -26,7 +26,8 @@ bool part_varies(const Node& node, const std::vector<bool>& varies, const Progra
             return node.index != static_cast<std::uint32_t>(Builtin::t) &&
                    node.index != static_cast<std::uint32_t>(Builtin::step);
         case NodeKind::definition:
-        case NodeKind::rate: return true;
+        case NodeKind::rate:
+        case NodeKind::metric: return true;
         case NodeKind::number:
         case NodeKind::text: return false;
         case NodeKind::call: break;

@@ -8,6 +8,7 @@
 #include "run/input_files.h"
 #include "run/memory.h"
 #include "run/not_finite.h"
+#include "run/metric_planes.h"
 #include "run/stage_time.h"
 #include "solvers/stability.h"
 #if CASCADE_HAS_JIT
@@ -50,12 +51,13 @@ struct Simulation::Implementation {
     std::shared_ptr<Backend> stepper;
     std::unique_ptr<Team> team;
     InputFiles files;
+    std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
     std::vector<StageState> states;
 
     const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
 
     BindingContext context(std::uint32_t stage) const {
-        return {states, files, states[stage].steps, grid, states[stage].t};
+        return {states, files, states[stage].steps, grid, states[stage].t, metric};
     }
 
     /// Starting values need no compiling and pictures neither: both are interpreted.
@@ -170,6 +172,9 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     auto files = read_input_files(script);
     if (!files) return tl::unexpected(files.error());
     self.files = std::move(*files);
+    auto metric = metric_planes(*self.program);
+    if (!metric) return tl::unexpected(metric.error());
+    self.metric = std::move(*metric);
 
     self.interpreter = make_interpreter();
     self.stepper = options.stepper;

@@ -1,7 +1,5 @@
 #include "run/surface_picture.h"
 
-#include "lang/evaluate.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -37,9 +35,12 @@ TriangleMesh lattice(const SurfaceFunction& surface) {
     return mesh;
 }
 
-/// Along a seam the normals of both sides are one.
+/// Where two joined sides meet in space their normals are one.
 void join_normals(TriangleMesh& mesh, bool periodic_x, bool periodic_y) {
+    const Box box = bounds(mesh);
+    const float near = 1e-4F * length(box.high - box.low);
     const auto join = [&](std::uint32_t a, std::uint32_t b) {
+        if (length(mesh.positions[a] - mesh.positions[b]) > near) return;
         const Vector3 sum = unit(mesh.normals[a] + mesh.normals[b]);
         mesh.normals[a] = mesh.normals[b] = sum;
     };
@@ -66,17 +67,6 @@ Between between(double s, std::int64_t side, bool periodic) {
 }
 
 }  // namespace
-
-SurfaceFunction function_of(const SurfaceSettings& surface) {
-    return [&surface](double sx, double sy) {
-        BuiltinValues place{};
-        place[static_cast<std::size_t>(Builtin::sx)] = sx;
-        place[static_cast<std::size_t>(Builtin::sy)] = sy;
-        Position position{};
-        for (std::size_t k = 0; k < 3; ++k) position[k] = evaluate(surface.position[k], place);
-        return position;
-    };
-}
 
 Image draw_on_surface(const SurfaceFunction& surface, const Image& texture, bool periodic_x,
                       bool periodic_y, const DrawOptions& options, Team& team) {

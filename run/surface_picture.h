@@ -2,15 +2,11 @@
 #pragma once
 
 #include "core/parallel.h"
-#include "lang/program.h"
 #include "picture/image.h"
 #include "render/draw.h"
 #include "surface/parameter_surface.h"
 
 namespace cascade {
-
-/// The function of a domain's surface. It refers to `surface`.
-SurfaceFunction function_of(const SurfaceSettings& surface);
 
 /// Draws `surface` with `texture`, a pixel for each cell, on it. Between the centres of cells
 /// colours are linear; across joined sides they go on, at others the last cell's stays.

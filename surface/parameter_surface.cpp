@@ -73,7 +73,8 @@ Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid
     const double mean = whole / static_cast<double>(grid.cell_count());
     SurfaceMetric metric;
     const PlaneLayout layout(grid);
-    for (Field* field : {&metric.inverse_11, &metric.inverse_12, &metric.inverse_22, &metric.area}) {
+    for (Field* field : {&metric.inverse_11, &metric.inverse_12, &metric.inverse_22, &metric.area,
+                         &metric.flow_11, &metric.flow_12, &metric.flow_22}) {
         *field = Field(layout);
     }
     metric.unit = unit.value_or(std::sqrt(mean));
@@ -89,41 +90,22 @@ Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid
                                "every cell; keep away from poles");
             }
             // Ṽ = [√m11, m12/√m11; 0, area/√m11], upper triangular, so its inverse is so too.
-            const double row_length = std::sqrt(tensor.m11);
-            metric.inverse_11.at(i, j) = static_cast<float>(metric.unit / row_length);
-            metric.inverse_12.at(i, j) =
-                static_cast<float>(-metric.unit * tensor.m12 / (row_length * area));
-            metric.inverse_22.at(i, j) = static_cast<float>(metric.unit * row_length / area);
-            metric.area.at(i, j) = static_cast<float>(area / (metric.unit * metric.unit));
+            const double row_length = std::sqrt(tensor.m11) / metric.unit;
+            const double cell = area / (metric.unit * metric.unit);
+            const double shear = tensor.m12 / (metric.unit * metric.unit);
+            const auto set = [&](Field& field, double value) {
+                field.at(i, j) = static_cast<float>(value);
+            };
+            set(metric.inverse_11, 1 / row_length);
+            set(metric.inverse_12, -shear / (row_length * cell));
+            set(metric.inverse_22, row_length / cell);
+            set(metric.area, cell);
+            set(metric.flow_11, tensor.m22 / area);
+            set(metric.flow_12, -tensor.m12 / area);
+            set(metric.flow_22, tensor.m11 / area);
         }
     }
     return metric;
-}
-
-Result<void> check_closed(const SurfaceFunction& surface, bool periodic_x, bool periodic_y) {
-    constexpr int places = 17;
-    double size = 0, gap_x = 0, gap_y = 0;
-    const Position origin = surface(0, 0);
-    const auto apart = [](const Position& a, const Position& b) {
-        return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-    };
-    for (int k = 0; k < places; ++k) {
-        const double s = static_cast<double>(k) / (places - 1);
-        gap_x = std::max(gap_x, apart(surface(0, s), surface(1, s)));
-        gap_y = std::max(gap_y, apart(surface(s, 0), surface(s, 1)));
-        for (int l = 0; l < places; ++l) {
-            const double other = static_cast<double>(l) / (places - 1);
-            size = std::max(size, apart(origin, surface(s, other)));
-        }
-    }
-    const auto open = [&](bool periodic, double gap) { return periodic && gap > 1e-6 * size; };
-    if (open(periodic_x, gap_x)) {
-        return failure("the left and the right side are periodic, but do not meet on the surface");
-    }
-    if (open(periodic_y, gap_y)) {
-        return failure("the top and the bottom side are periodic, but do not meet on the surface");
-    }
-    return {};
 }
 
 }  // namespace cascade

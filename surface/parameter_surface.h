@@ -30,7 +30,8 @@ using SurfaceFunction = std::function<Position(double sx, double sy)>;
 /// so that a script of the plane makes patterns of the same size in cells.
 struct SurfaceMetric {
     Field inverse_11, inverse_12, inverse_22;  ///< Cells per unit.
-    Field area;                                ///< Of the cell, in square units.
+    Field area;                                ///< s: of the cell, in square units.
+    Field flow_11, flow_12, flow_22;           ///< s Ṽ⁻¹ Ṽ⁻ᵀ: times differences, what flows.
     double unit = 0;                           ///< Of length, in the units of the function.
 };
 
@@ -39,8 +40,5 @@ struct SurfaceMetric {
 /// not finite or where it has no area: its two directions are parallel or one has no length.
 Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid& grid,
                                       std::optional<double> unit);
-
-/// Do two sides that are joined (periodic) meet in space? Names the first pair that does not.
-Result<void> check_closed(const SurfaceFunction& surface, bool periodic_x, bool periodic_y);
 
 }  // namespace cascade

@@ -68,6 +68,11 @@ TEST(ParameterSurface, TheInverseUndoesShear) {
     EXPECT_NEAR((p * p + q * q) * m12 + q * r * m22, 0, 1e-6);
     EXPECT_NEAR(q * r * m11 + r * r * m12, 0, 1e-6);
     EXPECT_NEAR(q * r * m12 + r * r * m22, 1, 1e-6);
+    const double area = metric->area.at(3, 2);
+    EXPECT_NEAR(area, 0.25, 1e-6);
+    EXPECT_NEAR(metric->flow_11.at(3, 2), area * (p * p + q * q), 1e-6);
+    EXPECT_NEAR(metric->flow_12.at(3, 2), area * q * r, 1e-6);
+    EXPECT_NEAR(metric->flow_22.at(3, 2), area * r * r, 1e-6);
 }
 
 TEST(ParameterSurface, PlacesWithoutAreaAreNamed) {
@@ -89,21 +94,6 @@ TEST(ParameterSurface, PlacesWithoutAreaAreNamed) {
     ASSERT_FALSE(undefined);
     EXPECT_EQ(undefined.error().message,
               "the surface is not finite at sx = 0.0625, sy = 0.125 (column 0, row 0)");
-}
-
-TEST(ParameterSurface, PeriodicSidesMustMeet) {
-    EXPECT_TRUE(check_closed(torus, true, true));
-    const auto cylinder = [](double sx, double sy) {
-        return Position{std::cos(two_pi * sx), std::sin(two_pi * sx), sy};
-    };
-    EXPECT_TRUE(check_closed(cylinder, true, false));
-    const auto open = check_closed(cylinder, true, true);
-    ASSERT_FALSE(open);
-    EXPECT_NE(open.error().message.find("top"), std::string::npos);
-    const auto half = check_closed(
-        [&](double sx, double sy) { return cylinder(sx / 2, sy); }, true, false);
-    ASSERT_FALSE(half);
-    EXPECT_NE(half.error().message.find("left"), std::string::npos);
 }
 
 }  // namespace
