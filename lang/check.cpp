@@ -44,6 +44,7 @@ void check_systems(Workspace& work, const ast::Script& script,
 /// The workspace of a program that is checked already.
 Workspace workspace_of(Program& program, Diagnostics& diagnostics) {
     Workspace work{program, diagnostics, {}, {}, {}, {}, {}, 0};
+    work.on_surface = program.domain.surface && program.domain.surface->has_metric;
     for (const System& system : program.systems) {
         work.names.push_back(checking::names_of(system));
     }
@@ -61,6 +62,7 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
     Diagnostics own;
     {
         Workspace work{program, own, {}, {}, {}, {}, {}, 0};
+        work.on_surface = checking::measures_on_surface(script);
         const std::vector<LibraryScript> library = read_library(script, sources, own);
         check_systems(work, script, library);
         checking::functions_of(work, script);  // Those that nothing calls are checked too.

@@ -103,6 +103,20 @@ void report_unknown_function(Workspace& work, const ast::Word& name,
                            std::move(hint));
 }
 
+/// Of derivatives along the axes of the grid: on a surface these are no straight lines.
+bool is_grid_derivative(Function function) {
+    switch (function) {
+        case Function::dz:
+        case Function::dxx:
+        case Function::dyy:
+        case Function::dzz:
+        case Function::dxy:
+        case Function::dxz:
+        case Function::dyz: return true;
+        default: return false;
+    }
+}
+
 bool ExpressionChecker::belongs_here(Function function, Span span) {
     const FunctionInfo& row = info(function);
     const Place place = scope_.place;
@@ -115,6 +129,9 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
     const bool varies = row.is_aggregate || varies_by_cell(function);
     if (place == Place::position && !fold(function, std::vector<double>(most_operands, 1.0))) {
         return refuse("a surface is made of numbers, sx, sy and functions of numbers");
+    }
+    if (work_.on_surface && is_grid_derivative(function)) {
+        return refuse("second derivatives by name have no meaning on a surface; lap and div have");
     }
     if (place == Place::constant && varies) {
         fault(span, fmt::format("{} must be one number, but {} is {}", scope_.subject,

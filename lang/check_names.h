@@ -45,6 +45,8 @@ struct Workspace {
     std::vector<std::vector<bool>> items_read;               ///< By system and item.
     std::vector<std::vector<bool>> definitions_read;         ///< By system and definition.
     std::size_t names_compared = 0;                          ///< For hints, so far.
+    /// Operators measure on a surface, where not all of them have a meaning.
+    bool on_surface = false;
     /// The functions of each script whose expressions were checked; see user_functions.h.
     std::unordered_map<const ast::Script*, std::shared_ptr<const FunctionTable>> functions = {};
     /// Parts of expressions that calls and families were written out to, so far.

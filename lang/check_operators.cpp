@@ -36,6 +36,7 @@ bool ExpressionChecker::check_vectors(const Node& node) {
     if (node.function == Function::negate) {
         if (left != ValueType::vector) return false;
         formula_.nodes.back().type = ValueType::vector;
+        parts_.back().turned = parts_[node.operands[0]].turned;
         return true;
     }
     const ValueType right = type_of(1);
@@ -65,8 +66,14 @@ bool ExpressionChecker::check_vectors(const Node& node) {
             message = fmt::format("{} and {} cannot be {}", words(left), words(right),
                                   node.function == Function::add ? "added" : "subtracted");
     }
-    if (fits) {
+    const bool by_tensor = left == ValueType::tensor;
+    const bool is_turned = parts_[node.operands[0]].turned || parts_[node.operands[1]].turned;
+    if (fits && by_tensor && is_turned && work_.on_surface) {
+        fault(span, "on a surface a tensor cannot multiply what a tensor has multiplied",
+              "make one tensor of the two");
+    } else if (fits) {
         formula_.nodes.back().type = ValueType::vector;
+        parts_.back().turned = by_tensor || is_turned;
     } else {
         fault(span, std::move(message), std::move(hint));
     }

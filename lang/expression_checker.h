@@ -20,6 +20,7 @@ struct Part {
     bool faulty = false;  ///< A message has been given; whatever reads it stays silent.
     bool constant = false;
     double value = 0;
+    bool turned = false;   ///< A vector that a tensor has multiplied, or is made of such.
 };
 
 class ExpressionChecker {

@@ -66,5 +66,26 @@ TEST(CheckSurface, WrongForms) {
                 ElementsAre("1:30: 'surface' is given a value twice"));
 }
 
+TEST(CheckSurface, OperatorsOfTheGridAreRefused) {
+    const auto rate = [](const std::string& formula, const std::string& domain) {
+        return check_text("domain { surface: sx, sy, 0; " + domain + " }\nsystem s { u: 0; u' = " +
+                          formula + " }\nstage a: s { }\n")->faults();
+    };
+    const char* hint =
+        " | second derivatives by name have no meaning on a surface; lap and div have";
+    EXPECT_THAT(rate("dxx(u)", ""), ElementsAre(std::string("2:23: dxx cannot stand here") + hint));
+    EXPECT_THAT(rate("dxx(u)", "metric: 0"), ::testing::IsEmpty());
+    EXPECT_THAT(rate("dx(u) + dy(u) + lap(u)", ""), ::testing::IsEmpty());
+    EXPECT_THAT(rate("div(tensor(1, 2, 0) * (vector(u, 0) - 2 * (tensor(1, 2, 0) * grad(u))))", ""),
+                ElementsAre("2:27: on a surface a tensor cannot multiply what a tensor has "
+                            "multiplied | make one tensor of the two"));
+    EXPECT_THAT(rate("div(tensor(1, 2, 0) * (tensor(1, 2, 0) * grad(u)))", "metric: 0"),
+                ::testing::IsEmpty());
+    EXPECT_THAT(rate("lap(u)", "metric: 0.5"), ElementsAre("1:38: metric is 0 or 1"));
+    EXPECT_THAT(rate("lap(u)", "spacing: 2"),
+                ElementsAre("1:10: a domain has a surface or a spacing, not both | unit: … is the "
+                            "length of one unit on a surface"));
+}
+
 }  // namespace
 }  // namespace cascade::testing
