@@ -2,7 +2,8 @@
 # Draws the picture beside every example again. The test tests/gallery_test.sh compares them.
 #
 #     examples/draw_gallery.sh [NAME…]      all, or some, by name without ending: leopard,
-#                                           models/barkley for a system of the library
+#                                           models/barkley for a system of the library,
+#                                           witkin_kass/zebra
 set -eu
 cd "$(dirname "$0")/.."
 program=${CASCADE:-./cascade}
@@ -14,6 +15,7 @@ draw() {
 draw_one() {
     case $1 in
         pearson_map) draw "$1" ;;
+        witkin_kass/*) draw "$1" ;;
         models/*) "$program" run -q "lang/systems/${1#*/}.cascade" -o "examples/$1.png" ;;
         figure_3_2) draw "$1" --space-time --scale 4 ;;
         # Grids of 128 cells and more.
@@ -37,6 +39,9 @@ if [ $# -gt 0 ]; then
     for name in "$@"; do draw_one "$name"; done
 else
     for script in lang/systems/*.cascade; do draw_one "models/$(basename "$script" .cascade)"; done
+    for script in examples/witkin_kass/*.cascade; do
+        draw_one "witkin_kass/$(basename "$script" .cascade)"
+    done
     for script in examples/*.cascade; do draw_one "$(basename "$script" .cascade)"; done
     sweep_gray_scott
 fi
