@@ -212,6 +212,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     whole.grid = context.grid;
     whole.registers = scheme.registers;
     whole.error_register = scheme.error_register;
+    whole.sides = context.states[stage].sides;
     whole.species_needs_halo.assign(context.states[stage].species.size(), false);
     for (const Sweep& sweep : scheme.sweeps) {
         Binder& binder = binders.emplace_back(plans[sweep.form], context, &system, stage,
