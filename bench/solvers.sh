@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# Wall time to the same pattern for each solver: Turing's spots after the same time.
+# usage: bench/solvers.sh CASCADE [SIDE…]   (the program; sides of the grid, 256 and 1024 by default)
+set -eu
+cascade=$1
+shift
+folder=$(mktemp -d)
+trap 'rm -r "$folder"' EXIT
+printf 'stage spots: turing_spots { iterations: 28000; ka: 0.05/16 }\n' > "$folder/spots.cascade"
+for side in "${@:-256 1024}"; do
+    for size in $side; do
+        for solver in euler symplectic rk2 rk4 rk23 rk45 rkl1 rkl2; do
+            told=$("$cascade" run "$folder/spots.cascade" --grid "${size}x$size" --solver "$solver" \
+                --output "$folder/$solver.png" 2>&1 | tail -n 1)
+            printf '%5d² %-10s %s\n' "$size" "$solver" "$told"
+        done
+    done
+done
