@@ -87,7 +87,9 @@ TEST(Solvers, OrdersThroughTheLanguage) {
           Case{"rkl1", 64}, Case{"rkl2", 16}}) {
         const double order = std::log2(error_of(solver, steps) / error_of(solver, 2 * steps));
         RecordProperty(solver, fmt::format("{:.2f}", order));
-        EXPECT_NEAR(order, order_of(*solver_of(solver)), 0.3) << solver;
+        // Steps must be long enough for errors to show beside the rounding of floats.
+        EXPECT_GT(order, order_of(*solver_of(solver)) - 0.25) << solver;
+        EXPECT_LT(order, order_of(*solver_of(solver)) + 0.5) << solver;
     }
 }
 
