@@ -73,8 +73,7 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Senten
         if (name == "speed") settings.time.automatic_speed = false;
         (name == "speed" ? settings.speed : settings.frozen) = std::move(checked->formula);
     }
-    if ((name == "duration" || name == "iterations") && settings.time.duration &&
-        settings.iterations) {
+    if (is_end_setting(name) && settings.time.duration && settings.iterations) {
         work.diagnostics.error(sentence.name.span,
                                "a stage ends by its iterations or by its duration, not by both",
                                "leave one of them out");

@@ -122,7 +122,18 @@ void StageChecker::run(const ast::Block& block,
     if (stage().system == unknown_system) return;
     stage().items.resize(system().item_count());
     from_system_.assign(system().item_count(), false);
-    for (const Statement& statement : statements) set(statement);
+    // An end that comes from outside the script replaces the script's, whichever of the two it is.
+    const SourceId own_source = stage().span.source;
+    const auto is_end = [&](const Statement& statement, bool from_outside) {
+        return is_end_setting(statement.name) &&
+               (statement.span().source != own_source) == from_outside;
+    };
+    const bool has_new_end = std::any_of(statements.begin(), statements.end(), [&](const auto& each) {
+        return is_end(each, true);
+    });
+    for (const Statement& statement : statements) {
+        if (!has_new_end || !is_end(statement, false)) set(statement);
+    }
     for (const Formula& formula : stage().items) mark_reads(work_, formula, stage().system);
     for (const auto* formula : {&settings_.show, &settings_.time.until}) {
         if (*formula) mark_reads(work_, **formula, stage().system);

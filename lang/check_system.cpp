@@ -1,9 +1,12 @@
 // A `system` block: what it declares, its formulas, and the order of its definitions and rates.
 #include "lang/check_blocks.h"
+#include "lang/check_time.h"
 #include "lang/check_circles.h"
 #include "lang/check_expression.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace cascade::checking {
 
@@ -299,7 +302,12 @@ void SystemChecker::check_invariants() {
 
 void SystemChecker::check_settings() {
     Settings settings;
+    std::uint32_t level_of_end = 0;
     for (const Statement* statement : settings_) {
+        if (is_end_setting(statement->name)) level_of_end = std::max(level_of_end, statement->level);
+    }
+    for (const Statement* statement : settings_) {
+        if (is_end_setting(statement->name) && statement->level < level_of_end) continue;
         check_setting(work_, *statement->script, *statement->sentence,
                       scope(Place::value, *statement), settings);
     }

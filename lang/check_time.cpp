@@ -96,6 +96,8 @@ bool is_time_setting(const ast::Script& script, const ast::Sentence& sentence) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+bool is_end_setting(std::string_view name) { return name == "iterations" || name == "duration"; }
+
 void check_time_setting(Workspace& work, const ast::Script& script, const ast::Sentence& sentence,
                         const Scope& scope, Settings& settings) {
     const std::string_view name = sentence.name.text;

@@ -6,6 +6,7 @@
 #include "lang/check_names.h"
 
 #include <cstdint>
+#include <string_view>
 
 namespace cascade::checking {
 
@@ -14,6 +15,9 @@ inline constexpr std::int64_t most_iterations = 1'000'000'000;
 
 /// Is this one of the settings above? `speed` is where it is `auto`.
 bool is_time_setting(const ast::Script& script, const ast::Sentence& sentence);
+
+/// `iterations` and `duration`: a stage ends by one of them, and what replaces either replaces both.
+bool is_end_setting(std::string_view name);
 
 /// Sets it. The sentence has one value.
 void check_time_setting(Workspace& work, const ast::Script& script, const ast::Sentence& sentence,

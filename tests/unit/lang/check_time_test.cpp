@@ -88,6 +88,21 @@ TEST(CheckTime, AStageGoesBeforeItsSystem) {
     EXPECT_FALSE(two.automatic_speed);
 }
 
+TEST(CheckTime, WhatReplacesAnEndReplacesBoth) {
+    const auto derived = check_text("system ticks: turing_spots { duration: 9 }\nstage s: ticks { }\n");
+    ASSERT_THAT(derived->faults(), IsEmpty());
+    EXPECT_EQ(derived->program->stages[0].time.duration, 9);
+    const auto outside =
+        check_text(std::string(decay) + "stage s: decay { iterations: 50 }\n", {"duration=7"});
+    ASSERT_THAT(outside->faults(), IsEmpty());
+    EXPECT_EQ(outside->program->stages[0].time.duration, 7);
+    const auto back =
+        check_text(std::string(decay) + "stage s: decay { duration: 50 }\n", {"s.iterations=7"});
+    ASSERT_THAT(back->faults(), IsEmpty());
+    EXPECT_EQ(back->program->stages[0].iterations, 7);
+    EXPECT_FALSE(back->program->stages[0].time.duration);
+}
+
 TEST(CheckTime, WrongSolvers) {
     EXPECT_THAT(faults("solver: eular"),
                 ElementsAre("2:26: there is no solver 'eular' | did you mean 'euler'?"));
