@@ -143,8 +143,18 @@ private:
 /// How much larger an operator or aggregate makes a change of its operand, summed over all cells it
 /// reads. Of lap: neighbours count 1 each and the cell as much as all of them.
 std::optional<double> gain(Function function, const Grid& grid) {
+    const double h = grid.spacing;
     switch (function) {
-        case Function::lap: return 4 * grid.stencil().axes() / (grid.spacing * grid.spacing);
+        case Function::lap: return 4 * grid.stencil().axes() / (h * h);
+        case Function::dx:
+        case Function::dy:
+        case Function::dz: return 1 / h;
+        case Function::dxx:
+        case Function::dyy:
+        case Function::dzz: return 4 / (h * h);
+        case Function::dxy:
+        case Function::dxz:
+        case Function::dyz: return 1 / (h * h);
         case Function::domain_mean:
         case Function::domain_min:
         case Function::domain_max: return 1;

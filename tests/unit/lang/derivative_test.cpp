@@ -102,6 +102,14 @@ TEST(JacobianBound, AddsReactionToDiffusion) {
     EXPECT_DOUBLE_EQ(reaction, 3);
 }
 
+TEST(JacobianBound, CountsWhatOperatorsRead) {
+    // Cahn and Hilliard: lap of lap reaches 64, and is no plain diffusion that stages could ease.
+    const auto [whole, reaction] =
+        bound_at_start(*rates_of(" w = 0.5 * lap(u)\n u' = -lap(w)\n v' = 2 * dx(v) + dxx(v)\n"));
+    EXPECT_DOUBLE_EQ(whole, 32);
+    EXPECT_DOUBLE_EQ(reaction, 32);
+}
+
 TEST(JacobianBound, IsThatOfTuringsSpots) {
     // Row of a: |ka b| + |ka a| + 8 diff_a; of b: |ka (a − 1)| + |ka b| + 8 diff_b, at a = b = 4.
     const auto checked = check_text("stage one: turing_spots { beta: 12 }\ndomain { grid: 16, 16 }");
