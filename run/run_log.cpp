@@ -119,9 +119,14 @@ void RunLog::record(const Simulation& simulation, std::uint32_t stage) {
     if (!rows_.empty() && rows_.back().stage == stage && rows_.back().step == step) return;
     rows_.push_back({stage, step});
     values_.push_back(static_cast<float>(simulation.time(stage)));
+    std::vector<const Formula*> here;
     for (const auto& formulas : formulas_) {
-        values_.push_back(
-            formulas[stage] ? simulation.evaluate(*formulas[stage], stage)[0].at(0, 0) : none);
+        if (formulas[stage]) here.push_back(&*formulas[stage]);
+    }
+    const std::vector<float> numbers = simulation.evaluate_numbers(here, stage);
+    auto number = numbers.begin();
+    for (const auto& formulas : formulas_) {
+        values_.push_back(formulas[stage] ? *number++ : none);
     }
 }
 

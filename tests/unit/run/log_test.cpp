@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <sstream>
 
 namespace cascade {
 namespace {
@@ -59,6 +61,32 @@ TEST_F(LogTest, StepsOfItsOwnAndWithFrames) {
             const auto begin = std::filesystem::directory_iterator(path("film"));
             EXPECT_EQ(std::distance(begin, std::filesystem::directory_iterator{}), 5);
         }
+    }
+}
+
+TEST_F(LogTest, AggregatesOverTime) {
+    // The mean decays by 1/64 a step, whatever diffusion does; 8 cells of 1 and 24 of 0.
+    Script script = load("system s { u: sx < 0.25; u' = lap(u) / 8 - u / 64 }\n"
+                         "domain { grid: 8, 4 }\n"
+                         "stage s: s { iterations: 64; interval: 16 }");
+    RunRequest wanted = request();
+    wanted.log.expressions = {"mean(u over domain)", "sum(u^2 over domain)",
+                              "max(u over domain) - min(u over domain)"};
+    run_well(script, wanted);
+    const auto rows = lines("picture.csv");
+    ASSERT_EQ(rows.size(), 6u);
+    EXPECT_EQ(rows[1], "s,0,0,0.25,8,1");
+    const auto numbers = [&](std::size_t row) {
+        std::vector<double> found;
+        std::stringstream line(rows[row]);
+        for (std::string cell; std::getline(line, cell, ',');) found.push_back(std::atof(cell.c_str()));
+        return found;
+    };
+    for (std::size_t row = 2; row < 6; ++row) {
+        const auto now = numbers(row), before = numbers(row - 1);
+        EXPECT_NEAR(now[3], 0.25 * std::pow(1 - 1.0 / 64, now[1]), 1e-6);
+        EXPECT_LT(now[4], before[4]);
+        EXPECT_LT(now[5], before[5]);
     }
 }
 
