@@ -135,7 +135,8 @@ void add_files(CLI::App& app, RunRequest& run) {
 void add_log(CLI::App& app, RunRequest& run) {
     const std::string group = "Numbers";
     app.add_option("--log", run.log.expressions,
-                   "A number over time, such as 'mean(u over domain)', as a\ntable; may be given again")
+                   "A number over time, such as 'mean(u over domain)', as a\n"
+                   "table; may be given again")
         ->allow_extra_args(false)
         ->type_name("EXPR")
         ->group(group);

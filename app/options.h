@@ -1,5 +1,5 @@
-// The command line: what the user asked for, as values. Only options.cpp and option_*.cpp see CLI11,
-// since its headers take seconds to compile.
+// The command line: what the user asked for, as values. Only options.cpp and option_*.cpp see
+// CLI11, since its headers take seconds to compile.
 #pragma once
 
 #include "run/compile.h"

@@ -79,8 +79,8 @@ std::string clock_time(double seconds) {
 namespace {
 
 /// A bar between what is in front of it and as many of the facts behind it as fit.
-std::string fitting_bar(const std::string& left, double share, const std::vector<std::string>& facts,
-                        int columns) {
+std::string fitting_bar(const std::string& left, double share,
+                        const std::vector<std::string>& facts, int columns) {
     // A full line would move the cursor to the next one.
     const int room = columns - 1;
     for (std::size_t count = facts.size(); count > 0; --count) {

@@ -15,7 +15,9 @@ namespace cascade {
 
 namespace {
 
-std::string runs(std::size_t count) { return fmt::format("{} run{}", count, count == 1 ? "" : "s"); }
+std::string runs(std::size_t count) {
+    return fmt::format("{} run{}", count, count == 1 ? "" : "s");
+}
 
 /// "81 runs (12 done before), 2,430,000 steps in 41.20 s".
 std::string summary(const SweepReport& report) {
@@ -40,8 +42,8 @@ int tell(const SweepReport& report, const Options& options, int signal, bool lim
                                     ? fmt::format("the limit of {} is reached",
                                                   describe_duration(options.limit_seconds))
                                     : std::string("interrupted");
-        console.say(fmt::format("cascade: {}; {} of {} are done, and the same command goes on\n", why,
-                                report.runs - report.missing, runs(report.runs)));
+        console.say(fmt::format("cascade: {}; {} of {} are done, and the same command goes on\n",
+                                why, report.runs - report.missing, runs(report.runs)));
         return limit_reached ? exit_status::time_limit : exit_status::signal_base + signal;
     }
     if (report.failed == 0) return exit_status::success;

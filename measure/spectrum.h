@@ -22,8 +22,8 @@ struct Spectrum {
 Spectrum radial_spectrum(const Samples& samples);
 
 /// The wavelength at the spectrum's peak, in the unit of lengths: one over the power-weighted mean
-/// of |k| over the rings from 1/1.3 to 1.3 times the strongest one, which leaves out the other waves
-/// of a lattice (√2 of a square one, √3 of a hexagonal one). NaN where nothing varies.
+/// of |k| over the rings from 1/1.3 to 1.3 times the strongest one, which leaves out the other
+/// waves of a lattice (√2 of a square one, √3 of a hexagonal one). NaN where nothing varies.
 double peak_wavelength(const Spectrum& spectrum);
 
 }  // namespace cascade::measure

@@ -10,8 +10,8 @@ namespace cascade {
 
 measure::Samples to_samples(const Field& field, const Grid& grid);
 
-/// The features of the number that a picture shows, over all cells (also of a volume). A colour is no
-/// number: then those of what the stage shows by default (its `show`, or its last species).
+/// The features of the number that a picture shows, over all cells (also of a volume). A colour is
+/// no number: then those of what the stage shows by default (its `show`, or its last species).
 measure::Features measure_shown(Painter& painter, const Simulation& simulation);
 
 }  // namespace cascade

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
-/// Does a part of a formula over `stage` differ between cells? `varies` tells it of those before it.
+/// Does a part of a formula over `stage` differ between cells? `varies` tells it of those before.
 bool part_varies(const Node& node, const std::vector<bool>& varies, const Program& program,
                  std::uint32_t stage) {
     switch (node.kind) {

@@ -103,7 +103,8 @@ Sweeper::Done Sweeper::plan_run(std::size_t number) {
     run.overrides = std::move(*overrides);
     Script script = load(run);
     if (!script.program) {
-        return tl::unexpected(SweepFault{{"a script of the sweep is wrong", ""}, std::move(script)});
+        return tl::unexpected(
+            SweepFault{{"a script of the sweep is wrong", ""}, std::move(script)});
     }
     run.key = key_of_run(script, request_.picture, request_.tile_side);
     if (number == 0 && script.program->stages.empty()) {
@@ -166,7 +167,8 @@ bool Sweeper::is_done(std::size_t number) {
     const auto saved =
         folder_ / "fields" / folder_name(request_.varied, runs_[number].values) / "run.json";
     std::error_code error;
-    if (request_.fields && !result->failed() && !std::filesystem::exists(saved, error)) return false;
+    const bool has_fields = result->failed() || std::filesystem::exists(saved, error);
+    if (request_.fields && !has_fields) return false;
     results_[number] = std::move(*result);
     return true;
 }

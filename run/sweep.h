@@ -1,5 +1,5 @@
-// `cascade sweep`: the same script with many values of its parameters, to one labelled sheet and one
-// table of features.
+// `cascade sweep`: the same script with many values of its parameters, to one labelled sheet and
+// one table of features.
 #pragma once
 
 #include "core/result.h"

@@ -141,8 +141,7 @@ Field average(const Field& field, std::int64_t factor) {
 
 }  // namespace
 
-std::string key_of_run(const Script& script, const PictureRequest& picture,
-                       int tile_side) {
+std::string key_of_run(const Script& script, const PictureRequest& picture, int tile_side) {
     std::uint64_t hash = add_line(fnv1a("sweep 1"), version());
     hash = add_files(add_words(hash, script), script);
     hash = add_line(hash, overrides_to_json(script.overrides));

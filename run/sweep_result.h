@@ -23,11 +23,10 @@ struct SweepResult {
     bool failed() const { return !features; }
 };
 
-/// A key of all that a run's result depends on: the words of the script and of all it uses (not its
-/// blanks and comments), the changes from outside, the contents of the files that it reads, what is
+/// A key of all that a run's result depends on: the words of the script and of all it uses (not
+/// its blanks and comments), the changes from outside, the contents of the files that it reads, what is
 /// shown, the size of the tiles, Cascade's version. 16 hexadecimal digits. The script must be right.
-std::string key_of_run(const Script& script, const PictureRequest& picture,
-                       int tile_side);
+std::string key_of_run(const Script& script, const PictureRequest& picture, int tile_side);
 
 /// Writes KEY.npy (planes of the tile below each other) and KEY.json into `folder`; the latter
 /// last, so that half a result is none.

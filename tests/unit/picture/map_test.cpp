@@ -40,7 +40,8 @@ TEST(Map, TheFirstRowIsTheLowest) {
                                         {Image(64, 64, blue), ""},
                                         {Image(), "not finite"}};
     const Image map = make_map(tiles, {"feed", {"0.02", "0.04"}}, {"kill", {"0.05", "0.06"}});
-    const Place first = place_of(map, red), right = place_of(map, green), above = place_of(map, blue);
+    const Place first = place_of(map, red), right = place_of(map, green);
+    const Place above = place_of(map, blue);
     // 64 pixels become 128, and the whole of each picture is there.
     EXPECT_EQ(first.count, 128 * 128);
     EXPECT_EQ(above.count, 128 * 128);

@@ -79,7 +79,9 @@ TEST_F(LogTest, AggregatesOverTime) {
     const auto numbers = [&](std::size_t row) {
         std::vector<double> found;
         std::stringstream line(rows[row]);
-        for (std::string cell; std::getline(line, cell, ',');) found.push_back(std::atof(cell.c_str()));
+        for (std::string cell; std::getline(line, cell, ',');) {
+            found.push_back(std::atof(cell.c_str()));
+        }
         return found;
     };
     for (std::size_t row = 2; row < 6; ++row) {
@@ -120,7 +122,8 @@ TEST_F(LogTest, WrongExpressions) {
         run_badly(script, wanted);
         return script.messages(false);
     };
-    EXPECT_THAT(message_of("a + 1"), HasSubstr("<--log>:1:1: error: this differs from cell to cell"));
+    EXPECT_THAT(message_of("a + 1"),
+                HasSubstr("<--log>:1:1: error: this differs from cell to cell"));
     EXPECT_THAT(message_of("x"), HasSubstr("differs from cell to cell"));
     EXPECT_THAT(message_of("q"), HasSubstr("<--log>:1:1: error: "));
     EXPECT_THAT(message_of("1 +"), HasSubstr("<--log>:1:"));

@@ -87,7 +87,7 @@ TEST_F(SweepTest, GoesOnWhereItStopped) {
     EXPECT_EQ(sweep_well(script, request({"ka=1/20,1/10"})).done_before, 0u);
     const std::string sheet = bytes("sweep/sheet.png");
     const auto first = table();
-    // Nothing is run again, not even where comments and blanks have changed; the files are the same.
+    // Nothing is run again, not even where comments and blanks have changed.
     std::string text = spots;
     text.replace(text.find("a comment"), 9, "another one");
     const Script commented = load("\n\n" + text);
