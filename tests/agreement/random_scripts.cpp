@@ -47,6 +47,7 @@ public:
             has_slices ? fmt::format(", {}", 2 + stream_.below(5)) : "",
             has_slices ? boundaries[stream_.below(2)] : stream_.pick<std::string_view>(boundaries),
             stream_.chance(50) ? "1" : "0.75", stream_.below(1000));
+        write_functions();
         for (int s = 0; s < systems; ++s) write_system(s);
         const int stages = 1 + static_cast<int>(stream_.below(3));
         for (int k = 0; k < stages; ++k) write_stage(k, stream_.below(static_cast<std::uint64_t>(systems)));
@@ -55,6 +56,9 @@ public:
 
 private:
     enum class Place { value, rate };
+    struct SystemNames {
+        std::vector<std::string> species, parameters;
+    };
 
     std::string number() {
         static constexpr std::array<std::string_view, 12> numbers = {
@@ -75,6 +79,9 @@ private:
         }
         return number();
     }
+
+    /// Above −0.1 where it is known now: in functions a name may stand for any number.
+    std::string scale(Place place) { return function_count_ < 2 ? number() : leaf(place); }
 
     std::string call(const FunctionRow& row, Place place, int depth) {
         // A literal 0 cannot divide; a number that varies can.
@@ -101,10 +108,10 @@ private:
             return fmt::format("(({}) {} ({}))", arguments, row.spelling, right);
         }
         if (row.spelling == "noise") {
-            return fmt::format("noise(0.1 + {}, {})", leaf(place), 1 + stream_.below(2));
+            return fmt::format("noise(0.1 + {}, {})", scale(place), 1 + stream_.below(2));
         }
         const bool is_lattice = row.spelling == "lattice" || row.spelling == "diamond";
-        if (is_lattice) arguments = "0.1 + " + leaf(place);
+        if (is_lattice) arguments = "0.1 + " + scale(place);
         const int count = stream_.chance(50) ? row.arity.least : row.arity.most;
         for (int k = 1; k < count; ++k) arguments += ", " + expression(place, depth - 1);
         return fmt::format("{}({})", row.spelling, arguments);
@@ -168,8 +175,28 @@ private:
         return false;
     }
 
+    /// f0 of one value and f1 of two, which calls f0.
+    void write_functions() {
+        readable_ = {"a"};
+        text_ += fmt::format("fn f0(a) = {}\n", expression(Place::value, 2));
+        function_count_ = 1;
+        readable_ = {"a", "b"};
+        text_ += fmt::format("fn f1(a, b) = {}\n", expression(Place::value, 3));
+        function_count_ = 2;
+        readable_.clear();
+    }
+
+    std::string own_call(Place place, int depth) {
+        if (function_count_ == 1 || stream_.chance(50)) {
+            return fmt::format("f0({})", expression(place, depth - 1));
+        }
+        return fmt::format("f1({}, {})", expression(place, depth - 1),
+                           expression(place, depth - 1));
+    }
+
     std::string expression(Place place, int depth) {
         if (depth <= 0 || stream_.chance(25)) return leaf(place);
+        if (function_count_ > 0 && stream_.chance(6)) return own_call(place, depth);
         for (;;) {
             const FunctionRow& row = rows[stream_.below(rows.size())];
             if (fits(row, place)) return call(row, place, depth);
@@ -195,6 +222,8 @@ private:
             readable_.push_back(name);
             names.species.push_back(name);
         }
+        const bool has_family = stream_.chance(35);
+        if (has_family) write_family(names);
         species_ = names.species;
         if (stream_.chance(50)) {
             text_ += fmt::format("  shared = {}\n", expression(Place::rate, 3));
@@ -206,10 +235,33 @@ private:
             // Later rates may read earlier ones; a circle cannot come about.
             readable_.push_back(fmt::format("u{}'", k));
         }
+        if (has_family) write_rates_of_family();
         if (stream_.chance(40)) text_ += fmt::format("  u0 >= {}\n", number());
         if (stream_.chance(20)) text_ += "  u0 <= 100\n";
         text_ += "}\n";
         systems_.push_back(names);
+    }
+
+    /// w[1] to w[n], which neighbours read in a circle.
+    void write_family(SystemNames& names) {
+        const std::uint32_t members = 1 + stream_.below(3);
+        text_ += fmt::format("  i: 1..{}\n  w[i]: i * ({})\n", members,
+                             expression(Place::value, 2));
+        if (stream_.chance(40)) text_ += fmt::format("  w[1]: {}\n", leaf(Place::value));
+        for (std::uint32_t member = 1; member <= members; ++member) {
+            names.species.push_back(fmt::format("w[{}]", member));
+            readable_.push_back(names.species.back());
+        }
+        members_ = members;
+    }
+
+    void write_rates_of_family() {
+        static constexpr std::array<std::string_view, 5> reductions = {"sum", "product", "mean",
+                                                                       "min", "max"};
+        text_ += fmt::format("  w[i]' = 0.1 * {}(w[i] over i) - w[mod(i, {}) + 1] + {}\n",
+                             stream_.pick<std::string_view>(reductions), members_,
+                             expression(Place::rate, 3));
+        if (stream_.chance(40)) text_ += "  w[1]' += 0.25\n";
     }
 
     void write_stage(int k, std::size_t system) {
@@ -235,14 +287,12 @@ private:
         if (k == 0) previous_.push_back("g0.u0");
     }
 
-    struct SystemNames {
-        std::vector<std::string> species, parameters;
-    };
-
     RandomStream stream_;
     std::string text_;
     std::vector<std::string> readable_, species_, previous_;
     std::vector<SystemNames> systems_;
+    int function_count_ = 0;
+    std::uint32_t members_ = 0;
 };
 
 }  // namespace
