@@ -96,6 +96,30 @@ TEST(Sides, ModesDecayAsTheyShould) {
               2e-6);
 }
 
+// In units of length: half the spacing on twice the cells is the same domain, and what differs
+// falls with the square of the spacing. A flux is per unit of length as well.
+TEST(Spacing, IsTheUsersUnitOfLength) {
+    constexpr double pi = 3.14159265358979;
+    std::vector<double> errors;
+    for (const int n : {8, 16, 32}) {
+        const auto u = run(fmt::format(
+            "system heat {{ u: sin(pi * sx); u' = lap(u) }}\n"
+            "domain {{ grid: {0}; spacing: 1 / {0}; boundary: noflux; sides: fixed(0) }}\n"
+            "stage s: heat {{ iterations: {1}; speed: 0.1 / {1} }}\n",
+            n, 4 * n * n));
+        errors.push_back(error_of(u, static_cast<std::size_t>(n), 1, [&](double x, double, double) {
+            return std::exp(-pi * pi * 0.1) * std::sin(pi * x);
+        }));
+    }
+    EXPECT_GT(std::log2(errors[0] / errors[1]), 1.8) << errors[0] << " " << errors[1];
+    EXPECT_GT(std::log2(errors[1] / errors[2]), 1.8) << errors[1] << " " << errors[2];
+    const auto slope = run("system heat { u: 0; u' = lap(u) }\n"
+                           "domain { grid: 8; spacing: 0.25; boundary: noflux; left: fixed(0)\n"
+                           "  right: flux(3) }\n"
+                           "stage s: heat { iterations: 4000; speed: 0.02 }\n");
+    EXPECT_LT(error_of(slope, 8, 1, [](double x, double, double) { return 6 * x; }), 1e-4);
+}
+
 // The domain's sides hold for all species, a system's for its own, a stage's before both.
 TEST(Sides, WhoHasTheLastWord) {
     const std::string heat = "system heat { u: 0; v: 0; w: 0\n"
