@@ -192,10 +192,11 @@ bool is_side_word(std::string_view word) { return !sides_of_word(word).empty(); 
 
 void check_system_sides(Workspace& work, const ast::Script& script, const ast::Block& block,
                         std::uint32_t index, std::optional<std::uint32_t> base) {
+    if (index >= work.program.systems.size()) return;  // It could not be made.
     Scope scope;
     scope.system = index;
     System& system = work.program.systems[index];
-    if (base) {
+    if (base && *base < work.program.systems.size()) {
         const System& from = work.program.systems[*base];
         // Species keep their names, but not always their numbers.
         for (SpeciesSide side : from.sides) {
