@@ -110,7 +110,9 @@ std::vector<SpeciesSide> check_rules(Workspace& work, const ast::Script& script,
         if (meaning == nullptr || meaning->is_definition || !system.is_species(meaning->index)) {
             work.diagnostics.error(sentence->name.span,
                                    fmt::format("'{}' is not a species of {}", name, system.name),
-                                   did_you_mean(work, name, species_names(system)));
+                                   is_hopeless(work)
+                                       ? ""
+                                       : did_you_mean(work, name, species_names(system)));
             continue;
         }
         const auto written = read_side(work, script, *sentence);
@@ -173,16 +175,18 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SpeciesSide>& own)
                                        work.program.domain.sides.end(),
                                        [](const auto& side) { return side.has_value(); });
     if (is_plain) return;
+    std::vector<std::size_t> number(system.quantities.size());  // Of the species, by item.
     for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
-        if (!system.is_species(item)) continue;
-        AllSides sides = base;
-        for (const auto* rules : {&system.sides, &own}) {
-            for (const SpeciesSide& rule : *rules) {
-                if (rule.species == item) sides[static_cast<std::size_t>(rule.side)] = rule.setting;
-            }
+        number[item] = stage.sides.size();
+        if (system.is_species(item)) stage.sides.push_back(base);
+    }
+    for (const auto* rules : {&system.sides, &own}) {
+        for (const SpeciesSide& rule : *rules) {
+            stage.sides[number[rule.species]][static_cast<std::size_t>(rule.side)] = rule.setting;
         }
+    }
+    for (const AllSides& sides : stage.sides) {
         if (!are_pairs(work, sides)) return;
-        stage.sides.push_back(std::move(sides));
     }
 }
 
