@@ -46,8 +46,11 @@ std::string summary(const Script& script) {
     std::int64_t steps = 0;
     const std::uint32_t count = program.stages.empty() ? 0 : script.stage_count();
     for (std::uint32_t k = 0; k < count; ++k) steps += program.stages[k].iterations;
-    return fmt::format("{} {}, {} steps, {} × {} cells", count, count == 1 ? "stage" : "stages",
-                       steps, program.domain.grid.width, program.domain.grid.height);
+    const Grid& grid = program.domain.grid;
+    std::string sides = fmt::format("{} × {}", grid.width, grid.height);
+    if (grid.depth > 1) sides += fmt::format(" × {}", grid.depth);
+    return fmt::format("{} {}, {} steps, {} cells", count, count == 1 ? "stage" : "stages", steps,
+                       sides);
 }
 
 int check_one(const std::string& path, const Options& options, Console& console) {
