@@ -46,18 +46,15 @@ float* PassRunner::plane(const StepProblem::PlaneRef& ref, Registers registers) 
 void PassRunner::run(Worker& worker, Team& team, Registers registers, const StepMoment& moment) {
     for (std::size_t number = 0; number < problem_.passes.size(); ++number) {
         const StepProblem::Pass& pass = problem_.passes[number];
-        if (!pass.reductions.empty()) {
-            reduce(worker, pass, team, registers, number);
-        } else if (number > 0) {
-            team.barrier();
-        }
+        if (number > 0) team.barrier();
+        if (!pass.reductions.empty()) reduce(worker, pass, team, registers, number);
         set_uniforms(worker.uniforms[number], pass, moment);
         run_kernel(worker, pass, number, registers);
     }
 }
 
-/// Every thread reduces the rows that it wrote itself, then all threads take all rows together, each
-/// for itself. Rows are written again only behind the next meeting of the team.
+/// Every thread reduces its rows, then all threads take all rows together, each for itself. The
+/// numbers of rows are written again only behind the next meeting of the team.
 void PassRunner::reduce(Worker& worker, const StepProblem::Pass& pass, Team& team,
                         Registers registers, std::size_t pass_number) {
     for (const StepProblem::Reduction& reduction : pass.reductions) {
