@@ -56,6 +56,42 @@ std::string stripes_text(std::int64_t side) {
     return domain(side) + "stage only: stripes { iterations: 1000000 }\n";
 }
 
+std::string cahn_hilliard_text(std::int64_t side) {
+    return domain(side) + R"(system mixing {
+  c: random(0, 0.1)
+  gamma: 0.5
+  mu = c^3 - c - gamma * lap(c)
+  c' = lap(mu)
+}
+stage only: mixing { iterations: 1000000; speed: 0.02 }
+)";
+}
+
+std::string chemotaxis_text(std::int64_t side) {
+    return domain(side) + R"(system swarm {
+  cells: random(1, 0.01)
+  bait: 1
+  chi: 5
+  spread: 10
+  cells' = lap(cells) - div(chi * cells * grad(bait))
+  bait' = spread * lap(bait) + cells / (1 + cells) - bait
+}
+stage only: swarm { iterations: 1000000; speed: 0.02 }
+)";
+}
+
+std::string tensor_text(std::int64_t side) {
+    return domain(side) + R"(system smear {
+  c: random(0, 1)
+  a1: 1
+  a2: 0.3
+  theta: 0.6
+  c' = div(tensor(a1, a2, theta) * grad(c))
+}
+stage only: smear { iterations: 1000000; speed: 0.1 }
+)";
+}
+
 CascadeSide::CascadeSide(const std::string& text, Backend& backend)
     : script_(load_script("bench", text, ".")) {
     if (!script_.program) give_up(script_.messages(false));

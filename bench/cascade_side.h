@@ -21,6 +21,9 @@ namespace cascade::bench {
 std::string turing_text(std::int64_t side);      ///< beta and frozen vary over the cells.
 std::string gray_scott_text(std::int64_t side);
 std::string stripes_text(std::int64_t side);     ///< ai varies.
+std::string cahn_hilliard_text(std::int64_t side);  ///< Two passes a step.
+std::string chemotaxis_text(std::int64_t side);     ///< Fluxes at faces.
+std::string tensor_text(std::int64_t side);         ///< Diffusion with a direction, flux form.
 
 /// The first stage of a text, ready to step on one thread with kernels of `backend`. Ends the
 /// program with a message where something fails: a benchmark has no user to talk to.

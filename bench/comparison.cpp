@@ -34,7 +34,10 @@ struct System {
 std::vector<System> systems() {
     return {{"turing", turing_text, "beta", &StraightSteps::turing},
             {"gray_scott", gray_scott_text, "", &StraightSteps::gray_scott},
-            {"stripes", stripes_text, "ai", &StraightSteps::stripes}};
+            {"stripes", stripes_text, "ai", &StraightSteps::stripes},
+            {"cahn_hilliard", cahn_hilliard_text, "", &StraightSteps::cahn_hilliard},
+            {"chemotaxis", chemotaxis_text, "", &StraightSteps::chemotaxis},
+            {"tensor", tensor_text, "", &StraightSteps::tensor}};
 }
 
 /// One system at one size, on both sides. Made when first needed: the large ones take memory.
@@ -142,14 +145,14 @@ void register_contest(Contests& contests, const System& system, std::int64_t sid
 
 void print_table(Collector& times) {
     fmt::print("\nMillions of cell steps a second, medians; in brackets our speed over theirs.\n"
-               "{:<12}{:>6}{:>9}{:>16}{:>16}{:>16}\n",
+               "{:<14}{:>6}{:>9}{:>16}{:>16}{:>16}\n",
                "system", "side", "jit", "g++", "g++ 512", "g++ strict");
     for (const System& system : systems()) {
         for (const std::int64_t side : sides) {
             const double ours = times.median(title(system, side, "jit"));
             if (ours <= 0) continue;
             const double cells = static_cast<double>(side * side);
-            std::string line = fmt::format("{:<12}{:>6}{:>9.0f}", system.name, side,
+            std::string line = fmt::format("{:<14}{:>6}{:>9.0f}", system.name, side,
                                            cells / ours * 1e-6);
             for (const char* who : {"g++", "g++ 512", "g++ strict"}) {
                 const double theirs = times.median(title(system, side, who));

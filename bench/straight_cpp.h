@@ -13,22 +13,27 @@ struct StraightFields {
     float* next[5];               ///< Species of the new step.
     const float* varying;         ///< beta of Turing's system, ai of the stripes.
     const std::uint8_t* frozen;   ///< Turing's system only.
+    float* scratch;               ///< Between two passes: the chemical potential of Cahn-Hilliard.
     std::int64_t width, height, stride;
 };
 
-/// Constants of the three systems, held in variables so that no compiler can fold them.
+/// Constants of the systems, held in variables so that no compiler can fold them.
 struct StraightConstants {
     float speed = 1;
     float ka = 0.0125F, diff_a = 0.125F, diff_b = 0.03125F;                    // Turing.
     float feed = 0.037F, kill = 0.060F, diff_u = 0.16F, diff_v = 0.08F;        // Gray-Scott.
     float p1 = 0.04F, p2 = 0.06F, p3 = 0.04F, diff1 = 0.04F, diff2 = 0.06F;    // Stripes.
+    float gamma = 0.5F, mixing_speed = 0.02F;                                  // Cahn-Hilliard.
+    float chi = 5.0F, spread = 10.0F, swarm_speed = 0.02F;                     // Chemotaxis.
+    float a11 = 0.709873F, a12 = 0.424078F, a22 = 0.380127F;                   // Tensor: a1 = 1,
+    float tensor_speed = 0.1F;                                                 // a2 = 0.3, θ = 0.6.
 };
 
 /// One step of a system, halo of the new fields included (periodic).
 using StraightStep = void (*)(const StraightFields&, const StraightConstants&);
 
 struct StraightSteps {
-    StraightStep turing, gray_scott, stripes;
+    StraightStep turing, gray_scott, stripes, cahn_hilliard, chemotaxis, tensor;
 };
 
 StraightSteps straight_contracted();  ///< -O3 -march=native -ffp-contract=fast, g++'s default.

@@ -18,9 +18,10 @@ void fill_halo(float* cells, const StraightFields& f) {
         row[-1] = row[f.width - 1];
         row[f.width] = row[0];
     }
-    const auto bytes = static_cast<std::size_t>(f.width) * sizeof(float);
-    std::memcpy(cells - f.stride, cells + (f.height - 1) * f.stride, bytes);
-    std::memcpy(cells + f.height * f.stride, cells, bytes);
+    // With the columns of the halo: the corners are read by tensors.
+    const auto bytes = static_cast<std::size_t>(f.width + 2) * sizeof(float);
+    std::memcpy(cells - f.stride - 1, cells + (f.height - 1) * f.stride - 1, bytes);
+    std::memcpy(cells + f.height * f.stride - 1, cells - 1, bytes);
 }
 
 // g++ honours __restrict on parameters, and only of functions that it does not inline: with either
@@ -76,6 +77,63 @@ void stripes_row(const float* __restrict a, const float* __restrict b, const flo
     }
 }
 
+[[gnu::noinline]]
+void potential_row(const float* __restrict c, float* __restrict mu, std::int64_t width,
+                   std::int64_t stride, StraightConstants k) {
+    for (std::int64_t i = 0; i < width; ++i) {
+        mu[i] = c[i] * c[i] * c[i] - c[i] - k.gamma * laplacian(c, i, stride);
+    }
+}
+
+[[gnu::noinline]]
+void mixing_row(const float* __restrict c, const float* __restrict mu, float* __restrict new_c,
+                std::int64_t width, std::int64_t stride, StraightConstants k) {
+    for (std::int64_t i = 0; i < width; ++i) {
+        new_c[i] = c[i] + k.mixing_speed * laplacian(mu, i, stride);
+    }
+}
+
+/// What flows through the face between cell i and the one at i + to, in units of chi.
+inline float swarm_flux(const float* __restrict cells, const float* __restrict bait,
+                        std::int64_t i, std::int64_t to) {
+    return 0.5F * (cells[i] + cells[i + to]) * (bait[i + to] - bait[i]);
+}
+
+[[gnu::noinline]]
+void chemotaxis_row(const float* __restrict cells, const float* __restrict bait,
+                    float* __restrict new_cells, float* __restrict new_bait, std::int64_t width,
+                    std::int64_t stride, StraightConstants k) {
+    for (std::int64_t i = 0; i < width; ++i) {
+        const float flow = swarm_flux(cells, bait, i, 1) - swarm_flux(cells, bait, i - 1, 1) +
+                           swarm_flux(cells, bait, i, stride) -
+                           swarm_flux(cells, bait, i - stride, stride);
+        new_cells[i] = cells[i] + k.swarm_speed * (laplacian(cells, i, stride) - k.chi * flow);
+        new_bait[i] = bait[i] + k.swarm_speed * (k.spread * laplacian(bait, i, stride) +
+                                                 cells[i] / (1.0F + cells[i]) - bait[i]);
+    }
+}
+
+/// What a tensor sends through the face between cell i and the one at i + to; `beside` is the way
+/// along the face.
+inline float tensor_flux(const float* __restrict c, std::int64_t i, std::int64_t to,
+                         std::int64_t beside, float across, float turned) {
+    const float along = (c[i + beside] - c[i - beside]) +
+                        (c[i + to + beside] - c[i + to - beside]);
+    return across * (c[i + to] - c[i]) + turned * 0.25F * along;
+}
+
+[[gnu::noinline]]
+void tensor_row(const float* __restrict c, float* __restrict new_c, std::int64_t width,
+                std::int64_t stride, StraightConstants k) {
+    for (std::int64_t i = 0; i < width; ++i) {
+        const float along_x = tensor_flux(c, i, 1, stride, k.a11, k.a12) -
+                              tensor_flux(c, i - 1, 1, stride, k.a11, k.a12);
+        const float along_y = tensor_flux(c, i, stride, 1, k.a22, k.a12) -
+                              tensor_flux(c, i - stride, stride, 1, k.a22, k.a12);
+        new_c[i] = c[i] + k.tensor_speed * (along_x + along_y);
+    }
+}
+
 void turing_step(const StraightFields& f, const StraightConstants& k) {
     for (std::int64_t at = 0; at < f.height * f.stride; at += f.stride) {
         turing_row(f.now[0] + at, f.now[1] + at, f.varying + at, f.frozen + at, f.next[0] + at,
@@ -102,8 +160,37 @@ void stripes_step(const StraightFields& f, const StraightConstants& k) {
     for (const int s : {0, 1, 3, 4}) fill_halo(f.next[s], f);
 }
 
+void cahn_hilliard_step(const StraightFields& f, const StraightConstants& k) {
+    for (std::int64_t at = 0; at < f.height * f.stride; at += f.stride) {
+        potential_row(f.now[0] + at, f.scratch + at, f.width, f.stride, k);
+    }
+    fill_halo(f.scratch, f);
+    for (std::int64_t at = 0; at < f.height * f.stride; at += f.stride) {
+        mixing_row(f.now[0] + at, f.scratch + at, f.next[0] + at, f.width, f.stride, k);
+    }
+    fill_halo(f.next[0], f);
+}
+
+void chemotaxis_step(const StraightFields& f, const StraightConstants& k) {
+    for (std::int64_t at = 0; at < f.height * f.stride; at += f.stride) {
+        chemotaxis_row(f.now[0] + at, f.now[1] + at, f.next[0] + at, f.next[1] + at, f.width,
+                       f.stride, k);
+    }
+    for (int s = 0; s < 2; ++s) fill_halo(f.next[s], f);
+}
+
+void tensor_step(const StraightFields& f, const StraightConstants& k) {
+    for (std::int64_t at = 0; at < f.height * f.stride; at += f.stride) {
+        tensor_row(f.now[0] + at, f.next[0] + at, f.width, f.stride, k);
+    }
+    fill_halo(f.next[0], f);
+}
+
 }  // namespace
 
-StraightSteps STRAIGHT_CPP_FLAVOUR() { return {turing_step, gray_scott_step, stripes_step}; }
+StraightSteps STRAIGHT_CPP_FLAVOUR() {
+    return {turing_step,        gray_scott_step, stripes_step,
+            cahn_hilliard_step, chemotaxis_step, tensor_step};
+}
 
 }  // namespace cascade::bench

@@ -10,6 +10,7 @@ StraightSide::StraightSide(const CascadeSide& like, const std::string& varying)
         next_.emplace_back(field);
         fill_halo(now_.back().origin(), layout_, grid_.boundary);
     }
+    scratch_ = StraightPlane<float>(like.start().species[0]);
     if (!varying.empty()) varying_ = StraightPlane<float>(like.parameter(varying));
     if (!like.start().frozen.empty()) {
         frozen_ = StraightPlane<std::uint8_t>(like.start().frozen);
@@ -35,6 +36,7 @@ void StraightSide::advance(StraightStep step, std::int64_t count) {
     fields.stride = layout_.stride;
     fields.varying = varying_.empty() ? nullptr : varying_.origin();
     fields.frozen = frozen_.empty() ? nullptr : frozen_.origin();
+    fields.scratch = scratch_.origin();
     for (std::int64_t taken = 0; taken < count; ++taken) {
         for (std::size_t k = 0; k < now_.size(); ++k) {
             fields.now[k] = now_[k].origin();

@@ -56,7 +56,7 @@ public:
 private:
     StraightConstants constants_;
     std::vector<StraightPlane<float>> now_, next_;
-    StraightPlane<float> varying_;
+    StraightPlane<float> varying_, scratch_;
     StraightPlane<std::uint8_t> frozen_;
     Grid grid_;
     PlaneLayout layout_;
