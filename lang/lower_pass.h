@@ -5,6 +5,7 @@
 // is needed; going forwards they are computed there, each once.
 #pragma once
 
+#include "core/side.h"
 #include "lang/lower_formula.h"
 #include "lang/part_graph.h"
 #include "lang/pass_planner.h"
@@ -67,7 +68,13 @@ private:
     ValueId tensor_entry(PartId tensor, std::size_t entry, Face face);
     ValueId gradient(PartId operand, Face face);
     ValueId divergence(const Part& part);
-    ValueId through_sides(Face face, ValueId value);
+    ValueId through_sides(PartId flux, Face face, ValueId value);
+    /// What decides whether a flux passes the sides of the grid.
+    struct Crossing {
+        bool goes_across = false;  ///< It may be other than 0 where everything is mirrored.
+        bool has_species = false;
+        std::array<bool, side_count> is_open{};  ///< A species in it is not mirrored there.
+    };
     void find_what_crosses_sides();
 
     const PartGraph& graph_;
@@ -80,7 +87,7 @@ private:
     std::vector<std::uint32_t> needs_;  ///< By part: where it is needed.
     std::vector<std::uint32_t> first_;  ///< By part: its first value.
     std::vector<Value> values_;
-    std::vector<bool> crosses_sides_;   ///< By part; empty until it is asked.
+    std::vector<Crossing> crossings_;   ///< By part; empty until it is asked.
 };
 
 /// Which entry (0: a11, 1: a12, 2: a22) of a tensor lies in a row and column; −1 where it is 0.

@@ -76,28 +76,56 @@ ValueId PassLowering::vector_at(PartId id, Face where) {
     return builder_.multiply(average(a, where), face(b, where));
 }
 
-/// Nothing flows through a side that mirrors. Differences across it are 0 by themselves; other
-/// vectors, and what a tensor turns out of the side's direction, are cut off there.
+/// Nothing flows through a side where all species of a flux are mirrored. Differences across it are 0
+/// by themselves; other vectors, and what a tensor turns out of the side's direction, are cut off
+/// there.
 void PassLowering::find_what_crosses_sides() {
-    crosses_sides_.assign(graph_.size(), false);
+    const Stage& stage = graph_.program().stages[graph_.stage()];
+    const System& system = graph_.program().system_of(graph_.stage());
+    const SideRules boundary(grid_.boundary);
+    std::vector<std::array<SideKind, side_count>> of_item(system.item_count());
+    std::size_t species = 0;
+    for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+        for (std::size_t side = 0; side < side_count; ++side) {
+            of_item[item][side] = system.is_species(item) && !stage.sides.empty()
+                                      ? stage.sides[species][side].kind
+                                      : boundary.at[side].kind;
+        }
+        if (system.is_species(item)) ++species;
+    }
+    crossings_.assign(graph_.size(), {});
     for (PartId id = 0; id < graph_.size(); ++id) {
         const Part& part = graph_[id];
-        if (part.node.type != ValueType::vector) continue;
-        bool crosses = part.calls(Function::vector);
-        for (std::uint32_t k = 0; k < part.operand_count; ++k) {
-            const PartId operand = part.operands[k];
-            crosses = crosses || crosses_sides_[operand] ||
-                      graph_[operand].node.type == ValueType::tensor;
+        Crossing& crossing = crossings_[id];
+        const bool is_vector = part.node.type == ValueType::vector;
+        crossing.goes_across = is_vector && part.calls(Function::vector);
+        if (part.node.kind == NodeKind::own && system.is_species(part.node.index)) {
+            crossing.has_species = true;
+            for (std::size_t side = 0; side < side_count; ++side) {
+                crossing.is_open[side] = of_item[part.node.index][side] != SideKind::no_flux;
+            }
         }
-        crosses_sides_[id] = crosses;
+        for (std::uint32_t k = 0; k < part.operand_count; ++k) {
+            const Crossing& operand = crossings_[part.operands[k]];
+            const bool turns = graph_[part.operands[k]].node.type == ValueType::tensor;
+            crossing.goes_across |= is_vector && (operand.goes_across || turns);
+            crossing.has_species |= operand.has_species;
+            for (std::size_t side = 0; side < side_count; ++side) {
+                crossing.is_open[side] |= operand.is_open[side];
+            }
+        }
     }
 }
 
-ValueId PassLowering::through_sides(Face face, ValueId value) {
-    const Boundary boundary = face.axis == 0   ? grid_.boundary.x
-                              : face.axis == 1 ? grid_.boundary.y
-                                               : grid_.boundary.z;
-    if (boundary == Boundary::periodic) return value;
+ValueId PassLowering::through_sides(PartId flux, Face face, ValueId value) {
+    if (crossings_.empty()) find_what_crosses_sides();
+    const Crossing& crossing = crossings_[flux];
+    if (!crossing.goes_across) return value;
+    const std::size_t side = 2 * static_cast<std::size_t>(face.axis) + (face.side == 0 ? 1 : 0);
+    const bool is_open = crossing.has_species
+                             ? crossing.is_open[side]
+                             : SideRules(grid_.boundary).at[side].kind == SideKind::periodic;
+    if (is_open) return value;
     const std::int64_t count = face.axis == 0   ? grid_.width
                                : face.axis == 1 ? grid_.height
                                                 : grid_.depth;
@@ -113,15 +141,13 @@ ValueId PassLowering::through_sides(Face face, ValueId value) {
 /// Σ (flux behind − flux before) / h, x first.
 ValueId PassLowering::divergence(const Part& part) {
     const PartId flux = part.operands[0];
-    if (crosses_sides_.empty()) find_what_crosses_sides();
     std::optional<ValueId> sum;
     for (const int axis : planner_.axes().present) {
         std::array<ValueId, 2> through{};
         for (const int side : {0, 1}) {
             const Face at{axis, axis, side};
             ValueId& value = through[static_cast<std::size_t>(side)];
-            value = face(flux, at);
-            if (crosses_sides_[flux]) value = through_sides(at, value);
+            value = through_sides(flux, at, face(flux, at));
         }
         const ValueId term = builder_.subtract(through[0], through[1]);
         sum = sum ? builder_.add(*sum, term) : term;

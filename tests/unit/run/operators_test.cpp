@@ -272,6 +272,20 @@ TEST(Operators, FluxFormConservesSums) {
     }
 }
 
+/// A wind carries in what a side has, and nothing where nothing flows.
+TEST(Operators, FluxesPassOpenSides) {
+    const auto sum_after = [](const std::string& sides) {
+        const Started run("system s { u: 0.5; u' = -div(vector(u, 0 * u))\n" + sides + " }\n"
+                          "domain { grid: 40, 3; boundary: noflux }\n"
+                          "stage only: s { iterations: 20; speed: 0.05 }\n", true);
+        return run.sum("u");
+    };
+    EXPECT_NEAR(sum_after(""), 60, 1e-4);
+    EXPECT_NEAR(sum_after("u.left: fixed(1)"), 60 + 3, 1e-4);
+    EXPECT_NEAR(sum_after("u.left: fixed(1); u.right: fixed(0.25)"), 60 + 3 - 0.75, 1e-4);
+    EXPECT_NEAR(sum_after("u.left: periodic; u.right: periodic"), 60, 1e-4);
+}
+
 TEST(Aggregates, AreSumsMeansAndExtremes) {
     const Started run("system s { u: 0; u' = 0 * u; f: x * 2 + y\n"
                       "mean_f: mean(f over domain); sum_f: sum(f over domain)\n"
