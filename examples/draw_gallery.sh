@@ -16,6 +16,7 @@ draw_one() {
     case $1 in
         pearson_map) draw "$1" ;;
         witkin_kass/*) draw "$1" ;;
+        models/kdv) "$program" run -q lang/systems/kdv.cascade -o examples/models/kdv.png --space-time ;;
         models/*) "$program" run -q "lang/systems/${1#*/}.cascade" -o "examples/$1.png" ;;
         figure_3_2) draw "$1" --space-time --scale 4 ;;
         # Grids of 128 cells and more.
