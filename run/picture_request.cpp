@@ -46,9 +46,14 @@ std::string to_json(const PictureRequest& request) {
     nlohmann::json json = {{"palette", request.palette},
                            {"scale", request.scale},
                            {"depth", request.depth},
-                           {"space_time", request.space_time},
-                           {"flat", request.flat},
-                           {"view", {request.view.azimuth, request.view.elevation}}};
+                           {"space_time", request.space_time}};
+    // What only surfaces have is left out where it is not asked for: pictures of planes stay the
+    // same bytes.
+    const View usual;
+    const bool is_turned = request.view.azimuth != usual.azimuth ||
+                           request.view.elevation != usual.elevation;
+    if (request.flat) json["flat"] = true;
+    if (is_turned) json["view"] = {request.view.azimuth, request.view.elevation};
     if (!request.show.empty()) json["show"] = request.show;
     if (request.slice != Slice{}) {
         json["slice"] = {std::string(1, axis_letters[static_cast<std::size_t>(request.slice.axis)]),
