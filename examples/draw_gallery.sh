@@ -15,7 +15,7 @@ draw() {
 draw_one() {
     case $1 in
         pearson_map) draw "$1" ;;
-        witkin_kass/*) draw "$1" ;;
+        witkin_kass/* | surfaces/*) draw "$1" ;;
         models/kdv) "$program" run -q lang/systems/kdv.cascade -o examples/models/kdv.png --space-time ;;
         models/*) "$program" run -q "lang/systems/${1#*/}.cascade" -o "examples/$1.png" ;;
         figure_3_2) draw "$1" --space-time --scale 4 ;;
@@ -42,6 +42,9 @@ else
     for script in lang/systems/*.cascade; do draw_one "models/$(basename "$script" .cascade)"; done
     for script in examples/witkin_kass/*.cascade; do
         draw_one "witkin_kass/$(basename "$script" .cascade)"
+    done
+    for script in examples/surfaces/*.cascade; do
+        draw_one "surfaces/$(basename "$script" .cascade)"
     done
     for script in examples/*.cascade; do draw_one "$(basename "$script" .cascade)"; done
     sweep_gray_scott
