@@ -40,17 +40,22 @@ Result<LoadedFile> load_file(const std::string& path, const Overrides& overrides
     return LoadedFile{load_script("<standard input>", std::move(*text), ".", overrides), ""};
 }
 
-/// "2 stages, 35000 steps, 64 × 64 cells".
+/// "2 stages, 35000 steps, 64 × 64 cells". Steps that only the run will know are not counted.
 std::string summary(const Script& script) {
     const Program& program = *script.program;
     std::int64_t steps = 0;
     const std::uint32_t count = program.stages.empty() ? 0 : script.stage_count();
-    for (std::uint32_t k = 0; k < count; ++k) steps += program.stages[k].iterations;
+    bool is_known = true;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const StageTime& time = program.stages[k].time;
+        is_known = is_known && !time.has_duration() && !time.open_end;
+        steps += program.stages[k].iterations;
+    }
     const Grid& grid = program.domain.grid;
     std::string sides = fmt::format("{} × {}", grid.width, grid.height);
     if (grid.depth > 1) sides += fmt::format(" × {}", grid.depth);
-    return fmt::format("{} {}, {} steps, {} cells", count, count == 1 ? "stage" : "stages", steps,
-                       sides);
+    return fmt::format("{} {}, {}{} cells", count, count == 1 ? "stage" : "stages",
+                       is_known ? fmt::format("{} steps, ", steps) : "", sides);
 }
 
 int check_one(const std::string& path, const Options& options, Console& console) {

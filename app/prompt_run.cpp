@@ -169,10 +169,11 @@ void PromptSession::list_stages(const std::string&) {
     if (!has_something_to_run()) return;
     const Program& program = *script_->program;
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
-        const std::int64_t steps = simulation_ ? simulation_->state(k).steps : 0;
-        console_.print(fmt::format("{}: {}, step {} of {}\n", program.stages[k].name,
-                                   program.system_of(k).name, steps,
-                                   program.stages[k].iterations));
+        const StageState not_begun;
+        const StageState& state = simulation_ ? simulation_->state(k) : not_begun;
+        console_.print(fmt::format("{}: {}, {}\n", program.stages[k].name,
+                                   program.system_of(k).name,
+                                   describe_place(program.stages[k], state)));
     }
 }
 
@@ -190,8 +191,8 @@ void PromptSession::tell_place() {
     const auto shown = simulation_->shown_stage();
     if (!shown) return;
     const Stage& stage = script_->program->stages[*shown];
-    console_.print(fmt::format("stage '{}', step {} of {}\n", stage.name,
-                               simulation_->state(*shown).steps, stage.iterations));
+    console_.print(fmt::format("stage '{}', {}\n", stage.name,
+                               describe_place(stage, simulation_->state(*shown))));
 }
 
 }  // namespace cascade

@@ -141,6 +141,15 @@ void check_seed(Workspace& work, const ast::Script& script, const ast::Sentence&
     work.program.domain.seed = static_cast<std::uint32_t>(*seed);
 }
 
+/// Of one species, in a block that knows none.
+void report_sides(Workspace& work, const ast::Block& block) {
+    for (const ast::Sentence& sentence : block.sides) {
+        work.diagnostics.error(sentence.name.span,
+                               "the sides of one species belong in its system or in a stage",
+                               "left: … in the domain is for all species");
+    }
+}
+
 void check_domain_sentence(Workspace& work, const ast::Script& script,
                            const ast::Sentence& sentence) {
     const std::string_view key = sentence.name.text;
@@ -214,12 +223,14 @@ void check_domain(Workspace& work, const ast::Script& script) {
                          fmt::format("'{}' is given a value twice", sentence.name.text));
         }
     }
+    report_sides(work, *block);
     check_surface(work, script, *block);
 }
 
 void check_picture(Workspace& work, const ast::Script& script) {
     const ast::Block* block = find_block(work, script, ast::BlockKind::picture, "picture");
     if (block == nullptr) return;
+    report_sides(work, *block);
     const ast::Sentence* first = nullptr;
     for (const ast::Sentence& sentence : block->sentences) {
         if (sentence.name.empty() || sentence.values.empty()) continue;

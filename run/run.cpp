@@ -250,9 +250,8 @@ void Runner::look() {
 
 std::string Runner::place() const {
     const auto stage = simulation_->shown_stage().value_or(0);
-    return fmt::format("stage '{}', step {} of {}", script_.program->stages[stage].name,
-                       simulation_->state(stage).steps,
-                       script_.program->stages[stage].iterations);
+    const Stage& at = script_.program->stages[stage];
+    return fmt::format("stage '{}', {}", at.name, describe_place(at, simulation_->state(stage)));
 }
 
 Result<void> Runner::write_picture(const std::filesystem::path& path, const Image& image) {

@@ -55,7 +55,9 @@ Result<void> check_rows(const Script& script, const LogRequest& request) {
         const Stage& stage = script.program->stages[k];
         // A stage that gives no interval is looked at ten times.
         const std::int64_t every = request.every > 0 ? request.every : stage.interval;
-        rows += every > 0 ? stage.iterations / every : 10;
+        // How many steps a duration takes is not known before.
+        const bool is_known = !stage.time.duration && !stage.time.duration_in_steps;
+        if (is_known) rows += every > 0 ? stage.iterations / every : 10;
         if (rows <= most_log_rows) continue;
         return failure(fmt::format("the log would have more than {} rows", most_log_rows),
                        "let more steps pass between them, with --log-every");

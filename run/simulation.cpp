@@ -23,6 +23,14 @@ namespace cascade {
 
 bool has_jit() { return CASCADE_HAS_JIT; }
 
+std::string describe_place(const Stage& stage, const StageState& state) {
+    const std::string step = fmt::format("step {}", state.steps);
+    if (stage.time.open_end) return step;
+    if (!stage.time.has_duration()) return fmt::format("{} of {}", step, stage.iterations);
+    if (!stage.time.duration) return fmt::format("{}, t = {:.6g}", step, state.t);
+    return fmt::format("{}, t = {:.6g} of {:.6g}", step, state.t, *stage.time.duration);
+}
+
 std::string describe_backend() {
 #if CASCADE_HAS_JIT
     return "native code by " + describe_jit();

@@ -51,6 +51,10 @@ struct StageState {
     }
 };
 
+/// How far a stage has come: "step 300 of 7000", "step 312, t = 4.5 of 30", or "step 312" where only
+/// `until` ends it.
+std::string describe_place(const Stage& stage, const StageState& state);
+
 struct SimulationOptions {
     BackendKind backend = BackendKind::jit;
     int lanes = 0;      ///< Vector width of the JIT; 0 takes the host's.

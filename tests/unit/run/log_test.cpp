@@ -138,6 +138,15 @@ TEST_F(LogTest, TooManyRows) {
     EXPECT_FALSE(std::filesystem::exists(path("picture.csv")));
 }
 
+TEST_F(LogTest, RowsOfADurationAreNotKnownBefore) {
+    Script script = load("domain { grid: 8, 8 }\n"
+                         "stage s: turing_spots { solver: rk23; duration: 3; interval: 1 }");
+    RunRequest wanted = request();
+    wanted.log.expressions = {"t"};
+    wanted.log.every = 1;
+    EXPECT_THAT(run_well(script, wanted).where, HasSubstr("t = 3 of 3"));
+}
+
 TEST_F(RunTest, LimitedMemoryIsKept) {
     for (const auto& [limit, scale] : {std::pair{20000ULL, 1}, {200000ULL, 16}}) {
         Script script = load(two_stages);
