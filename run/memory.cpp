@@ -2,6 +2,7 @@
 
 #include "core/plane.h"
 #include "lang/lower.h"
+#include "solvers/scheme.h"
 
 #include <fmt/format.h>
 
@@ -28,6 +29,21 @@ std::uint64_t available_memory() {
     return 0;
 }
 
+namespace {
+
+/// Planes of the registers besides the old step and the new one.
+std::uint64_t scratch_planes(const Program& program, std::uint32_t stage) {
+    const System& system = program.system_of(stage);
+    std::uint32_t species = 0;
+    for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+        if (system.is_species(item)) ++species;
+    }
+    const Scheme scheme = make_scheme(program.stages[stage].time.solver, species, false);
+    return std::uint64_t{scheme.registers - 2} * species;
+}
+
+}  // namespace
+
 double memory_of(const Program& program) {
     // Two buffers and the kept copy of every species, and every varying parameter, of all stages:
     // later stages and pictures may read any of them.
@@ -42,14 +58,18 @@ double memory_of(const Program& program) {
             }
         }
     }
-    // Temporaries of a step's passes live as long as their stage is run.
-    std::uint64_t temporaries = 0;
+    // Temporaries of a step's passes, and what solvers of several sweeps keep between them, live as
+    // long as their stage is run.
+    std::uint64_t while_running = 0;
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        std::uint64_t temporaries = 0;
         for (const StepPlan& plan : {plan_start(program, k), plan_step(program, k)}) {
             temporaries = std::max<std::uint64_t>(temporaries, plan.temporaries);
         }
+        while_running = std::max(while_running, temporaries + scratch_planes(program, k));
     }
-    planes += temporaries;
+    planes += while_running;
+    if (program.domain.surface) planes += metric_plane_count;
     const PlaneLayout layout(program.domain.grid);
     return static_cast<double>(planes) * static_cast<double>(layout.size()) * 4.0;
 }

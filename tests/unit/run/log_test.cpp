@@ -1,3 +1,4 @@
+#include "run/memory.h"
 #include "run_fixture.h"
 
 #include <gmock/gmock.h>
@@ -160,6 +161,19 @@ TEST_F(RunTest, LimitedMemoryIsKept) {
     RunRequest wanted = request();
     wanted.simulation.memory_limit = 200000;
     run_well(script, wanted);
+}
+
+TEST_F(RunTest, MemoryCountsWhatSolversAndSurfacesKeep) {
+    const auto planes = [&](const std::string& domain, const std::string& solver) {
+        const Script script = load("domain { grid: 32, 32; " + domain + " }\n" +
+                                   "stage s: turing_spots { iterations: 10; " + solver + " }");
+        EXPECT_TRUE(script.program) << script.messages(false);
+        const PlaneLayout layout(script.program->domain.grid);
+        return memory_of(*script.program) / (4.0 * static_cast<double>(layout.size()));
+    };
+    const double plain = planes("", "");
+    EXPECT_GE(planes("", "solver: rk45"), plain + 2 * 6);  // Six rates of two species at least.
+    EXPECT_EQ(planes("surface: sx, sy, sx * sy", ""), plain + 7);
 }
 
 TEST_F(RunTest, FeaturesOfWhatIsShown) {
