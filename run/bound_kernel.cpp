@@ -247,6 +247,24 @@ std::vector<Field> run_plan(const StepPlan& plan, const Compile& compile,
     return results;
 }
 
+namespace {
+
+/// The first cell's value that no other beats; NaN if one is NaN.
+template <typename Beats>
+float extreme(const Field& field, const Beats& beats) {
+    float best = field.at(0, 0);
+    for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
+        for (std::int64_t i = 0; i < field.layout().width; ++i) {
+            const float value = field.row(row)[i];
+            if (std::isnan(value)) return value;
+            if (beats(value, best)) best = value;
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
 Mask to_mask(const Field& field) {
     const PlaneLayout& layout = field.layout();
     Mask mask(layout);
@@ -258,28 +276,11 @@ Mask to_mask(const Field& field) {
 }
 
 float smallest(const Field& field) {
-    const PlaneLayout& layout = field.layout();
-    float least = INFINITY;
-    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-        for (std::int64_t i = 0; i < layout.width; ++i) {
-            const float value = field.row(row)[i];
-            if (std::isnan(value)) return value;
-            least = value < least ? value : least;
-        }
-    }
-    return least;
+    return extreme(field, [](float value, float least) { return value < least; });
 }
 
 float largest_value(const Field& field) {
-    float most = -INFINITY;
-    for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
-        for (std::int64_t i = 0; i < field.layout().width; ++i) {
-            const float value = field.row(row)[i];
-            if (std::isnan(value)) return value;
-            most = value > most ? value : most;
-        }
-    }
-    return most;
+    return extreme(field, [](float value, float most) { return value > most; });
 }
 
 bool is_same_everywhere(const Field& field) {

@@ -4,21 +4,8 @@ set -u
 rm -rf ./* && mkdir kept
 unset NO_COLOR
 
-fail() {
-    echo "command line: $*"
-    echo "--- out"; cat out
-    echo "--- err"; cat err
-    exit 1
-}
-# run STATUS ARGUMENTS…: what it prints is in the files out and err.
-run() {
-    local wanted=$1 got
-    shift
-    "$CASCADE" "$@" >out 2>err </dev/null
-    got=$?
-    [ "$got" = "$wanted" ] || fail "cascade $* gave $got, not $wanted"
-}
-says() { grep -qF -- "$2" "$1" || fail "no '$2' in $1"; }
+about="command line"
+source "$SOURCE/tests/support/program_runs.bash"
 
 cat >spots.cascade <<'END'
 stage large: turing_spots { iterations: 400; interval: 100; ka: 1/80 }

@@ -3,20 +3,8 @@
 set -u
 rm -rf ./*
 
-fail() {
-    echo "format: $*"
-    echo "--- out"; cat out
-    echo "--- err"; cat err
-    exit 1
-}
-# run STATUS ARGUMENTS…: what it prints is in the files out and err.
-run() {
-    local wanted=$1 got
-    shift
-    "$CASCADE" "$@" >out 2>err </dev/null
-    got=$?
-    [ "$got" = "$wanted" ] || fail "cascade $* gave $got, not $wanted"
-}
+about="format"
+source "$SOURCE/tests/support/program_runs.bash"
 
 printf 'stage  s:turing_spots{iterations:5 ;ka:1/80}' >rough.cascade
 printf 'stage s: turing_spots { iterations: 5; ka: 1/80 }\n' >smooth.cascade

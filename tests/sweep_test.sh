@@ -4,21 +4,8 @@ set -u
 rm -rf ./*
 unset NO_COLOR
 
-fail() {
-    echo "sweep: $*"
-    echo "--- out"; cat out
-    echo "--- err"; cat err
-    exit 1
-}
-# run STATUS ARGUMENTS…: what it prints is in the files out and err.
-run() {
-    local wanted=$1 got
-    shift
-    "$CASCADE" "$@" >out 2>err </dev/null
-    got=$?
-    [ "$got" = "$wanted" ] || fail "cascade $* gave $got, not $wanted"
-}
-says() { grep -qF -- "$2" "$1" || fail "no '$2' in $1"; }
+about="sweep"
+source "$SOURCE/tests/support/program_runs.bash"
 
 cat >spots.cascade <<'END2'
 domain { grid: 48, 32 }
