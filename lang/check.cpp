@@ -106,7 +106,7 @@ std::optional<ast::Expression> picture_expression(const ast::Script& script) {
 
 std::vector<std::string> known_names(const Program& program) {
     std::set<std::string> names{"system", "stage", "domain", "picture", "system_name", "grid",
-                                "boundary", "seed", "color", "periodic", "noflux",
+                                "boundary", "seed", "mask", "color", "periodic", "noflux",
                                 "auto", "steady",
                                 "x", "y", "z", "sx", "sy", "sz", "t", "step", "pi", "and", "or", "not"};
     names.insert(checking::setting_names().begin(), checking::setting_names().end());

@@ -121,7 +121,7 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
     const FunctionInfo& row = info(function);
     const Place place = scope_.place;
     const bool at_step = place == Place::rate;
-    const bool at_start = place == Place::value;
+    const bool at_start = place == Place::value || place == Place::mask;
     const auto refuse = [&](const char* where) {
         fault(span, fmt::format("{} cannot stand here", row.spelling), where);
         return false;
@@ -129,6 +129,9 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
     const bool varies = row.is_aggregate || varies_by_cell(function);
     if (place == Place::position && !fold(function, std::vector<double>(most_operands, 1.0))) {
         return refuse("a surface is made of numbers, sx, sy and functions of numbers");
+    }
+    if (place == Place::mask && (row.is_aggregate || differentiates(function))) {
+        return refuse("a mask says which cells the domain has, and reads no others");
     }
     if (work_.on_surface && is_grid_derivative(function)) {
         return refuse("second derivatives by name have no meaning on a surface; lap and div have");

@@ -141,6 +141,17 @@ void check_seed(Workspace& work, const ast::Script& script, const ast::Sentence&
     work.program.domain.seed = static_cast<std::uint32_t>(*seed);
 }
 
+/// What is not 0 where the domain is.
+void check_mask(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (!has_one_value(work, script, sentence)) return;
+    Scope scope;
+    scope.place = Place::mask;
+    scope.system = unknown_system;
+    auto checked = check_number(work, script, sentence.values[0], scope);
+    if (!checked) return;
+    work.program.domain.mask = {std::move(checked->formula), span_of(script, sentence.values[0])};
+}
+
 /// Of one species, in a block that knows none.
 void report_sides(Workspace& work, const ast::Block& block) {
     for (const ast::Sentence& sentence : block.sides) {
@@ -165,16 +176,18 @@ void check_domain_sentence(Workspace& work, const ast::Script& script,
         check_domain_side(work, script, sentence);
     } else if (key == "seed") {
         check_seed(work, script, sentence);
+    } else if (key == "mask") {
+        check_mask(work, script, sentence);
     } else if (is_surface_setting(key)) {
         return;  // They come together, see below.
     } else if (key == "mesh" || key == "cells") {
         work.diagnostics.error(sentence.name.span,
                                fmt::format("'{}' is not in this version of the language", key));
     } else {
-        std::string hint = did_you_mean(work, key, {"grid", "spacing", "boundary", "seed", "left",
-                                                   "right", "top", "bottom", "front", "back",
+        std::string hint = did_you_mean(work, key, {"grid", "spacing", "boundary", "seed", "mask",
+                                                   "left", "right", "top", "bottom", "front", "back",
                                                    "sides"});
-        if (hint.empty()) hint = "a domain has grid, spacing, boundary and seed";
+        if (hint.empty()) hint = "a domain has grid, spacing, boundary, mask and seed";
         work.diagnostics.error(sentence.name.span,
                                fmt::format("'{}' is not a setting of the domain", key),
                                std::move(hint));

@@ -35,7 +35,8 @@ void report(Workspace& work, Span span, std::string message, std::string hint,
 
 /// Are the names of systems out of reach?
 bool is_constant(const Scope& scope) {
-    return scope.place == Place::constant || scope.place == Place::position;
+    return scope.place == Place::constant || scope.place == Place::position ||
+           scope.place == Place::mask;
 }
 
 bool varies_by_cell(std::string_view builtin) { return builtin != "t" && builtin != "step"; }
@@ -44,6 +45,11 @@ void report_constant(Workspace& work, const Scope& scope, std::string_view name,
     if (scope.place == Place::position) {
         report(work, span, fmt::format("a surface knows nothing of '{}'", name),
                "it is made of numbers, sx, sy, pi and functions of them");
+        return;
+    }
+    if (scope.place == Place::mask) {
+        report(work, span, fmt::format("a mask knows nothing of '{}'", name),
+               "it is made of coordinates, numbers, shapes, noise and files");
         return;
     }
     if (reserved(name) == Reserved::builtin && varies_by_cell(name)) {
@@ -84,6 +90,10 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
     }
     if (scope.place == Place::position && !varies_by_cell(name)) {
         report(work, span, fmt::format("a surface cannot depend on '{}'", name), "it stays as it is");
+        return std::nullopt;
+    }
+    if (scope.place == Place::mask && !varies_by_cell(name)) {
+        report(work, span, fmt::format("a mask cannot depend on '{}'", name), "it stays as it is");
         return std::nullopt;
     }
     if (scope.place == Place::value && !varies_by_cell(name)) {

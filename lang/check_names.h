@@ -62,6 +62,7 @@ enum class Place : std::uint8_t {
     bound,     ///< name >= e
     picture,   ///< what a picture shows
     position,  ///< where a point of a surface lies
+    mask,      ///< which cells the domain has
     constant,  ///< one number that is known now: iterations, the size of the grid, …
 };
 

@@ -166,6 +166,23 @@ bool are_pairs(Workspace& work, const AllSides& sides) {
     return true;
 }
 
+/// Which cell lies beyond a periodic side is the mask's matter too, and there is one for all species.
+/// False, with a message, where a species is periodic and the domain is not, or the other way round.
+bool are_periodic_as_boundary(Workspace& work, const AllSides& sides) {
+    const SideRules boundary(work.program.domain.grid.boundary);
+    for (std::size_t side = 0; side < side_count; ++side) {
+        const bool is_periodic = sides[side].kind == SideKind::periodic;
+        if (is_periodic == (boundary.at[side].kind == SideKind::periodic)) continue;
+        work.diagnostics.error(
+            sides[side].span,
+            fmt::format("in a domain with a mask {} is periodic for all species or for none",
+                        side_names[side]),
+            "the domain's boundary says which: boundary: periodic, noflux");
+        return false;
+    }
+    return true;
+}
+
 /// Puts together what holds for each species of a stage.
 void resolve(Workspace& work, Stage& stage, const std::vector<SpeciesSide>& own) {
     const System& system = work.program.systems[stage.system];
@@ -187,6 +204,7 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SpeciesSide>& own)
     }
     for (const AllSides& sides : stage.sides) {
         if (!are_pairs(work, sides)) return;
+        if (work.program.domain.mask && !are_periodic_as_boundary(work, sides)) return;
     }
 }
 

@@ -22,6 +22,9 @@ std::string name_of(const PartGraph& graph, PartId id) {
     const std::string& name = graph.name(id);
     if (!name.empty()) return name;
     const Part& part = graph[id];
+    if (part.calls(Function::if_) && graph[part.operands[0]].node.kind == NodeKind::inside) {
+        return name_of(graph, part.operands[1]) + " inside the mask";
+    }
     if (part.formula == nullptr) return "an entry of the tensor";
     if (part.position > most_parts_shown) return "a long expression";
     Formula formula;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 
 namespace cascade {
@@ -17,6 +18,9 @@ namespace cascade {
 namespace {
 
 using namespace lowering;
+
+/// What a view has outside of the mask.
+constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
 std::vector<std::uint32_t> species_items(const System& system) {
     std::vector<std::uint32_t> items;
@@ -42,6 +46,13 @@ std::vector<bool> items_of_aggregates(const Stage& stage) {
     return late;
 }
 
+/// What is written where: inside the mask the value, outside of it what is said here.
+ValueId within_mask(KernelAssembly& assembly, ValueId value, float outside) {
+    if (!assembly.program().domain.mask) return value;
+    KernelBuilder& builder = assembly.builder();
+    return builder.select(assembly.inside({}), value, builder.number(outside));
+}
+
 /// Starting values in order; `is_chosen(item)` says which become results. Items that are computed
 /// elsewhere are read.
 template <typename Chosen>
@@ -63,7 +74,9 @@ StepPlan plan_items(const Program& program, std::uint32_t stage, const PlanOptio
     StepPlan plan = build_plan({graph, parts, options},
                                [&](KernelAssembly& assembly, const PassLowering& values) {
         for (std::size_t k = 0; k < items.size(); ++k) {
-            assembly.result(std::string(system.item_name(items[k])), values.value(parts[k])[0]);
+            const ValueId value = values.value(parts[k])[0];
+            assembly.result(std::string(system.item_name(items[k])),
+                            source.uniform[items[k]] ? value : within_mask(assembly, value, 0));
         }
     });
     plan.results = std::move(items);
@@ -190,7 +203,7 @@ private:
                 next[item] = builder.select(assembly.own_item(system_.frozen_item()), kept,
                                             next[item]);
             }
-            assembly.result(system_.quantities[item].name, next[item]);
+            assembly.result(system_.quantities[item].name, within_mask(assembly, next[item], 0));
         }
     }
 
@@ -269,7 +282,8 @@ StepPlan plan_rates(const Program& program, std::uint32_t stage, const PlanOptio
     StepPlan plan = build_plan({graph, wanted, options, true, species},
                                [&](KernelAssembly& assembly, const PassLowering& values) {
         for (const std::uint32_t item : species) {
-            assembly.result(system.quantities[item].name, values.value(rates[item])[0]);
+            assembly.result(system.quantities[item].name,
+                            within_mask(assembly, values.value(rates[item])[0], 0));
         }
     });
     plan.results = species;
@@ -285,15 +299,24 @@ StepPlan plan_view(const Program& program, std::span<const Formula* const> formu
                       [&](KernelAssembly& assembly, const PassLowering& values) {
         static constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
         for (const PartId part : parts) {
-            const Value& value = values.value(part);
-            if (graph[part].node.type != ValueType::colour) {
-                assembly.result("value", value[0]);
-                continue;
-            }
-            for (std::size_t channel = 0; channel < 3; ++channel) {
-                assembly.result(channels[channel], value[channel]);
+            const bool is_number = graph[part].node.type != ValueType::colour;
+            for (std::size_t channel = 0; channel < (is_number ? 1 : 3); ++channel) {
+                const ValueId value = values.value(part)[channel];
+                assembly.result(is_number ? "value" : channels[channel],
+                                graph[part].is_uniform ? value
+                                                       : within_mask(assembly, value, nothing));
             }
         }
+    });
+}
+
+StepPlan plan_mask(const Program& program) {
+    CHECK(program.domain.mask, "lowering: the domain has a mask");
+    PartGraph graph(program, 0, Extent::grid);
+    const PartId part = graph.add(program.domain.mask->formula, {"mask", false, "domain"});
+    return build_plan({graph, std::span(&part, 1), {}},
+                      [&](KernelAssembly& assembly, const PassLowering& values) {
+        assembly.result("mask", values.value(part)[0]);
     });
 }
 

@@ -6,8 +6,9 @@
 //
 //     new = old + speed · rate, clamped by the invariants in order of writing; old where frozen,
 //
-// or the plans of the sweeps of another integrator. The plan of a view computes a picture: one
-// result (a number) or three (a colour).
+// or the plans of the sweeps of another integrator. Outside of the mask of the domain all items that
+// vary are 0, at the start and after every step, and all rates are 0. The plan of a view computes a
+// picture: one result (a number) or three (a colour).
 #pragma once
 
 #include "core/grid.h"
@@ -50,8 +51,12 @@ SweepForm euler_form();
 StepPlan plan_rates(const Program& program, std::uint32_t stage,
                     const PlanOptions& options = {});
 
+/// What decides which cells are inside the mask of the domain, which must have one: one result.
+/// Of a program with a stage.
+StepPlan plan_mask(const Program& program);
+
 /// Formulas over the present state, one result each. A colour has three: red, green, blue, 0..1,
-/// not clamped.
+/// not clamped. Outside of the mask they are NaN where they are not the same in all cells.
 StepPlan plan_view(const Program& program, std::span<const Formula* const> formulas,
                    std::uint32_t stage, const PlanOptions& options = {});
 StepPlan plan_view(const Program& program, const Formula& formula, std::uint32_t stage);

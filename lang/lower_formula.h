@@ -50,6 +50,8 @@ public:
     std::uint32_t temporary_slot(std::uint32_t temporary);
     ValueId aggregate(std::uint32_t index);
     ValueId beside(std::uint32_t slot) { return builder_.neighbour(slot, at_.dx, at_.dy, at_.dz); }
+    /// Other than 0 where the cell at an offset is inside the mask.
+    ValueId inside(Offset offset);
     /// The slot of a part that lies in a plane of its own: a species, a parameter, a file.
     std::uint32_t plane_slot(const PartGraph& graph, PartId id);
 

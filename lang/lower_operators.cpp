@@ -56,12 +56,12 @@ ValueId PassLowering::stencil(PartId id) {
 /// (((((N + S) + E) + W) + U) + D − 2n·c) / h² of n axes.
 ValueId PassLowering::laplacian(PartId operand) {
     const double factor = 1 / (grid_.spacing * grid_.spacing);
-    if (can_read_as_plane(operand)) {
+    if (!graph_.has_mask() && can_read_as_plane(operand)) {
         return scaled(builder_.laplacian(slot_of_plane(operand)), factor);
     }
     std::optional<ValueId> sum;
     const auto add = [&](int axis, int by) {
-        const ValueId value = number_at(operand, Offset::along(axis, by));
+        const ValueId value = beside(operand, Offset::along(axis, by));
         sum = sum ? builder_.add(*sum, value) : value;
     };
     const Axes& axes = planner_.axes();
@@ -77,16 +77,16 @@ ValueId PassLowering::laplacian(PartId operand) {
 ValueId PassLowering::difference(PartId operand, int axis) {
     if (!planner_.axes().has(axis)) return builder_.number(0);
     const ValueId difference =
-        builder_.subtract(number_at(operand, Offset::along(axis, 1)),
-                          number_at(operand, Offset::along(axis, -1)));
+        builder_.subtract(beside(operand, Offset::along(axis, 1)),
+                          beside(operand, Offset::along(axis, -1)));
     return scaled(difference, 1 / (2 * grid_.spacing));
 }
 
 /// ((E + W) − 2c) / h².
 ValueId PassLowering::second_difference(PartId operand, int axis) {
     if (!planner_.axes().has(axis)) return builder_.number(0);
-    const ValueId sum = builder_.add(number_at(operand, Offset::along(axis, 1)),
-                                     number_at(operand, Offset::along(axis, -1)));
+    const ValueId sum = builder_.add(beside(operand, Offset::along(axis, 1)),
+                                     beside(operand, Offset::along(axis, -1)));
     const ValueId own = builder_.multiply(builder_.number(2), number_at(operand, {}));
     return scaled(builder_.subtract(sum, own), 1 / (grid_.spacing * grid_.spacing));
 }
@@ -95,7 +95,7 @@ ValueId PassLowering::second_difference(PartId operand, int axis) {
 ValueId PassLowering::cross_difference(PartId operand, int first, int second) {
     if (!planner_.axes().has(first) || !planner_.axes().has(second)) return builder_.number(0);
     const auto corner = [&](int a, int b) {
-        return number_at(operand, Offset::along(first, a) + Offset::along(second, b));
+        return beside(operand, Offset::along(first, a) + Offset::along(second, b));
     };
     const ValueId rising = builder_.add(corner(1, 1), corner(-1, -1));
     const ValueId falling = builder_.add(corner(1, -1), corner(-1, 1));
@@ -123,8 +123,8 @@ ValueId PassLowering::advection(const Part& part) {
         const ValueId velocity = number_at(part.operands[static_cast<std::size_t>(axis)], {});
         const ValueId own = number_at(operand, {});
         const ValueId behind =
-            builder_.subtract(own, number_at(operand, Offset::along(axis, -1)));
-        const ValueId ahead = builder_.subtract(number_at(operand, Offset::along(axis, 1)), own);
+            builder_.subtract(own, beside(operand, Offset::along(axis, -1)));
+        const ValueId ahead = builder_.subtract(beside(operand, Offset::along(axis, 1)), own);
         const ValueId flows_forwards = builder_.apply(Op::less, builder_.number(0), velocity);
         const ValueId term =
             builder_.multiply(velocity, builder_.select(flows_forwards, behind, ahead));

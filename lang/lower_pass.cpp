@@ -88,8 +88,10 @@ void PassLowering::need_of_stencil(const Part& part) {
     for (std::uint32_t k = 0; k < last; ++k) need(part.operands[k], own_cell);
     const PartId operand = part.operands[last];
     if (graph_[operand].is_uniform) return;
-    const bool reads_plane = part.calls(Function::lap) && can_read_as_plane(operand);
-    need(operand, reads_plane ? own_cell : stencil_offsets(part, planner_.axes()));
+    const bool reads_plane =
+        part.calls(Function::lap) && !graph_.has_mask() && can_read_as_plane(operand);
+    need(operand,
+         reads_plane ? own_cell : planner_.reach(stencil_offsets(part, planner_.axes())));
 }
 
 /// The two cells beside each face.
@@ -117,7 +119,7 @@ void PassLowering::need_of_vector(const Part& part, std::uint32_t faces) {
                     offsets |= only(face.cell() + beside) | only(face.next() + beside);
                 }
             }
-            need(part.operands[0], offsets);
+            need(part.operands[0], planner_.reach(offsets));
         });
         return;
     }

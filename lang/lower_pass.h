@@ -49,6 +49,12 @@ private:
     ValueId number_at(PartId id, Offset offset) const { return at(id, offset)[0]; }
     ValueId face(PartId id, Face face) const;
 
+    // Reading around a cell of a domain with a mask (lower_mask.cpp).
+    ValueId beside(PartId id, Offset offset);
+    ValueId beside(PartId id, Offset from, Offset step);
+    ValueId chosen(Offset inside, ValueId value, ValueId otherwise);
+    ValueId entry_beside(PartId tensor, std::size_t entry, Offset offset);
+
     // Operators (lower_operators.cpp).
     ValueId stencil(PartId id);
     ValueId laplacian(PartId operand);

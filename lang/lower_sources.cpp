@@ -56,6 +56,17 @@ std::uint32_t KernelAssembly::metric_slot(std::uint32_t plane) {
     return slot;
 }
 
+/// A bit for each of the cells around and for the cell itself, by the numbers of their offsets.
+ValueId KernelAssembly::inside(Offset offset) {
+    const std::uint32_t slot = builder_.field_slot("(neighbourhood)");
+    if (slot == bound_.fields.size()) {
+        bound_.fields.push_back({SlotSource::Kind::neighbourhood, 0, 0});
+    }
+    const ValueId bit = builder_.apply(Op::bits_and, builder_.field(slot),
+                                       builder_.word(only(offset)));
+    return builder_.apply(Op::bits_to_number, bit);
+}
+
 ValueId KernelAssembly::mask(std::uint32_t item) {
     const std::uint32_t slot = builder_.mask_slot(slot_name(stage_, item));
     if (slot == bound_.masks.size()) {

@@ -70,7 +70,9 @@ ValueId KernelAssembly::shape(const Node& node, const Cursor& cursor) {
 ValueId KernelAssembly::random(const Node& node, const Cursor& cursor) {
     const Draw draw{
         cursor.noise.every_step ? step() : builder_.word(0),
-        random_key(program_.domain.seed, stage().name, cursor.noise.origin, cursor.occurrences)};
+        random_key(program_.domain.seed,
+                   cursor.noise.owner.empty() ? stage().name : cursor.noise.owner,
+                   cursor.noise.origin, cursor.occurrences)};
     const auto number = [&](std::size_t k) { return cursor.number(node, k); };
     switch (node.function) {
         case Function::random: {

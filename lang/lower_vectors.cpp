@@ -11,12 +11,13 @@ namespace cascade::lowering {
 
 ValueId PassLowering::average(PartId id, Face face) {
     if (graph_[id].is_uniform) return number_at(id, {});
-    return scaled(builder_.add(number_at(id, face.cell()), number_at(id, face.next())), 0.5);
+    return scaled(builder_.add(beside(id, face.cell()), beside(id, face.next())), 0.5);
 }
 
 ValueId PassLowering::tensor_entry(PartId tensor, std::size_t entry, Face face) {
     if (graph_[tensor].is_uniform) return at(tensor, {})[entry];
-    return scaled(builder_.add(at(tensor, face.cell())[entry], at(tensor, face.next())[entry]),
+    return scaled(builder_.add(entry_beside(tensor, entry, face.cell()),
+                               entry_beside(tensor, entry, face.next())),
                   0.5);
 }
 
@@ -27,14 +28,13 @@ ValueId PassLowering::gradient(PartId operand, Face face) {
         return builder_.number(0);
     }
     if (face.component == face.axis) {
-        const ValueId across = builder_.subtract(number_at(operand, face.next()),
-                                                 number_at(operand, face.cell()));
+        const ValueId across = builder_.subtract(beside(operand, face.next()),
+                                                 beside(operand, face.cell()));
         return scaled(across, 1 / grid_.spacing);
     }
     const auto along = [&](Offset cell) {
-        return builder_.subtract(
-            number_at(operand, cell + Offset::along(face.component, 1)),
-            number_at(operand, cell + Offset::along(face.component, -1)));
+        return builder_.subtract(beside(operand, cell, Offset::along(face.component, 1)),
+                                 beside(operand, cell, Offset::along(face.component, -1)));
     };
     return scaled(builder_.add(along(face.cell()), along(face.next())), 1 / (4 * grid_.spacing));
 }
@@ -76,9 +76,9 @@ ValueId PassLowering::vector_at(PartId id, Face where) {
     return builder_.multiply(average(a, where), face(b, where));
 }
 
-/// Nothing flows through a side where all species of a flux are mirrored. Differences across it are 0
-/// by themselves; other vectors, and what a tensor turns out of the side's direction, are cut off
-/// there.
+/// Nothing flows out of the mask, nor through a side where all species of a flux are mirrored.
+/// Differences across it are 0 by themselves; other vectors, and what a tensor turns out of the
+/// side's direction, are cut off there.
 void PassLowering::find_what_crosses_sides() {
     const Stage& stage = graph_.program().stages[graph_.stage()];
     const System& system = graph_.program().system_of(graph_.stage());
@@ -121,6 +121,10 @@ ValueId PassLowering::through_sides(PartId flux, Face face, ValueId value) {
     if (crossings_.empty()) find_what_crosses_sides();
     const Crossing& crossing = crossings_[flux];
     if (!crossing.goes_across) return value;
+    if (graph_.has_mask()) {
+        const Offset other = face.side == 0 ? face.next() : face.cell();
+        value = chosen(other, value, builder_.number(0));
+    }
     const std::size_t side = 2 * static_cast<std::size_t>(face.axis) + (face.side == 0 ? 1 : 0);
     const bool is_open = crossing.has_species
                              ? crossing.is_open[side]

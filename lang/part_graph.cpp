@@ -4,6 +4,7 @@
 #include "core/check.h"
 
 #include <bit>
+#include <limits>
 
 namespace cascade::lowering {
 
@@ -73,7 +74,8 @@ bool PartGraph::is_uniform(const Part& part) const {
         }
         case NodeKind::definition:
         case NodeKind::rate:
-        case NodeKind::metric: return false;
+        case NodeKind::metric:
+        case NodeKind::inside: return false;
         case NodeKind::call: break;
     }
     if (info(part.node.function).is_aggregate) return true;
@@ -84,7 +86,26 @@ bool PartGraph::is_uniform(const Part& part) const {
     return true;
 }
 
-PartId PartGraph::intern(const Part& part) {
+/// What an aggregate over the domain takes of the grid: outside of the mask what changes nothing.
+PartId PartGraph::inside_mask(PartId of, Function aggregate) {
+    const bool adds = aggregate == Function::domain_sum || aggregate == Function::domain_mean;
+    const NodeKind kind = parts_[of].node.kind;
+    const bool is_item = kind == NodeKind::own || kind == NodeKind::earlier;
+    // Items that vary are 0 there.
+    if (adds && is_item && !parts_[of].is_uniform) return of;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Part inside, neutral;
+    inside.node.kind = NodeKind::inside;
+    neutral.node.number = adds ? 0 : aggregate == Function::domain_min ? infinity : -infinity;
+    return call(Function::if_, {intern(inside), of, intern(neutral)});
+}
+
+PartId PartGraph::intern(Part part) {
+    const bool is_aggregate =
+        part.node.kind == NodeKind::call && info(part.node.function).is_aggregate;
+    if (has_mask_ && is_aggregate) {
+        part.operands[0] = inside_mask(part.operands[0], part.node.function);
+    }
     const bool is_own = part.node.kind == NodeKind::call && is_random(part.node.function);
     const std::uint64_t hash = hash_of(part);
     if (!is_own) {

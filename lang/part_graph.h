@@ -21,6 +21,7 @@ namespace cascade::lowering {
 struct Noise {
     std::string origin;       ///< The item's or definition's name, or a species' with a prime.
     bool every_step = false;  ///< New numbers in each step.
+    std::string owner = {};   ///< Whose numbers they are; empty: the stage's.
 };
 
 /// Number of a part in its graph.
@@ -41,6 +42,12 @@ struct Part {
     }
 };
 
+/// The cells that formulas are about.
+enum class Extent : std::uint8_t {
+    domain,  ///< Those inside the mask, where there is one.
+    grid,    ///< All, whatever the mask.
+};
+
 /// Does it read a file, which lies in a plane of its own?
 bool reads_file(Function function);
 /// Is it an operator that reads its last operand at neighbours? (`div` reads at faces instead.)
@@ -48,10 +55,11 @@ bool is_stencil(Function function);
 
 class PartGraph {
 public:
-    PartGraph(const Program& program, std::uint32_t stage)
+    PartGraph(const Program& program, std::uint32_t stage, Extent extent = Extent::domain)
         : program_(program),
           stage_(stage),
-          has_metric_(program.domain.surface && program.domain.surface->has_metric) {}
+          has_metric_(program.domain.surface && program.domain.surface->has_metric),
+          has_mask_(program.domain.mask && extent == Extent::domain) {}
 
     /// Adds a formula and returns the part that is its value. What it reads of `own` items,
     /// definitions and rates is taken from the parts set for them; own items without one are read
@@ -67,11 +75,14 @@ public:
 
     const Program& program() const { return program_; }
     std::uint32_t stage() const { return stage_; }
+    /// Are there cells of the grid that are no part of the domain?
+    bool has_mask() const { return has_mask_; }
     std::size_t size() const { return parts_.size(); }
     const Part& operator[](PartId id) const { return parts_[id]; }
 
 private:
-    PartId intern(const Part& part);
+    PartId intern(Part part);
+    PartId inside_mask(PartId of, Function aggregate);
     PartId call(Function function, std::initializer_list<PartId> operands,
                 ValueType type = ValueType::number);
     PartId tensor(const Part& part);
@@ -98,7 +109,7 @@ private:
     std::unordered_multimap<std::uint64_t, PartId> known_;
     std::unordered_map<std::uint32_t, PartId> own_, definitions_, rates_;
     std::unordered_map<PartId, std::string> names_;
-    bool has_metric_ = false;
+    bool has_metric_ = false, has_mask_ = false;
     /// What the simplest flows on a surface are made of: a gradient, or two components.
     std::unordered_map<PartId, std::pair<PartId, std::optional<PartId>>> flows_;
 };

@@ -78,6 +78,19 @@ Offsets Axes::pair(int axis) const {
     return only(Offset::along(axis, 1)) | only(Offset::along(axis, -1));
 }
 
+Offsets with_stand_ins(Offsets offsets) {
+    Offsets all = offsets | own_cell;
+    for (std::uint32_t number = 0; number < Offset::count; ++number) {
+        if ((offsets >> number & 1) == 0) continue;
+        const Offset offset = Offset::of(number);
+        for (const Offset between : {Offset{0, offset.dy, offset.dz}, Offset{offset.dx, 0, offset.dz},
+                                     Offset{offset.dx, offset.dy, 0}}) {
+            all |= only(between);
+        }
+    }
+    return all;
+}
+
 Offsets stencil_offsets(const Part& stencil, const Axes& axes) {
     switch (stencil.node.function) {
         case Function::dx: return axes.pair(0);
@@ -178,7 +191,7 @@ void PassPlanner::decide(PartId id) {
     }
     const bool differs = !part.is_uniform;
     if (differs && is_stencil(function)) {
-        bring(last, stencil_offsets(part, axes_) & ~own_cell, id);
+        bring(last, reach(stencil_offsets(part, axes_)) & ~own_cell, id);
     } else if (differs && (part.node.type == ValueType::vector || function == Function::div)) {
         // Vectors are known at faces, which takes what they are made of in the cells beside.
         for (std::uint32_t k = 0; k < part.operand_count; ++k) {

@@ -39,6 +39,10 @@ using Offsets = std::uint32_t;
 constexpr Offsets only(Offset offset) { return Offsets{1} << offset.number(); }
 inline constexpr Offsets own_cell = only(Offset{});
 
+/// The cells that stand in for those of a set that lie outside of the domain (lower_mask.cpp), and
+/// the set itself: the own cell, and for a diagonal one the two that lie between.
+Offsets with_stand_ins(Offsets offsets);
+
 /// A face between two cells and a component of a vector there: the face lies between cell `cell()`
 /// and the next one along `axis`; `side` 0 is the face behind the own cell, 1 the one before it.
 struct Face {
@@ -98,6 +102,10 @@ public:
     /// Of all operands that are no planes and vary, in order of their readers.
     const std::vector<Brought>& brought() const { return brought_; }
     const Axes& axes() const { return axes_; }
+    /// Where an operand is needed that operators read at `offsets`.
+    Offsets reach(Offsets offsets) const {
+        return graph_.has_mask() ? with_stand_ins(offsets) : offsets;
+    }
 
 private:
     void mark_needed(std::span<const PartId> roots);

@@ -134,6 +134,7 @@ private:
             case NodeKind::definition: return system_.definitions[node.index].name;
             case NodeKind::rate: return system_.quantities[node.index].name + "'";
             case NodeKind::metric:
+            case NodeKind::inside:
             case NodeKind::call: break;
         }
         return "";

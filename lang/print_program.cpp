@@ -129,8 +129,11 @@ std::string print_program(const Program& program) {
     fmt::format_to(out, "domain {{\n  grid: {}, {}", grid.width, grid.height);
     if (grid.depth > 1) fmt::format_to(out, ", {}", grid.depth);
     if (grid.spacing != 1) fmt::format_to(out, "\n  spacing: {}", grid.spacing);
-    fmt::format_to(out, "\n  boundary: {}\n  seed: {}\n}}\n", boundary_words(grid.boundary),
-                   program.domain.seed);
+    fmt::format_to(out, "\n  boundary: {}", boundary_words(grid.boundary));
+    if (const auto& mask = program.domain.mask) {
+        fmt::format_to(out, "\n  mask: {}", print_formula(program, {}, mask->formula));
+    }
+    fmt::format_to(out, "\n  seed: {}\n}}\n", program.domain.seed);
     for (std::uint32_t i = 0; i < program.stages.size(); ++i) {
         text += "\n";
         print_stage(program, i, out);

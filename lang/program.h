@@ -93,6 +93,7 @@ enum class NodeKind : std::uint8_t {
     rate,        ///< rate of species item `index`
     call,        ///< `function` of `operands`
     metric,      ///< MetricPlane `index`; only lowering makes such nodes
+    inside,      ///< true where the cell is inside the mask; only lowering makes such nodes
 };
 
 enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };
@@ -258,8 +259,15 @@ struct SurfaceSettings {
     Span span;
 };
 
+/// A domain of any shape: the cells of the grid that belong to it.
+struct MaskSettings {
+    Formula formula;  ///< Not 0 and not NaN in cells of the domain. Reads no item.
+    Span span;        ///< Of the expression.
+};
+
 struct DomainSettings {
     Grid grid;                   ///< 64 × 64, periodic, unless said otherwise.
+    std::optional<MaskSettings> mask;        ///< Without one all cells of the grid.
     std::optional<SurfaceSettings> surface;  ///< Without one the plane.
     std::uint32_t seed = 1;
     std::array<std::optional<SideSetting>, side_count> sides;  ///< Of all species.

@@ -23,6 +23,7 @@ struct SlotSource {
         file,       ///< The array named Program::texts[item], as a field slot.
         image,      ///< The picture named Program::texts[item], as a field slot.
         metric,     ///< MetricPlane `item` of the surface, as a field slot.
+        neighbourhood,  ///< Which cells around are inside the mask, as a field slot of words.
         step,       ///< Uniform: complete steps of the stage when the step begins.
         time,       ///< Uniform: the stage's t when the rates are evaluated.
         time_step,  ///< Uniform: the length of the step that is taken.

@@ -5,9 +5,11 @@
 #include "core/plane.h"
 #include "core/result.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -16,7 +18,13 @@
 
 namespace cascade {
 
-/// A picture, rows from the top, three numbers (sRGB, 0 … 1) a pixel.
+/// What a pixel holds that shows whatever lies behind the picture: no channel is a number.
+inline constexpr Colour transparent{std::numeric_limits<float>::quiet_NaN(),
+                                    std::numeric_limits<float>::quiet_NaN(),
+                                    std::numeric_limits<float>::quiet_NaN()};
+inline bool is_transparent(const Colour& pixel) { return std::isnan(pixel[0]); }
+
+/// A picture, rows from the top, three numbers (sRGB, 0 … 1) a pixel, or `transparent`.
 struct Image {
     std::int64_t width = 0;
     std::int64_t height = 0;
@@ -50,6 +58,10 @@ Image paint(const Field& field, ValueRange range, const Palette& palette);
 /// Three fields of one layout as red, green, blue, clamped to 0 … 1; magenta where one is NaN.
 Image paint(const Field& red, const Field& green, const Field& blue);
 
+/// Makes every pixel transparent whose cell of `field` is NaN: a picture of the domain alone, where
+/// `field` is NaN outside of it. Both have the same columns and rows.
+void clear_where_nan(Image& image, const Field& field);
+
 /// Every pixel as a square of `factor` pixels (at least 1).
 Image enlarge(const Image& image, int factor);
 
@@ -67,7 +79,8 @@ inline constexpr std::size_t longest_png_text = std::size_t{16} << 20;
 Result<std::string> encode_png(const Image& image, PngDepth depth, const PngTexts& texts);
 
 /// Writes atomically: a file of that name is replaced only by a complete one. A picture whose
-/// pixels are all grey is written as greyscale. Colours are rounded to the nearest of 256 or 65536
+/// pixels are all grey is written as greyscale; where one is transparent there is an alpha channel,
+/// and such pixels are white with alpha 0. Colours are rounded to the nearest of 256 or 65536
 /// levels; long texts are compressed. Fails as encode_png and write_file do.
 Result<void> write_png(const std::filesystem::path& path, const Image& image, PngDepth depth,
                        const PngTexts& texts);
@@ -87,12 +100,14 @@ struct Panel {
 };
 
 /// A contact sheet: panels in rows of `columns`, labels in a small font of our own (ASCII; another
-/// character is drawn as a box, a label that is too long ends in "…"). All panels are enlarged by
+/// character is drawn as a box, a label that is too long ends in "…"). What is transparent shows the
+/// sheet. All panels are enlarged by
 /// one whole factor, so that small ones can be seen; a picture of a few rows is drawn as a band.
 Image make_sheet(std::span<const Panel> panels, int columns);
 
 /// The picture in half-block characters and 24-bit colour, at most `columns` wide, for terminals.
-/// A wider picture is averaged down in its own proportions, none is enlarged. Each line ends in a
+/// A wider picture is averaged down in its own proportions, none is enlarged. What is transparent
+/// shows the terminal's own ground. Each line ends in a
 /// reset of the colours and a line end.
 std::string half_blocks(const Image& image, int columns);
 

@@ -61,7 +61,8 @@ void draw_framed(Image& image, const Image& picture, std::int64_t x, std::int64_
         // Rows follow the factor, or are spread over the band of a picture of few rows.
         const std::int64_t row = j * picture.height / height;
         for (std::int64_t i = 0; i < width; ++i) {
-            image.at(x + i, y + j) = picture.at(i / factor, row);
+            const Colour& pixel = picture.at(i / factor, row);
+            image.at(x + i, y + j) = is_transparent(pixel) ? sheet_ground : pixel;
         }
     }
 }

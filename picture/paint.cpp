@@ -69,6 +69,16 @@ Image paint(const Field& red, const Field& green, const Field& blue) {
     return image;
 }
 
+void clear_where_nan(Image& image, const Field& field) {
+    CHECK(image.width == field.layout().width && image.height == field.layout().height,
+          "a picture and its field have the same cells");
+    for (std::int64_t j = 0; j < image.height; ++j) {
+        for (std::int64_t i = 0; i < image.width; ++i) {
+            if (std::isnan(field.at(i, j))) image.at(i, j) = transparent;
+        }
+    }
+}
+
 Image enlarge(const Image& image, int factor) {
     CHECK(factor >= 1, "a picture is enlarged by a whole factor of at least 1");
     Image large(image.width * factor, image.height * factor);

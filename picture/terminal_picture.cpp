@@ -37,18 +37,21 @@ struct Stretch {
 
 Colour average(const Image& image, const Stretch& across, const Stretch& down) {
     std::array<double, 3> sum{};
-    double weight_sum = 0;
+    double weight_sum = 0, weight_seen = 0;
     for (std::int64_t y = down.first; y < down.last; ++y) {
         for (std::int64_t x = across.first; x < across.last; ++x) {
             const double weight =
                 overlap(x, across.from, across.to) * overlap(y, down.from, down.to);
             const Colour& pixel = image.at(x, y);
             weight_sum += weight;
+            if (is_transparent(pixel)) continue;
+            weight_seen += weight;
             for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * static_cast<double>(pixel[c]);
         }
     }
+    if (weight_seen < weight_sum / 2) return transparent;
     Colour colour{};
-    for (std::size_t c = 0; c < 3; ++c) colour[c] = static_cast<float>(sum[c] / weight_sum);
+    for (std::size_t c = 0; c < 3; ++c) colour[c] = static_cast<float>(sum[c] / weight_seen);
     return colour;
 }
 
@@ -68,22 +71,43 @@ Image reduce(const Image& image, std::int64_t width) {
 
 using Bytes = std::array<int, 3>;
 
-Bytes bytes_of(const Colour& colour) {
+/// Nothing where the terminal's own ground is to be seen.
+std::optional<Bytes> bytes_of(const Colour& colour) {
+    if (is_transparent(colour)) return std::nullopt;
     Bytes bytes{};
     std::transform(colour.begin(), colour.end(), bytes.begin(), [](float value) {
-        if (!(value > 0)) return 0;  // NaN too.
+        if (!(value > 0)) return 0;
         return static_cast<int>(std::min(value, 1.0F) * 255.0F + 0.5F);
     });
     return bytes;
 }
 
 /// Adds the escape sequence of a colour where it differs from the one in force. `kind` is 38 for
-/// the foreground, 48 for the background.
-void set_colour(std::string& out, std::optional<Bytes>& current, const Bytes& wanted, int kind) {
+/// the foreground, 48 for the background; no colour is the terminal's own.
+void set_colour(std::string& out, std::optional<Bytes>& current,
+                const std::optional<Bytes>& wanted, int kind) {
     if (current == wanted) return;
     current = wanted;
-    fmt::format_to(std::back_inserter(out), "\x1b[{};2;{};{};{}m", kind, wanted[0], wanted[1],
-                   wanted[2]);
+    if (!wanted) {
+        fmt::format_to(std::back_inserter(out), "\x1b[{}m", kind + 1);
+        return;
+    }
+    fmt::format_to(std::back_inserter(out), "\x1b[{};2;{};{};{}m", kind, (*wanted)[0], (*wanted)[1],
+                   (*wanted)[2]);
+}
+
+/// One character for two pixels.
+void draw_pair(std::string& out, std::optional<Bytes>& ink, std::optional<Bytes>& ground,
+               const std::optional<Bytes>& upper, const std::optional<Bytes>& lower) {
+    if (upper) {
+        set_colour(out, ink, upper, 38);
+        set_colour(out, ground, lower, 48);
+        out += "\u2580";
+        return;
+    }
+    if (lower) set_colour(out, ink, lower, 38);
+    set_colour(out, ground, std::nullopt, 48);
+    out += lower ? "\u2584" : " ";
 }
 
 }  // namespace
@@ -94,13 +118,11 @@ std::string half_blocks(const Image& image, int columns) {
     if (image.width > columns) return half_blocks(reduce(image, columns), columns);
     std::string out;
     for (std::int64_t y = 0; y < image.height; y += 2) {
-        std::optional<Bytes> upper;
-        std::optional<Bytes> lower;
+        std::optional<Bytes> ink, ground;
         for (std::int64_t x = 0; x < image.width; ++x) {
-            set_colour(out, upper, bytes_of(image.at(x, y)), 38);
             // Under the last row of an odd picture the terminal's own ground stays.
-            if (y + 1 < image.height) set_colour(out, lower, bytes_of(image.at(x, y + 1)), 48);
-            out += "\u2580";
+            draw_pair(out, ink, ground, bytes_of(image.at(x, y)),
+                      y + 1 < image.height ? bytes_of(image.at(x, y + 1)) : std::nullopt);
         }
         out += "\x1b[0m\n";
     }

@@ -35,12 +35,22 @@ std::string escaped(std::string_view text) {
 /// Bytes of an array's elements, which stand in front of them.
 using BlockSize = std::uint64_t;
 
+/// vtkDataSetAttributes::HIDDENCELL: a cell that is not there.
+constexpr char hidden_cell = 32;
+
+void append_size(std::string& text, BlockSize bytes) {
+    char size[sizeof(BlockSize)];
+    std::memcpy(size, &bytes, sizeof size);
+    text.append(size, sizeof size);
+}
+
 }  // namespace
 
-std::string encode_vti(std::span<const VolumeArray> arrays, double spacing) {
+std::string encode_vti(std::span<const VolumeArray> arrays, double spacing, const Mask* inside) {
     CHECK(!arrays.empty(), "a volume has an array");
     const PlaneLayout layout = arrays.front().field->layout();
-    const auto bytes_of_array = static_cast<BlockSize>(layout.width * layout.row_count()) * 4;
+    const auto cells = static_cast<BlockSize>(layout.width * layout.row_count());
+    const BlockSize bytes_of_array = cells * 4;
     const std::string extent =
         fmt::format("0 {} 0 {} 0 {}", layout.width, layout.height, layout.depth);
     std::string text = fmt::format(
@@ -59,23 +69,35 @@ std::string encode_vti(std::span<const VolumeArray> arrays, double spacing) {
             escaped(array.name), offset);
         offset += sizeof(BlockSize) + bytes_of_array;
     }
+    if (inside != nullptr) {
+        text += fmt::format(
+            "        <DataArray type=\"UInt8\" Name=\"vtkGhostType\" format=\"appended\" "
+            "offset=\"{}\"/>\n", offset);
+        offset += sizeof(BlockSize) + cells;
+    }
     text += "      </CellData>\n    </Piece>\n  </ImageData>\n"
             "  <AppendedData encoding=\"raw\">\n_";
     text.reserve(text.size() + offset + 64);
     for (const VolumeArray& array : arrays) {
         CHECK(array.field->layout() == layout, "the arrays of a volume have one layout");
-        char size[sizeof(BlockSize)];
-        std::memcpy(size, &bytes_of_array, sizeof size);
-        text.append(size, sizeof size);
+        append_size(text, bytes_of_array);
         append_floats(text, *array.field);
+    }
+    if (inside != nullptr) {
+        append_size(text, cells);
+        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+            for (std::int64_t i = 0; i < layout.width; ++i) {
+                text += inside->row(row)[i] != 0 ? '\0' : hidden_cell;
+            }
+        }
     }
     return text + "\n  </AppendedData>\n</VTKFile>\n";
 }
 
 Result<void> write_vti(const std::filesystem::path& path, std::span<const VolumeArray> arrays,
-                       double spacing) {
+                       double spacing, const Mask* inside) {
     try {
-        return write_file(path, encode_vti(arrays, spacing));
+        return write_file(path, encode_vti(arrays, spacing, inside));
     } catch (const std::bad_alloc&) {
         return failure(fmt::format("cannot write '{}': there is not enough memory", path.string()));
     }

@@ -21,10 +21,12 @@ struct VolumeArray {
 /// Fields of one layout as a .vti file in memory: an array of cell data each, little-endian
 /// float32, x running fastest, then y, then z; every NaN as 0x7fc00000. Cells are cubes of side
 /// `spacing`; the grid's corner is the origin. y grows downwards in pictures and upwards in VTK.
-std::string encode_vti(std::span<const VolumeArray> arrays, double spacing);
+/// Where `inside` (nullptr: none) is 0 the array vtkGhostType hides the cell.
+std::string encode_vti(std::span<const VolumeArray> arrays, double spacing,
+                       const Mask* inside = nullptr);
 
 /// Writes encode_vti, atomically.
 Result<void> write_vti(const std::filesystem::path& path, std::span<const VolumeArray> arrays,
-                       double spacing);
+                       double spacing, const Mask* inside = nullptr);
 
 }  // namespace cascade

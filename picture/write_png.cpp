@@ -30,6 +30,10 @@ unsigned level(float value, unsigned highest) {
     return static_cast<unsigned>(std::floor(clamped * highest + 0.5));
 }
 
+bool some_transparent(const Image& image) {
+    return std::any_of(image.pixels.begin(), image.pixels.end(), is_transparent);
+}
+
 bool all_grey(const Image& image, unsigned highest) {
     return std::all_of(image.pixels.begin(), image.pixels.end(), [highest](const Colour& pixel) {
         const unsigned red = level(pixel[0], highest);
@@ -57,6 +61,8 @@ private:
     const Image& image_;
     int depth_;
     bool grey_;
+    bool alpha_;
+    std::size_t channels_;  // Of a pixel in the file.
     std::vector<png_text> texts_;  // Points into the caller's texts.
     std::vector<png_byte> row_;
     std::string bytes_;
@@ -69,7 +75,9 @@ Encoder::Encoder(const Image& image, PngDepth depth, const PngTexts& texts)
     : image_(image),
       depth_(static_cast<int>(depth)),
       grey_(all_grey(image, (1U << depth_) - 1)),
-      row_(static_cast<std::size_t>(image.width) * (grey_ ? 1U : 3U) *
+      alpha_(some_transparent(image)),
+      channels_((grey_ ? 1U : 3U) + (alpha_ ? 1U : 0U)),
+      row_(static_cast<std::size_t>(image.width) * channels_ *
            static_cast<std::size_t>(depth_ / 8)) {
     for (const auto& [keyword, text] : texts) {
         png_text chunk{};
@@ -103,12 +111,16 @@ void Encoder::fail(png_structp png, png_const_charp message) {
 
 void Encoder::fill_row(std::int64_t y) {
     const unsigned highest = (1U << depth_) - 1;
-    const std::size_t channels = grey_ ? 1 : 3;
+    const std::size_t colours = channels_ - (alpha_ ? 1 : 0);
     png_byte* out = row_.data();
     for (std::int64_t x = 0; x < image_.width; ++x) {
         const Colour& pixel = image_.at(x, y);
-        for (std::size_t channel = 0; channel < channels; ++channel) {
-            const unsigned value = level(pixel[channel], highest);
+        const bool is_seen = !is_transparent(pixel);
+        for (std::size_t channel = 0; channel < channels_; ++channel) {
+            // What is transparent is white, for those who do not look at alpha.
+            const unsigned value = channel == colours ? (is_seen ? highest : 0)
+                                   : is_seen          ? level(pixel[channel], highest)
+                                                      : highest;
             if (depth_ == 16) *out++ = static_cast<png_byte>(value >> 8);
             *out++ = static_cast<png_byte>(value & 0xffU);
         }
@@ -127,7 +139,9 @@ bool Encoder::run() {
     png_set_user_limits(png_, longest_side, longest_side);
     png_set_IHDR(png_, info_, static_cast<png_uint_32>(image_.width),
                  static_cast<png_uint_32>(image_.height), depth_,
-                 grey_ ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 (grey_ ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB) |
+                     (alpha_ ? PNG_COLOR_MASK_ALPHA : 0),
+                 PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_text(png_, info_, texts_.data(), static_cast<int>(texts_.size()));

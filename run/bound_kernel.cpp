@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace cascade {
 
@@ -16,6 +17,7 @@ const float* plane_of(const SlotSource& source, const BindingContext& context) {
     if (source.kind == SlotSource::Kind::image) return context.files.image(source.item).origin();
     if (source.kind == SlotSource::Kind::file) return context.files.plane(source.item).origin();
     if (source.kind == SlotSource::Kind::metric) return context.metric[source.item].origin();
+    if (source.kind == SlotSource::Kind::neighbourhood) return context.mask->neighbourhood.origin();
     return context.states[source.stage].field(source.item).origin();
 }
 
@@ -43,6 +45,7 @@ public:
 
     StepProblem bind(const Compile& compile) {
         problem_.grid = context_.grid;
+        problem_.cells_inside = context_.mask ? context_.mask->cells : 0;
         problem_.temporaries = plan_.temporaries;
         problem_.aggregates = plan_.aggregates;
         for (const Pass& pass : plan_.passes) {
@@ -210,6 +213,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     std::vector<Binder> binders;
     StepProblem whole;
     whole.grid = context.grid;
+    whole.cells_inside = context.mask ? context.mask->cells : 0;
     whole.registers = scheme.registers;
     whole.error_register = scheme.error_register;
     whole.sides = context.states[stage].sides;
@@ -249,18 +253,20 @@ std::vector<Field> run_plan(const StepPlan& plan, const Compile& compile,
 
 namespace {
 
-/// The first cell's value that no other beats; NaN if one is NaN.
+/// The first value inside the mask that no other beats; NaN if one is NaN.
 template <typename Beats>
-float extreme(const Field& field, const Beats& beats) {
-    float best = field.at(0, 0);
+float extreme(const Field& field, const DomainMask* mask, const Beats& beats) {
+    std::optional<float> best;
     for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
         for (std::int64_t i = 0; i < field.layout().width; ++i) {
+            if (mask && mask->inside.row(row)[i] == 0) continue;
             const float value = field.row(row)[i];
             if (std::isnan(value)) return value;
-            if (beats(value, best)) best = value;
+            if (!best || beats(value, *best)) best = value;
         }
     }
-    return best;
+    CHECK(best, "a domain has a cell");
+    return *best;
 }
 
 }  // namespace
@@ -275,12 +281,12 @@ Mask to_mask(const Field& field) {
     return mask;
 }
 
-float smallest(const Field& field) {
-    return extreme(field, [](float value, float least) { return value < least; });
+float smallest(const Field& field, const DomainMask* mask) {
+    return extreme(field, mask, [](float value, float least) { return value < least; });
 }
 
-float largest_value(const Field& field) {
-    return extreme(field, [](float value, float most) { return value > most; });
+float largest_value(const Field& field, const DomainMask* mask) {
+    return extreme(field, mask, [](float value, float most) { return value > most; });
 }
 
 bool is_same_everywhere(const Field& field) {

@@ -5,6 +5,7 @@
 #include "core/plane.h"
 #include "ir/backend.h"
 #include "lang/lower.h"
+#include "run/domain_mask.h"
 #include "run/input_files.h"
 #include "run/simulation.h"
 #include "solvers/advance.h"
@@ -25,6 +26,7 @@ struct BindingContext {
     Grid grid;
     double t = 0;             ///< Its time.
     std::span<const Field> metric = {};  ///< By MetricPlane; empty without a surface.
+    const DomainMask* mask = nullptr;    ///< None where all cells belong to the domain.
 };
 
 /// Makes a kernel runnable.
@@ -47,10 +49,10 @@ std::vector<Field> run_plan(const StepPlan& plan, const Compile& compile,
 /// 1 where the value is not 0 (NaN counts as not 0, as everywhere in the language).
 Mask to_mask(const Field& field);
 
-/// The smallest value of a field's cells; NaN if one is NaN.
-float smallest(const Field& field);
+/// The smallest value of a field's cells inside the mask; NaN if one is NaN.
+float smallest(const Field& field, const DomainMask* mask);
 /// The largest.
-float largest_value(const Field& field);
+float largest_value(const Field& field, const DomainMask* mask);
 
 /// Do all cells hold the same word?
 bool is_same_everywhere(const Field& field);

@@ -105,6 +105,10 @@ Result<CompiledStep> compile_step(const Script& script, const CompileRequest& re
                                    "files do not have in this version",
                                    program.stages[*stage].name));
     }
+    if (program.domain.mask) {
+        return failure("a domain with a mask is not compiled to an object file in this version",
+                       "'cascade run' compiles it in memory");
+    }
     ObjectOptions options;
     options.function_name = name + "_rows";
     options.target = request.target;

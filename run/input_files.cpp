@@ -57,19 +57,21 @@ void read_image(Script& script, const Node& node, InputFiles& files) {
 Result<InputFiles> read_input_files(Script& script) {
     InputFiles files;
     std::set<std::uint32_t> arrays, images;  // A file is read, and its fault told, once.
-    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
-        for (const Formula& formula : script.program->stages[k].items) {
-            for (const Node& node : formula.nodes) {
-                if (node.kind != NodeKind::call) continue;
-                const Node& path = formula.nodes[node.operands[0]];
-                if (node.function == Function::field && arrays.insert(path.index).second) {
-                    read_one(script, path, files);
-                }
-                if (node.function == Function::image && images.insert(path.index).second) {
-                    read_image(script, path, files);
-                }
+    const auto read_of = [&](const Formula& formula) {
+        for (const Node& node : formula.nodes) {
+            if (node.kind != NodeKind::call) continue;
+            const Node& path = formula.nodes[node.operands[0]];
+            if (node.function == Function::field && arrays.insert(path.index).second) {
+                read_one(script, path, files);
+            }
+            if (node.function == Function::image && images.insert(path.index).second) {
+                read_image(script, path, files);
             }
         }
+    };
+    if (script.program->domain.mask) read_of(script.program->domain.mask->formula);
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        for (const Formula& formula : script.program->stages[k].items) read_of(formula);
     }
     if (script.diagnostics.has_errors()) return failure("the script's files cannot be used");
     return files;

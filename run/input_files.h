@@ -23,7 +23,7 @@ private:
     std::map<std::uint32_t, Field> images_;
 };
 
-/// Reads every file that a starting value names, relative to the script's folder. A missing file,
+/// Reads every file that the mask or a starting value names, relative to the script's folder. A missing file,
 /// a wrong type or a shape other than the grid's is a diagnostic at the path in the script. Pictures
 /// are fitted to the grid.
 Result<InputFiles> read_input_files(Script& script);

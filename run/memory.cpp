@@ -70,6 +70,7 @@ double memory_of(const Program& program) {
     }
     planes += while_running;
     if (program.domain.surface) planes += metric_plane_count;
+    if (program.domain.mask) planes += 2;  // One of words, one of bytes.
     const PlaneLayout layout(program.domain.grid);
     return static_cast<double>(planes) * static_cast<double>(layout.size()) * 4.0;
 }

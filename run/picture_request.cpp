@@ -40,6 +40,12 @@ void cut_all(std::vector<Field>& fields, const PictureRequest& request) {
     }
 }
 
+/// The same of a copy that is NaN outside of the mask.
+Field as_shown(const Field& field, const DomainMask* mask, const PictureRequest& request) {
+    Field shown = mask ? with_outside(field, *mask, nothing_outside) : field.clone();
+    return shown.layout().depth > 1 ? cut(shown, request.slice) : std::move(shown);
+}
+
 }  // namespace
 
 std::string to_json(const PictureRequest& request) {
@@ -146,14 +152,21 @@ Canvas Painter::values(const Simulation& simulation) {
 Canvas Painter::canvas(const Simulation& simulation) {
     Canvas canvas = values(simulation);
     cut_all(canvas.fields, request_);
+    if (const DomainMask* mask = simulation.mask()) {
+        outside_ = as_shown(Field(PlaneLayout(simulation.grid())), mask, request_);
+    }
     return canvas;
 }
 
 Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range) const {
-    if (canvas.is_colour()) return paint(canvas.fields[0], canvas.fields[1], canvas.fields[2]);
-    const ValueRange used =
-        request_.range ? *request_.range : range ? *range : value_range(canvas.fields[0]);
-    return paint(canvas.fields[0], used, *palette_);
+    const ValueRange used = request_.range ? *request_.range
+                            : range        ? *range
+                                           : value_range(canvas.fields[0]);
+    Image image = canvas.is_colour()
+                      ? paint(canvas.fields[0], canvas.fields[1], canvas.fields[2])
+                      : paint(canvas.fields[0], used, *palette_);
+    if (!outside_.empty()) clear_where_nan(image, outside_);
+    return image;
 }
 
 Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) const {
@@ -182,14 +195,14 @@ Image draw_sheet(const Simulation& simulation, const PictureRequest& request) {
         std::size_t in_stage = 0;
         for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
             if (!system.is_species(item)) continue;
-            const Field& all = simulation.state(k).field(item);
-            const bool is_volume = all.layout().depth > 1;
-            const Field slice = is_volume ? cut(all, request.slice) : Field();
-            const Field& field = is_volume ? slice : all;
+            const Field field =
+                as_shown(simulation.state(k).field(item), simulation.mask(), request);
             const ValueRange range = request.range.value_or(value_range(field));
+            Image image = paint(field, range, palette);
+            if (simulation.mask()) clear_where_nan(image, field);
             panels.push_back({fmt::format("{}.{} {:.4g}..{:.4g}", program.stages[k].name,
                                           system.item_name(item), range.low, range.high),
-                              enlarge(paint(field, range, palette), request.scale)});
+                              enlarge(image, request.scale)});
             ++in_stage;
         }
         columns = std::max(columns, in_stage);

@@ -48,7 +48,7 @@ public:
     Canvas values(const Simulation& simulation);
     bool fell_back() const { return fell_back_; }
 
-    /// The canvas as an image, enlarged; where the domain lies on a surface, drawn on it. `range`
+    /// The canvas as an image, transparent outside of the mask and enlarged; where the domain lies on a surface, drawn on it. `range`
     /// overrides the automatic one.
     Image image(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
     const PictureRequest& request() const { return request_; }
@@ -62,6 +62,7 @@ private:
     std::optional<ast::Expression> show_;
     const Palette* palette_ = nullptr;
     bool fell_back_ = false;
+    Field outside_;  ///< Of the last canvas: NaN where there is no domain; empty without a mask.
 };
 
 /// One labelled picture of all species of all stages that have started.

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <deque>
 #include <numeric>
 
 namespace cascade {
@@ -294,13 +295,17 @@ Result<void> Runner::write_saved_run() {
 Result<void> Runner::write_volume() {
     const std::uint32_t stage = simulation_->shown_stage().value_or(0);
     const System& system = script_.program->system_of(stage);
+    const DomainMask* mask = simulation_->mask();
+    std::deque<Field> copies;
     std::vector<VolumeArray> arrays;
     for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
         if (!system.is_species(item)) continue;
-        arrays.push_back({std::string(system.item_name(item)),
-                          &simulation_->state(stage).field(item)});
+        const Field& field = simulation_->state(stage).field(item);
+        if (mask) copies.push_back(with_outside(field, *mask, nothing_outside));
+        arrays.push_back({std::string(system.item_name(item)), mask ? &copies.back() : &field});
     }
-    auto done = write_vti(request_.volume, arrays, simulation_->grid().spacing);
+    auto done = write_vti(request_.volume, arrays, simulation_->grid().spacing,
+                          mask ? &mask->inside : nullptr);
     if (done) report_.written.push_back(request_.volume);
     return done;
 }

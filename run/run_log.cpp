@@ -27,7 +27,8 @@ bool part_varies(const Node& node, const std::vector<bool>& varies, const Progra
                    node.index != static_cast<std::uint32_t>(Builtin::step);
         case NodeKind::definition:
         case NodeKind::rate:
-        case NodeKind::metric: return true;
+        case NodeKind::metric:
+        case NodeKind::inside: return true;
         case NodeKind::number:
         case NodeKind::text: return false;
         case NodeKind::call: break;

@@ -6,12 +6,10 @@
 #include "run/png_texts.h"
 #include "run/run.h"
 #include "run/saved_time.h"
+#include "solvers/finite.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <cmath>
 
 namespace cascade {
 
@@ -70,9 +68,10 @@ Failure damaged(const std::filesystem::path& folder, const std::string& why) {
 constexpr std::string_view last_look = ".last";
 
 Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
-                                        const Program& program, std::uint32_t stage,
+                                        const Simulation& simulation, std::uint32_t stage,
                                         std::string_view suffix = "") {
     std::vector<Field> species;
+    const Program& program = simulation.program();
     const System& system = program.system_of(stage);
     const Grid& grid = program.domain.grid;
     for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
@@ -85,12 +84,14 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
             return tl::unexpected(
                 damaged(folder, fmt::format("{} has another shape", path.filename().string())));
         }
-        const auto is_finite = [](float value) { return std::isfinite(value); };
-        if (!std::all_of(array->values.begin(), array->values.end(), is_finite)) {
+        Field field = to_field(*array);
+        // Outside of the mask files have NaN and runs have 0.
+        if (simulation.mask()) field = with_outside(field, *simulation.mask(), 0);
+        if (first_not_finite(field)) {
             return tl::unexpected(damaged(
                 folder, fmt::format("{} has a value that is not finite", path.filename().string())));
         }
-        species.push_back(to_field(*array));
+        species.push_back(std::move(field));
     }
     return species;
 }
@@ -108,13 +109,18 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
     std::filesystem::remove(path_of_manifest, error);
     std::vector<std::filesystem::path> written;
     const Program& program = *script.program;
+    const auto write = [&](const std::filesystem::path& path, const Field& field) {
+        const DomainMask* mask = simulation.mask();
+        if (mask) return write_npy(path, with_outside(field, *mask, nothing_outside));
+        return write_npy(path, field);
+    };
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
         if (!simulation.state(k).started) break;
         const System& system = program.system_of(k);
         for (std::uint32_t item = 0; item < system.item_count(); ++item) {
             if (!system.is_species(item) && program.stages[k].uniform[item]) continue;
             const auto path = array_path(folder, program.stages[k], system.item_name(item));
-            if (auto done = write_npy(path, simulation.state(k).field(item)); !done) {
+            if (auto done = write(path, simulation.state(k).field(item)); !done) {
                 return tl::unexpected(done.error());
             }
             written.push_back(path);
@@ -124,7 +130,7 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
             const auto path =
                 array_path(folder, program.stages[k],
                            fmt::format("{}{}", species_name(system, species), last_look));
-            if (auto done = write_npy(path, looked_at[species]); !done) {
+            if (auto done = write(path, looked_at[species]); !done) {
                 return tl::unexpected(done.error());
             }
             written.push_back(path);
@@ -178,7 +184,7 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             const bool done = stages[k].at("done").get<bool>();
             if (steps < 0) return tl::unexpected(damaged(folder, "a number of steps is negative"));
             if (auto started = simulation.start_stage(k); !started) return started;
-            auto species = read_species(folder, *script.program, k);
+            auto species = read_species(folder, simulation, k);
             if (!species) return tl::unexpected(species.error());
             simulation.set_species(k, std::move(*species), steps, done);
             if (!stages[k].contains("time")) continue;
@@ -186,7 +192,7 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             if (!time) return tl::unexpected(damaged(folder, "its time makes no sense"));
             SteadyWatch watch;
             if (time->last_look) {
-                auto looked_at = read_species(folder, *script.program, k, last_look);
+                auto looked_at = read_species(folder, simulation, k, last_look);
                 if (!looked_at) return tl::unexpected(looked_at.error());
                 watch.remember(std::move(*looked_at), *time->last_look);
             }

@@ -60,12 +60,15 @@ struct Simulation::Implementation {
     std::unique_ptr<Team> team;
     InputFiles files;
     std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
+    std::optional<DomainMask> mask;
     std::vector<StageState> states;
 
     const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
+    const DomainMask* inside() const { return mask ? &*mask : nullptr; }
+    Result<void> find_mask();
 
     BindingContext context(std::uint32_t stage) const {
-        return {states, files, states[stage].steps, grid, states[stage].t, metric};
+        return {states, files, states[stage].steps, grid, states[stage].t, metric, inside()};
     }
 
     /// Starting values need no compiling and pictures neither: both are interpreted.
@@ -115,7 +118,7 @@ struct Simulation::Implementation {
         const System& system = program->system_of(k);
         const std::uint32_t item = system.speed_item();
         float slowest = states[k].numbers[item];
-        if (!stage(k).uniform[item]) slowest = smallest(states[k].fields[item]);
+        if (!stage(k).uniform[item]) slowest = smallest(states[k].fields[item], inside());
         if (slowest > 0 && std::isfinite(slowest)) return {};
         return failure(fmt::format("stage '{}': its speed is {}, but a time step must be above 0",
                                    stage(k).name, slowest));
@@ -151,6 +154,8 @@ struct Simulation::Implementation {
     StabilityEstimate stability(std::uint32_t k, std::span<const Field> species) const {
         // Rates know nothing of frozen cells, but those cannot blow up.
         const Mask* frozen = states[k].frozen.empty() ? nullptr : &states[k].frozen;
+        const Mask still = mask ? still_cells(*mask, frozen) : Mask();
+        if (mask) frozen = &still;
         return estimate_stability(problem(plan_rates(*program, k), interpreted(grid), k), species,
                                   frozen);
     }
@@ -195,6 +200,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     const bool small = self.grid.cell_count() < 65536;
     self.team = std::make_unique<Team>(small ? 1 : self.threads);
     self.states.resize(self.program->stages.size());
+    if (auto found = self.find_mask(); !found) return tl::unexpected(found.error());
     return simulation;
 }
 
@@ -298,6 +304,7 @@ std::vector<float> Simulation::evaluate_numbers(std::span<const Formula* const> 
 
 const Program& Simulation::program() const { return *self_->program; }
 const Grid& Simulation::grid() const { return self_->grid; }
+const DomainMask* Simulation::mask() const { return self_->inside(); }
 const StageState& Simulation::state(std::uint32_t stage) const { return self_->states[stage]; }
 
 double Simulation::time(std::uint32_t stage) const {
@@ -326,10 +333,11 @@ StageTools Simulation::Implementation::tools(std::uint32_t k, RunControl& contro
     tools.largest = [this, k](std::span<const Formula* const> formulas) {
         std::vector<double> largest;
         for (const Field& field : evaluate(plan_view(*program, formulas, k), k)) {
-            largest.push_back(largest_value(field));
+            largest.push_back(largest_value(field, inside()));
         }
         return largest;
     };
+    tools.inside = mask ? &mask->inside : nullptr;
     tools.is_true = [this, k](const Formula& formula) {
         return evaluate(plan_view(*program, formula, k), k)[0].at(0, 0) != 0;
     };
@@ -349,6 +357,18 @@ Failure Simulation::Implementation::explain(const StepTooShort& place, std::uint
         species_name(program->system_of(k), place.species), place.column, place.row);
     failure.hint = "something jumps or grows without bound there; a larger tolerance or euler may pass it";
     return failure;
+}
+
+/// The mask is evaluated once, before any stage.
+Result<void> Simulation::Implementation::find_mask() {
+    if (!program->domain.mask || states.empty()) return {};
+    const std::vector<Field> values =
+        run_plan(plan_mask(*program), interpreted(grid), context(0), grid, *team);
+    mask = make_domain_mask(values[0], grid);
+    if (mask->cells > 0) return {};
+    script->diagnostics.error(program->domain.mask->span, "no cell is inside the mask",
+                              "cells where it is not 0 belong to the domain");
+    return failure("the domain has no cells");
 }
 
 /// Values of sides are found once, by formulas that may read whatever the stage starts with. One
@@ -400,7 +420,8 @@ void Simulation::Implementation::warn_of_chequerboard(std::uint32_t k,
     if (!control.warn || states[k].steps == 0) return;
     const System& system = program->system_of(k);
     for (std::size_t s = 0; s < states[k].species.size(); ++s) {
-        if (chequerboard(states[k].species[s]) < chequerboard_threshold) continue;
+        const Mask* counted = mask ? &mask->inside : nullptr;
+        if (chequerboard(states[k].species[s], counted) < chequerboard_threshold) continue;
         control.warn(describe_chequerboard(stage(k).name, species_name(system, s),
                                            stability(k, states[k].species), speed_number(k)));
         return;

@@ -6,6 +6,7 @@
 #include "core/run_control.h"
 #include "ir/backend.h"
 #include "lang/lower.h"
+#include "run/domain_mask.h"
 #include "run/script.h"
 #include "solvers/advance.h"
 #include "solvers/steady.h"
@@ -99,7 +100,8 @@ public:
     /// the stage's speed.
     void set_time(std::uint32_t stage, double t, const TimeState& time, SteadyWatch watch);
 
-    /// A formula for pictures over the present state: one field, or three for a colour.
+    /// A formula for pictures over the present state: one field, or three for a colour. Outside of
+    /// the mask it is NaN, unless it is the same in all cells.
     std::vector<Field> evaluate(const Formula& formula, std::uint32_t stage) const;
     /// Several formulas at once: what they share is computed once.
     std::vector<Field> evaluate(std::span<const Formula* const> formulas,
@@ -111,6 +113,8 @@ public:
 
     const Program& program() const;
     const Grid& grid() const;
+    /// The cells that belong to the domain; nullptr where all do.
+    const DomainMask* mask() const;
     const StageState& state(std::uint32_t stage) const;
     /// The time since a stage began, at its present step; NaN where `speed` differs between cells.
     double time(std::uint32_t stage) const;

@@ -91,7 +91,7 @@ bool StageTimer::has_ended(double t) {
     if (stage_.time.until) return tools_.is_true(*stage_.time.until);
     // Steps of different length in different cells are counted, not timed.
     const double age = uniform_speed_ ? t : static_cast<double>(state_.steps);
-    return state_.watch.settled(state_.species, age, *stage_.time.steady);
+    return state_.watch.settled(state_.species, age, *stage_.time.steady, tools_.inside);
 }
 
 Schedule StageTimer::schedule(std::int64_t last_step, std::int64_t interval) {

@@ -1,7 +1,9 @@
 #include "run/surface_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace cascade {
 
@@ -33,6 +35,45 @@ TriangleMesh lattice(const SurfaceFunction& surface) {
     }
     smooth_normals(mesh);
     return mesh;
+}
+
+/// The texel in the middle of a quadrilateral.
+const Colour& middle_of(std::uint32_t quadrilateral, const Image& texture) {
+    const auto texel = [](std::uint32_t facet, std::int64_t side) {
+        return static_cast<std::int64_t>((facet + 0.5) / facets * static_cast<double>(side));
+    };
+    return texture.at(texel(quadrilateral % facets, texture.width),
+                      texel(quadrilateral / facets, texture.height));
+}
+
+/// Takes away what lies on transparent parts of the texture. Returns the numbers in the lattice of
+/// the triangles that stay.
+std::vector<std::uint32_t> cut_holes(TriangleMesh& mesh, const Image& texture) {
+    std::vector<std::uint32_t> numbers;
+    std::size_t kept = 0;
+    for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
+        const std::uint32_t quadrilateral = triangle / 2;
+        if (is_transparent(middle_of(quadrilateral, texture))) continue;
+        mesh.triangles[kept++] = mesh.triangles[triangle];
+        numbers.push_back(triangle);
+    }
+    mesh.triangles.resize(kept);
+    return numbers;
+}
+
+/// Between four texels, of which only those count that are seen; `otherwise` where none is.
+Colour mix_of_seen(const std::array<std::pair<Colour, float>, 4>& texels,
+                   const Colour& otherwise) {
+    Colour sum{};
+    float weights = 0;
+    for (const auto& [colour, weight] : texels) {
+        if (is_transparent(colour)) continue;
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * colour[c];
+        weights += weight;
+    }
+    if (!(weights > 0)) return otherwise;
+    for (float& channel : sum) channel /= weights;
+    return sum;
 }
 
 /// Where two joined sides meet in space their normals are one.
@@ -72,15 +113,26 @@ Image draw_on_surface(const SurfaceFunction& surface, const Image& texture, bool
                       bool periodic_y, const DrawOptions& options, Team& team) {
     TriangleMesh mesh = lattice(surface);
     join_normals(mesh, periodic_x, periodic_y);
+    const bool has_holes = std::any_of(texture.pixels.begin(), texture.pixels.end(), is_transparent);
+    const std::vector<std::uint32_t> numbers =
+        has_holes ? cut_holes(mesh, texture) : std::vector<std::uint32_t>();
     const auto colour = [&](const Hit& hit) {
-        const std::uint32_t quadrilateral = hit.triangle / 2;
-        const bool upper = hit.triangle % 2 == 0;
+        const std::uint32_t triangle = has_holes ? numbers[hit.triangle] : hit.triangle;
+        const std::uint32_t quadrilateral = triangle / 2;
+        const bool upper = triangle % 2 == 0;
         const double across = upper ? hit.u + hit.v : hit.u;
         const double down = upper ? hit.v : hit.u + hit.v;
         const Between x =
             between((quadrilateral % facets + across) / facets, texture.width, periodic_x);
         const Between y =
             between((quadrilateral / facets + down) / facets, texture.height, periodic_y);
+        if (has_holes) {
+            return mix_of_seen({{{texture.at(x.first, y.first), (1 - x.part) * (1 - y.part)},
+                                 {texture.at(x.second, y.first), x.part * (1 - y.part)},
+                                 {texture.at(x.first, y.second), (1 - x.part) * y.part},
+                                 {texture.at(x.second, y.second), x.part * y.part}}},
+                               middle_of(quadrilateral, texture));
+        }
         const auto mix = [](float a, float b, float part) { return a + (b - a) * part; };
         Colour result{};
         for (std::size_t c = 0; c < 3; ++c) {

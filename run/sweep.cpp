@@ -340,7 +340,9 @@ Result<void> Sweeper::write_outputs() {
     for (const Variation& variation : request_.varied) varied.push_back(text_of(variation));
     const PngDepth depth =
         request_.picture.depth == 16 ? PngDepth::sixteen : PngDepth::eight;
-    auto drawn = write_png(sheet, draw_sweep(results_, request_.varied, request_.picture), depth,
+    const bool has_mask = script_.program && script_.program->domain.mask;
+    auto drawn = write_png(sheet,
+                           draw_sweep(results_, request_.varied, request_.picture, has_mask), depth,
                            embed_sweep(script_, request_.picture, varied));
     if (!drawn) return drawn;
     report_.written.push_back(sheet);

@@ -65,9 +65,11 @@ struct SweepFault {
 tl::expected<SweepReport, SweepFault> sweep(const Script& script, const SweepRequest& request,
                                             SweepControl& control);
 
-/// A sheet of all results in order of their runs; those that are missing are empty places.
+/// A sheet of all results in order of their runs; those that are missing are empty places. Where the
+/// domain has a mask, NaN is transparent.
 Image draw_sweep(const std::vector<std::optional<SweepResult>>& results,
-                 const std::vector<Variation>& varied, const PictureRequest& picture);
+                 const std::vector<Variation>& varied, const PictureRequest& picture,
+                 bool has_mask);
 
 /// A row for each run: the values varied, its features, its steps, its remark.
 std::string sweep_table(const std::vector<std::optional<SweepResult>>& results,

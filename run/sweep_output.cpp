@@ -46,24 +46,27 @@ std::optional<ValueRange> range_of_all(const std::vector<std::optional<SweepResu
 }
 
 MapTile tile_of(const std::optional<SweepResult>& result, ValueRange range,
-                const Palette& palette) {
+                const Palette& palette, bool has_mask) {
     if (!result) return {Image(), "not run"};
     if (result->failed()) return {Image(), "failed"};
     const std::vector<Field>& fields = result->tile.fields;
-    if (result->tile.is_colour()) return {paint(fields[0], fields[1], fields[2]), ""};
-    return {paint(fields[0], range, palette), ""};
+    Image image = result->tile.is_colour() ? paint(fields[0], fields[1], fields[2])
+                                           : paint(fields[0], range, palette);
+    if (has_mask) clear_where_nan(image, fields[0]);
+    return {std::move(image), ""};
 }
 
 }  // namespace
 
 Image draw_sweep(const std::vector<std::optional<SweepResult>>& results,
-                 const std::vector<Variation>& varied, const PictureRequest& picture) {
+                 const std::vector<Variation>& varied, const PictureRequest& picture,
+                 bool has_mask) {
     const Palette* palette = find_palette(picture.palette);
     CHECK(palette, "the palette was checked before the first run");
     const ValueRange range =
         picture.range ? *picture.range : range_of_all(results).value_or(ValueRange{});
     std::vector<MapTile> tiles;
-    for (const auto& result : results) tiles.push_back(tile_of(result, range, *palette));
+    for (const auto& result : results) tiles.push_back(tile_of(result, range, *palette, has_mask));
     return make_map(tiles, axis_of(varied, 0), upward_axis(varied));
 }
 

@@ -28,24 +28,32 @@ double sum(std::int64_t count, Value value) {
 }
 
 template <typename ValueOfRow>
-double mean_over_cells(const PlaneLayout& layout, ValueOfRow value_of_row) {
-    double total = 0;
+double mean_over_cells(const PlaneLayout& layout, const Mask* inside, ValueOfRow value_of_row) {
+    double total = 0, cells = 0;
     for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-        total += sum(layout.width, value_of_row(row));
+        const auto value = value_of_row(row);
+        if (inside == nullptr) {
+            total += sum(layout.width, value);
+            cells += static_cast<double>(layout.width);
+            continue;
+        }
+        const std::uint8_t* counts = inside->row(row);
+        total += sum(layout.width, [&](std::int64_t i) { return counts[i] ? value(i) : 0.0; });
+        cells += sum(layout.width, [&](std::int64_t i) { return counts[i] ? 1.0 : 0.0; });
     }
-    return total / static_cast<double>(layout.width * layout.row_count());
+    return total / cells;
 }
 
 }  // namespace
 
-FieldMoments moments(const Field& field) {
+FieldMoments moments(const Field& field, const Mask* inside) {
     FieldMoments result;
-    result.mean = mean_over_cells(field.layout(), [&](std::int64_t row) {
+    result.mean = mean_over_cells(field.layout(), inside, [&](std::int64_t row) {
         return [cells = field.row(row)](std::int64_t i) { return double{cells[i]}; };
     });
-    result.root_mean_square = root_mean_square(field);
+    result.root_mean_square = root_mean_square(field, inside);
     // About the mean: the difference of two squares would lose a pattern of small amplitude.
-    result.deviation = std::sqrt(mean_over_cells(field.layout(), [&](std::int64_t row) {
+    result.deviation = std::sqrt(mean_over_cells(field.layout(), inside, [&](std::int64_t row) {
         return [cells = field.row(row), mean = result.mean](std::int64_t i) {
             return (cells[i] - mean) * (cells[i] - mean);
         };
@@ -53,14 +61,14 @@ FieldMoments moments(const Field& field) {
     return result;
 }
 
-double root_mean_square(const Field& field) {
-    return std::sqrt(mean_over_cells(field.layout(), [&](std::int64_t row) {
+double root_mean_square(const Field& field, const Mask* inside) {
+    return std::sqrt(mean_over_cells(field.layout(), inside, [&](std::int64_t row) {
         return [cells = field.row(row)](std::int64_t i) { return double{cells[i]} * cells[i]; };
     }));
 }
 
-double root_mean_square_of_difference(const Field& a, const Field& b) {
-    return std::sqrt(mean_over_cells(a.layout(), [&](std::int64_t row) {
+double root_mean_square_of_difference(const Field& a, const Field& b, const Mask* inside) {
+    return std::sqrt(mean_over_cells(a.layout(), inside, [&](std::int64_t row) {
         return [p = a.row(row), q = b.row(row)](std::int64_t i) {
             const double difference = double{p[i]} - q[i];
             return difference * difference;

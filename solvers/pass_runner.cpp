@@ -66,10 +66,11 @@ void PassRunner::reduce(Worker& worker, const StepProblem::Pass& pass, Team& tea
         }
     }
     team.barrier();
+    const std::int64_t cells =
+        problem_.cells_inside > 0 ? problem_.cells_inside : problem_.grid.cell_count();
     for (const StepProblem::Reduction& reduction : pass.reductions) {
         worker.row_values = row_values_[reduction.aggregate];
-        const float value =
-            reduce_rows(reduction.kind, worker.row_values, problem_.grid.cell_count());
+        const float value = reduce_rows(reduction.kind, worker.row_values, cells);
         for (std::size_t later = pass_number; later < problem_.passes.size(); ++later) {
             for (const StepProblem::ChangingUniform& uniform : problem_.passes[later].changing) {
                 if (uniform.kind != StepProblem::ChangingUniform::Kind::aggregate) continue;

@@ -30,7 +30,7 @@ StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const F
 
 /// The chequerboard mode of a field: |Σ (−1)^(i+j) c| / N divided by the standard deviation of c.
 /// Near 1 when neighbours alternate, near 0 for a pattern the grid resolves; 0 for a flat field.
-double chequerboard(const Field& field);
+double chequerboard(const Field& field, const Mask* inside = nullptr);
 
 /// Above this a field is called a chequerboard and the user is warned.
 inline constexpr double chequerboard_threshold = 0.5;

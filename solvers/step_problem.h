@@ -62,6 +62,7 @@ struct StepProblem {
     };
 
     Grid grid;
+    std::int64_t cells_inside = 0;          ///< Over so many means are taken; 0: over all.
     std::vector<Pass> passes;               ///< In order. At least one.
     /// The planes of all species at one moment are a register: 0 is the old step, 1 becomes the new
     /// one, further ones are scratch.

@@ -79,6 +79,7 @@ public:
 
     /// The values of an expression over the present state, row by row, slice behind slice: a species or parameter of
     /// the current stage ("b"), of an earlier one ("stage1.b"), or arithmetic ("b - stage1.b").
+    /// Cells outside of the domain's mask are NaN, unless the expression is the same in all cells.
     /// Empty if the expression is wrong; error() says why, and the pattern stays ok.
     std::vector<float> values(const std::string& expression);
 

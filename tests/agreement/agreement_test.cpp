@@ -108,7 +108,8 @@ TEST(Agreement, HoweverOperandsComeToNeighbours) {
         const auto compile = [&](const CellKernel& kernel) {
             return *backend->compile(kernel, grid.stencil());
         };
-        const BindingContext context{{&simulation->state(0), 1}, no_files, 3, grid};
+        const BindingContext context{{&simulation->state(0), 1}, no_files, 3, grid, 0, {},
+                                     simulation->mask()};
         std::vector<std::vector<Field>> found;
         std::size_t passes = 0;
         for (const Bringing bringing :

@@ -34,7 +34,7 @@ bool is_word(std::string_view spelling) {
 /// Writes one script.
 class Writer {
 public:
-    explicit Writer(std::uint64_t seed) : stream_(seed) {}
+    explicit Writer(std::uint64_t seed) : stream_(seed), mask_stream_(~seed) {}
 
     std::string write() {
         const int systems = 1 + static_cast<int>(stream_.below(2));
@@ -42,11 +42,11 @@ public:
                                                                        "periodic, noflux"};
         const bool has_slices = stream_.chance(25);
         text_ = fmt::format(
-            "domain {{ grid: {}, {}{}; boundary: {}; spacing: {}; seed: {} }}\n",
+            "domain {{ grid: {}, {}{}; boundary: {}; spacing: {}; seed: {}{} }}\n",
             2 + stream_.below(37), (has_slices ? 2 : 1) + stream_.below(9),
             has_slices ? fmt::format(", {}", 2 + stream_.below(5)) : "",
             has_slices ? boundaries[stream_.below(2)] : stream_.pick<std::string_view>(boundaries),
-            stream_.chance(50) ? "1" : "0.75", stream_.below(1000));
+            stream_.chance(50) ? "1" : "0.75", stream_.below(1000), mask());
         write_functions();
         for (int s = 0; s < systems; ++s) write_system(s);
         const int stages = 1 + static_cast<int>(stream_.below(3));
@@ -59,6 +59,15 @@ private:
     struct SystemNames {
         std::vector<std::string> species, parameters;
     };
+
+    /// In every third script. The first cell is always inside.
+    std::string mask() {
+        static constexpr std::array<std::string_view, 5> masks = {
+            "random(0, 1) > -0.3 or sx + sy < 0.76", "disc(0.4, 0.1, 0.3) or sx + sy < 0.76",
+            "noise(0.3) > 0 or sx + sy < 0.76", "1", "not ring(0.3, 0.2, 0.2, 0.1) or sx < 0.26"};
+        if (!mask_stream_.chance(33)) return "";
+        return fmt::format("; mask: {}", mask_stream_.pick<std::string_view>(masks));
+    }
 
     std::string number() {
         static constexpr std::array<std::string_view, 12> numbers = {
@@ -287,7 +296,7 @@ private:
         if (k == 0) previous_.push_back("g0.u0");
     }
 
-    RandomStream stream_;
+    RandomStream stream_, mask_stream_;
     std::string text_;
     std::vector<std::string> readable_, species_, previous_;
     std::vector<SystemNames> systems_;

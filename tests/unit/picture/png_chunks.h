@@ -100,7 +100,7 @@ struct DecodedPng {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     int depth = 0;
-    int colour_type = 0;            ///< 0 is grey, 2 is red, green, blue.
+    int colour_type = 0;            ///< 0 is grey, 2 is red, green, blue; 4 more with alpha.
     std::vector<unsigned> samples;  ///< Row by row, channel after channel.
 };
 
@@ -155,7 +155,8 @@ inline DecodedPng decode(std::string_view file) {
         if (chunk.name == "IDAT") data += chunk.data;
     }
     const std::size_t sample_size = png.depth == 16 ? 2 : 1;
-    const std::size_t pixel_size = sample_size * (png.colour_type == 2 ? 3 : 1);
+    const std::size_t channels = (png.colour_type % 4 == 2 ? 3u : 1u) + (png.colour_type >= 4 ? 1u : 0u);
+    const std::size_t pixel_size = sample_size * channels;
     const std::size_t row_size = png.width * pixel_size;
     const std::string raw = inflated(data, (row_size + 1) * png.height);
     const std::string bytes = unfiltered(raw, row_size, pixel_size);

@@ -60,6 +60,18 @@ TEST(EncodePng, SixteenBitColours) {
     EXPECT_THAT(png.samples, ElementsAre(65535, 32768, 0, 13107, 26214, 39321));
 }
 
+TEST(EncodePng, WhatIsTransparentIsWhiteBehindAlpha) {
+    Image image = coloured();
+    image.at(1, 0) = transparent;
+    const DecodedPng colours = test::decode(encoded(image, PngDepth::eight));
+    EXPECT_EQ(colours.colour_type, 6);
+    EXPECT_THAT(colours.samples, ElementsAre(255, 128, 0, 255, 255, 255, 255, 0));
+    image.at(0, 0) = {0.2F, 0.2F, 0.2F};
+    const DecodedPng grey = test::decode(encoded(image, PngDepth::sixteen));
+    EXPECT_EQ(grey.colour_type, 4);
+    EXPECT_THAT(grey.samples, ElementsAre(13107, 65535, 65535, 0));
+}
+
 TEST(EncodePng, GreyPicturesAreGreyscale) {
     Image image(3, 2);
     for (int k = 0; k < 6; ++k) {

@@ -35,6 +35,22 @@ TEST(HalfBlocks, AnOddLastRowLeavesTheGround) {
     EXPECT_EQ(half_blocks(Image(2, 1, {0, 0, 0}), 80), "\x1b[38;2;0;0;0m▀▀\x1b[0m\n");
 }
 
+TEST(HalfBlocks, TransparentPixelsLeaveTheGround) {
+    Image image(4, 2, {0, 0, 0});
+    image.at(0, 0) = image.at(0, 1) = transparent;
+    image.at(2, 0) = transparent;
+    image.at(3, 1) = transparent;
+    EXPECT_EQ(half_blocks(image, 80),
+              " \x1b[38;2;0;0;0m\x1b[48;2;0;0;0m▀\x1b[49m▄▀\x1b[0m\n");
+}
+
+TEST(HalfBlocks, AveragesAreOfWhatIsSeen) {
+    Image image(4, 2, {0, 0, 0});
+    image.at(0, 0) = image.at(1, 0) = image.at(0, 1) = transparent;
+    image.at(3, 1) = transparent;
+    EXPECT_EQ(half_blocks(image, 2), " \x1b[38;2;0;0;0m▀\x1b[0m\n");
+}
+
 TEST(HalfBlocks, WiderPicturesAreAveraged) {
     Image image(4, 4);
     for (std::int64_t y = 0; y < 4; ++y) {

@@ -89,6 +89,21 @@ TEST(Volume, FilesHoldTheirArraysWhereTheySay) {
     EXPECT_EQ(file.size(), begin + 208 + std::string("\n  </AppendedData>\n</VTKFile>\n").size());
 }
 
+TEST(Volume, CellsOutsideAreHidden) {
+    const Field volume = places(2, 3, 4);
+    Mask inside(volume.layout());
+    for (std::int64_t row = 0; row < 12; ++row) inside.row(row)[0] = 1;
+    const VolumeArray arrays[] = {{"u", &volume}};
+    const std::string file = encode_vti(arrays, 1, &inside);
+    EXPECT_THAT(file, HasSubstr("<DataArray type=\"UInt8\" Name=\"vtkGhostType\" "
+                                "format=\"appended\" offset=\"104\"/>"));
+    const std::size_t begin = file.find("\n_") + 2 + 104;
+    std::uint64_t size = 0;
+    std::memcpy(&size, file.data() + begin, 8);
+    ASSERT_EQ(size, 24u);
+    for (std::size_t n = 0; n < 24; ++n) EXPECT_EQ(file[begin + 8 + n], n % 2 == 0 ? 0 : 32);
+}
+
 TEST(Volume, ArraysOfThreeDimensionsComeBack) {
     const Field volume = places(5, 3, 4);
     const Result<NpyArray> array = parse_npy(encode_npy(volume));

@@ -1,0 +1,422 @@
+// Domains of any shape: what operators, aggregates and solvers see of a mask.
+#include "run/simulation.h"
+
+#include "run/script.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <memory>
+#include <string>
+
+namespace cascade {
+namespace {
+
+BackendKind stepper() { return has_jit() ? BackendKind::jit : BackendKind::interpreter; }
+
+/// A script with a simulation whose stages have run.
+struct Ran {
+    Script script;
+    std::unique_ptr<Simulation> simulation;
+    std::string failure;
+
+    const Field& field(const std::string& name, std::uint32_t stage = 0) const {
+        const System& system = simulation->program().system_of(stage);
+        for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+            if (system.quantities[item].name == name) return simulation->state(stage).field(item);
+        }
+        ADD_FAILURE() << name;
+        return simulation->state(stage).field(0);
+    }
+    float number(const std::string& name) const {
+        const System& system = simulation->program().system_of(0);
+        for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+            if (system.quantities[item].name == name) return simulation->state(0).numbers[item];
+        }
+        ADD_FAILURE() << name;
+        return 0;
+    }
+};
+
+/// Runs every stage to its end. The script stays where it is: the simulation refers to it.
+std::unique_ptr<Ran> run_text(const std::string& text, BackendKind backend = stepper()) {
+    auto ran = std::make_unique<Ran>();
+    ran->script = load_script("test", text, ".");
+    EXPECT_TRUE(ran->script.program) << text << ran->script.messages(false);
+    if (!ran->script.program) return ran;
+    auto simulation = Simulation::create(ran->script, {backend, 0, 2});
+    if (!simulation) {
+        ran->failure = ran->script.messages(false) + simulation.error().message;
+        return ran;
+    }
+    ran->simulation = std::move(*simulation);
+    RunControl control;
+    for (std::uint32_t k = 0; k < ran->script.stage_count(); ++k) {
+        if (auto started = ran->simulation->start_stage(k); !started) {
+            ran->failure = started.error().message;
+            break;
+        }
+        const auto last = ran->script.program->stages[k].iterations;
+        if (auto end = ran->simulation->advance_stage(k, last, control, {}); !end) {
+            ran->failure = end.error().message + " | " + end.error().hint;
+            break;
+        }
+    }
+    return ran;
+}
+
+std::uint32_t word(float value) {
+    return std::isnan(value) ? 0x7fc00000U : std::bit_cast<std::uint32_t>(value);
+}
+
+/// Systems in p, q and r, which count the cells of a box from its corner: each with another operator.
+/// Everything differs from cell to cell, so that a wrong neighbour shows.
+std::string system_of(const std::string& rates) {
+    return "system s {\n"
+           "  p: P; q: Q; r: R\n"
+           "  u: sin(1.3 * p + 0.7 * q - 0.9 * r) + 0.1 * p\n"
+           "  v: cos(0.8 * p - 1.1 * q + 0.3 * r) - 0.05 * q\n"
+           "  k: 1 + 0.3 * sin(p + 2 * q)\n"
+           "  a: 0.3 * p - q\n" + rates + "}\n";
+}
+
+struct Operator {
+    const char* name;
+    const char* rates;
+};
+
+const Operator operators_of_planes[] = {
+    {"lap of a species", "u' = lap(u)\nv' = lap(v)\n"},
+    {"lap of an expression", "u' = lap(u * v + k)\nv' = lap(sin(v))\n"},
+    {"nested", "w = u^3 - u - 0.5 * lap(u)\nu' = lap(w)\nv' = lap(lap(k * v))\n"},
+    {"first derivatives", "u' = dx(v) + 2 * dy(u * k)\nv' = grad2(u + v)\n"},
+    {"second derivatives", "u' = dxx(u) - dyy(v)\nv' = dxy(u) + dxy(u * k)\n"},
+    {"advect", "u' = -advect(v, k - 1, u)\nv' = -advect(u, v, k * v)\n"},
+    {"diffuse", "u' = diffuse(u, 1, 0.3, a)\nv' = diffuse(u * v, 0.4, 0.9, 0.5)\n"},
+    {"flux", "u' = div(k * grad(u)) - div(v * u * grad(v))\nv' = div(grad(lap(v)) / k)\n"},
+    {"flux of a vector", "u' = div(vector(u * v, k))\nv' = div(v * vector(1, -2))\n"},
+    {"tensor", "u' = div(tensor(1, 0.2, a) * grad(u))\nv' = div(tensor(k, 0.5, 1) * grad(u * v))\n"},
+};
+
+/// The part of a large grid inside of a box against a small grid of its own, cell by cell.
+void expect_box_is_grid(const std::string& rates, const std::string& stage, GridSize large,
+                        GridSize small, GridSize corner, const std::string& what) {
+    const auto script = [&](GridSize size, GridSize from, const std::string& domain) {
+        const std::int64_t longest = std::max({size.width, size.height, size.depth});
+        std::string text = fmt::format(
+            "domain {{ grid: {}, {}, {}; {} }}\n{}stage only: s {{ {} }}\n", size.width, size.height,
+            size.depth, domain, system_of(rates), stage);
+        const auto count = [&](const char* name, const char* axis, std::int64_t first) {
+            const std::string key = fmt::format("{}: {}", name, static_cast<char>(name[0] - 32));
+            text.replace(text.find(key), key.size(),
+                         fmt::format("{}: floor({} * {}) - {}", name, longest, axis, first));
+        };
+        count("p", "x", from.width);
+        count("q", "y", from.height);
+        count("r", "z", from.depth);
+        return text;
+    };
+    const auto between = [&](const char* axis, std::int64_t first, std::int64_t count) {
+        const std::int64_t longest = std::max({large.width, large.height, large.depth});
+        return fmt::format("{0} > {1}/{3} and {0} < {2}/{3}", axis, first, first + count, longest);
+    };
+    const std::string box = fmt::format(
+        "mask: {} and {} and {}", between("x", corner.width, small.width),
+        between("y", corner.height, small.height), between("z", corner.depth, small.depth));
+    const auto masked = run_text(script(large, corner, box));
+    const auto plain = run_text(script(small, {0, 0, 0}, "boundary: noflux"));
+    ASSERT_EQ(masked->failure, "") << what;
+    ASSERT_EQ(plain->failure, "") << what;
+    for (const std::string name : {"u", "v"}) {
+        const Field& found = masked->field(name);
+        const Field& expected = plain->field(name);
+        int wrong = 0;
+        for (std::int64_t k = 0; k < large.depth; ++k) {
+            for (std::int64_t j = 0; j < large.height; ++j) {
+                for (std::int64_t i = 0; i < large.width; ++i) {
+                    const std::int64_t x = i - corner.width, y = j - corner.height,
+                                       z = k - corner.depth;
+                    const bool is_inside = x >= 0 && x < small.width && y >= 0 &&
+                                           y < small.height && z >= 0 && z < small.depth;
+                    const float right = is_inside ? expected.at(x, y, z) : 0.0F;
+                    if (word(found.at(i, j, k)) != word(right)) ++wrong;
+                }
+            }
+        }
+        EXPECT_EQ(wrong, 0) << what << ", " << name;
+    }
+}
+
+TEST(Mask, ABoxIsTheSmallGridToTheBit) {
+    for (const Operator& each : operators_of_planes) {
+        expect_box_is_grid(each.rates, "iterations: 7; speed: 0.01", {32, 24, 1}, {16, 8, 1},
+                           {5, 7, 0}, each.name);
+    }
+}
+
+TEST(Mask, ABoxAtTheSideIsTheSmallGridToTheBit) {
+    // The other side of the grid lies beyond: periodic neighbours are outside.
+    for (const Operator& each : operators_of_planes) {
+        expect_box_is_grid(each.rates, "iterations: 7; speed: 0.01", {32, 24, 1}, {16, 8, 1},
+                           {0, 16, 0}, each.name);
+    }
+}
+
+TEST(Mask, ABoxOfALineOrAVolumeIsTheSmallGridToTheBit) {
+    expect_box_is_grid("u' = lap(u + v * lap(v))\nv' = dx(u) + div(k * grad(v))\n",
+                       "iterations: 7; speed: 0.01", {64, 1, 1}, {16, 1, 1}, {9, 0, 0}, "line");
+    expect_box_is_grid("u' = lap(u) + dxz(v) - dyz(k * u)\nv' = div(u * grad(v)) + grad2(u) + dxy(v)\n",
+                       "iterations: 5; speed: 0.01", {16, 8, 16}, {8, 4, 8}, {3, 2, 5}, "volume");
+}
+
+TEST(Mask, SolversTakeTheStepsOfTheSmallGrid) {
+    for (const char* stage :
+         {"iterations: 9; speed: 0.05; solver: rk4", "iterations: 9; speed: 0.05; solver: symplectic",
+          "duration: 5; speed: auto; solver: rkl2", "duration: 2; speed: auto",
+          "iterations: 9; speed: 0.05; frozen: [p] > 3 and [q] < 5"}) {
+        expect_box_is_grid("u' = 0.5 * lap(u) - u + v\nv' = lap(v) - v^3\n", stage, {32, 24, 1},
+                           {16, 8, 1}, {5, 7, 0}, stage);
+    }
+}
+
+/// A mask that is the same everywhere changes no bit, whatever the sides are.
+TEST(Mask, AMaskOfAllCellsIsNone) {
+    for (const char* boundary : {"boundary: periodic", "boundary: noflux",
+                                 "boundary: noflux, periodic; left: fixed(1); right: flux(0.3)"}) {
+        for (const Operator& each : operators_of_planes) {
+            std::string system = system_of(each.rates);
+            for (const auto& [name, axis] :
+                 {std::pair{"p: P", "p: 24 * x"}, {"q: Q", "q: 24 * y"}, {"r: R", "r: 0"}}) {
+                system.replace(system.find(name), 4, axis);
+            }
+            const auto script = [&](const char* mask) {
+                return fmt::format("domain {{ grid: 24, 20; {}; {} }}\n{}"
+                                   "stage only: s {{ iterations: 5; speed: 0.01 }}\n",
+                                   boundary, mask, system);
+            };
+            const auto plain = run_text(script("seed: 1"));
+            const auto masked = run_text(script("mask: 2 + x"));
+            for (const std::string name : {"u", "v"}) {
+                int wrong = 0;
+                for (std::int64_t row = 0; row < 20; ++row) {
+                    for (std::int64_t i = 0; i < 24; ++i) {
+                        wrong += word(plain->field(name).at(i, row)) !=
+                                 word(masked->field(name).at(i, row));
+                    }
+                }
+                EXPECT_EQ(wrong, 0) << each.name << ", " << boundary;
+            }
+        }
+    }
+}
+
+/// A blob that reaches across periodic sides, and the same one in the middle of the grid.
+TEST(Mask, TheOppositeSideIsBeside) {
+    constexpr int side = 32;
+    const auto script = [&](int across, int down) {
+        return fmt::format(
+            "domain {{ grid: {0}, {0}; mask: hypot(mod({0} * x - {1}, {0}) - 16, "
+            "mod({0} * y - {2}, {0}) - 16) < 9 or abs(mod({0} * y - {2}, {0}) - 12) < 1 }}\n"
+            "system s {{\n  p: mod({0} * x - {1}, {0}); q: mod({0} * y - {2}, {0})\n"
+            "  u: sin(p + 2 * q); v: cos(p - q)\n"
+            "  u' = lap(u * v) + dxy(u)\n  v' = div(tensor(1, 0.2, u) * grad(v)) + dx(u)\n}}\n"
+            "stage only: s {{ iterations: 6; speed: 0.01 }}\n",
+            side, across, down);
+    };
+    const auto there = run_text(script(0, 0));
+    const auto here = run_text(script(13, 20));
+    for (const std::string name : {"u", "v"}) {
+        for (int j = 0; j < side; ++j) {
+            for (int i = 0; i < side; ++i) {
+                ASSERT_EQ(word(there->field(name).at(i, j)),
+                          word(here->field(name).at((i + 13) % side, (j + 20) % side)))
+                    << name << " " << i << " " << j;
+            }
+        }
+    }
+}
+
+/// Corners that a border turns around favour neither axis.
+TEST(Mask, MixedDerivativesFavourNoAxis) {
+    const auto script = [](const char* x, const char* y) {
+        return fmt::format(
+            "domain {{ grid: 30, 30; mask: sin(17 * {0} + 3 * {1}) + cos(19 * {1} * {0}) > -0.4 }}\n"
+            "system s {{\n  u: sin(5 * {0} + 9 * {1}) + {0}\n  u' = dxy(u)\n}}\n"
+            "stage only: s {{ iterations: 1 }}\n", x, y);
+    };
+    const auto one = run_text(script("x", "y"));
+    const auto other = run_text(script("y", "x"));
+    for (int j = 0; j < 30; ++j) {
+        for (int i = 0; i < 30; ++i) {
+            ASSERT_EQ(word(one->field("u").at(i, j)), word(other->field("u").at(j, i)));
+        }
+    }
+}
+
+double sum_of(const Field& field) {
+    double sum = 0;
+    for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
+        for (std::int64_t i = 0; i < field.layout().width; ++i) {
+            sum += static_cast<double>(field.row(row)[i]);
+        }
+    }
+    return sum;
+}
+
+/// Outside cells are 0, so the sum over the grid is that over the domain.
+TEST(Mask, FluxesLoseNothing) {
+    for (const char* rate :
+         {"lap(u)", "lap(u^3 - u - 0.5 * lap(u))", "div((1 + u^2) * grad(u))",
+          "div(tensor(1, 0.2, 3 * x) * grad(u))", "div(u * vector(sin(9 * y), 1))",
+          "-div(u * grad(lap(u)))"}) {
+        for (const char* domain :
+             {"grid: 48, 40; mask: disc(0.4, 0.3, 0.33) and not disc(0.5, 0.4, 0.1)",
+              "grid: 40, 40; boundary: noflux; mask: noise(0.2) > -0.1",
+              "grid: 40, 40; spacing: 0.8; mask: noise(0.1) > -0.1"}) {
+            const auto text = [&](int steps) {
+                return fmt::format("domain {{ {} }}\nsystem s {{\n  u: 1 + random(0, 0.5)\n"
+                                   "  u' = {}\n}}\nstage only: s {{ iterations: {}; speed: 0.002 }}\n",
+                                   domain, rate, steps);
+            };
+            const double before = sum_of(run_text(text(0))->field("u"));
+            const auto after = run_text(text(400));
+            ASSERT_EQ(after->failure, "");
+            EXPECT_NEAR(sum_of(after->field("u")) / before, 1, 2e-6) << rate << " in " << domain;
+        }
+    }
+}
+
+/// The slowest mode of a disc without flux decays as exp(-(1.8412 / R)² D t): 1.8412 is the first
+/// zero of J₁' (M. Abramowitz and I. Stegun, Handbook of Mathematical Functions, table 9.5).
+double decay_in_disc(int side, double radius_in_cells) {
+    const double d = 0.2;
+    const double rate = std::pow(1.8411838 / radius_in_cells, 2) * d;
+    const auto amplitude = [&](double t) {
+        const auto ran = run_text(fmt::format(
+            "domain {{ grid: {0}, {0}; mask: hypot(x - 0.5, y - 0.5) < {1} }}\n"
+            "system heat {{\n  u: x - 0.5\n  u' = {2} * lap(u)\n}}\n"
+            "stage only: heat {{ iterations: {3} }}\n",
+            side, radius_in_cells / side, d, static_cast<int>(t / rate)));
+        const Field& u = ran->field("u");
+        double sum = 0;
+        for (int j = 0; j < side; ++j) {
+            for (int i = 0; i < side; ++i) {
+                sum += static_cast<double>(u.at(i, j)) * ((i + 0.5) / side - 0.5);
+            }
+        }
+        return sum;
+    };
+    // By then the next mode, of 5.3314, has decayed e⁻⁸ times as much.
+    return std::log(amplitude(1.2) / amplitude(2.2));
+}
+
+TEST(Mask, TheSlowestModeOfADiscDecaysAsItShould) {
+    const double coarse = decay_in_disc(28, 12.25), fine = decay_in_disc(104, 49);
+    std::printf("decay of the slowest mode of a disc, theory 1: R = 12.25: %.4f, R = 49: %.4f\n",
+                coarse, fine);
+    EXPECT_NEAR(coarse, 1, 0.05);
+    EXPECT_NEAR(fine, 1, 0.012);
+    EXPECT_LT(std::abs(fine - 1), std::abs(coarse - 1));
+}
+
+TEST(Mask, AggregatesAreOfTheDomain) {
+    const auto ran = run_text(
+        "domain { grid: 20, 10; mask: x < 0.25 }\n"
+        "system s {\n"
+        "  u: 3 + x\n  u' = 0\n"
+        "  count: sum(1 over domain)\n  total: sum(u over domain)\n  middle: mean(2 over domain)\n"
+        "  mean_x: mean(x over domain)\n  least: min(7 - x over domain)\n"
+        "  most: max(x over domain)\n  lowest: min([u] over domain)\n}\n"
+        "stage only: s { iterations: 2 }\n");
+    ASSERT_EQ(ran->failure, "");
+    EXPECT_EQ(ran->number("count"), 50);
+    EXPECT_EQ(ran->number("middle"), 2);
+    EXPECT_NEAR(ran->number("mean_x"), 0.125, 1e-6);
+    EXPECT_NEAR(ran->number("total"), 50 * 3.125, 1e-4);
+    EXPECT_NEAR(ran->number("least"), 7 - 0.225, 1e-6);
+    EXPECT_NEAR(ran->number("most"), 0.225, 1e-6);
+    EXPECT_NEAR(ran->number("lowest"), 3.025, 1e-6);
+}
+
+TEST(Mask, MeansInRatesAreOfTheDomain) {
+    // The mean flows back, so that it stays what it is.
+    const auto ran = run_text(
+        "domain { grid: 24, 24; mask: disc(0.5, 0.5, 0.3) }\n"
+        "system s {\n  u: 1 + x\n  u' = 1 - u^2 - mean(1 - u^2 over domain)\n}\n"
+        "stage only: s { iterations: 50; speed: 0.1 }\n");
+    EXPECT_NEAR(sum_of(ran->field("u")) / static_cast<double>(ran->simulation->mask()->cells), 1.5,
+                1e-5);
+}
+
+/// Whatever formulas are outside, nothing inside knows of it.
+TEST(Mask, OutsideMayBeAnything) {
+    const auto ran = run_text(
+        "domain { grid: 24, 24; mask: x > 0.2 and x < 0.7 }\n"
+        "system s {\n  k: 1 / (x > 0.2 and x < 0.7)\n  speed: if(x < 0.2, -1, 0.1)\n"
+        "  u: k * sin(9 * x)\n  v: sqrt(x - 0.2)\n"
+        "  u' = k * lap(u) + div(k * grad(u)) + log(u + 2)\n  v' = lap(v / k) - 1 / u\n}\n"
+        "stage only: s { iterations: 20 }\n");
+    EXPECT_EQ(ran->failure, "");
+    EXPECT_TRUE(std::isfinite(sum_of(ran->field("u"))));
+    EXPECT_TRUE(std::isfinite(sum_of(ran->field("v"))));
+}
+
+TEST(Mask, NotANumberIsOutside) {
+    const auto ran = run_text("domain { grid: 10, 10; mask: 1 / sqrt(x - 0.5) }\n"
+                              "system s { u: 1; u' = 0; }\nstage only: s { iterations: 1 }\n");
+    EXPECT_EQ(ran->simulation->mask()->cells, 50);
+}
+
+TEST(Mask, ADomainHasCells) {
+    const auto ran = run_text("domain { grid: 10, 10; mask: x > 2 }\n"
+                              "system s { u: 1; u' = 0; }\nstage only: s { iterations: 1 }\n");
+    EXPECT_NE(ran->failure.find("no cell is inside the mask"), std::string::npos) << ran->failure;
+}
+
+TEST(Mask, ASteadyStateIsFoundAsOnTheSmallGrid) {
+    const auto steps = [](const char* domain, int longest) {
+        const auto ran = run_text(fmt::format(
+            "domain {{ {} }}\nsystem s {{\n  p: {} * x\n  u: 2 + sin(0.2 * p)\n"
+            "  u' = 0.2 * lap(u) - 0.01 * (u - 2 - p / 16)\n}}\n"
+            "stage only: s {{ until: steady(0.05) }}\n", domain, longest));
+        EXPECT_EQ(ran->failure, "");
+        return ran->simulation->state(0).steps;
+    };
+    const auto small = steps("grid: 16, 16; boundary: noflux", 16);
+    EXPECT_GT(small, 100);
+    EXPECT_LT(small, 100000);
+    EXPECT_EQ(steps("grid: 32, 32; mask: x < 0.5 and y < 0.5", 32), small);
+}
+
+TEST(Mask, TooLargeAStepIsExplained) {
+    const auto ran = run_text(
+        "domain { grid: 40, 40; mask: disc(0.5, 0.5, 0.3) }\n"
+        "system s {\n  u: sin(40 * x * y)\n  u' = lap(u) - u^3\n}\n"
+        "stage only: s { iterations: 4000; speed: 0.3 }\n");
+    // Diffusion alone is stable up to 2 / 8; the reaction takes a part of that.
+    const std::string words = "the largest stable speed is about ";
+    const auto at = ran->failure.find(words);
+    ASSERT_NE(at, std::string::npos) << ran->failure;
+    const double found = std::stod(ran->failure.substr(at + words.size()));
+    EXPECT_GT(found, 0.15);
+    EXPECT_LT(found, 0.25);
+}
+
+TEST(Mask, AdaptiveStepsAreThoseOfTheSmallGrid) {
+    const auto steps = [](const char* domain, const char* p) {
+        const auto ran = run_text(fmt::format(
+            "domain {{ {} }}\nsystem s {{\n  p: {}\n  u: sin(0.7 * p)\n  u' = lap(u) - u^3\n}}\n"
+            "stage only: s {{ solver: rk45; duration: 30 }}\n", domain, p));
+        EXPECT_EQ(ran->failure, "");
+        return ran->simulation->state(0).steps;
+    };
+    const auto small = steps("grid: 16, 16; boundary: noflux", "16 * x");
+    const auto masked = steps("grid: 64, 32; mask: x < 0.25 and y < 0.25", "64 * x");
+    EXPECT_NEAR(static_cast<double>(masked), static_cast<double>(small), 1);
+}
+
+}  // namespace
+}  // namespace cascade
