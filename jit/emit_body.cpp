@@ -351,6 +351,8 @@ BodyScope::Forms BodyScope::emit_word(const Instruction& instruction) {
     Forms value;
     if (instruction.op == Op::bits_to_number) {
         value.number = builder_.CreateSIToFP(a, number_type_);
+        // A bit that is tested needs no conversion.
+        value.truth = builder_.CreateICmpNE(a, llvm::ConstantInt::get(bits_type_, 0));
         return value;
     }
     llvm::Value* b = bits(instruction.operands[1]);
