@@ -15,17 +15,21 @@ struct Row {
     double interval;  ///< Of stability on the negative axis; of those without stages.
 };
 
-/// In the order of Solver. The intervals are the zeros of |R(z)| = 1 on the negative axis, R being
+/// In the order of Solver. Semi-implicit solvers have the interval of what they take explicitly: two
+/// of them are Euler's method where nothing diffuses, imex2 is Heun's. The intervals are the zeros of |R(z)| = 1 on the negative axis, R being
 /// the stability polynomial (E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II",
 /// 1996, section IV.2); of Dormand-Prince the one of its fifth order formula.
-constexpr std::array<Row, 8> rows{{{"euler", 1, 2.0},
+constexpr std::array<Row, 11> rows{{{"euler", 1, 2.0},
                                    {"symplectic", 1, 2.0},
                                    {"rk2", 2, 2.0},
                                    {"rk4", 4, 2.785},
                                    {"rk23", 3, 2.512},
                                    {"rk45", 5, 3.306},
                                    {"rkl1", 1, 0},
-                                   {"rkl2", 2, 0}}};
+                                   {"rkl2", 2, 0},
+                                   {"imex", 1, 2.0},
+                                   {"imex2", 2, 2.0},
+                                   {"gauss", 1, 2.0}}};
 
 const Row& row(Solver solver) { return rows[static_cast<std::size_t>(solver)]; }
 
@@ -48,6 +52,9 @@ std::vector<std::string> solver_names() {
 
 bool is_adaptive(Solver solver) { return solver == Solver::rk23 || solver == Solver::rk45; }
 bool is_stabilised(Solver solver) { return solver == Solver::rkl1 || solver == Solver::rkl2; }
+bool is_semi_implicit(Solver solver) {
+    return solver == Solver::imex || solver == Solver::imex2 || solver == Solver::gauss;
+}
 bool takes_speed_by_cell(Solver solver) {
     return solver == Solver::euler || solver == Solver::symplectic;
 }

@@ -10,7 +10,9 @@
 namespace cascade {
 
 /// The values of the setting `solver`.
-enum class Solver : std::uint8_t { euler, symplectic, rk2, rk4, rk23, rk45, rkl1, rkl2 };
+enum class Solver : std::uint8_t {
+    euler, symplectic, rk2, rk4, rk23, rk45, rkl1, rkl2, imex, imex2, gauss
+};
 
 std::string_view name_of(Solver solver);
 std::optional<Solver> solver_of(std::string_view name);
@@ -20,6 +22,12 @@ std::vector<std::string> solver_names();
 bool is_adaptive(Solver solver);
 /// Does it take more stages the longer the step is (Runge-Kutta-Legendre)?
 bool is_stabilised(Solver solver);
+/// Does it take diffusion implicitly or exactly, and only the rest by its rate at the old step?
+bool is_semi_implicit(Solver solver);
+/// Are its steps as long as the reaction allows, however fast diffusion is?
+inline bool takes_long_steps(Solver solver) {
+    return is_stabilised(solver) || is_semi_implicit(solver);
+}
 /// May the time step vary by cell?
 bool takes_speed_by_cell(Solver solver);
 /// Its order: the error of a whole run is proportional to step^order.

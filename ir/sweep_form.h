@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace cascade {
@@ -64,9 +65,23 @@ struct SweepForm {
 /// step, 1 becomes the new one, further ones are scratch.
 inline constexpr std::uint32_t old_register = 0, new_register = 1;
 
+/// What becomes of a wave that diffusion changes at the rate M ≤ 0 in a step of length h.
+enum class WaveResponse : std::uint8_t {
+    implicit,     ///< 1 / (1 − h M): diffusion as it is at the end of the step.
+    exponential,  ///< (exp(h M) − 1) / (h M): diffusion solved exactly.
+};
+
+/// Multiplies every wave of all species in a register.
+struct SweepFilter {
+    std::uint32_t in_register = 0;
+    WaveResponse response = WaveResponse::implicit;
+    double part = 1;  ///< h is so many time steps.
+};
+
 /// One sweep of a scheme: a form with its arguments.
 struct Sweep {
     std::uint32_t form = 0;               ///< Number of the form in its scheme.
+    std::optional<SweepFilter> filter;    ///< Done before the sweep.
     std::vector<std::uint32_t> inputs;    ///< Register of each input.
     std::vector<std::uint32_t> outputs;   ///< Register of each output; none of them is an input.
     /// Species with a number below this are read from register 1 wherever input 0 is read.

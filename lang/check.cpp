@@ -3,6 +3,7 @@
 
 #include "core/check.h"
 #include "lang/check_blocks.h"
+#include "lang/check_semi_implicit.h"
 #include "lang/library.h"
 #include "lang/user_functions.h"
 
@@ -71,7 +72,12 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
         checking::check_stage_sides(work, script);
         checking::check_picture(work, script);
         // What could not be read may have been what reads a parameter.
-        if (!own.has_errors() && !diagnostics.has_errors()) checking::warn_unread(work);
+        if (!own.has_errors() && !diagnostics.has_errors()) {
+            checking::warn_unread(work);
+            for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+                checking::check_semi_implicit(program, k, program.stages[k].time.solver_span, own);
+            }
+        }
     }
     for (Diagnostic& diagnostic : own.sorted()) diagnostics.add(std::move(diagnostic));
     if (diagnostics.has_errors()) return std::nullopt;
@@ -107,7 +113,7 @@ std::optional<ast::Expression> picture_expression(const ast::Script& script) {
 std::vector<std::string> known_names(const Program& program) {
     std::set<std::string> names{"system", "stage", "domain", "picture", "system_name", "grid",
                                 "boundary", "seed", "mask", "color", "periodic", "noflux",
-                                "auto", "steady",
+                                "auto", "steady", "coarse",
                                 "x", "y", "z", "sx", "sy", "sz", "t", "step", "pi", "and", "or", "not"};
     names.insert(checking::setting_names().begin(), checking::setting_names().end());
     for (std::string& solver : solver_names()) names.insert(std::move(solver));

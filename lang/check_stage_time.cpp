@@ -1,5 +1,6 @@
 // Time of a whole stage: settings and their defaults, and whether they go together.
 #include "lang/check.h"
+#include "lang/check_semi_implicit.h"
 #include "lang/check_time.h"
 
 #include <fmt/format.h>
@@ -107,8 +108,11 @@ void check_condition(Workspace& work, const Stage& stage) {
 void fill_time(Stage& stage, const Settings& own, const Settings& defaults) {
     StageTime& time = stage.time;
     time.solver = pick(own.time.solver, defaults.time.solver, Solver::euler);
+    time.solver_span = (own.time.solver ? own : defaults).time.solver_span;
     time.tolerance = pick(own.time.tolerance, defaults.time.tolerance, time.tolerance);
     time.automatic_speed = pick(own.time.automatic_speed, defaults.time.automatic_speed, false);
+    time.coarse = pick(own.time.coarse, defaults.time.coarse, time.coarse);
+    time.coarse_span = (own.time.coarse ? own : defaults).time.coarse_span;
     time.check = pick(own.time.check, defaults.time.check, time.check);
     const bool own_condition = own.time.until || own.time.steady;
     const TimeSettings& condition = own_condition ? own.time : defaults.time;
@@ -147,7 +151,8 @@ void check_time(Workspace& work, std::uint32_t index) {
 namespace cascade {
 
 void change_solver(Program& program, Solver solver, Span span, Diagnostics& diagnostics) {
-    for (Stage& stage : program.stages) {
+    for (std::uint32_t index = 0; index < program.stages.size(); ++index) {
+        Stage& stage = program.stages[index];
         const System& system = program.systems[stage.system];
         if (!takes_speed_by_cell(solver) && !stage.uniform[system.speed_item()]) {
             diagnostics.error(span, fmt::format("{} cannot take the speed of stage '{}', which varies "
@@ -155,11 +160,12 @@ void change_solver(Program& program, Solver solver, Span span, Diagnostics& diag
             continue;
         }
         stage.time.solver = solver;
-        if (is_adaptive(solver) || is_stabilised(solver)) {
+        checking::check_semi_implicit(program, index, span, diagnostics);
+        if (is_adaptive(solver) || takes_long_steps(solver)) {
             checking::count_duration_in_steps(stage);
             if (stage.time.has_duration()) stage.interval = 0;
         }
-        if (is_stabilised(solver)) stage.time.automatic_speed = true;
+        if (takes_long_steps(solver)) stage.time.automatic_speed = true;
         if (!stage.time.chooses_steps()) continue;
         if (const Node* reader = checking::reader_of_speed(program, stage)) {
             Diagnostic diagnostic;
@@ -168,6 +174,30 @@ void change_solver(Program& program, Solver solver, Span span, Diagnostics& diag
                                              "read", name_of(solver), stage.name);
             diagnostic.notes.push_back({reader->span, "it is read here"});
             diagnostics.add(std::move(diagnostic));
+        }
+    }
+}
+
+void check_coarse_starts(const Program& program, Diagnostics& diagnostics) {
+    constexpr std::int64_t fewest_cells = 4;
+    const Grid& grid = program.domain.grid;
+    for (const Stage& stage : program.stages) {
+        const std::int64_t times = stage.time.coarse;
+        if (times == 1) continue;
+        if (program.domain.surface) {
+            diagnostics.error(stage.time.coarse_span,
+                              fmt::format("stage '{}' starts on a coarser grid, which a surface does "
+                                          "not have", stage.name));
+            continue;
+        }
+        for (const std::int64_t cells : {grid.width, grid.height, grid.depth}) {
+            if (cells == 1 || (cells % times == 0 && cells / times >= fewest_cells)) continue;
+            diagnostics.error(stage.time.coarse_span,
+                              fmt::format("a side of {} cells has no grid of {} times as wide cells",
+                                          cells, times),
+                              fmt::format("sides must be multiples of {}, and {} at least", times,
+                                          fewest_cells * times));
+            break;
         }
     }
 }

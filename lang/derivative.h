@@ -21,6 +21,9 @@ std::optional<Formula> rate_derivative(const Program& program, std::uint32_t sta
 struct JacobianBound {
     Formula whole;     ///< Reaction and operators.
     Formula reaction;  ///< Without lap of species: what is left when diffusion costs nothing.
+    /// Without any operator through which a species reads itself: what is left when waves of each
+    /// species are damped at no cost.
+    Formula without_own_operators;
 };
 
 /// Empty as above, or where the formulas become too large.

@@ -165,6 +165,10 @@ std::optional<double> gain(Function function, const Grid& grid) {
 
 }  // namespace
 
+std::optional<PartId> partial_derivative(FormulaBuilder& builder, PartId id, std::size_t n) {
+    return Rules(builder, builder[id]).partial(n);
+}
+
 std::optional<Slope> slope_of(FormulaBuilder& builder, PartId id, std::uint32_t species,
                               const std::vector<Slope>& before, const Grid& grid) {
     const Node node = builder[id];

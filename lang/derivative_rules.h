@@ -4,6 +4,7 @@
 #include "core/grid.h"
 #include "lang/formula_builder.h"
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct Slope {
     /// The part of `far` that is not through lap of a species itself: it may make a mode grow.
     PartId wide = 0;
 };
+
+/// ∂(part `id`) / ∂(its operand n), the others held fixed, where its function has a rule for it.
+std::optional<PartId> partial_derivative(FormulaBuilder& builder, PartId id, std::size_t n);
 
 /// The slope of part `id` by species item `species`, given those of all parts before it. Empty where
 /// the part depends on the species and there is no rule for it.

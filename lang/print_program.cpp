@@ -58,6 +58,7 @@ const char* kind_of(const Program& program, std::uint32_t index, std::uint32_t i
 void print_time(const Program& program, const System& system, const Stage& stage,
                 std::uint32_t index, Output out) {
     const StageTime& time = stage.time;
+    if (time.coarse > 1) fmt::format_to(out, "  start: coarse({})\n", time.coarse);
     if (time.solver != Solver::euler) fmt::format_to(out, "  solver: {}\n", name_of(time.solver));
     if (is_adaptive(time.solver)) fmt::format_to(out, "  tolerance: {}\n", time.tolerance);
     if (time.duration) fmt::format_to(out, "  duration: {}\n", *time.duration);

@@ -151,17 +151,21 @@ struct Invariant {
 /// Settings of time that a system may give as defaults and a stage may replace.
 struct TimeSettings {
     std::optional<Solver> solver;
+    Span solver_span;                     ///< Where it was written.
     std::optional<double> tolerance;
     std::optional<double> duration;
     std::optional<bool> automatic_speed;  ///< `speed: auto`; false where `speed` is an expression.
     std::optional<Formula> until;         ///< Either a condition …
     std::optional<double> steady;         ///< … or `steady(…)`.
     std::optional<std::int64_t> check;
+    std::optional<std::int64_t> coarse;   ///< `start: coarse(…)`.
+    Span coarse_span;
 };
 
 /// How the time of a stage goes on (spec/time.md).
 struct StageTime {
     Solver solver = Solver::euler;
+    Span solver_span;                 ///< Where it was written, for messages.
     double tolerance = 1e-4;          ///< Of an adaptive solver: relative error of a step.
     /// The stage ends when t is so large; empty where it ends after its iterations.
     std::optional<double> duration;
@@ -172,6 +176,9 @@ struct StageTime {
     std::optional<Formula> until;     ///< The stage ends where this, the same in all cells, is true.
     std::optional<double> steady;     ///< The stage ends when nothing changes by more.
     std::int64_t check = 100;         ///< Steps between two looks at `until`.
+    /// The stage is run first on a grid whose cells are so many times as wide; 1 for no such run.
+    std::int64_t coarse = 1;
+    Span coarse_span;                 ///< Where that was written.
 
     bool has_duration() const { return duration || duration_in_steps; }
     /// Are the steps of different length, chosen as the stage runs?

@@ -1,5 +1,7 @@
 #include "measure/spectrum.h"
 
+#include "core/transform_planner.h"
+
 #include <fftw3.h>
 
 #include <algorithm>
@@ -14,12 +16,6 @@ namespace {
 
 /// From a peak to its ends: below √2, where the second wave of a square lattice lies.
 constexpr double peak_breadth = 1.3;
-
-/// FFTW makes one plan at a time; transforms themselves may run at once.
-std::mutex& planner() {
-    static std::mutex mutex;
-    return mutex;
-}
 
 struct FreeBuffer {
     void operator()(double* buffer) const { fftw_free(buffer); }
@@ -55,11 +51,11 @@ void transform(const Samples& samples, double* values) {
     }
     fftw_plan plan = nullptr;
     {
-        const std::lock_guard lock(planner());
+        const std::lock_guard lock(transform_planner());
         plan = fftw_plan_r2r(3, sizes, values, values, kinds, FFTW_ESTIMATE);
     }
     fftw_execute(plan);
-    const std::lock_guard lock(planner());
+    const std::lock_guard lock(transform_planner());
     fftw_destroy_plan(plan);
 }
 

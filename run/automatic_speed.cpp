@@ -13,7 +13,22 @@ bool is_usable(double bound) { return std::isfinite(bound) && bound > 0; }
 
 }  // namespace
 
-std::int64_t choose_every(Solver solver) { return is_stabilised(solver) ? 10 : 100; }
+double fastest_growth(const DiffusionTerms<double>& least, const Grid& grid) {
+    constexpr int samples = 400;
+    constexpr double range = 1e8;
+    const double largest = 4 * grid.stencil().axes() / (grid.spacing * grid.spacing);
+    const double axis = std::min({least[4], least[5], least[6]});
+    double fastest = 0;
+    for (int n = 0; n <= samples; ++n) {
+        const double q = largest * std::pow(range, -n / double{samples});
+        const double damping =
+            q * (axis + least[0] + q * (least[1] + q * (least[2] + q * least[3])));
+        fastest = std::max(fastest, -damping);
+    }
+    return fastest;
+}
+
+std::int64_t choose_every(Solver solver) { return takes_long_steps(solver) ? 10 : 100; }
 
 std::uint32_t choose_stages(Solver solver, const RateBounds& bounds, double step) {
     // The limit of explicit Euler is 2 / bound.
@@ -26,6 +41,13 @@ StepChoice choose_step(Solver solver, const RateBounds& bounds, double duration)
     if (!std::isfinite(bounds.whole) || !std::isfinite(bounds.reaction)) {
         choice.step = cautious_part * duration;
         choice.stages = is_stabilised(solver) ? 3 : 0;
+        return choice;
+    }
+    if (is_semi_implicit(solver)) {
+        choice.step = longest;
+        if (is_usable(bounds.reaction)) {
+            choice.step = std::min(longest, reaction_part / bounds.reaction);
+        }
         return choice;
     }
     if (!is_stabilised(solver)) {

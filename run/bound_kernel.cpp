@@ -208,7 +208,7 @@ StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const Bindin
 }
 
 StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
-                        const Compile& compile, const BindingContext& context,
+                        const StepPlan& before, const Compile& compile, const BindingContext& context,
                         const System& system, std::uint32_t stage) {
     std::vector<Binder> binders;
     StepProblem whole;
@@ -218,19 +218,25 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     whole.error_register = scheme.error_register;
     whole.sides = context.states[stage].sides;
     whole.species_needs_halo.assign(context.states[stage].species.size(), false);
-    for (const Sweep& sweep : scheme.sweeps) {
-        Binder& binder = binders.emplace_back(plans[sweep.form], context, &system, stage,
-                                              &scheme.forms[sweep.form], &sweep);
+    std::vector<const Sweep*> sweeps;
+    const auto add = [&](const StepPlan& plan, const SweepForm* form, const Sweep* sweep) {
+        Binder& binder = binders.emplace_back(plan, context, &system, stage, form, sweep);
+        sweeps.push_back(sweep);
         for (std::size_t k = 0; k < whole.species_needs_halo.size(); ++k) {
             if (binder.species_needs_halo()[k]) whole.species_needs_halo[k] = true;
         }
+    };
+    if (!before.passes.empty()) add(before, nullptr, nullptr);
+    for (const Sweep& sweep : scheme.sweeps) {
+        add(plans[sweep.form], &scheme.forms[sweep.form], &sweep);
     }
-    for (Binder& binder : binders) {
-        binder.species_needs_halo() = whole.species_needs_halo;
-        StepProblem sweep = binder.bind(compile);
-        whole.temporaries = std::max(whole.temporaries, sweep.temporaries);
-        whole.aggregates = std::max(whole.aggregates, sweep.aggregates);
-        for (StepProblem::Pass& pass : sweep.passes) whole.passes.push_back(std::move(pass));
+    for (std::size_t n = 0; n < binders.size(); ++n) {
+        binders[n].species_needs_halo() = whole.species_needs_halo;
+        StepProblem part = binders[n].bind(compile);
+        whole.temporaries = std::max(whole.temporaries, part.temporaries);
+        whole.aggregates = std::max(whole.aggregates, part.aggregates);
+        if (sweeps[n] != nullptr) part.passes.front().filter = sweeps[n]->filter;
+        for (StepProblem::Pass& pass : part.passes) whole.passes.push_back(std::move(pass));
     }
     return whole;
 }

@@ -37,9 +37,10 @@ using Compile = std::function<KernelPointer(const CellKernel&)>;
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context,
                       const System& system, std::uint32_t stage);
 
-/// The passes of all sweeps of a scheme; `plans` are those of its forms (plan_sweep).
+/// The passes of all sweeps of a scheme; `plans` are those of its forms (plan_sweep). Those of
+/// `before`, which may have none, come first: they write temporaries alone.
 StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
-                        const Compile& compile, const BindingContext& context,
+                        const StepPlan& before, const Compile& compile, const BindingContext& context,
                         const System& system, std::uint32_t stage);
 
 /// Runs a plan once over the present values, its rows shared by the team; one field per result.

@@ -18,6 +18,15 @@ public:
     const Field& plane(std::uint32_t text) const { return planes_.at(text); }
     const Field& image(std::uint32_t text) const { return images_.at(text); }
 
+    /// The same files, a plane made of each.
+    template <typename Make>
+    InputFiles mapped(const Make& make) const {
+        InputFiles result;
+        for (const auto& [text, plane] : planes_) result.add(text, make(plane));
+        for (const auto& [text, plane] : images_) result.add_image(text, make(plane));
+        return result;
+    }
+
 private:
     std::map<std::uint32_t, Field> planes_;
     std::map<std::uint32_t, Field> images_;

@@ -1,6 +1,8 @@
 #include "run/memory.h"
 
 #include "core/plane.h"
+#include "core/resample.h"
+#include "lang/diffusion.h"
 #include "lang/lower.h"
 #include "solvers/scheme.h"
 
@@ -38,8 +40,31 @@ std::uint64_t scratch_planes(const Program& program, std::uint32_t stage) {
     for (std::uint32_t item = 0; item < system.item_count(); ++item) {
         if (system.is_species(item)) ++species;
     }
-    const Scheme scheme = make_scheme(program.stages[stage].time.solver, species, false);
-    return std::uint64_t{scheme.registers - 2} * species;
+    const Solver solver = program.stages[stage].time.solver;
+    const Scheme scheme = make_scheme(solver, species, false);
+    std::uint64_t planes = std::uint64_t{scheme.registers - 2} * species;
+    if (!is_semi_implicit(solver)) return planes;
+    // Factors of diffusion that change are written to planes.
+    for (const SpeciesDiffusion& diffusion : diffusion_of(program, stage)) {
+        planes += std::count_if(diffusion.begin(), diffusion.end(), [&](const Formula& factor) {
+            return !factor.nodes.empty() && changes_in_time(program, stage, factor);
+        });
+    }
+    return planes;
+}
+
+/// The elements of a plane and of those of the coarser grids that live beside it: of the one that is
+/// run and of the one before it.
+std::int64_t plane_size(const Program& program) {
+    const Grid& grid = program.domain.grid;
+    std::int64_t size = PlaneLayout(grid).size(), coarse = 0;
+    for (const Stage& stage : program.stages) {
+        if (stage.time.coarse == 1) continue;
+        const std::int64_t pair = PlaneLayout(coarser(grid, 2)).size() +
+                                  (stage.time.coarse > 2 ? PlaneLayout(coarser(grid, 4)).size() : 0);
+        coarse = std::max(coarse, pair);
+    }
+    return size + coarse;
 }
 
 }  // namespace
@@ -71,8 +96,7 @@ double memory_of(const Program& program) {
     planes += while_running;
     if (program.domain.surface) planes += metric_plane_count;
     if (program.domain.mask) planes += 2;  // One of words, one of bytes.
-    const PlaneLayout layout(program.domain.grid);
-    return static_cast<double>(planes) * static_cast<double>(layout.size()) * 4.0;
+    return static_cast<double>(planes) * static_cast<double>(plane_size(program)) * 4.0;
 }
 
 Result<void> check_memory(const Program& program, std::uint64_t limit) {

@@ -45,6 +45,11 @@ Failure describe(const NotFiniteReport& report) {
     failure.message = fmt::format(
         "stage '{}' ({}): {} is not finite any more at column {}, row {}, after step {}",
         report.stage, report.system, report.species, found.column, found.row, found.step);
+    if (!report.semi_implicit.empty()) {
+        failure.hint = fmt::format("{} takes diffusion alone for a step of any length, the reaction not; "
+                                   "try 'speed: {:.2g}'", report.semi_implicit, report.speed / 2);
+        return failure;
+    }
     const auto largest = limit(report);
     if (largest && explains(*largest, report.speed)) {
         failure.hint = advice(*largest, report.speed);

@@ -14,6 +14,7 @@ struct NotFiniteReport {
     NotFinite found;
     bool starting = false;                 ///< It was so before the first step.
     double speed = 0;                      ///< NaN where it varies by cell.
+    std::string semi_implicit;             ///< The solver's name, if it is such a one.
     StabilityEstimate estimate_before;     ///< At the last look before.
     StabilityEstimate estimate_at_start;   ///< At the stage's starting values.
 };

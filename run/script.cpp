@@ -148,6 +148,7 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
     apply_grid(script);
     apply_solver(script);
     apply_steps(script);
+    check_coarse_starts(*script.program, script.diagnostics);
     check_until_stage(script);
     if (!script.diagnostics.has_errors()) check_picture_block(script);
     if (script.diagnostics.has_errors()) script.program.reset();

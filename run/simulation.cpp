@@ -4,7 +4,9 @@
 #include "core/floating_point.h"
 #include "core/parallel.h"
 #include "ir/interpreter.h"
+#include "run/bound_diffusion.h"
 #include "run/bound_kernel.h"
+#include "run/coarse_start.h"
 #include "run/input_files.h"
 #include "run/memory.h"
 #include "run/not_finite.h"
@@ -62,6 +64,8 @@ struct Simulation::Implementation {
     std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
     std::optional<DomainMask> mask;
     std::vector<StageState> states;
+    std::optional<Program> own_program;  ///< Of a coarser grid.
+    std::string progress_note;           ///< Behind the stage's name in reports of progress.
 
     const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
     const DomainMask* inside() const { return mask ? &*mask : nullptr; }
@@ -123,6 +127,12 @@ struct Simulation::Implementation {
         return failure(fmt::format("stage '{}': its speed is {}, but a time step must be above 0",
                                    stage(k).name, slowest));
     }
+
+    /// The simulation of stage `k` on a grid whose cells are `times` as wide, ready to be started.
+    std::unique_ptr<Simulation> on_coarser_grid(std::uint32_t k, std::int64_t times) const;
+    /// Runs stage `k` on its coarser grids, each from what the one before it left, and takes the
+    /// species from the last.
+    Result<StageEnd> run_on_coarser_grids(std::uint32_t k, RunControl& control);
 
     StepProblem problem(const StepPlan& plan, const Compile& compile, std::uint32_t k) const {
         return bind_plan(plan, compile, context(k), program->system_of(k), k);
@@ -240,8 +250,12 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
         state.done = stage.time.has_duration() || state.steps >= stage.iterations;
         return state.done ? StageEnd::finished : StageEnd::stopped;
     }
+    if (state.steps == 0 && last_step > 0 && stage.time.coarse > 1) {
+        auto grown = self.run_on_coarser_grids(k, control);
+        if (!grown || *grown == StageEnd::cancelled) return grown;
+    }
     Progress progress;
-    progress.stage = stage.name;
+    progress.stage = stage.name + self.progress_note;
     progress.stage_number = static_cast<int>(k) + 1;
     progress.stage_count = static_cast<int>(self.script->stage_count());
     progress.steps = stage.iterations;
@@ -267,6 +281,50 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
                                  state.steps));
     }
     return state.done ? StageEnd::finished : StageEnd::stopped;
+}
+
+std::unique_ptr<Simulation> Simulation::Implementation::on_coarser_grid(
+    std::uint32_t k, std::int64_t times) const {
+    std::unique_ptr<Simulation> simulation(new Simulation);
+    Implementation& coarse = *simulation->self_;
+    coarse.script = script;
+    coarse.own_program = cascade::on_coarser_grid(*program, k, times);
+    coarse.program = &*coarse.own_program;
+    coarse.grid = coarse.program->domain.grid;
+    coarse.threads = threads;
+    coarse.interpreter = make_interpreter();
+    coarse.stepper = stepper;
+    coarse.team = std::make_unique<Team>(1);
+    coarse.files = restricted(files, grid, coarse.grid);
+    coarse.states.resize(states.size());
+    for (std::uint32_t earlier = 0; earlier < k; ++earlier) {
+        coarse.states[earlier] = restricted(states[earlier], grid, coarse.grid);
+    }
+    coarse.progress_note = fmt::format(", cells {} times as wide", times);
+    return simulation;
+}
+
+Result<StageEnd> Simulation::Implementation::run_on_coarser_grids(std::uint32_t k,
+                                                                  RunControl& control) {
+    std::unique_ptr<Simulation> before;
+    for (std::int64_t times = stage(k).time.coarse; times > 1; times /= 2) {
+        std::unique_ptr<Simulation> coarse = on_coarser_grid(k, times);
+        const auto note = [&](Failure failure) {
+            failure.message += fmt::format(" (on the grid with cells {} times as wide)", times);
+            return tl::unexpected(std::move(failure));
+        };
+        if (auto started = coarse->start_stage(k); !started) return note(started.error());
+        if (before) {
+            take_refined(coarse->self_->states[k], coarse->grid(), before->self_->states[k],
+                         before->grid());
+        }
+        auto end = coarse->advance_stage(k, coarse->program().stages[k].iterations, control, {});
+        if (!end) return note(end.error());
+        if (*end == StageEnd::cancelled) return end;
+        before = std::move(coarse);
+    }
+    take_refined(states[k], grid, before->self_->states[k], before->grid());
+    return StageEnd::finished;
 }
 
 void Simulation::set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps,
@@ -324,19 +382,27 @@ std::optional<std::uint32_t> Simulation::shown_stage() const {
 
 StageTools Simulation::Implementation::tools(std::uint32_t k, RunControl& control) const {
     StageTools tools;
-    tools.bind = [this, k, &control](const Scheme& scheme) {
+    const auto largest = [this, k](std::span<const Formula* const> formulas) {
+        std::vector<double> values;
+        for (const Field& field : evaluate(plan_view(*program, formulas, k), k)) {
+            values.push_back(largest_value(field, inside()));
+        }
+        return values;
+    };
+    tools.bind = [this, k, &control, largest](const Scheme& scheme) {
         std::vector<StepPlan> plans;
         for (const SweepForm& form : scheme.forms) plans.push_back(plan_sweep(*program, k, form));
-        return bind_scheme(scheme, plans, compiled(control, stage(k).name), context(k),
-                           program->system_of(k), k);
+        const auto bind = [&](const StepPlan& before) {
+            return bind_scheme(scheme, plans, before, compiled(control, stage(k).name), context(k),
+                               program->system_of(k), k);
+        };
+        if (!is_semi_implicit(stage(k).time.solver)) return bind({});
+        const BoundDiffusion diffusion(*program, k, largest);
+        StepProblem problem = bind(diffusion.before());
+        diffusion.add_to(problem);
+        return problem;
     };
-    tools.largest = [this, k](std::span<const Formula* const> formulas) {
-        std::vector<double> largest;
-        for (const Field& field : evaluate(plan_view(*program, formulas, k), k)) {
-            largest.push_back(largest_value(field, inside()));
-        }
-        return largest;
-    };
+    tools.largest = largest;
     tools.inside = mask ? &mask->inside : nullptr;
     tools.is_true = [this, k](const Formula& formula) {
         return evaluate(plan_view(*program, formula, k), k)[0].at(0, 0) != 0;
@@ -402,7 +468,10 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
     report.found = *outcome.not_finite;
     report.speed = speed_number(k);
     report.starting = outcome.last_checked.empty();
-    if (report.starting) return describe(report);
+    if (const Solver solver = stage(k).time.solver; is_semi_implicit(solver)) {
+        report.semi_implicit = name_of(solver);
+    }
+    if (report.starting || !report.semi_implicit.empty()) return describe(report);
     report.estimate_before = stability(k, outcome.last_checked);
     // A state on its way to infinity says little about the speed that would have been right: the
     // start of the stage is asked as well.
@@ -422,8 +491,12 @@ void Simulation::Implementation::warn_of_chequerboard(std::uint32_t k,
     for (std::size_t s = 0; s < states[k].species.size(); ++s) {
         const Mask* counted = mask ? &mask->inside : nullptr;
         if (chequerboard(states[k].species[s], counted) < chequerboard_threshold) continue;
-        control.warn(describe_chequerboard(stage(k).name, species_name(system, s),
-                                           stability(k, states[k].species), speed_number(k)));
+        // The limit of explicit steps is none of a solver that takes diffusion implicitly.
+        const StabilityEstimate limit = is_semi_implicit(stage(k).time.solver)
+                                            ? StabilityEstimate{}
+                                            : stability(k, states[k].species);
+        control.warn(describe_chequerboard(stage(k).name, species_name(system, s), limit,
+                                           speed_number(k)));
         return;
     }
 }

@@ -85,7 +85,8 @@ public:
     /// above 0 or a starting value is not finite.
     Result<void> start_stage(std::uint32_t stage);
 
-    /// Takes steps until `last_step` are complete. `observe` is called at multiples of `every`, or,
+    /// Takes steps until `last_step` are complete. A stage that starts on coarser grids is run on
+    /// those before its first step, without being observed. `observe` is called at multiples of `every`, or,
     /// where that is 0, of the stage's interval. Fails, with stage, species, cell, step and the largest stable speed, on values
     /// that are not finite.
     Result<StageEnd> advance_stage(std::uint32_t stage, std::int64_t last_step,

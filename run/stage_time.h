@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lang/derivative.h"
+#include "lang/diffusion.h"
 #include "lang/program.h"
 #include "run/automatic_speed.h"
 #include "run/simulation.h"
@@ -40,6 +41,7 @@ public:
 private:
     bool chooses() const;
     RateBounds bounds() const;
+    double growth_by_diffusion() const;
     StepChoice choose(std::int64_t step);
     const StepProblem& problem_of(std::uint32_t stages);
     bool has_ended(double t);
@@ -51,7 +53,9 @@ private:
     bool uniform_speed_;
     double speed_;      ///< The item's value; 1 where it varies by cell.
     double duration_;   ///< Infinite where there is none.
+    const Grid& grid_;
     std::optional<JacobianBound> bound_;
+    std::vector<SpeciesDiffusion> diffusion_;        ///< Of a semi-implicit solver.
     std::map<std::uint32_t, StepProblem> problems_;  ///< By the number of stages.
 };
 

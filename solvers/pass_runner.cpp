@@ -26,10 +26,17 @@ PassRunner::PassRunner(const StepProblem& problem) : problem_(problem), layout_(
     }
     row_values_.assign(problem.aggregates,
                        std::vector<double>(static_cast<std::size_t>(layout_.row_count())));
+    if (problem.diffusion.empty()) return;
+    std::vector<SideRules> sides;
+    for (std::size_t k = 0; k < problem.diffusion.size(); ++k) sides.push_back(problem.sides_of(k));
+    wave_filter_.emplace(problem.grid, sides);
 }
 
-void PassRunner::prepare(Worker& worker, RowRange rows) const {
-    worker.rows = rows;
+void PassRunner::prepare(Worker& worker, int number, int count) const {
+    worker.number = number;
+    worker.count = count;
+    worker.rows = split_rows(layout_.row_count(), number, count);
+    worker.aggregates.assign(problem_.aggregates, 0.0F);
     worker.uniforms.clear();
     for (const StepProblem::Pass& pass : problem_.passes) worker.uniforms.push_back(pass.uniforms);
 }
@@ -48,6 +55,7 @@ void PassRunner::run(Worker& worker, Team& team, Registers registers, const Step
         const StepProblem::Pass& pass = problem_.passes[number];
         if (number > 0) team.barrier();
         if (!pass.reductions.empty()) reduce(worker, pass, team, registers, number);
+        if (pass.filter) filter(worker, *pass.filter, team, registers, moment);
         set_uniforms(worker.uniforms[number], pass, moment);
         run_kernel(worker, pass, number, registers);
     }
@@ -71,6 +79,7 @@ void PassRunner::reduce(Worker& worker, const StepProblem::Pass& pass, Team& tea
     for (const StepProblem::Reduction& reduction : pass.reductions) {
         worker.row_values = row_values_[reduction.aggregate];
         const float value = reduce_rows(reduction.kind, worker.row_values, cells);
+        worker.aggregates[reduction.aggregate] = value;
         for (std::size_t later = pass_number; later < problem_.passes.size(); ++later) {
             for (const StepProblem::ChangingUniform& uniform : problem_.passes[later].changing) {
                 if (uniform.kind != StepProblem::ChangingUniform::Kind::aggregate) continue;
@@ -79,6 +88,22 @@ void PassRunner::reduce(Worker& worker, const StepProblem::Pass& pass, Team& tea
             }
         }
     }
+}
+
+/// Every thread knows all aggregates, so all take the same waves to be damped.
+void PassRunner::filter(Worker& worker, const SweepFilter& filter, Team& team, Registers registers,
+                        const StepMoment& moment) const {
+    worker.symbols.resize(problem_.diffusion.size());
+    for (std::size_t k = 0; k < worker.symbols.size(); ++k) {
+        for (std::size_t term = 0; term < diffusion_terms; ++term) {
+            const StepProblem::DiffusionFactor& factor = problem_.diffusion[k][term];
+            const float value =
+                factor.is_aggregate ? worker.aggregates[factor.aggregate] : factor.value;
+            worker.symbols[k][term] = value;
+        }
+    }
+    wave_filter_->apply(team, worker.number, worker.count, registers[filter.in_register],
+                        worker.symbols, filter.response, filter.part * moment.length);
 }
 
 void PassRunner::set_uniforms(std::vector<float>& uniforms, const StepProblem::Pass& pass,
@@ -131,8 +156,7 @@ void run_once(const StepProblem& problem, Team& team, Registers registers,
     team.run([&](int index) {
         const FlushDenormals environment;
         PassRunner::Worker worker;
-        runner.prepare(worker, split_rows(problem.grid.height * problem.grid.depth, index,
-                                          team.size()));
+        runner.prepare(worker, index, team.size());
         runner.run(worker, team, registers, moment);
     });
 }

@@ -5,8 +5,10 @@
 #include "core/parallel.h"
 #include "core/plane.h"
 #include "solvers/step_problem.h"
+#include "solvers/wave_filter.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,14 +31,18 @@ public:
 
     /// What one thread needs of its own.
     struct alignas(64) Worker {
+        int number = 0;                            ///< Of the `count` threads in use.
+        int count = 1;
         RowRange rows;
         std::vector<std::vector<float>> uniforms;  ///< By pass.
+        std::vector<float> aggregates;             ///< As they were computed last.
+        std::vector<DiffusionSymbol> symbols;
         std::vector<const float*> fields;
         std::vector<float*> results;
         std::vector<double> row_values;
     };
-    /// Prepares a worker for its rows.
-    void prepare(Worker& worker, RowRange rows) const;
+    /// Prepares a worker for its rows, being thread `number` of `count`.
+    void prepare(Worker& worker, int number, int count) const;
 
     /// One thread's part of a step. All threads of the team in use call it with the same registers
     /// and moment. When it returns, this thread's rows of the results are written and their halo
@@ -47,6 +53,8 @@ private:
     float* plane(const StepProblem::PlaneRef& ref, Registers registers) const;
     void reduce(Worker& worker, const StepProblem::Pass& pass, Team& team, Registers registers,
                 std::size_t pass_number);
+    void filter(Worker& worker, const SweepFilter& filter, Team& team, Registers registers,
+                const StepMoment& moment) const;
     void set_uniforms(std::vector<float>& uniforms, const StepProblem::Pass& pass,
                       const StepMoment& moment) const;
     void run_kernel(Worker& worker, const StepProblem::Pass& pass, std::size_t number,
@@ -54,6 +62,7 @@ private:
 
     const StepProblem& problem_;
     PlaneLayout layout_;
+    std::optional<WaveFilter<float>> wave_filter_;  ///< Where a pass has a filter.
     std::vector<Field> temporaries_;
     std::vector<float*> temporary_cells_;
     std::vector<std::vector<double>> row_values_;  ///< By aggregate and row.

@@ -1,4 +1,5 @@
-// Schemes of one and of several sweeps. Those of a Butcher tableau are in runge_kutta.cpp.
+// Schemes of one and of several sweeps. Those of a Butcher tableau are in runge_kutta.cpp, those that
+// filter waves in semi_implicit.cpp.
 //
 // Stabilised Runge-Kutta-Legendre: C. D. Meyer, D. S. Balsara, T. D. Aslam, "A stabilized
 // Runge-Kutta-Legendre method for explicit super-time-stepping of parabolic and mixed equations",
@@ -7,6 +8,7 @@
 
 #include "core/check.h"
 #include "solvers/runge_kutta.h"
+#include "solvers/semi_implicit.h"
 
 namespace cascade {
 namespace {
@@ -168,6 +170,9 @@ Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint
         case Solver::rk45: return explicit_runge_kutta(dormand_prince());
         case Solver::rkl1:
         case Solver::rkl2: return legendre(solver, stages);
+        case Solver::imex: return one_filter(WaveResponse::implicit);
+        case Solver::gauss: return one_filter(WaveResponse::exponential);
+        case Solver::imex2: return rosenbrock();
     }
     CHECK(false, "every solver has a scheme");
 }

@@ -59,7 +59,7 @@ public:
           moves_(layout_),
           team_(1),
           runner_(rates) {
-        runner_.prepare(worker_, {0, layout_.row_count()});
+        runner_.prepare(worker_, 0, 1);
         for_each_cell([&](std::size_t, std::int64_t i, std::int64_t row) {
             moves_.row(row)[i] = frozen && frozen->row(row)[i] ? 0.0f : 1.0f;
         });

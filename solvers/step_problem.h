@@ -4,9 +4,12 @@
 #include "core/grid.h"
 #include "core/plane.h"
 #include "ir/backend.h"
+#include "ir/diffusion.h"
 #include "ir/reduction.h"
+#include "ir/sweep_form.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace cascade {
@@ -51,8 +54,16 @@ struct StepProblem {
         bool needs_halo = false;  ///< Something reads it at neighbours.
     };
 
+    /// A factor of a species' diffusion.
+    struct DiffusionFactor {
+        float value = 0;
+        bool is_aggregate = false;    ///< The factor is aggregate number `aggregate` instead.
+        std::uint32_t aggregate = 0;
+    };
+
     struct Pass {
         std::vector<Reduction> reductions;  ///< Done before the kernel is run.
+        std::optional<SweepFilter> filter;  ///< Done behind them, before the kernel is run.
         KernelPointer kernel;
         std::vector<PlaneRef> fields;       ///< Of the kernel's field slots.
         std::vector<const std::uint8_t*> masks;
@@ -70,6 +81,7 @@ struct StepProblem {
     std::uint32_t error_register = 0;       ///< An estimate of the step's error; 0 for none.
     std::uint32_t temporaries = 0;
     std::uint32_t aggregates = 0;
+    std::vector<DiffusionTerms<DiffusionFactor>> diffusion;  ///< Per species, for filters.
     std::vector<SideRules> sides;           ///< Per species; none: the grid's boundary for all.
     std::vector<bool> species_needs_halo;   ///< Per species: the old step is read at neighbours.
 

@@ -53,9 +53,12 @@ Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int mos
 void Stepper::use(const StepProblem& problem) {
     CHECK(problem.grid == problem_->grid && problem.registers <= scratch_.size() + first_scratch,
           "planes for all passes");
+    if (problem_ == &problem) return;
     problem_ = &problem;
     runner_.emplace(problem);
-    for (Worker& worker : workers_) runner_->prepare(worker.passes, worker.passes.rows);
+    for (Worker& worker : workers_) {
+        runner_->prepare(worker.passes, worker.passes.number, worker.passes.count);
+    }
 }
 
 double Stepper::error(double tolerance) const {
@@ -76,7 +79,7 @@ void Stepper::use_threads(int threads) {
     workers_.resize(static_cast<std::size_t>(threads));
     for (int index = 0; index < threads; ++index) {
         Worker& worker = workers_[static_cast<std::size_t>(index)];
-        runner_->prepare(worker.passes, split_rows(layout_.row_count(), index, threads));
+        runner_->prepare(worker.passes, index, threads);
     }
 }
 

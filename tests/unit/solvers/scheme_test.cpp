@@ -45,11 +45,12 @@ TEST_P(Order, IsWhatItsNameSays) {
 INSTANTIATE_TEST_SUITE_P(Solvers, Order,
                          ::testing::Values(Solver::euler, Solver::symplectic, Solver::rk2,
                                            Solver::rk4, Solver::rk23, Solver::rk45, Solver::rkl1,
-                                           Solver::rkl2),
+                                           Solver::rkl2, Solver::imex, Solver::imex2,
+                                           Solver::gauss),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
 TEST(Scheme, NamesAreTheSettings) {
-    EXPECT_EQ(solver_names().size(), 8u);
+    EXPECT_EQ(solver_names().size(), 11u);
     for (const std::string& name : solver_names()) {
         ASSERT_TRUE(solver_of(name)) << name;
         EXPECT_EQ(name_of(*solver_of(name)), name);

@@ -1,0 +1,31 @@
+// Schemes that take diffusion implicitly or exactly, by filtering waves (internal to solvers/).
+//
+// All are written for the change of a step and not for the new values. With L the diffusion and N the
+// rest, implicit Euler for L and explicit Euler for N, new = old + h (L new + N old), is the same as
+//
+//     new = old + (1 − h L)⁻¹ h f(old),    f = L + N being the whole rate.
+//
+// So only the rate as it was written is computed; a state whose rates are 0 stays as it is; values
+// held at sides drop out; and an L that is only nearly the diffusion costs some accuracy and nothing
+// else: the limit of short steps is that of all solvers.
+#pragma once
+
+#include "solvers/scheme.h"
+
+namespace cascade {
+
+/// new = old + h R f(old), R being the response of each wave. Implicit: semi-implicit Euler.
+/// Exponential: Euler's exponential method, which is exact where the rate is diffusion alone (S. M.
+/// Cox, P. C. Matthews, "Exponential time differencing for stiff systems", Journal of Computational
+/// Physics 176, 2002, 430-455, equation 4).
+Scheme one_filter(WaveResponse response);
+
+/// The Rosenbrock method of two stages that is of second order whatever L is (J. G. Verwer, E. J.
+/// Spee, J. G. Blom, W. Hundsdorfer, "A second-order Rosenbrock method applied to photochemical
+/// dispersion problems", SIAM Journal on Scientific Computing 20, 1999, 1456-1480):
+///
+///     k₁ = (1 − γ h L)⁻¹ f(old),    k₂ = (1 − γ h L)⁻¹ (f(old + h k₁) − 2 k₁),
+///     new = old + 3/2 h k₁ + 1/2 h k₂,    γ = 1 − 1/√2.
+Scheme rosenbrock();
+
+}  // namespace cascade

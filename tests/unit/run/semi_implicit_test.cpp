@@ -1,0 +1,299 @@
+// Solvers that take diffusion wave by wave, through the language: what each wave becomes in a step,
+// what is conserved, steps far beyond the explicit limit, and the same bits wherever it runs.
+#include "run_fixture.h"
+
+#include "measure/spectrum.h"
+#include "run/simulation.h"
+#include "solvers/field_norms.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cascade {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double pi = std::numbers::pi;
+
+struct Ran {
+    Script script;
+    std::unique_ptr<Simulation> simulation;
+    std::string failure;
+
+    const StageState& state() const {
+        return simulation->state(static_cast<std::uint32_t>(script.stage_count() - 1));
+    }
+    const Field& species(std::size_t number = 0) const { return state().species[number]; }
+};
+
+SimulationOptions fast() {
+    SimulationOptions options;
+    options.threads = 1;
+    if (!has_jit()) options.backend = BackendKind::interpreter;
+    return options;
+}
+
+Ran run_text(const std::string& text,
+             const SimulationOptions& options = {BackendKind::interpreter, 0, 1},
+             const Overrides& overrides = {}) {
+    Ran ran;
+    ran.script = load_script("test", text, ".", overrides);
+    EXPECT_TRUE(ran.script.program) << ran.script.messages(false);
+    if (!ran.script.program) return ran;
+    auto made = Simulation::create(ran.script, options);
+    EXPECT_TRUE(made);
+    ran.simulation = std::move(*made);
+    RunControl control;
+    for (std::uint32_t k = 0; k < ran.script.stage_count() && ran.failure.empty(); ++k) {
+        EXPECT_TRUE(ran.simulation->start_stage(k));
+        const std::int64_t most = ran.script.program->stages[k].iterations;
+        auto end = ran.simulation->advance_stage(k, most, control, {});
+        if (!end) ran.failure = end.error().message + " | " + end.error().hint;
+    }
+    return ran;
+}
+
+std::string faults_of(const std::string& text, const Overrides& overrides = {}) {
+    const Script script = load_script("test", text, ".", overrides);
+    EXPECT_FALSE(script.program);
+    return script.messages(false);
+}
+
+/// A wave of 3 periods along x and 2 half periods along y on 24 × 20 cells, after `steps` steps.
+struct Wave {
+    static double eigenvalue() {
+        const double x = std::sin(pi * 3 / 24), y = std::sin(pi * 2 / 40);
+        return -4 * (x * x + y * y);
+    }
+    static std::string script(const char* rate, const char* solver, double speed, int steps) {
+        return fmt::format("system s {{ u: 2 + cos(6 * pi * sx) * cos(2 * pi * sy); k: 0.7; g: 0.2\n"
+                           " u' = {} }}\n"
+                           "stage one: s {{ solver: {}; speed: {}; iterations: {} }}\n"
+                           "domain {{ grid: 24, 20; boundary: periodic, noflux }}",
+                           rate, solver, speed, steps);
+    }
+    /// What is left of its height.
+    static double height(const Field& u) {
+        double sum = 0;
+        for (std::int64_t j = 0; j < 20; ++j) {
+            for (std::int64_t i = 0; i < 24; ++i) {
+                const double sx = (static_cast<double>(i) + 0.5) / 24,
+                             sy = (static_cast<double>(j) + 0.5) / 20;
+                sum += u.at(i, j) * std::cos(6 * pi * sx) * std::cos(2 * pi * sy);
+            }
+        }
+        return sum / (24 * 20 / 4.0);
+    }
+};
+
+TEST(SemiImplicit, EachWaveIsDampedAsTheFormulaSays) {
+    const double s = Wave::eigenvalue(), h = 40;
+    const struct { const char* rate; double m; } cases[] = {
+        {"k * lap(u)", 0.7 * s},
+        {"lap(k * u - g * lap(u))", 0.7 * s - 0.2 * s * s},
+        {"div(k * grad(u)) + 0.1 * dxx(u)", 0.7 * s - 0.1 * 4 * std::pow(std::sin(pi * 3 / 24), 2)},
+        {"diffuse(u, 0.8, 0.5, 0)", -0.64 * 4 * std::pow(std::sin(pi * 3 / 24), 2) -
+                                        0.25 * 4 * std::pow(std::sin(pi * 2 / 40), 2)}};
+    for (const auto& [rate, m] : cases) {
+        const Ran implicit = run_text(Wave::script(rate, "imex", h, 2));
+        EXPECT_NEAR(Wave::height(implicit.species()), std::pow(1 - h * m, -2), 2e-6) << rate;
+        const Ran exact = run_text(Wave::script(rate, "gauss", 0.1 * h, 3));
+        EXPECT_NEAR(Wave::height(exact.species()), std::exp(0.3 * h * m), 2e-6) << rate;
+        const Ran second = run_text(Wave::script(rate, "imex2", h, 1));
+        const double gamma = 1 - 1 / std::sqrt(2.0), z = h * m, r = 1 / (1 - gamma * z);
+        const double k1 = z * r, k2 = r * (z * (1 + k1) - 2 * k1);
+        EXPECT_NEAR(Wave::height(second.species()), 1 + 1.5 * k1 + 0.5 * k2, 2e-6) << rate;
+        for (const Ran* ran : {&implicit, &exact, &second}) {
+            EXPECT_NEAR(moments(ran->species()).mean, 2, 1e-6) << rate;
+        }
+    }
+}
+
+// Values held and fluxes given at sides: the steady state is a straight line, whatever the step.
+TEST(SemiImplicit, SidesKeepTheirValues) {
+    for (const char* solver : {"imex", "imex2", "gauss"}) {
+        const Ran ran = run_text(fmt::format(
+            "system heat {{ u: 0; u' = lap(u); u.left: fixed(1); u.right: flux(1/8) }}\n"
+            "stage s: heat {{ solver: {}; speed: 50; iterations: 200 }}\n"
+            "domain {{ grid: 16, 3; boundary: noflux }}", solver));
+        for (std::int64_t i = 0; i < 16; ++i) {
+            EXPECT_NEAR(ran.species().at(i, 1), 1 + (static_cast<double>(i) + 0.5) / 8, 1e-4) << solver;
+        }
+    }
+}
+
+constexpr const char* alloy =
+    "system alloy {{ c: random({}, 0.1); gamma: 0.5\n c' = lap(c^3 - c - gamma * lap(c)) }}\n"
+    "domain {{ grid: 64, 64; boundary: {} }}\n"
+    "stage s: alloy {{ solver: {}; speed: {}; iterations: {} }}\n";
+
+// Euler's limit is 0.04: 2 / (8 (8 gamma + 2)).
+TEST(SemiImplicit, CahnHilliardAtAThousandTimesTheExplicitLimit) {
+    for (const char* solver : {"imex", "gauss"}) {
+        for (const char* boundary : {"periodic", "periodic, noflux"}) {
+            const Ran start = run_text(fmt::format(fmt::runtime(alloy), 0.2, boundary, solver, 40, 0), fast());
+            const Ran ran = run_text(fmt::format(fmt::runtime(alloy), 0.2, boundary, solver, 40, 400), fast());
+            EXPECT_EQ(ran.failure, "");
+            const FieldMoments found = moments(ran.species());
+            // What there is of each stays to rounding, and the parts have come apart.
+            EXPECT_NEAR(found.mean, moments(start.species()).mean, 2e-6) << solver;
+            EXPECT_GT(found.deviation, 0.85) << solver;
+            EXPECT_LT(found.deviation, 1.0) << solver;
+        }
+    }
+}
+
+TEST(SemiImplicit, CahnHilliardCoarsensAsWithEuler) {
+    const auto wavelength = [](const char* solver, double speed, int steps) {
+        const Ran ran = run_text(fmt::format(fmt::runtime(alloy), 0, "periodic", solver, speed, steps), fast());
+        const FieldMoments found = moments(ran.species());
+        EXPECT_GT(found.deviation, 0.7) << solver;
+        measure::Samples samples;
+        samples.cells = {64, 64, 1};
+        samples.periodic = {true, true, true};
+        for (std::int64_t j = 0; j < 64; ++j) {
+            for (std::int64_t i = 0; i < 64; ++i) {
+                samples.values.push_back(static_cast<double>(ran.species().at(i, j)));
+            }
+        }
+        return measure::peak_wavelength(measure::radial_spectrum(samples));
+    };
+    const double euler = wavelength("euler", 0.025, 8000);
+    // Of first order, and damped by what the steepest cells need: shorter steps for the same course.
+    EXPECT_NEAR(wavelength("imex", 0.2, 1000) / euler, 1, 0.12);
+    EXPECT_NEAR(wavelength("imex2", 0.5, 400) / euler, 1, 0.12);
+    EXPECT_NEAR(wavelength("gauss", 0.5, 400) / euler, 1, 0.12);
+}
+
+TEST(SemiImplicit, GrowsTheSameSpotsAsEuler) {
+    const auto spots = [](const Overrides& overrides) {
+        return run_text("stage s: turing_spots { iterations: 12000; ka: 1/200 }\n"
+                        "domain { grid: 48, 48 }", fast(), overrides);
+    };
+    const Ran euler = spots({});
+    for (const char* solver : {"imex", "imex2", "gauss"}) {
+        Overrides changes;
+        changes.solver = solver;
+        const Ran found = spots(changes);
+        EXPECT_DOUBLE_EQ(found.state().t, 12000);
+        EXPECT_LT(found.state().steps, 2500) << solver;
+        const Field& a = euler.species(1);
+        const Field& b = found.species(1);
+        const double difference = root_mean_square_of_difference(a, b) / moments(a).deviation;
+        // The correlation of two fields of one mean and deviation is 1 − difference² / 2.
+        const double correlation = std::string_view(solver) == "imex" ? 0.95 : 0.98;
+        EXPECT_LT(difference, std::sqrt(2 * (1 - correlation))) << solver;
+    }
+}
+
+// Steady states are those of the rates, to rounding: one step from Euler's moves nothing.
+TEST(SemiImplicit, AStateWithoutRatesStaysToTheBit) {
+    for (const char* solver : {"imex", "imex2", "gauss"}) {
+        const Ran ran = run_text(fmt::format(
+            "system s {{ u: 3; v: 2 * x; u' = lap(u) + 3 - u\n v' = dxx(v) - dxx(v) + lap(lap(u)) }}\n"
+            "stage one: s {{ solver: {}; speed: 5; iterations: 7 }}\ndomain {{ grid: 12, 9 }}", solver));
+        EXPECT_EQ(ran.species(0).at(5, 5), 3.0f) << solver;
+        EXPECT_EQ(ran.species(1).at(5, 5), static_cast<float>(2 * (5.5f / 12))) << solver;
+    }
+}
+
+// A factor that depends on the species itself: u' = lap(u^3) spreads with a front, and its total stays.
+TEST(SemiImplicit, FactorsThatVaryAreBounded) {
+    for (const char* solver : {"imex", "gauss"}) {
+        const Ran ran = run_text(fmt::format(
+            "system s {{ u: 2 * gauss(0.5, 0.5, 0.1); k: 1 + x; u' = lap(u^3) + 0.1 * div(k * grad(u)) }}\n"
+            "stage one: s {{ solver: {}; speed: 2; iterations: 200 }}\ndomain {{ grid: 40, 40 }}", solver));
+        const Ran start = run_text(
+            "system s { u: 2 * gauss(0.5, 0.5, 0.1); u' = lap(u) }\n"
+            "stage one: s { iterations: 0 }\ndomain { grid: 40, 40 }");
+        EXPECT_EQ(ran.failure, "");
+        EXPECT_NEAR(moments(ran.species()).mean, moments(start.species()).mean, 1e-5);
+        EXPECT_LT(ran.species().at(20, 20), 0.6f) << solver;
+        EXPECT_GT(ran.species().at(20, 20), 0.05f) << solver;
+    }
+}
+
+std::string everything(const char* solver) {
+    return fmt::format(
+        "system s {{ a: 4; b: 4; c: random(0, 0.3); beta: random(12, 0.1); k: 0.5 + x\n"
+        " a' = 0.05 * (16 - a*b) + (0.125 + 0.1 * sin(t)) * lap(a)\n"
+        " b' = 0.05 * (a*b - b - beta) + k * 0.03125 * lap(b)\n"
+        " c' = lap(c^3 - c - 0.5 * lap(c)) + 0.001 * mean(a over domain)\n"
+        " b >= 3.9\n a.left: fixed(4)\n a.right: fixed(5)\n }}\n"
+        "stage one: s {{ solver: {}; {}; iterations: 60 }}\n"
+        "domain {{ grid: 145, 139; boundary: noflux, periodic }}\n",
+        solver, std::string_view(solver) == "imex2" ? "speed: 0.5" : "speed: 2");
+}
+
+TEST(SemiImplicit, SameBitsOnEveryBackendAndThread) {
+    if (!has_jit()) GTEST_SKIP() << "no native code in this build";
+    for (const char* solver : {"imex", "imex2", "gauss"}) {
+        const Ran expected = run_text(everything(solver));
+        EXPECT_EQ(expected.failure, "") << solver;
+        for (const int lanes : {4, 16}) {
+            const Ran found = run_text(everything(solver), {BackendKind::jit, lanes, 3});
+            for (std::size_t k = 0; k < 3; ++k) {
+                EXPECT_EQ(root_mean_square_of_difference(found.species(k), expected.species(k)), 0)
+                    << solver;
+            }
+        }
+        EXPECT_GE(expected.species(1).at(70, 30), 3.9f);
+    }
+}
+
+class SemiImplicitRun : public RunTest {};
+
+TEST_F(SemiImplicitRun, ResumesWithTheSameBits) {
+    for (const char* settings : {"solver: imex; speed: 3; iterations: 30", "solver: imex2; speed: 2; iterations: 30",
+                                 "solver: gauss; speed: auto; duration: 300"}) {
+        const std::string text = fmt::format("stage one: turing_spots {{ {} }}\ndomain {{ grid: 30, 20 }}", settings);
+        Script whole = load(text);
+        RunRequest wanted = request();
+        wanted.save = path("whole");
+        run_well(whole, wanted);
+        Script part = load(text);
+        RunRequest first = request();
+        first.save = path("part");
+        first.stop_at = StopAt{"one", 7};
+        run_well(part, first);
+        auto rest = load_saved_script(path("part"), {});
+        ASSERT_TRUE(rest) << settings;
+        RunRequest second = request();
+        second.resume = path("part");
+        second.save = path("rest");
+        EXPECT_EQ(run_well(*rest, second).status, RunStatus::finished);
+        for (const char* name : {"one.a.npy", "one.b.npy"}) {
+            EXPECT_EQ(bytes(std::string("whole/") + name), bytes(std::string("rest/") + name)) << settings;
+        }
+    }
+}
+
+TEST(SemiImplicit, ABlowUpNamesItsStepAndAShorterOne) {
+    const Ran ran = run_text(
+        "system burst { u: 1 + 0.1 * sx; u' = u^2 + lap(u) }\n"
+        "stage s: burst { solver: imex; speed: 0.25; iterations: 300 }\ndomain { grid: 8, 8 }");
+    EXPECT_THAT(ran.failure, HasSubstr("u is not finite any more at column 0, row 0, after step "));
+    EXPECT_THAT(ran.failure, HasSubstr("imex takes diffusion alone for a step of any length, the reaction "
+                                       "not; try 'speed: 0.12'"));
+}
+
+TEST(SemiImplicit, SaysWhatItCannotTake) {
+    EXPECT_THAT(faults_of("stage one: turing_spots { solver: imex; frozen: x > 0.5 }"),
+                HasSubstr("stage 'one' freezes cells, which imex cannot"));
+    EXPECT_THAT(faults_of("system s { u: 1; u' = -u }\nstage one: s { solver: gauss }"),
+                HasSubstr("gauss finds no diffusion to take implicitly"));
+    Overrides changes;
+    changes.solver = "imex2";
+    EXPECT_THAT(faults_of("stage one: turing_spots { speed: 0.5 + x }", changes),
+                HasSubstr("imex2 cannot take the speed of stage 'one'"));
+    EXPECT_THAT(faults_of("stage one: turing_spots { frozen: x > 0.5 }", changes),
+                HasSubstr("stage 'one' freezes cells, which imex2 cannot"));
+}
+
+}  // namespace
+}  // namespace cascade
