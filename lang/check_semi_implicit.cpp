@@ -29,6 +29,10 @@ void check_semi_implicit(const Program& program, std::uint32_t stage, Span span,
         diagnostics.error(span, fmt::format("stage '{}': {} needs cells that are squares, and these "
                                             "lie on a surface", checked.name, name_of(solver)),
                           "rkl1 takes long steps there");
+    } else if (program.domain.mask) {
+        diagnostics.error(span, fmt::format("stage '{}': {} needs all cells of the grid, and the domain has "
+                                            "a mask", checked.name, name_of(solver)),
+                          "rkl1 takes long steps there");
     } else if (!checked.uniform[program.system_of(stage).frozen_item()]) {
         diagnostics.error(span, fmt::format("stage '{}' freezes cells, which {} cannot: its waves run "
                                             "through all of them", checked.name, name_of(solver)),

@@ -190,6 +190,12 @@ void check_coarse_starts(const Program& program, Diagnostics& diagnostics) {
                                           "not have", stage.name));
             continue;
         }
+        if (program.domain.mask) {
+            diagnostics.error(stage.time.coarse_span,
+                              fmt::format("stage '{}' starts on a coarser grid, on which a masked domain "
+                                          "has another shape", stage.name));
+            continue;
+        }
         for (const std::int64_t cells : {grid.width, grid.height, grid.depth}) {
             if (cells == 1 || (cells % times == 0 && cells / times >= fewest_cells)) continue;
             diagnostics.error(stage.time.coarse_span,
