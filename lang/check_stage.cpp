@@ -56,7 +56,6 @@ private:
     void take_default(std::uint32_t item, const Formula* formula, double otherwise);
     void order_items();
     void find_uniform();
-    bool node_varies(const Node& node, const std::vector<bool>& varies) const;
 
     Workspace& work_;
     const ast::Script& script_;
@@ -266,32 +265,20 @@ void StageChecker::find_uniform() {
     for (const std::uint32_t item : target.order) {
         const std::vector<Node>& nodes = target.items[item].nodes;
         varies.clear();
-        for (const Node& node : nodes) varies.push_back(node_varies(node, varies));
+        for (const Node& node : nodes) {
+            bool operand_varies = false;
+            if (node.kind == NodeKind::call) {
+                for (std::size_t k = 0; k < operand_count(node); ++k) {
+                    operand_varies = operand_varies || varies[node.operands[k]];
+                }
+            }
+            varies.push_back(differs_by_cell(node, operand_varies, work_.program, index_));
+        }
         target.uniform[item] = !system().is_species(item) && (varies.empty() || !varies.back());
         depths[item] = check_nesting(work_, target.items[item], [&](const Node& node) {
             return node.kind == NodeKind::own ? depths[node.index] : 0;
         });
     }
-}
-
-/// Does a part differ between cells? `varies` tells it of those before it.
-bool StageChecker::node_varies(const Node& node, const std::vector<bool>& varies) const {
-    switch (node.kind) {
-        case NodeKind::own: return !work_.program.stages[index_].uniform[node.index];
-        case NodeKind::earlier: {
-            const Stage& other = work_.program.stages[node.stage];
-            return other.uniform.empty() || !other.uniform[node.index];
-        }
-        case NodeKind::builtin: return true;
-        case NodeKind::call: break;
-        default: return false;
-    }
-    if (info(node.function).is_aggregate) return false;
-    if (varies_by_cell(node.function) && !differentiates(node.function)) return true;
-    for (std::size_t k = 0; k < operand_count(node); ++k) {
-        if (varies[node.operands[k]]) return true;
-    }
-    return false;
 }
 
 std::uint32_t find_system(Workspace& work, const ast::Word& name) {

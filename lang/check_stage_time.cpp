@@ -66,28 +66,12 @@ const Node* reader_of_speed(const Program& program, const Stage& stage) {
     return nullptr;
 }
 
-/// Does a part read what differs between cells, its operands aside?
-bool reads_cells(const Program& program, const Stage& stage, const Node& node) {
-    switch (node.kind) {
-        case NodeKind::own: return !stage.uniform[node.index];
-        case NodeKind::earlier: {
-            const Stage& other = program.stages[node.stage];
-            return other.uniform.empty() || !other.uniform[node.index];
-        }
-        case NodeKind::builtin:
-            return static_cast<Builtin>(node.index) != Builtin::t &&
-                   static_cast<Builtin>(node.index) != Builtin::step;
-        case NodeKind::call: return varies_by_cell(node.function);
-        default: return false;
-    }
-}
-
 /// The first part that makes a formula differ between cells. Operands stand before what reads them.
-const Node* varying_part(const Program& program, const Stage& stage, const Formula& formula) {
+const Node* varying_part(const Program& program, std::uint32_t stage, const Formula& formula) {
     std::vector<const Node*> cause(formula.nodes.size(), nullptr);
     for (std::size_t part = 0; part < formula.nodes.size(); ++part) {
         const Node& node = formula.nodes[part];
-        if (reads_cells(program, stage, node)) cause[part] = &node;
+        if (differs_by_cell(node, false, program, stage)) cause[part] = &node;
         if (node.kind != NodeKind::call || info(node.function).is_aggregate) continue;
         for (std::size_t n = 0; n < operand_count(node); ++n) {
             if (cause[part] == nullptr) cause[part] = cause[node.operands[n]];
@@ -96,8 +80,9 @@ const Node* varying_part(const Program& program, const Stage& stage, const Formu
     return cause.back();
 }
 
-void check_condition(Workspace& work, const Stage& stage) {
-    const Node* varying = varying_part(work.program, stage, *stage.time.until);
+void check_condition(Workspace& work, std::uint32_t stage) {
+    const Node* varying =
+        varying_part(work.program, stage, *work.program.stages[stage].time.until);
     if (varying == nullptr) return;
     work.diagnostics.error(varying->span, "a stage ends for all cells at once, and this differs by cell",
                            "take one number of all cells, as in mean(u over domain) > 0.5");
@@ -143,7 +128,7 @@ void check_time(Workspace& work, std::uint32_t index) {
                                           "number that can be read", stage.name));
         }
     }
-    if (time.until) check_condition(work, stage);
+    if (time.until) check_condition(work, index);
 }
 
 }  // namespace cascade::checking

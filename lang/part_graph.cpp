@@ -60,30 +60,11 @@ bool is_stencil(Function function) {
 }
 
 bool PartGraph::is_uniform(const Part& part) const {
-    switch (part.node.kind) {
-        case NodeKind::number:
-        case NodeKind::text: return true;
-        case NodeKind::own: return program_.stages[stage_].uniform[part.node.index];
-        case NodeKind::earlier:
-            return program_.stages[part.node.stage].uniform[part.node.index];
-        case NodeKind::builtin: {
-            const auto builtin = static_cast<Builtin>(part.node.index);
-            if (builtin == Builtin::step) return true;
-            const std::uint32_t speed = program_.system_of(stage_).speed_item();
-            return builtin == Builtin::t && program_.stages[stage_].uniform[speed];
-        }
-        case NodeKind::definition:
-        case NodeKind::rate:
-        case NodeKind::metric:
-        case NodeKind::inside: return false;
-        case NodeKind::call: break;
-    }
-    if (info(part.node.function).is_aggregate) return true;
-    if (varies_by_cell(part.node.function) && !differentiates(part.node.function)) return false;
+    bool operand_differs = false;
     for (std::uint32_t k = 0; k < part.operand_count; ++k) {
-        if (!parts_[part.operands[k]].is_uniform) return false;
+        operand_differs = operand_differs || !parts_[part.operands[k]].is_uniform;
     }
-    return true;
+    return !differs_by_cell(part.node, operand_differs, program_, stage_);
 }
 
 /// What an aggregate over the domain takes of the grid: outside of the mask what changes nothing.

@@ -241,6 +241,7 @@ struct System {
     bool is_species(std::uint32_t item) const {
         return item < quantities.size() && quantities[item].is_species;
     }
+    std::uint32_t species_count() const;
 };
 
 struct Stage {
@@ -289,6 +290,11 @@ struct Program {
 
     const System& system_of(std::uint32_t stage) const { return systems[stages[stage].system]; }
 };
+
+/// Does a node of a formula of `stage` differ from cell to cell? `operand_differs` tells whether one of
+/// its operands does. What a stage lacks an answer for yet, its items, is taken to differ.
+bool differs_by_cell(const Node& node, bool operand_differs, const Program& program,
+                     std::uint32_t stage);
 
 /// The program as text, for `--dump program`: systems in use, stages, resolved formulas, orders,
 /// what varies.

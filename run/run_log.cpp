@@ -2,6 +2,7 @@
 
 #include "core/file.h"
 #include "lang/check.h"
+#include "lang/lower.h"
 #include "lang/parse.h"
 #include "run/csv.h"
 
@@ -15,40 +16,6 @@ namespace cascade {
 namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
-
-/// Does a part of a formula over `stage` differ between cells? `varies` tells it of those before.
-bool part_varies(const Node& node, const std::vector<bool>& varies, const Program& program,
-                 std::uint32_t stage) {
-    switch (node.kind) {
-        case NodeKind::own: return !program.stages[stage].uniform[node.index];
-        case NodeKind::earlier: return !program.stages[node.stage].uniform[node.index];
-        case NodeKind::builtin:
-            return node.index != static_cast<std::uint32_t>(Builtin::t) &&
-                   node.index != static_cast<std::uint32_t>(Builtin::step);
-        case NodeKind::definition:
-        case NodeKind::rate:
-        case NodeKind::metric:
-        case NodeKind::inside: return true;
-        case NodeKind::number:
-        case NodeKind::text: return false;
-        case NodeKind::call: break;
-    }
-    // An aggregate over the domain is one number whatever it is taken of.
-    if (info(node.function).is_aggregate) return false;
-    if (varies_by_cell(node.function)) return true;
-    for (std::size_t k = 0; k < operand_count(node); ++k) {
-        if (varies[node.operands[k]]) return true;
-    }
-    return false;
-}
-
-bool varies(const Formula& formula, const Program& program, std::uint32_t stage) {
-    std::vector<bool> parts;
-    for (const Node& node : formula.nodes) {
-        parts.push_back(part_varies(node, parts, program, stage));
-    }
-    return parts.back();
-}
 
 Result<void> check_rows(const Script& script, const LogRequest& request) {
     std::int64_t rows = 0;
@@ -97,7 +64,7 @@ bool RunLog::check_expression(Script& script, const std::string& text) {
             script.diagnostics.error(formula->nodes.back().span, "--log takes numbers");
             return false;
         }
-        if (formula && varies(*formula, *script.program, k)) {
+        if (formula && !plan_view(*script.program, *formula, k).is_uniform) {
             script.diagnostics.error(
                 formula->nodes.back().span, "this differs from cell to cell",
                 "a log takes one number for all cells, such as mean(e over domain)");
