@@ -42,10 +42,15 @@ void check_systems(Workspace& work, const ast::Script& script,
     }
 }
 
+/// Does the domain lie on a surface on which operators measure?
+bool measures_on_surface(const DomainSettings& domain) {
+    return domain.surface && domain.surface->has_metric;
+}
+
 /// The workspace of a program that is checked already.
 Workspace workspace_of(Program& program, Diagnostics& diagnostics) {
     Workspace work{program, diagnostics, {}, {}, {}, {}, {}, 0};
-    work.on_surface = program.domain.surface && program.domain.surface->has_metric;
+    work.on_surface = measures_on_surface(program.domain);
     for (const System& system : program.systems) {
         work.names.push_back(checking::names_of(system));
     }
@@ -63,12 +68,12 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
     Diagnostics own;
     {
         Workspace work{program, own, {}, {}, {}, {}, {}, 0};
-        work.on_surface = checking::measures_on_surface(script);
         const std::vector<LibraryScript> library = read_library(script, sources, own);
+        checking::check_domain(work, script);
+        work.on_surface = measures_on_surface(program.domain);
         check_systems(work, script, library);
         checking::functions_of(work, script);  // Those that nothing calls are checked too.
         checking::check_stages(work, script);
-        checking::check_domain(work, script);
         checking::check_stage_sides(work, script);
         checking::check_picture(work, script);
         // What could not be read may have been what reads a parameter.

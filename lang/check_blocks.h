@@ -58,8 +58,6 @@ void check_domain(Workspace& work, const ast::Script& script);
 
 /// Settings of the domain that belong to a surface; looked at when the grid is known.
 bool is_surface_setting(std::string_view name);
-/// Does the domain lie on a surface on which operators measure? Asked before anything is checked.
-bool measures_on_surface(const ast::Script& script);
 void check_surface(Workspace& work, const ast::Script& script, const ast::Block& domain);
 
 /// The `picture` block, if there is one: read as by the last stage that takes a step.

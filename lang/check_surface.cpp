@@ -35,11 +35,11 @@ void check_metric(Workspace& work, const ast::Script& script, const ast::Sentenc
     if (!has_one_value(work, script, sentence)) return;
     const auto metric = check_constant(work, script, sentence.values[0], "metric");
     if (!metric) return;
-    if ((*metric != 0 && *metric != 1) || (*metric != 0) != work.on_surface) {
+    if (*metric != 0 && *metric != 1) {
         work.diagnostics.error(span_of_value(script, sentence), "metric is 0 or 1");
         return;
     }
-    work.program.domain.surface->has_metric = work.on_surface;
+    work.program.domain.surface->has_metric = *metric != 0;
 }
 
 void check_unit(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
@@ -65,19 +65,6 @@ const ast::Sentence* find_sentence(const ast::Block& block, std::string_view nam
 
 bool is_surface_setting(std::string_view name) {
     return name == "surface" || name == "metric" || name == "unit";
-}
-
-bool measures_on_surface(const ast::Script& script) {
-    for (const ast::Block& block : script.blocks) {
-        if (block.kind != ast::BlockKind::domain) continue;
-        if (find_sentence(block, "surface") == nullptr) return false;
-        const ast::Sentence* metric = find_sentence(block, "metric");
-        if (metric == nullptr) return true;
-        const ast::Expr& value = script.expressions[metric->values[0].root];
-        const auto* number = std::get_if<ast::Number>(&value.node);
-        return number == nullptr || number->value != 0;
-    }
-    return false;
 }
 
 void check_surface(Workspace& work, const ast::Script& script, const ast::Block& domain) {
