@@ -230,13 +230,6 @@ private:
     std::vector<PartId> bounds_;          ///< Of the invariants that apply.
 };
 
-BoundKernel only_pass(StepPlan plan) {
-    CHECK(plan.passes.size() == 1 && plan.aggregates == 0, "lowering: the plan has one pass");
-    BoundKernel bound = std::move(plan.passes[0].bound);
-    bound.results = std::move(plan.results);
-    return bound;
-}
-
 }  // namespace
 
 StepPlan plan_uniform_start(const Program& program, std::uint32_t stage) {
@@ -336,26 +329,6 @@ std::string describe_plans(const Program& program) {
                             plan_step(program, k, options).words);
     }
     return text;
-}
-
-BoundKernel lower_uniform_start(const Program& program, std::uint32_t stage) {
-    return only_pass(plan_uniform_start(program, stage));
-}
-
-BoundKernel lower_cell_start(const Program& program, std::uint32_t stage) {
-    return only_pass(plan_start(program, stage));
-}
-
-BoundKernel lower_step(const Program& program, std::uint32_t stage) {
-    return only_pass(plan_step(program, stage));
-}
-
-BoundKernel lower_rates(const Program& program, std::uint32_t stage) {
-    return only_pass(plan_rates(program, stage));
-}
-
-BoundKernel lower_view(const Program& program, const Formula& formula, std::uint32_t stage) {
-    return only_pass(plan_view(program, formula, stage));
 }
 
 }  // namespace cascade

@@ -61,13 +61,6 @@ StepPlan plan_view(const Program& program, std::span<const Formula* const> formu
                    std::uint32_t stage, const PlanOptions& options = {});
 StepPlan plan_view(const Program& program, const Formula& formula, std::uint32_t stage);
 
-// The only pass of a plan that has no more (and no aggregates).
-BoundKernel lower_uniform_start(const Program& program, std::uint32_t stage);
-BoundKernel lower_cell_start(const Program& program, std::uint32_t stage);
-BoundKernel lower_step(const Program& program, std::uint32_t stage);
-BoundKernel lower_rates(const Program& program, std::uint32_t stage);
-BoundKernel lower_view(const Program& program, const Formula& formula, std::uint32_t stage);
-
 /// What the passes of every stage do and why, in words, for `--dump plan`.
 std::string describe_plans(const Program& program);
 

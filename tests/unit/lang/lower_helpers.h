@@ -14,9 +14,19 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cascade::testing {
+
+/// The only pass of a plan that has no more (and no aggregates).
+inline BoundKernel only_pass(StepPlan plan) {
+    EXPECT_EQ(plan.passes.size(), 1u);
+    EXPECT_EQ(plan.aggregates, 0u);
+    BoundKernel bound = std::move(plan.passes[0].bound);
+    bound.results = std::move(plan.results);
+    return bound;
+}
 
 /// The state of all stages of a program.
 class ScriptRun {
@@ -30,12 +40,12 @@ public:
         state.numbers.assign(count, 0);
         state.fields.resize(count);
         const PlaneLayout one{Grid{1, 1, Boundary::periodic}};
-        const BoundKernel uniform = lower_uniform_start(program_, stage);
+        const BoundKernel uniform = only_pass(plan_uniform_start(program_, stage));
         const std::vector<Field> numbers = run(uniform, stage, one);
         for (std::size_t k = 0; k < numbers.size(); ++k) {
             state.numbers[uniform.results[k]] = numbers[k].at(0, 0);
         }
-        const BoundKernel cells = lower_cell_start(program_, stage);
+        const BoundKernel cells = only_pass(plan_start(program_, stage));
         std::vector<Field> fields = run(cells, stage, layout_);
         for (std::size_t k = 0; k < fields.size(); ++k) {
             state.fields[cells.results[k]] = std::move(fields[k]);
@@ -43,7 +53,7 @@ public:
     }
 
     void step(std::uint32_t stage, int count = 1) {
-        const BoundKernel kernel = lower_step(program_, stage);
+        const BoundKernel kernel = only_pass(plan_step(program_, stage));
         for (int i = 0; i < count; ++i) {
             std::vector<Field> next = run(kernel, stage, layout_);
             for (std::size_t k = 0; k < next.size(); ++k) {
@@ -54,11 +64,11 @@ public:
     }
 
     std::vector<Field> rates(std::uint32_t stage) {
-        return run(lower_rates(program_, stage), stage, layout_);
+        return run(only_pass(plan_rates(program_, stage)), stage, layout_);
     }
 
     std::vector<Field> view(const Formula& formula, std::uint32_t stage) {
-        return run(lower_view(program_, formula, stage), stage, layout_);
+        return run(only_pass(plan_view(program_, formula, stage)), stage, layout_);
     }
 
     Field& field(std::uint32_t stage, const std::string& name) {

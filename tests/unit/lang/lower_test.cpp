@@ -272,7 +272,7 @@ TEST(Lower, StepsClampAndFreeze) {
         EXPECT_EQ(run.field(0, "u").at(i, 0), std::clamp(start - 0.375f, 0.2f, 0.6f));
         EXPECT_EQ(run.field(0, "u").at(i, 3), start) << "frozen";
     }
-    const BoundKernel step = lower_step(*checked->program, 0);
+    const BoundKernel step = only_pass(plan_step(*checked->program, 0));
     ASSERT_EQ(step.masks.size(), 1u);
     EXPECT_THAT(step.kernel.mask_names, ElementsAre("frozen"));
     EXPECT_THAT(step.kernel.field_names, ElementsAre("u"));
@@ -283,7 +283,7 @@ TEST(Lower, StepsClampAndFreeze) {
 TEST(Lower, UniformFrozenIsNotInTheKernel) {
     const auto checked = check_text("system_name: turing_spots\nfrozen: 1\n");
     ASSERT_TRUE(checked->program);
-    const BoundKernel step = lower_step(*checked->program, 0);
+    const BoundKernel step = only_pass(plan_step(*checked->program, 0));
     EXPECT_TRUE(step.masks.empty());
     EXPECT_THAT(step.kernel.uniform_names, ::testing::Not(::testing::Contains("frozen")));
 }
@@ -344,7 +344,7 @@ TEST(Lower, Files) {
         small_grid + "system s { u: 0; u' = 1 }\n"
                      "stage one: s { u: 2 * field(\"a.npy\") + field(\"b.npy\") - field(\"a.npy\") }");
     ASSERT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
-    EXPECT_EQ(lower_cell_start(*checked->program, 0).fields.size(), 2u);
+    EXPECT_EQ(only_pass(plan_start(*checked->program, 0)).fields.size(), 2u);
     ScriptRun run(*checked->program);
     for (const char* name : {"a.npy", "b.npy"}) {
         run.files.emplace(name, Field(PlaneLayout(checked->program->domain.grid)));
@@ -401,13 +401,13 @@ TEST(Lower, PalettesAreThoseOfTheTable) {
 TEST(Lower, UniformParametersAreSlotsAndNeverConstants) {
     const auto checked = check_text("system_name: turing_spots\n");
     ASSERT_TRUE(checked->program);
-    const BoundKernel step = lower_step(*checked->program, 0);
+    const BoundKernel step = only_pass(plan_step(*checked->program, 0));
     EXPECT_THAT(step.kernel.uniform_names,
                 ::testing::UnorderedElementsAre("speed", "ka", "diff_a", "diff_b"));
     EXPECT_THAT(step.kernel.field_names, ElementsAre("a", "b", "beta"));
     EXPECT_TRUE(step.kernel.reads_neighbours(0));
     EXPECT_FALSE(step.kernel.reads_neighbours(2));
-    const BoundKernel view = lower_view(*checked->program, checked->program->stages[0].show, 0);
+    const BoundKernel view = only_pass(plan_view(*checked->program, checked->program->stages[0].show, 0));
     EXPECT_THAT(view.kernel.field_names, ElementsAre("b"));
 }
 
@@ -423,7 +423,7 @@ TEST(Lower, LongFormulas) {
     for (int i = 1; i < 100'000; ++i) definitions += fmt::format("d{} = d{} + 1\n", i, i - 1);
     const auto checked = check_text(definitions + "}\nstage one: s {}\n");
     ASSERT_TRUE(checked->program);
-    EXPECT_EQ(verify(lower_step(*checked->program, 0).kernel), "");
+    EXPECT_EQ(verify(only_pass(plan_step(*checked->program, 0)).kernel), "");
 }
 
 }  // namespace
