@@ -2,6 +2,7 @@
 
 #include "lang/check_names.h"
 #include "lang/equation_formula.h"
+#include "lang/equation_lines.h"
 #include "lang/system_sentences.h"
 
 #include <fmt/format.h>
@@ -167,8 +168,12 @@ private:
         if (lines.empty()) return;
         text += fmt::format("\\begin{{{}}}\n", environment);
         for (const Line& line : lines) {
-            text += fmt::format("  {} &{} {}{}\n", line.left, line.relation, line.right,
-                                &line == &lines.back() ? "" : " \\\\");
+            const std::vector<std::string> pieces = broken_sum(line.right);
+            text += fmt::format("  {} &{} {}", line.left, line.relation, pieces.front());
+            for (std::size_t k = 1; k < pieces.size(); ++k) {
+                text += fmt::format(" \\notag \\\\\n  &\\quad {{}} {}", pieces[k]);
+            }
+            text += &line == &lines.back() ? "\n" : " \\\\\n";
         }
         text += fmt::format("\\end{{{}}}\n", environment);
     }

@@ -174,6 +174,22 @@ TEST(Equations, KnowFamiliesAndOwnFunctions) {
     EXPECT_EQ(tex("max(u[i] over i)"), "\\max_{i}\\left(u_{i}\\right)");
 }
 
+// A term is 4 signs wide, and one more with its sign: 12 of them fit on a line of 60.
+TEST(Equations, LongSumsGoOnInLinesBelow) {
+    const std::string term = "a \\, b \\, c \\, d";
+    std::string script = "a * b * c * d", line = term, rest;
+    for (int k = 1; k < 20; ++k) {
+        script += k % 2 == 0 ? " + a * b * c * d" : " - a * b * c * d";
+        const std::string more = (k % 2 == 0 ? "+ " : "- ") + term;
+        if (k < 12) line += " " + more;
+        else rest += (rest.empty() ? "" : " ") + more;
+    }
+    EXPECT_EQ(tex(script), line + " \\notag \\\\\n  &\\quad {} " + rest);
+    // What stands in brackets or fractions is not torn.
+    EXPECT_EQ(tex("2 * (" + script + ")").find("notag"), std::string::npos);
+    EXPECT_EQ(tex("1 / (" + script + ")").find("notag"), std::string::npos);
+}
+
 /// Are all brackets of TeX closed by their own kind, in order?
 bool is_balanced(const std::string& text) {
     std::vector<std::string> open;
