@@ -48,4 +48,9 @@ if [ "$(id -u)" != 0 ]; then
     run 3 fmt locked/rough.cascade
     chmod 700 locked
 fi
+
+# The project's own scripts are in the style, but for the recipes that are as the thesis prints them.
+grep -rL --include='*.cascade' ' - Turk 1992, Appendix C' "$SOURCE/examples" "$SOURCE/lang/systems" >own
+[ "$(wc -l <own)" -ge 100 ] || fail "only $(wc -l <own) scripts of the project"
+xargs -d '\n' "$CASCADE" fmt --check <own >out 2>err || fail "not in the style: $(cat out err)"
 echo "format: right"
