@@ -39,6 +39,16 @@ inline auto whole_number(std::int64_t low, std::int64_t high) {
     return [=](const std::string& text) { return parse_whole(text, low, high); };
 }
 
+inline auto odd_number(std::int64_t low, std::int64_t high) {
+    return [=](const std::string& text) -> Result<std::int64_t> {
+        auto number = parse_whole(text, low, high);
+        if (number && *number % 2 == 0) {
+            return failure(fmt::format("'{}' is not an odd number", text));
+        }
+        return number;
+    };
+}
+
 inline Result<std::string> any_text(const std::string& text) {
     if (text.empty()) return failure("it must not be empty");
     return text;

@@ -113,9 +113,9 @@ int check_command(const Options& options, Console& console) {
 }
 
 int compile_command(const Options& options, Console& console) {
-    const auto file = load(options.scripts[0], options.overrides, console);
+    auto file = load(options.scripts[0], options.overrides, console);
     if (!file) return exit_status::wrong_script;
-    const Script& script = file->script;
+    Script& script = file->script;
     console.say(script.messages(console.error().colour));
     if (!script.program) return exit_status::wrong_script;
 
@@ -137,6 +137,10 @@ int compile_command(const Options& options, Console& console) {
     }
     const auto compiled = compile_step(script, options.compile);
     if (!compiled) {
+        if (script.diagnostics.has_errors()) {
+            console.say(script.messages(console.error().colour));
+            return exit_status::wrong_script;
+        }
         console.fail(compiled.error());
         return has_jit() ? exit_status::wrong_use : exit_status::failed_run;
     }

@@ -61,10 +61,10 @@ const std::string_view check_examples = R"(Examples:
   cascade check leopard.cascade --dump ir            what a cell computes in a step)";
 
 const std::string_view compile =
-    "Writes the step of a stage as an object file with a C header.";
+    "Writes a stage, its starting values and its steps, as an object file with a C header.";
 const std::string_view compile_examples = R"(Example:
-  cascade compile leopard.cascade --stage 2 --per-cell beta -o step.o --header step.h
-The header says how fields lie in memory and how steps are taken.)";
+  cascade compile spots.cascade --per-cell ka -o step.o && cc -O2 main.c step.o
+The comment at the top of step.h says how a program uses it.)";
 
 const std::string_view systems =
     "Lists the systems of the library, or shows one: equations, parameters, defaults.";

@@ -222,7 +222,12 @@ void add_compile(CLI::App& app, Options& options) {
     add_value(app, "--target", "CPU", "A processor such as x86-64-v3; without it this one",
               any_text, [&](auto target) { compile.target = target; })
         ->group(group);
-    add_value(app, "--name", "NAME", "The C function's name; without it SCRIPT_STAGE", any_text,
+    add_value(app, "--stages", "N", "Stages of each step of rkl1 and rkl2: odd, 3 to 99",
+              odd_number(3, most_compiled_stages), [&](auto stages) {
+                  compile.stages = static_cast<std::uint32_t>(stages);
+              })
+        ->group(group);
+    add_value(app, "--name", "NAME", "The C functions' name; without it SCRIPT_STAGE", any_text,
               [&](auto name) { compile.function_name = name; })
         ->group(group);
 }

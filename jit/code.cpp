@@ -62,20 +62,24 @@ private:
 
 }  // namespace
 
-Result<CodeModule> make_code(const CellKernel& kernel, const GridShape& shape,
-                             const std::string& name, const llvm::TargetMachine& machine) {
+CodeModule make_module(const llvm::TargetMachine& machine) {
+    CodeModule code{std::make_unique<llvm::LLVMContext>(), nullptr, false};
+    code.module = std::make_unique<llvm::Module>("cascade", *code.context);
+    code.module->setDataLayout(machine.createDataLayout());
+    code.module->setTargetTriple(machine.getTargetTriple().str());
+    code.module->setPICLevel(llvm::PICLevel::BigPIC);
+    return code;
+}
+
+Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const GridShape& shape,
+                        const std::string& name, const llvm::TargetMachine& machine) {
     const std::size_t size = size_of(kernel);
     if (size > largest_native_kernel) {
         return failure(fmt::format("a kernel of size {} is too large for native code, which ends "
                                    "at {}",
                                    size, largest_native_kernel));
     }
-    CodeModule code{std::make_unique<llvm::LLVMContext>(), nullptr,
-                    size > largest_optimised_kernel};
-    code.module = std::make_unique<llvm::Module>("cascade", *code.context);
-    code.module->setDataLayout(machine.createDataLayout());
-    code.module->setTargetTriple(machine.getTargetTriple().str());
-    code.module->setPICLevel(llvm::PICLevel::BigPIC);
+    code.is_large = code.is_large || size > largest_optimised_kernel;
     llvm::Function* function = build_grid_function(*code.module, kernel, shape, name);
     set_target(*function, machine, shape.lanes);
 
@@ -83,6 +87,15 @@ Result<CodeModule> make_code(const CellKernel& kernel, const GridShape& shape,
     llvm::raw_string_ostream stream(fault);
     if (llvm::verifyFunction(*function, &stream)) {
         return failure("the code of a kernel is not valid: " + stream.str());
+    }
+    return {};
+}
+
+Result<CodeModule> make_code(const CellKernel& kernel, const GridShape& shape,
+                             const std::string& name, const llvm::TargetMachine& machine) {
+    CodeModule code = make_module(machine);
+    if (auto added = add_kernel(code, kernel, shape, name, machine); !added) {
+        return tl::unexpected(added.error());
     }
     return code;
 }

@@ -33,9 +33,16 @@ inline constexpr std::size_t largest_optimised_kernel = 3000;
 /// Above this size kernels are refused; it takes up to 1 s to compile.
 inline constexpr std::size_t largest_native_kernel = 20000;
 
-/// The kernel as one function `name`. Fails if the kernel is larger than
-/// `largest_native_kernel` or if LLVM finds fault with the code (our own mistake, but one that the
-/// caller can survive by interpreting).
+/// A module for code of a machine, with nothing in it yet.
+CodeModule make_module(const llvm::TargetMachine& machine);
+
+/// Adds the kernel as a function `name`. Fails if the kernel is larger than `largest_native_kernel`
+/// or if LLVM finds fault with the code (our own mistake, but one that the caller can survive by
+/// interpreting).
+Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const GridShape& shape,
+                        const std::string& name, const llvm::TargetMachine& machine);
+
+/// A module of one kernel.
 Result<CodeModule> make_code(const CellKernel& kernel, const GridShape& shape,
                              const std::string& name, const llvm::TargetMachine& machine);
 

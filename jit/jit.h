@@ -30,13 +30,26 @@ Result<std::string> dump_assembly(const CellKernel& kernel, Stencil stencil,
 /// Cascade's version of LLVM and the host's CPU name and vector width, for `--version`.
 std::string describe_jit();
 
-/// What an object file holds: a kernel under a C name.
-struct ObjectOptions {
-    std::string function_name;   ///< A C identifier.
-    std::string target = "";     ///< A CPU as LLVM names it: "x86-64-v3", "znver4"; "" is the host.
+/// A function of an object file: a kernel under a C name.
+struct NamedKernel {
+    std::string name;   ///< A C identifier.
+    CellKernel kernel;
 };
 
-/// The bytes of a relocatable object file with one function
+/// Constant numbers of an object file: `extern const float NAME[]`, aligned to 64 bytes.
+struct NamedNumbers {
+    std::string name;   ///< A C identifier.
+    std::vector<float> values;
+};
+
+/// What an object file holds.
+struct ObjectContent {
+    std::vector<NamedKernel> functions;
+    std::vector<NamedNumbers> numbers = {};
+};
+
+/// The bytes of a relocatable object file for the CPU `target`, as LLVM names it ("x86-64-v3",
+/// "znver4"; "" is the host). Each kernel becomes a function
 ///
 ///     void NAME(const float *const *fields, const unsigned char *const *masks,
 ///               const float *uniforms, float *const *results,
@@ -49,8 +62,8 @@ struct ObjectOptions {
 /// aligned to 64 bytes and of masks to 16; `stride` is a multiple of 16 elements, with 16 or more
 /// in front of and behind each row; `width` is at least 1. The bits are those of a run if the
 /// processor flushes denormal inputs and results meanwhile (FTZ and DAZ on x86).
-Result<std::vector<std::uint8_t>> compile_object(const CellKernel& kernel, Stencil stencil,
-                                                 const ObjectOptions& options);
+Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, Stencil stencil,
+                                                 const std::string& target);
 
 /// CPU names that `--target` accepts for this machine's architecture.
 std::vector<std::string> known_targets();

@@ -3,6 +3,8 @@
 #include "jit/jit.h"
 #include "jit/target_machine.h"
 
+#include <llvm/IR/Constants.h>
+#include <llvm/IR/GlobalVariable.h>
 #include <llvm/Support/raw_ostream.h>
 
 #include <algorithm>
@@ -17,8 +19,8 @@ struct Compiled {
 };
 
 Result<Compiled> compile_for(const CellKernel& kernel, Stencil stencil, const std::string& name,
-                             const std::string& cpu, const JitOptions& options) {
-    auto target = choose_target(cpu, options);
+                             const JitOptions& options) {
+    auto target = choose_target("", options);
     if (!target) return tl::unexpected(target.error());
     auto code = make_code(kernel, {stencil, target->lanes}, name, *target->machine);
     if (!code) return tl::unexpected(code.error());
@@ -35,24 +37,52 @@ bool is_c_identifier(const std::string& name) {
                        [&](char c) { return is_letter(c) || is_digit(c); });
 }
 
+void add_numbers(CodeModule& code, const NamedNumbers& numbers) {
+    llvm::Constant* values = llvm::ConstantDataArray::get(
+        *code.context, llvm::ArrayRef<float>(numbers.values.data(), numbers.values.size()));
+    auto* variable =
+        new llvm::GlobalVariable(*code.module, values->getType(), true,
+                                 llvm::GlobalValue::ExternalLinkage, values, numbers.name);
+    variable->setAlignment(llvm::Align(64));
+}
+
+Result<void> check_names(const ObjectContent& content) {
+    const auto check = [](const std::string& name) -> Result<void> {
+        if (is_c_identifier(name)) return {};
+        return failure("'" + name + "' is not a name of C",
+                       "letters, digits and '_', no digit in front");
+    };
+    for (const NamedKernel& function : content.functions) {
+        if (auto good = check(function.name); !good) return good;
+    }
+    for (const NamedNumbers& numbers : content.numbers) {
+        if (auto good = check(numbers.name); !good) return good;
+    }
+    return {};
+}
+
 }  // namespace
 
-Result<std::vector<std::uint8_t>> compile_object(const CellKernel& kernel, Stencil stencil,
-                                                 const ObjectOptions& options) {
-    if (!is_c_identifier(options.function_name)) {
-        return failure("'" + options.function_name + "' is not a name of C",
-                       "letters, digits and '_', no digit in front");
+Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, Stencil stencil,
+                                                 const std::string& cpu) {
+    if (auto good = check_names(content); !good) return tl::unexpected(good.error());
+    auto target = choose_target(cpu, {});
+    if (!target) return tl::unexpected(target.error());
+    CodeModule code = make_module(*target->machine);
+    for (const NamedKernel& function : content.functions) {
+        auto added = add_kernel(code, function.kernel, {stencil, target->lanes}, function.name,
+                                *target->machine);
+        if (!added) return tl::unexpected(added.error());
     }
-    auto made = compile_for(kernel, stencil, options.function_name, options.target, {});
-    if (!made) return tl::unexpected(made.error());
-    const auto bytes = generate(made->code, *made->target.machine, CodeForm::object);
+    for (const NamedNumbers& numbers : content.numbers) add_numbers(code, numbers);
+    const auto bytes = generate(code, *target->machine, CodeForm::object);
     if (!bytes) return tl::unexpected(bytes.error());
     return std::vector<std::uint8_t>(bytes->begin(), bytes->end());
 }
 
 Result<std::string> dump_llvm(const CellKernel& kernel, Stencil stencil,
                               const JitOptions& options) {
-    const auto made = compile_for(kernel, stencil, "kernel", "", options);
+    const auto made = compile_for(kernel, stencil, "kernel", options);
     if (!made) return tl::unexpected(made.error());
     std::string text;
     llvm::raw_string_ostream stream(text);
@@ -62,7 +92,7 @@ Result<std::string> dump_llvm(const CellKernel& kernel, Stencil stencil,
 
 Result<std::string> dump_assembly(const CellKernel& kernel, Stencil stencil,
                                   const JitOptions& options) {
-    auto made = compile_for(kernel, stencil, "kernel", "", options);
+    auto made = compile_for(kernel, stencil, "kernel", options);
     if (!made) return tl::unexpected(made.error());
     const auto text = generate(made->code, *made->target.machine, CodeForm::assembly);
     if (!text) return tl::unexpected(text.error());

@@ -1,8 +1,9 @@
 #include "run/compile.h"
 
 #include "core/near_name.h"
-#include "lang/lower.h"
 #include "run/c_header.h"
+#include "run/c_stage.h"
+#include "run/metric_planes.h"
 #if CASCADE_HAS_JIT
 #include "jit/jit.h"
 #endif
@@ -68,54 +69,87 @@ std::string c_identifier(const std::string& text) {
     return name;
 }
 
+/// The scheme of a step. Steps of one length alone can be compiled. `asked_solver`: the solver is that
+/// of --solver, which lets some choose their steps.
+Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
+                            std::optional<std::uint32_t> stages, bool asked_solver) {
+    const Stage& stage = program.stages[k];
+    const std::string name(name_of(stage.time.solver));
+    if (is_adaptive(stage.time.solver)) {
+        return failure(fmt::format("stage '{}' is solved by {}, which chooses its steps as it runs, "
+                                   "but compiled steps are of one length",
+                                   stage.name, name),
+                       "--solver rk4 takes such steps");
+    }
+    if (is_semi_implicit(stage.time.solver)) {
+        return failure(fmt::format("stage '{}' is solved by {}, which takes waves of the whole grid and no "
+                                   "cells",
+                                   stage.name, name),
+                       "--solver rkl1 --stages 7 compiles long steps");
+    }
+    if (stage.time.automatic_speed) {
+        return failure(fmt::format("stage '{}' chooses its steps as it runs, but compiled steps are "
+                                   "of one length",
+                                   stage.name),
+                       asked_solver
+                           ? fmt::format("--set {}.solver={} keeps its speed", stage.name, name)
+                           : fmt::format("--set {}.speed=… is that length", stage.name));
+    }
+    if (is_stabilised(stage.time.solver) && !stages) {
+        return failure(fmt::format("stage '{}' is solved by {}, which chooses its stages as it runs, "
+                                   "but a compiled step has a number of them",
+                                   stage.name, name),
+                       "--stages N says how many: an odd number");
+    }
+    if (stages && !is_stabilised(stage.time.solver)) {
+        return failure(fmt::format("--stages: {} has no stages to choose; rkl1 and rkl2 have", name));
+    }
+    const std::uint32_t speed = program.system_of(k).speed_item();
+    if (!stage.uniform[speed] && !takes_speed_by_cell(stage.time.solver)) {
+        return failure(fmt::format("{} cannot take the speed of stage '{}', which varies by cell",
+                                   name, stage.name));
+    }
+    return make_scheme(stage.time.solver, program.system_of(k).species_count(),
+                       takes_speed_by_cell(stage.time.solver), stages.value_or(3));
+}
+
 }  // namespace
 
-Result<CompiledStep> compile_step(const Script& script, const CompileRequest& request) {
+Result<CompiledStep> compile_step(Script& script, const CompileRequest& request) {
     Program program = *script.program;
     const auto stage = find_stage(program, request.stage);
     if (!stage) return tl::unexpected(stage.error());
+    if (program.domain.mask) {
+        return failure("a domain with a mask is not compiled to an object file",
+                       "'cascade run' compiles it in memory");
+    }
+    const auto numbers = known_numbers(program, *stage);
     if (auto good = make_per_cell(program, *stage, request.per_cell); !good) {
         return tl::unexpected(good.error());
     }
-    if (const Solver solver = program.stages[*stage].time.solver; solver != Solver::euler) {
-        return failure(fmt::format("stage '{}' is solved by {}, but a function computes a step of euler",
-                                   program.stages[*stage].name, name_of(solver)),
-                       "--solver euler compiles that");
-    }
-    const StepPlan plan = plan_step(program, *stage);
-    if (plan.passes.size() > 1 || plan.aggregates > 0) {
-        return failure(fmt::format("a step of stage '{}' takes {} passes over the grid or an aggregate"
-                                   " over the domain, but a function computes one pass alone",
-                                   program.stages[*stage].name, plan.passes.size()),
-                       "--dump plan shows the passes");
-    }
-    const BoundKernel bound = lower_step(program, *stage);
+    const auto scheme = fixed_scheme(program, *stage, request.stages,
+                                      script.overrides.solver.has_value());
+    if (!scheme) return tl::unexpected(scheme.error());
+    const auto files = read_input_files(script);
+    if (!files) return tl::unexpected(files.error());
+    const auto metric = metric_planes(program);
+    if (!metric) return tl::unexpected(metric.error());
     const std::string name = c_identifier(
         request.function_name.empty()
             ? std::filesystem::path(script.name).stem().string() + "_" +
                   program.stages[*stage].name
             : request.function_name);
+    auto compiled =
+        describe_c_stage({program, *stage, numbers, *files, *metric, *scheme, name});
+    if (!compiled) return tl::unexpected(compiled.error());
 #if CASCADE_HAS_JIT
-    if (program.domain.grid.depth > 1) {
-        return failure("a grid with slices is not compiled to an object file in this version",
-                       "'cascade run' compiles it in memory");
-    }
-    if (!program.stages[*stage].sides.empty()) {
-        return failure(fmt::format("stage '{}' gives its species sides of their own, which object "
-                                   "files do not have in this version",
-                                   program.stages[*stage].name));
-    }
-    if (program.domain.mask) {
-        return failure("a domain with a mask is not compiled to an object file in this version",
-                       "'cascade run' compiles it in memory");
-    }
-    ObjectOptions options;
-    options.function_name = name + "_rows";
-    options.target = request.target;
-    auto object = compile_object(bound.kernel, program.domain.grid.stencil(), options);
+    ObjectContent content;
+    for (const CKernel& each : compiled->kernels) content.functions.push_back({each.name, each.kernel});
+    for (CData& each : compiled->data) content.numbers.push_back({each.name, std::move(each.values)});
+    auto object = compile_object(content, program.domain.grid.stencil(), request.target);
     if (!object) return tl::unexpected(object.error());
     const std::string file = std::filesystem::path(script.name).filename().string();
-    return CompiledStep{std::move(*object), c_header(program, *stage, bound, name, file)};
+    return CompiledStep{std::move(*object), c_header(program, *stage, *compiled, file)};
 #else
     return failure("this build has no native compiler");
 #endif

@@ -42,6 +42,19 @@ std::string describe_backend() {
 }
 
 Result<std::shared_ptr<Backend>> make_stepper(const SimulationOptions& options) {
+StageState empty_state(const System& system) {
+    StageState state;
+    state.numbers.assign(system.item_count(), 0.0F);
+    state.fields.resize(system.item_count());
+    state.species_of_item.assign(system.item_count(), -1);
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        if (!system.is_species(item)) continue;
+        state.species_of_item[item] = static_cast<int>(state.species.size());
+        state.species.emplace_back();
+    }
+    return state;
+}
+
     if (options.backend == BackendKind::interpreter) return make_interpreter();
 #if CASCADE_HAS_JIT
     JitOptions jit;
@@ -218,15 +231,7 @@ Result<void> Simulation::start_stage(std::uint32_t k) {
     Implementation& self = *self_;
     const System& system = self.program->system_of(k);
     StageState& state = self.states[k];
-    state = StageState{};
-    state.numbers.assign(system.item_count(), 0.0F);
-    state.fields.resize(system.item_count());
-    state.species_of_item.assign(system.item_count(), -1);
-    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
-        if (!system.is_species(item)) continue;
-        state.species_of_item[item] = static_cast<int>(state.species.size());
-        state.species.emplace_back();
-    }
+    state = empty_state(system);
     self.start_uniform_items(k);
     self.start_varying_items(k);
     self.find_sides(k);
@@ -438,7 +443,8 @@ Result<void> Simulation::Implementation::find_mask() {
 }
 
 /// Values of sides are found once, by formulas that may read whatever the stage starts with. One
-/// that is the same everywhere is kept as a number.
+/// that is the same everywhere is kept as a number. As long as they are looked for, the boundary of
+/// the domain holds.
 void Simulation::Implementation::find_sides(std::uint32_t k) {
     StageState& state = states[k];
     for (const auto& settings : stage(k).sides) {
@@ -448,6 +454,7 @@ void Simulation::Implementation::find_sides(std::uint32_t k) {
             SideRule& rule = rules.at[side];
             rule.kind = settings[side].kind;
             if (!rule.has_value()) continue;
+    std::vector<SideRules> found;
             Field values = std::move(
                 evaluate(plan_view(*program, settings[side].value, k), k)[0]);
             rule.value = values.at(0, 0);
@@ -455,7 +462,7 @@ void Simulation::Implementation::find_sides(std::uint32_t k) {
             fill_halo(values.origin(), values.layout(), grid.boundary);
             rule.values = state.side_values.emplace_back(std::move(values)).origin();
         }
-        state.sides.push_back(rules);
+        found.push_back(rules);
     }
 }
 
@@ -464,6 +471,7 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
     report.stage = stage(k).name;
     const System& system = program->system_of(k);
     report.system = system.name;
+    state.sides = std::move(found);
     report.species = species_name(system, outcome.not_finite->species);
     report.found = *outcome.not_finite;
     report.speed = speed_number(k);

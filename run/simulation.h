@@ -52,6 +52,9 @@ struct StageState {
     }
 };
 
+/// A state with room for all items of a system, without a plane of any.
+StageState empty_state(const System& system);
+
 /// How far a stage has come: "step 300 of 7000", "step 312, t = 4.5 of 30", or "step 312" where only
 /// `until` ends it.
 std::string describe_place(const Stage& stage, const StageState& state);

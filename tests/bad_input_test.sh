@@ -88,6 +88,10 @@ done
 refused 3 'are both to be written to' run good.cascade -o a.png --sheet ./a.png
 refused 64 'are both to be written to' compile good.cascade -o a.h
 refused 64 'a script is missing' compile
+refused 64 'is not an odd number' compile good.cascade --stages 4
+refused 64 'euler has no stages to choose' compile good.cascade --stages 5
+refused 64 '--stages N says how many' compile good.cascade --set solver=rkl1
+refused 64 'solver=rkl1 keeps its speed' compile good.cascade --solver rkl1
 
 # Outputs that cannot be written are found before the first step.
 touch file

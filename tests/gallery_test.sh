@@ -51,7 +51,7 @@ for script in "$SOURCE"/lang/systems/*.cascade; do
 done
 if [ "$CASCADE_JIT" = 1 ]; then
     [ "$count" -ge 30 ] || { echo "gallery: only $count pictures"; failed=1; }
-    "$CASCADE" compile "$SOURCE/examples/c_program/spots.cascade" -o step.o --header step.h > log &&
+    "$CASCADE" compile "$SOURCE/examples/c_program/spots.cascade" --per-cell ka -o step.o > log &&
         cc -O2 -Wall -Wextra -Werror -I. "$SOURCE/examples/c_program/main.c" step.o -lpng -o spots &&
         ./spots again.png && cmp "$SOURCE/examples/c_program/spots.png" again.png || failed=1
 fi

@@ -66,6 +66,12 @@ Symbols symbols_of(std::span<const std::uint8_t> bytes) {
     return symbols;
 }
 
+/// An object file of one function.
+Result<std::vector<std::uint8_t>> object_of(const CellKernel& kernel, Stencil stencil,
+                                            const std::string& name, const std::string& target) {
+    return compile_object({{{name, kernel}}}, stencil, target);
+}
+
 /// A kernel with every operation of the table.
 CellKernel kernel_with_all_operations() {
     for (std::uint64_t seed = 1;; ++seed) {
@@ -84,7 +90,7 @@ TEST(JitObject, HoldsTheFunctionAndNeedsNothing) {
     for (const std::string target :
          {"", "x86-64", "x86-64-v2", "x86-64-v3", "x86-64-v4", "znver4", "haswell"}) {
         for (const Stencil stencil : {Stencil::row, Stencil::column, Stencil::plane}) {
-            const auto object = compile_object(kernel, stencil, {"my_step", target});
+            const auto object = object_of(kernel, stencil, "my_step", target);
             ASSERT_TRUE(object) << object.error().message;
             const Symbols symbols = symbols_of(*object);
             ASSERT_TRUE(symbols.ok) << target;
@@ -136,7 +142,7 @@ TEST(JitObject, AllTargetsComputeTheSameBits) {
         const std::vector<Field> expected = run_kernel(*interpreter, kernel, grid, seed);
         for (const std::string& target : targets_of_this_machine()) {
             const std::string name = "step" + std::to_string(number++);
-            const auto object = compile_object(kernel, grid.stencil(), {name, target});
+            const auto object = object_of(kernel, grid.stencil(), name, target);
             ASSERT_TRUE(object);
             const ObjectKernel native(**session, *object, name);
             ASSERT_EQ(same_bits(expected, HostileInputs(kernel, grid, seed).run(native)), "")
@@ -147,20 +153,20 @@ TEST(JitObject, AllTargetsComputeTheSameBits) {
 
 TEST(JitObject, CodeDependsOnTheTarget) {
     const CellKernel kernel = random_kernel(3);
-    const auto plain = compile_object(kernel, Stencil::plane, {"f", "x86-64"});
-    const auto wide = compile_object(kernel, Stencil::plane, {"f", "x86-64-v4"});
+    const auto plain = object_of(kernel, Stencil::plane, "f", "x86-64");
+    const auto wide = object_of(kernel, Stencil::plane, "f", "x86-64-v4");
     ASSERT_TRUE(plain && wide);
     EXPECT_NE(*plain, *wide);
-    EXPECT_EQ(*plain, *compile_object(kernel, Stencil::plane, {"f", "x86-64"}));
+    EXPECT_EQ(*plain, *object_of(kernel, Stencil::plane, "f", "x86-64"));
 }
 
 TEST(JitObject, WrongRequestsAreFailures) {
     const CellKernel kernel = random_kernel(3);
-    const auto object = compile_object(kernel, Stencil::plane, {"f", "pentium-pro-max"});
+    const auto object = object_of(kernel, Stencil::plane, "f", "pentium-pro-max");
     ASSERT_FALSE(object);
     EXPECT_THAT(object.error().message, HasSubstr("pentium-pro-max"));
     for (const char* name : {"", "9lives", "a b", "a-b", "é"}) {
-        EXPECT_FALSE(compile_object(kernel, Stencil::plane, {name, ""})) << name;
+        EXPECT_FALSE(object_of(kernel, Stencil::plane, name, "")) << name;
     }
 }
 
