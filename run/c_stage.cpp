@@ -241,7 +241,7 @@ private:
         const Placeholders places(program_, k_);
         const auto no_kernel = [](const CellKernel&) { return KernelPointer(); };
         const StepProblem problem =
-            bind_scheme(request_.scheme, plans, no_kernel, places.context(), system_, k_);
+            bind_scheme(request_.scheme, plans, {}, no_kernel, places.context(), system_, k_);
         result_.scratch_registers = problem.registers - 2;
         result_.step_aggregates = problem.aggregates;
         for (std::size_t species = 0; species < system_.species_count(); ++species) {

@@ -6,12 +6,14 @@
 #include "run/measured.h"
 #include "run/memory.h"
 #include "run/png_texts.h"
+#include "run/stage_time.h"
 
 #include <fmt/format.h>
 
 #include <chrono>
 #include <deque>
 #include <numeric>
+#include <utility>
 
 namespace cascade {
 
@@ -130,6 +132,8 @@ private:
     Result<StageEnd> run_stage(std::uint32_t stage);
     void look();
     void observe(std::uint32_t stage);
+    bool frame_is_due(std::uint32_t stage);
+    double tenths_behind(std::uint32_t stage) const;
     std::int64_t observation_interval(const Stage& stage) const;
     Result<void> write_results();
     Result<void> write_final_picture();
@@ -149,6 +153,7 @@ private:
     std::optional<Painter> painter_;
     std::optional<FrameRecorder> frames_;
     std::optional<RunLog> log_;
+    double tenths_seen_ = 0;  ///< Of the duration of the stage that runs, when a frame was drawn.
 };
 
 Result<void> Runner::prepare() {
@@ -205,6 +210,7 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
                             request_.stop_at->step <= last;
     if (stops_here) last = request_.stop_at->step;
     const std::int64_t before = simulation_->state(k).steps;
+    tenths_seen_ = tenths_behind(k);
     const auto start = Clock::now();
     auto end = simulation_->advance_stage(k, std::max(last, before), control_,
                                           [&] { observe(k); }, observation_interval(stage));
@@ -234,10 +240,24 @@ std::int64_t Runner::observation_interval(const Stage& stage) const {
     return frames_ ? std::gcd(log_->every(stage), stage.interval) : log_->every(stage);
 }
 
+/// Frames have the stage's own interval, or are drawn at tenths of its duration.
+bool Runner::frame_is_due(std::uint32_t k) {
+    const std::int64_t interval = script_.program->stages[k].interval;
+    if (interval > 0) return simulation_->state(k).steps % interval == 0;
+    const double before = std::exchange(tenths_seen_, tenths_behind(k));
+    return tenths_seen_ > before;
+}
+
+double Runner::tenths_behind(std::uint32_t k) const {
+    const StageState& state = simulation_->state(k);
+    const Program& program = *script_.program;
+    return tenths_reached(state.t, duration_of(program.stages[k], program.system_of(k), state));
+}
+
 void Runner::observe(std::uint32_t k) {
     const Stage& stage = script_.program->stages[k];
     const std::int64_t step = simulation_->state(k).steps;
-    if (stage.interval == 0 || step % stage.interval == 0) look();
+    if (frame_is_due(k)) look();
     const std::int64_t every = log_ ? log_->every(stage) : 0;
     if (log_ && (every == 0 || step % every == 0)) log_->record(*simulation_, k);
 }

@@ -270,6 +270,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
                                          [&](std::int64_t step, double t, std::span<const Field>) {
                                              state.steps = step;
                                              state.t = t;
+    schedule.tenths = stage.interval == 0;
                                              if (observe) observe();
                                              return true;
                                          });

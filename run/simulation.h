@@ -89,8 +89,9 @@ public:
     Result<void> start_stage(std::uint32_t stage);
 
     /// Takes steps until `last_step` are complete. A stage that starts on coarser grids is run on
-    /// those before its first step, without being observed. `observe` is called at multiples of `every`, or,
-    /// where that is 0, of the stage's interval. Fails, with stage, species, cell, step and the largest stable speed, on values
+    /// those before its first step, without being observed. `observe` is called at multiples of
+    /// `every`, or, where that is 0, of the stage's interval; and at tenths of the duration of a stage
+    /// without one. Fails, with stage, species, cell, step and the largest stable speed, on values
     /// that are not finite.
     Result<StageEnd> advance_stage(std::uint32_t stage, std::int64_t last_step,
                                    RunControl& control, const std::function<void()>& observe,

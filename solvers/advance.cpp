@@ -49,7 +49,7 @@ public:
           kept_step_(schedule.first_step) {
         progress_.steps = std::max(progress_.steps, schedule.last_step);
         if (has_end_time()) progress_.duration = schedule.end_time;
-        tenths_seen_ = tenths(now());
+        tenths_seen_ = tenths_reached(now(), schedule.end_time);
         stepper_.set_clock(time_.clock);
     }
 
@@ -132,7 +132,7 @@ private:
         }
         stop = std::min(stop, schedule_.last_step);
         if (!has_end_time()) return stop;
-        if (schedule_.interval == 0) {
+        if (looks_at_tenths()) {
             stop = std::min(stop, step_ + steps_until((tenths_seen_ + 1) * schedule_.end_time / 10));
         }
         const double left = schedule_.end_time - now();
@@ -155,9 +155,7 @@ private:
     bool is_over() const {
         return schedule_.end_time - now() <= rounding_of_time * time_.clock.step;
     }
-    double tenths(double t) const {
-        return has_end_time() ? std::floor(10 * t / schedule_.end_time + 1e-9) : 0;
-    }
+    bool looks_at_tenths() const { return schedule_.tenths || schedule_.interval == 0; }
 
     void set_step(double length) {
         time_.clock.set_step(step_, length);
@@ -175,9 +173,10 @@ private:
 
     bool observation_due() {
         if (!observe_) return false;
-        if (schedule_.interval > 0) return step_ % schedule_.interval == 0;
-        const double seen = tenths(now());
-        const bool due = seen > tenths_seen_;
+        const bool is_multiple = schedule_.interval > 0 && step_ % schedule_.interval == 0;
+        if (!looks_at_tenths()) return is_multiple;
+        const double seen = tenths_reached(now(), schedule_.end_time);
+        const bool due = is_multiple || seen > tenths_seen_;
         tenths_seen_ = seen;
         return due;
     }
@@ -299,6 +298,10 @@ private:
 };
 
 }  // namespace
+
+double tenths_reached(double t, double end_time) {
+    return std::isfinite(end_time) ? std::floor(10 * t / end_time + 1e-9) : 0;
+}
 
 StageOutcome advance(const StepProblem& problem, const Schedule& schedule,
                      std::vector<Field>& species, RunControl& control, Progress progress,

@@ -47,6 +47,7 @@ struct Schedule {
     /// `observe` is called at multiples of this. Where it is 0 and there is an end time, at the
     /// first step that reaches a tenth of it, two tenths, …
     std::int64_t interval = 0;
+    bool tenths = false;              ///< Then also where `interval` is not 0.
     std::int64_t check = 0;           ///< `ends` is asked at multiples of this; 0 for never.
     EndTest ends = {};
     std::int64_t choose_every = 0;    ///< `choose` is asked at multiples of this, 0 included.
@@ -56,6 +57,9 @@ struct Schedule {
     std::int64_t check_every = 64;    ///< Steps between two looks for values that are not finite.
     int threads = 1;
 };
+
+/// How many tenths of the way to the end time are behind; 0 where there is none.
+double tenths_reached(double t, double end_time);
 
 /// The first value that was not finite.
 struct NotFinite {

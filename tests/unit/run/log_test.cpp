@@ -65,6 +65,27 @@ TEST_F(LogTest, StepsOfItsOwnAndWithFrames) {
     }
 }
 
+// A stage with a duration and no interval is drawn at its tenths, however often it is logged.
+TEST_F(LogTest, FramesOfADurationHaveAnIntervalOfTheirOwn) {
+    Script script = load("stage s: turing_spots { duration: 10; speed: 0.25 }\n"
+                         "domain { grid: 8, 4 }");
+    RunRequest wanted = request();
+    wanted.log.expressions = {"step"};
+    wanted.log.every = 3;
+    wanted.log.file = path("log.csv");
+    wanted.frames = path("film");
+    run_well(script, wanted);
+    EXPECT_EQ(lines("log.csv").size(), 1u + 15u);  // Steps 0, 3, …, 39 and 40.
+    std::vector<std::string> frames;
+    for (const auto& entry : std::filesystem::directory_iterator(path("film"))) {
+        frames.push_back(entry.path().filename().string());
+    }
+    std::sort(frames.begin(), frames.end());
+    ASSERT_EQ(frames.size(), 11u);
+    EXPECT_EQ(frames[1], "0001-s-0000004.png");
+    EXPECT_EQ(frames[10], "0010-s-0000040.png");
+}
+
 TEST_F(LogTest, AggregatesOverTime) {
     // The mean decays by 1/64 a step, whatever diffusion does; 8 cells of 1 and 24 of 0.
     Script script = load("system s { u: sx < 0.25; u' = lap(u) / 8 - u / 64 }\n"
