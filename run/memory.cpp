@@ -3,7 +3,7 @@
 #include "core/plane.h"
 #include "core/resample.h"
 #include "lang/diffusion.h"
-#include "lang/lower.h"
+#include "run/stage_time.h"
 #include "solvers/scheme.h"
 
 #include <fmt/format.h>
@@ -33,21 +33,22 @@ std::uint64_t available_memory() {
 
 namespace {
 
-/// Planes of the registers besides the old step and the new one.
-std::uint64_t scratch_planes(const Program& program, std::uint32_t stage) {
-    const System& system = program.system_of(stage);
-    std::uint32_t species = 0;
-    for (std::uint32_t item = 0; item < system.item_count(); ++item) {
-        if (system.is_species(item)) ++species;
+/// Planes that live as long as a stage is run: temporaries of passes, and the registers besides the
+/// old step and the new one.
+std::uint64_t planes_while_running(const Program& program, std::uint32_t k, StagePlans& plans) {
+    const Stage& stage = program.stages[k];
+    const std::uint32_t species = program.system_of(k).species_count();
+    const Scheme scheme = make_scheme(stage.time.solver, species, steps_by_item(stage));
+    std::uint32_t temporaries = plans.start(k).temporaries;
+    for (const SweepForm& form : scheme.forms) {
+        temporaries = std::max(temporaries, plans.sweep(k, form).temporaries);
     }
-    const Solver solver = program.stages[stage].time.solver;
-    const Scheme scheme = make_scheme(solver, species, false);
-    std::uint64_t planes = std::uint64_t{scheme.registers - 2} * species;
-    if (!is_semi_implicit(solver)) return planes;
+    std::uint64_t planes = temporaries + std::uint64_t{scheme.registers - 2} * species;
+    if (!is_semi_implicit(stage.time.solver)) return planes;
     // Factors of diffusion that change are written to planes.
-    for (const SpeciesDiffusion& diffusion : diffusion_of(program, stage)) {
+    for (const SpeciesDiffusion& diffusion : diffusion_of(program, k)) {
         planes += std::count_if(diffusion.begin(), diffusion.end(), [&](const Formula& factor) {
-            return !factor.nodes.empty() && changes_in_time(program, stage, factor);
+            return !factor.nodes.empty() && changes_in_time(program, k, factor);
         });
     }
     return planes;
@@ -70,6 +71,11 @@ std::int64_t plane_size(const Program& program) {
 }  // namespace
 
 double memory_of(const Program& program) {
+    StagePlans plans(program);
+    return memory_of(program, plans);
+}
+
+double memory_of(const Program& program, StagePlans& plans) {
     // Two buffers and the kept copy of every species, and every varying parameter, of all stages:
     // later stages and pictures may read any of them.
     std::uint64_t planes = 4;
@@ -83,15 +89,9 @@ double memory_of(const Program& program) {
             }
         }
     }
-    // Temporaries of a step's passes, and what solvers of several sweeps keep between them, live as
-    // long as their stage is run.
     std::uint64_t while_running = 0;
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
-        std::uint64_t temporaries = 0;
-        for (const StepPlan& plan : {plan_start(program, k), plan_step(program, k)}) {
-            temporaries = std::max<std::uint64_t>(temporaries, plan.temporaries);
-        }
-        while_running = std::max(while_running, temporaries + scratch_planes(program, k));
+        while_running = std::max(while_running, planes_while_running(program, k, plans));
     }
     planes += while_running;
     if (program.domain.surface) planes += metric_plane_count;
@@ -99,10 +99,8 @@ double memory_of(const Program& program) {
     return static_cast<double>(planes) * static_cast<double>(plane_size(program)) * 4.0;
 }
 
-Result<void> check_memory(const Program& program, std::uint64_t limit) {
-    const double needed = memory_of(program);
+Result<void> check_memory(const Grid& grid, double needed, std::uint64_t limit) {
     const auto fails = [&](double bytes, std::string_view what) {
-        const Grid& grid = program.domain.grid;
         std::string sides = fmt::format("{} × {}", grid.width, grid.height);
         if (grid.depth > 1) sides += fmt::format(" × {}", grid.depth);
         return failure(fmt::format("a grid of {} cells needs {} for this script, but {} {}",

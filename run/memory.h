@@ -3,6 +3,7 @@
 
 #include "core/result.h"
 #include "lang/program.h"
+#include "run/stage_plans.h"
 
 #include <cstdint>
 #include <string>
@@ -12,14 +13,15 @@ namespace cascade {
 /// "3.2 GB", "40.5 MB".
 std::string describe_bytes(double bytes);
 
-/// Bytes of all planes that a run keeps at one time.
+/// Bytes of all planes that a run keeps at one time. The plans are those that it will run.
+double memory_of(const Program& program, StagePlans& plans);
 double memory_of(const Program& program);
 
 /// Bytes that the system would give without swapping; 0 where it does not say.
 std::uint64_t available_memory();
 
-/// Fails if the fields of all stages would not fit into `limit` bytes (0: no limit but the machine)
-/// or into the machine's free memory.
-Result<void> check_memory(const Program& program, std::uint64_t limit = 0);
+/// Fails if a run on this grid that needs so many bytes would not fit into `limit` bytes (0: no limit
+/// but the machine) or into the machine's free memory.
+Result<void> check_memory(const Grid& grid, double needed, std::uint64_t limit = 0);
 
 }  // namespace cascade

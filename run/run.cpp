@@ -57,11 +57,11 @@ Result<void> check_outputs(const RunRequest& request, const std::filesystem::pat
     return {};
 }
 
-/// A picture larger than memory is refused before the run, not behind it.
-Result<void> check_picture_size(const Program& program, const PictureRequest& picture,
+/// A picture larger than memory is refused before the run, not behind it. `memory` is what the run
+/// takes without it.
+Result<void> check_picture_size(const Grid& domain, const PictureRequest& picture, double memory,
                                 std::uint64_t memory_limit) {
     constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
-    const Grid& domain = program.domain.grid;
     const Grid grid =
         domain.depth > 1 ? slice_grid(PlaneLayout(domain), picture.slice) : domain;
     const std::int64_t pixels_per_cell = std::int64_t{picture.scale} * picture.scale;
@@ -72,7 +72,7 @@ Result<void> check_picture_size(const Program& program, const PictureRequest& pi
     }
     // Painted, and then enlarged.
     const auto pixels = static_cast<double>(grid.cell_count() * (1 + pixels_per_cell));
-    const double bytes = memory_of(program) + pixels * sizeof(Colour);
+    const double bytes = memory + pixels * sizeof(Colour);
     if (memory_limit == 0 || bytes <= static_cast<double>(memory_limit)) return {};
     return failure(fmt::format("with a picture at scale {} this run needs {}, but {} are the limit "
                                "(--limit-memory)",
@@ -171,7 +171,7 @@ Result<void> Runner::prepare() {
     auto simulation = Simulation::create(script_, request_.simulation);
     if (!simulation) return tl::unexpected(simulation.error());
     simulation_ = std::move(*simulation);
-    if (auto good = check_picture_size(*script_.program, request_.picture,
+    if (auto good = check_picture_size(simulation_->grid(), request_.picture, simulation_->memory(),
                                        request_.simulation.memory_limit);
         !good) {
         return good;

@@ -9,8 +9,9 @@
 #include "run/coarse_start.h"
 #include "run/input_files.h"
 #include "run/memory.h"
-#include "run/not_finite.h"
 #include "run/metric_planes.h"
+#include "run/not_finite.h"
+#include "run/stage_plans.h"
 #include "run/stage_time.h"
 #include "solvers/stability.h"
 #if CASCADE_HAS_JIT
@@ -41,7 +42,6 @@ std::string describe_backend() {
 #endif
 }
 
-Result<std::shared_ptr<Backend>> make_stepper(const SimulationOptions& options) {
 StageState empty_state(const System& system) {
     StageState state;
     state.numbers.assign(system.item_count(), 0.0F);
@@ -55,6 +55,7 @@ StageState empty_state(const System& system) {
     return state;
 }
 
+Result<std::shared_ptr<Backend>> make_stepper(const SimulationOptions& options) {
     if (options.backend == BackendKind::interpreter) return make_interpreter();
 #if CASCADE_HAS_JIT
     JitOptions jit;
@@ -68,6 +69,8 @@ StageState empty_state(const System& system) {
 struct Simulation::Implementation {
     Script* script = nullptr;
     const Program* program = nullptr;
+    std::unique_ptr<StagePlans> plans;
+    double memory = 0;  ///< Bytes of all planes.
     Grid grid;
     int threads = 1;
     std::unique_ptr<Backend> interpreter;
@@ -111,7 +114,7 @@ struct Simulation::Implementation {
     }
 
     void start_varying_items(std::uint32_t k) {
-        const StepPlan plan = plan_start(*program, k);
+        const StepPlan& plan = plans->start(k);
         std::vector<Field> values = evaluate(plan, k);
         StageState& state = states[k];
         const System& system = program->system_of(k);
@@ -202,7 +205,9 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     self.grid = self.program->domain.grid;
     self.threads = options.threads > 0 ? options.threads : hardware_threads();
 
-    if (auto enough = check_memory(*self.program, options.memory_limit); !enough) {
+    self.plans = std::make_unique<StagePlans>(*self.program);
+    self.memory = memory_of(*self.program, *self.plans);
+    if (auto enough = check_memory(self.grid, self.memory, options.memory_limit); !enough) {
         return tl::unexpected(enough.error());
     }
     auto files = read_input_files(script);
@@ -265,12 +270,12 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     progress.stage_count = static_cast<int>(self.script->stage_count());
     progress.steps = stage.iterations;
     Schedule schedule = timer.schedule(last_step, every > 0 ? every : stage.interval);
+    schedule.tenths = stage.interval == 0;
     schedule.threads = self.threads;
     const StageOutcome outcome = advance(timer.problem(), schedule, state.species, control, progress,
                                          [&](std::int64_t step, double t, std::span<const Field>) {
                                              state.steps = step;
                                              state.t = t;
-    schedule.tenths = stage.interval == 0;
                                              if (observe) observe();
                                              return true;
                                          });
@@ -369,6 +374,7 @@ std::vector<float> Simulation::evaluate_numbers(std::span<const Formula* const> 
 const Program& Simulation::program() const { return *self_->program; }
 const Grid& Simulation::grid() const { return self_->grid; }
 const DomainMask* Simulation::mask() const { return self_->inside(); }
+double Simulation::memory() const { return self_->memory; }
 const StageState& Simulation::state(std::uint32_t stage) const { return self_->states[stage]; }
 
 double Simulation::time(std::uint32_t stage) const {
@@ -396,10 +402,10 @@ StageTools Simulation::Implementation::tools(std::uint32_t k, RunControl& contro
         return values;
     };
     tools.bind = [this, k, &control, largest](const Scheme& scheme) {
-        std::vector<StepPlan> plans;
-        for (const SweepForm& form : scheme.forms) plans.push_back(plan_sweep(*program, k, form));
+        std::vector<StepPlan> sweeps;
+        for (const SweepForm& form : scheme.forms) sweeps.push_back(plans->sweep(k, form));
         const auto bind = [&](const StepPlan& before) {
-            return bind_scheme(scheme, plans, before, compiled(control, stage(k).name), context(k),
+            return bind_scheme(scheme, sweeps, before, compiled(control, stage(k).name), context(k),
                                program->system_of(k), k);
         };
         if (!is_semi_implicit(stage(k).time.solver)) return bind({});
@@ -448,6 +454,7 @@ Result<void> Simulation::Implementation::find_mask() {
 /// the domain holds.
 void Simulation::Implementation::find_sides(std::uint32_t k) {
     StageState& state = states[k];
+    std::vector<SideRules> found;
     for (const auto& settings : stage(k).sides) {
         SideRules rules;
         rules.spacing = static_cast<float>(grid.spacing);
@@ -455,7 +462,6 @@ void Simulation::Implementation::find_sides(std::uint32_t k) {
             SideRule& rule = rules.at[side];
             rule.kind = settings[side].kind;
             if (!rule.has_value()) continue;
-    std::vector<SideRules> found;
             Field values = std::move(
                 evaluate(plan_view(*program, settings[side].value, k), k)[0]);
             rule.value = values.at(0, 0);
@@ -465,6 +471,7 @@ void Simulation::Implementation::find_sides(std::uint32_t k) {
         }
         found.push_back(rules);
     }
+    state.sides = std::move(found);
 }
 
 Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::uint32_t k) {
@@ -472,7 +479,6 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
     report.stage = stage(k).name;
     const System& system = program->system_of(k);
     report.system = system.name;
-    state.sides = std::move(found);
     report.species = species_name(system, outcome.not_finite->species);
     report.found = *outcome.not_finite;
     report.speed = speed_number(k);

@@ -120,6 +120,8 @@ public:
     const Grid& grid() const;
     /// The cells that belong to the domain; nullptr where all do.
     const DomainMask* mask() const;
+    /// Bytes of all planes that it keeps at one time.
+    double memory() const;
     const StageState& state(std::uint32_t stage) const;
     /// The time since a stage began, at its present step; NaN where `speed` differs between cells.
     double time(std::uint32_t stage) const;

@@ -27,6 +27,11 @@ constexpr double share_of_reaction = 0.02;
 
 }  // namespace
 
+bool steps_by_item(const Stage& stage) {
+    return takes_speed_by_cell(stage.time.solver) && !stage.time.automatic_speed &&
+           !stage.time.has_duration();
+}
+
 double duration_of(const Stage& stage, const System& system, const StageState& state) {
     if (stage.time.duration) return *stage.time.duration;
     if (!stage.time.duration_in_steps) return std::numeric_limits<double>::infinity();
@@ -69,10 +74,8 @@ const StepProblem& StageTimer::problem() { return problem_of(state_.time.stages)
 const StepProblem& StageTimer::problem_of(std::uint32_t stages) {
     const auto known = problems_.find(stages);
     if (known != problems_.end()) return known->second;
-    // The item itself is the step where it is the same throughout.
-    const bool by_item = takes_speed_by_cell(stage_.time.solver) && !stage_.time.automatic_speed &&
-                         !std::isfinite(duration_);
-    const Scheme scheme = make_scheme(stage_.time.solver, species_, by_item, std::max(stages, 3u));
+    const Scheme scheme = make_scheme(stage_.time.solver, species_, steps_by_item(stage_),
+                                      std::max(stages, 3u));
     return problems_.emplace(stages, tools_.bind(scheme)).first->second;
 }
 

@@ -59,6 +59,9 @@ private:
     std::map<std::uint32_t, StepProblem> problems_;  ///< By the number of stages.
 };
 
+/// Is each step of a stage as long as its item `speed` says, which may vary by cell?
+bool steps_by_item(const Stage& stage);
+
 /// The duration of a stage that has started; infinite where it has none.
 double duration_of(const Stage& stage, const System& system, const StageState& state);
 

@@ -1,0 +1,31 @@
+// The plans of a program's stages. Each is made when it is first asked for, and once.
+#pragma once
+
+#include "lang/lower.h"
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace cascade {
+
+class StagePlans {
+public:
+    /// `program` must outlive the plans.
+    explicit StagePlans(const Program& program)
+        : program_(program), starts_(program.stages.size()), sweeps_(program.stages.size()) {}
+
+    /// Of the starting values.
+    const StepPlan& start(std::uint32_t stage);
+    /// Of a sweep of the rates.
+    const StepPlan& sweep(std::uint32_t stage, const SweepForm& form);
+
+private:
+    const Program& program_;
+    std::vector<std::optional<StepPlan>> starts_;
+    std::vector<std::deque<std::pair<SweepForm, StepPlan>>> sweeps_;  ///< By stage.
+};
+
+}  // namespace cascade
