@@ -121,8 +121,8 @@ void add_files(CLI::App& app, RunRequest& run) {
     add_value(app, "--frames", "FOLDER", "A picture at each interval, all in one range", any_text,
               [&](auto path) { run.frames = path; })
         ->group(group);
-    add_value(app, "--volume", "FILE.vti", "All species of the last stage, for ParaView", any_text,
-              [&](auto path) { run.volume = path; })
+    add_value(app, "--volume", "FILE.vti", "All species of the last stage, for ParaView",
+              parse_vti_path, [&](auto path) { run.volume = path; })
         ->group(group);
     add_value(app, "--save", "FOLDER", "Every field as STAGE.NAME.npy, to read or to resume",
               any_text, [&](auto path) { run.save = path; })
@@ -134,18 +134,20 @@ void add_files(CLI::App& app, RunRequest& run) {
 
 void add_log(CLI::App& app, RunRequest& run) {
     const std::string group = "Numbers";
-    app.add_option("--log", run.log.expressions,
-                   "A number over time, such as 'mean(u over domain)', as a\n"
-                   "table; may be given again")
-        ->allow_extra_args(false)
+    CLI::Option* log = app.add_option("--log", run.log.expressions,
+                                      "A number over time, such as 'mean(u over domain)', as a\n"
+                                      "table; may be given again");
+    log->allow_extra_args(false)
         ->type_name("EXPR")
         ->group(group);
     add_value(app, "--log-every", "N", "Steps from row to row; without it each stage's interval",
               whole_number(1, std::numeric_limits<std::int64_t>::max()),
               [&](auto every) { run.log.every = every; })
+        ->needs(log)
         ->group(group);
     add_value(app, "--log-file", "FILE.csv", "The table; without it beside the picture", any_text,
               [&](auto path) { run.log.file = path; })
+        ->needs(log)
         ->group(group);
     app.add_flag("--features", run.features,
                  "Measure what the picture shows: wavelength, spots, …")

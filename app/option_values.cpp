@@ -113,6 +113,16 @@ std::optional<double> read_with_unit(std::string_view text, std::span<const Unit
     return std::nullopt;
 }
 
+Result<std::string> path_with_ending(std::string_view text, std::string_view wanted,
+                                     const char* why) {
+    const std::size_t dot = text.rfind('.');
+    std::string ending(dot == std::string_view::npos ? "" : text.substr(dot));
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    if (ending == wanted) return std::string(text);
+    return failure(fmt::format("'{}' does not end in {}", text, wanted), why);
+}
+
 }  // namespace
 
 Result<double> parse_duration(std::string_view text) {
@@ -163,13 +173,11 @@ Result<std::string> parse_choice(std::string_view text, std::span<const std::str
 }
 
 Result<std::string> parse_png_path(std::string_view text) {
-    const std::size_t dot = text.rfind('.');
-    std::string ending(dot == std::string_view::npos ? "" : text.substr(dot));
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    if (ending == ".png") return std::string(text);
-    return failure(fmt::format("'{}' does not end in .png", text),
-                   "pictures are written as PNG files");
+    return path_with_ending(text, ".png", "pictures are written as PNG files");
+}
+
+Result<std::string> parse_vti_path(std::string_view text) {
+    return path_with_ending(text, ".vti", "volumes are written as image data of VTK");
 }
 
 }  // namespace cascade

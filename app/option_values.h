@@ -49,5 +49,7 @@ Result<std::string> parse_choice(std::string_view text, std::span<const std::str
 
 /// The path of a picture to be written: it must end in .png.
 Result<std::string> parse_png_path(std::string_view text);
+/// The path of a volume to be written: it must end in .vti.
+Result<std::string> parse_vti_path(std::string_view text);
 
 }  // namespace cascade
