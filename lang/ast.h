@@ -108,6 +108,8 @@ struct Block {
     std::vector<Sentence> sentences;
     std::vector<Sentence> sides;  ///< `u.left: …`; their names hold the dot.
     std::string doc;  ///< The text of its doc comments, joined to one line.
+    /// Something of it could not be read and is not in these lists; it has its message.
+    bool is_damaged = false;
 };
 
 /// fn name(parameters) = body

@@ -18,6 +18,18 @@ constexpr std::array<std::string_view, 2> later_functions{"attr", "integral"};
 /// What is taken over something, as in sum(e over i).
 constexpr std::array<std::string_view, 3> only_over{"sum", "mean", "product"};
 
+/// Words that are called like functions elsewhere, in other languages or in this one.
+std::string hint_of_word(std::string_view word) {
+    for (const std::string_view each : {"laplacian", "Laplacian", "laplace", "del2", "nabla2"}) {
+        if (word == each) return "did you mean 'lap'?";
+    }
+    if (word == "steady") return "it stands alone behind 'until:'";
+    if (word == "fixed" || word == "flux") return "it stands behind a side, as in u.left: fixed(1)";
+    if (word == "ln") return "did you mean 'log'?";
+    if (word == "rand") return "did you mean 'random'?";
+    return "";
+}
+
 std::string number_of_values(Arity arity) {
     if (arity.least != arity.most) {
         return fmt::format("{} or {} values", arity.least, arity.most);
@@ -90,8 +102,8 @@ void report_unknown_function(Workspace& work, const ast::Word& name,
             name.span, fmt::format("{} is taken over something", name.text),
             fmt::format("write {0}(e over i) or {0}(e over domain)", name.text));
     }
-    std::string hint;
-    if (!is_hopeless(work)) {
+    std::string hint = hint_of_word(name.text);
+    if (hint.empty() && !is_hopeless(work)) {
         std::vector<std::string> names = own;
         for (std::size_t i = 0; i < function_count; ++i) {
             const FunctionInfo& row = info(static_cast<Function>(i));
@@ -271,7 +283,16 @@ void ExpressionChecker::fold_constants(const Node& node) {
     }
     if (!constant) return;
     const auto value = fold(node.function, values);
-    if (value) parts_.back() = {false, true, *value};
+    if (!value) return;
+    const bool was_finite = std::all_of(values.begin(), values.begin() + node.operand_count,
+                                        [](double each) { return std::isfinite(each); });
+    if (was_finite && !std::isfinite(*value)) {
+        return fault(node.span,
+                     fmt::format("{} has no finite value here", info(node.function).spelling),
+                     std::isnan(*value) ? "it is not defined for these numbers"
+                                        : "it is infinite for these numbers");
+    }
+    parts_.back() = {false, true, *value};
 }
 
 }  // namespace cascade::checking

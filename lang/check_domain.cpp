@@ -187,7 +187,7 @@ void check_domain_sentence(Workspace& work, const ast::Script& script,
         std::string hint = did_you_mean(work, key, {"grid", "spacing", "boundary", "seed", "mask",
                                                    "left", "right", "top", "bottom", "front", "back",
                                                    "sides"});
-        if (hint.empty()) hint = "a domain has grid, spacing, boundary, mask and seed";
+        if (hint.empty()) hint = "a domain has grid, spacing, boundary, sides, mask, seed and surface";
         work.diagnostics.error(sentence.name.span,
                                fmt::format("'{}' is not a setting of the domain", key),
                                std::move(hint));

@@ -142,8 +142,11 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
     if (auto explained = explain_family(work, system, name)) {
         return report(work, span, std::move(explained->message), std::move(explained->hint));
     }
+    if (is_incomplete(work, scope.system)) return;
     const std::string names = list_names(quantity_names(system));
     std::string hint = did_you_mean(work, name, readable_names(system, scope));
+    if (function_named(name)) hint = fmt::format("'{0}' is a function: {0}(…)", name);
+    if (name == "steady") hint = "write steady(0.1)";
     std::string note = fmt::format("{} has {}", system.name, names);
     if (scope.place == Place::value && scope.stage) {
         note = fmt::format("[name] reads this stage ({}: {})", system.name, names);
@@ -205,6 +208,7 @@ void report_unknown_previous(Workspace& work, const Scope& scope, std::string_vi
     if (auto explained = explain_family(work, system, name)) {
         return report(work, span, std::move(explained->message), std::move(explained->hint));
     }
+    if (is_incomplete(work, previous.system)) return;
     std::string hint;
     if (scope.system != unknown_system && find(work.names[scope.system], name) != nullptr) {
         hint = fmt::format("[{0}] is the '{0}' of this stage", name);

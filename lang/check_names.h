@@ -53,6 +53,11 @@ struct Workspace {
     std::size_t parts_written = 0;
     /// The call of a user's function that is being checked: what is wrong is wrong there.
     std::optional<Span> call = std::nullopt;
+    /// By system: sentences of it or an index could not be read. What it seems to lack may stand
+    /// there, so nothing is said of it.
+    std::vector<bool> incomplete = {};
+    /// Indices that have no values, with a message: what they were to number is passed over.
+    std::vector<std::string_view> faulty_indices = {};
 };
 
 /// Where an expression stands: it decides which names and functions it may read.
@@ -102,6 +107,9 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
                                       const ast::Qualified& qualified, Span span);
 std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast::Word& name,
                                  Span span);
+
+/// Has a system parts that could not be read?
+bool is_incomplete(const Workspace& work, std::uint32_t system);
 
 /// True when so many faults or names have been met that no more hints are worth their time:
 /// messages are then short, so that no text takes long to refuse.

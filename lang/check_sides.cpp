@@ -108,6 +108,7 @@ std::vector<SpeciesSide> check_rules(Workspace& work, const ast::Script& script,
         const Meaning* meaning = find(work.names[scope.system], name);
         if (meaning != nullptr && meaning->is_faulty) continue;
         if (meaning == nullptr || meaning->is_definition || !system.is_species(meaning->index)) {
+            if (is_incomplete(work, scope.system)) continue;
             work.diagnostics.error(sentence->name.span,
                                    fmt::format("'{}' is not a species of {}", name, system.name),
                                    is_hopeless(work)
@@ -246,9 +247,8 @@ void check_domain_side(Workspace& work, const ast::Script& script, const ast::Se
     if (written->value) {
         const auto value = check_constant(work, script, *written->value,
                                           "the value of a side of all species");
-        if (!value) return;
         Node node;
-        node.number = *value;
+        node.number = value.value_or(0);  // A wrong one has its message; the side's kind holds.
         node.span = sentence.span;
         setting.value = {{node}};
     }

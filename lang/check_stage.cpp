@@ -180,6 +180,7 @@ void StageChecker::report_unknown(const Statement& statement) {
                                 std::move(explained->hint));
         return;
     }
+    if (is_incomplete(work_, stage().system)) return;
     diagnostic.message =
         fmt::format("'{}' is not a parameter of {}", statement.name, system().name);
     if (!is_hopeless(work_)) {
@@ -188,6 +189,10 @@ void StageChecker::report_unknown(const Statement& statement) {
                                                               list_names(names))});
         names.insert(names.end(), setting_names().begin(), setting_names().end());
         diagnostic.hint = did_you_mean(work_, statement.name, names);
+        if (is_side_word(statement.name)) {
+            diagnostic.hint = fmt::format("a side of one species is SPECIES.{0}: …, of all {0}: … in the domain",
+                                          statement.name);
+        }
     }
     work_.diagnostics.add(std::move(diagnostic));
 }

@@ -40,6 +40,7 @@ private:
     void declare(const Statement& statement);
     bool can_declare(const Statement& statement);
     void collect_rate(const Statement& statement);
+    void report_rate_of_definition(const Statement& rate);
     void report_no_species(const Statement& statement, const Meaning* meaning);
     void report_families();
     std::optional<CheckedExpression> check_value(const Statement& statement, Place place);
@@ -70,7 +71,7 @@ void SystemChecker::run() {
     work_.names[index_] = names_of(system());
     rates_.resize(system().quantities.size());
     for (const Statement* statement : rate_sentences_) collect_rate(*statement);
-    if (rate_sentences_.empty()) {
+    if (rate_sentences_.empty() && !is_incomplete(work_, index_)) {
         work_.diagnostics.error(system().span,
                                 fmt::format("system '{}' has no rates", system().name),
                                 "a rate is written name' = …");
@@ -161,12 +162,27 @@ void SystemChecker::report_families() {
     }
 }
 
+/// A name is a definition and has a rate. In a system that is derived from another one the later of
+/// the two is the slip.
+void SystemChecker::report_rate_of_definition(const Statement& rate) {
+    const auto definition =
+        std::find_if(definitions_.begin(), definitions_.end(),
+                     [&](const Statement* each) { return each->name == rate.name; });
+    if (definition != definitions_.end() && (*definition)->level > rate.level) {
+        work_.diagnostics.error((*definition)->span(),
+                                fmt::format("'{}' is a species and cannot be a definition", rate.name),
+                                fmt::format("write {}: … for its starting value", rate.name));
+        return;
+    }
+    work_.diagnostics.error(rate.span(),
+                            fmt::format("'{}' is a definition and has no rate", rate.name));
+}
+
 /// A rate of something that is no species: said once, later readers of the name stay silent.
 void SystemChecker::report_no_species(const Statement& statement, const Meaning* meaning) {
     const std::string& name = statement.name;
     if (meaning != nullptr && meaning->is_definition) {
-        work_.diagnostics.error(statement.span(),
-                                fmt::format("'{}' is a definition and has no rate", name));
+        report_rate_of_definition(statement);
         return;
     }
     if (reserved(name) != Reserved::no) {
@@ -176,7 +192,7 @@ void SystemChecker::report_no_species(const Statement& statement, const Meaning*
     if (auto explained = explain_family(work_, system(), name)) {
         work_.diagnostics.error(statement.span(), std::move(explained->message),
                                 std::move(explained->hint));
-    } else {
+    } else if (!is_incomplete(work_, index_)) {  // Else it may be what could not be read.
         std::string hint;
         if (!is_hopeless(work_)) hint = did_you_mean(work_, name, quantity_names(system()));
         if (hint.empty()) hint = fmt::format("add {}: …", name);
@@ -273,6 +289,7 @@ void SystemChecker::report_no_bound(const Statement& statement) {
                                 std::move(explained->hint));
         return;
     }
+    if (is_incomplete(work_, index_)) return;
     std::vector<std::string> species;
     for (const Quantity& quantity : system().quantities) {
         if (quantity.is_species && !is_hopeless(work_)) species.push_back(quantity.name);
@@ -413,6 +430,8 @@ std::uint32_t check_system(Workspace& work, const DerivedSystem& derived,
     work.names.emplace_back();
     work.items_read.emplace_back();
     work.definitions_read.emplace_back();
+    work.incomplete.resize(index + 1);
+    work.incomplete[index] = block.is_damaged || (base && is_incomplete(work, *base));
     SystemChecker(work, derived, index).run();
     return index;
 }

@@ -57,6 +57,10 @@ const Meaning* find(const NameTable& table, std::string_view name) {
     return found == table.end() ? nullptr : &found->second;
 }
 
+bool is_incomplete(const Workspace& work, std::uint32_t system) {
+    return system < work.incomplete.size() && work.incomplete[system];
+}
+
 bool is_hopeless(const Workspace& work) {
     return work.diagnostics.error_count() > most_suggestions ||
            work.names_compared > most_names_compared;

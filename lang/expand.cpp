@@ -215,6 +215,10 @@ void Expander::visit_over(ast::ExprId part, const ast::Over& over) {
         return push(TaskKind::visit, over.operand);
     }
     const Index* index = find_index(work_, scope_, over.index.text);
+    const auto& faulty = work_.faulty_indices;
+    if (index == nullptr && std::find(faulty.begin(), faulty.end(), over.index.text) != faulty.end()) {
+        return emit(over.index.span, ast::Garbage{});
+    }
     if (index == nullptr) {
         return fault(over.index.span, fmt::format("there is no index '{}'", over.index.text),
                      "an index is declared in a system: i: 1..3");

@@ -1,5 +1,6 @@
 // Expressions behind an operand: operators, commas, closing brackets, and the end.
 #include "lang/expression_parser.h"
+#include "lang/program.h"
 
 #include <fmt/core.h>
 
@@ -253,7 +254,13 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
     std::string hint;
     const Span both = join(before.span, here.span);
     const bool is_product = before.kind == TokenKind::number || here.kind == TokenKind::open_round;
-    if (is_product && here.kind != TokenKind::keyword_not && both.end - both.begin <= 40) {
+    const bool is_word_of_range = cursor_.at_name("in") || cursor_.at_name("step");
+    if (before.kind == TokenKind::name && here.kind == TokenKind::name &&
+        function_named(cursor_.text(before))) {
+        hint = fmt::format("write {}({})", cursor_.text(before), shortened(cursor_.text(here)));
+    } else if (is_word_of_range) {
+        hint = "a range stands behind the value of a parameter: p: 1 in 0 .. 2 step 0.1";
+    } else if (is_product && here.kind != TokenKind::keyword_not && both.end - both.begin <= 40) {
         hint = fmt::format("write '{} * {}' to multiply", cursor_.text(before), cursor_.text(here));
         if (here.kind == TokenKind::open_round) hint = "write '*' to multiply";
     }

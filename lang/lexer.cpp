@@ -218,9 +218,20 @@ void Lexer::read_bad_name(std::size_t begin) {
         latin += latin_spelling(point.value);
     }
     has_spelling = has_spelling && end - begin <= 64;
+    std::string hint = has_spelling ? "write '" + latin + "'"
+                                    : "names are of a to z, A to Z, 0 to 9 and _";
+    const CodePoint first = decode_utf8(text_, begin);
+    const std::string_view sign = latin_spelling(first.value);
+    if (has_spelling && (sign == "lap" || sign == "grad")) {
+        // ∇² is one sign. What an operator is of stands in brackets.
+        const bool is_square = sign == "grad" && decode_utf8(text_, begin + first.size).value == U'²';
+        if (is_square) end = begin + first.size + decode_utf8(text_, begin + first.size).size;
+        const std::string operand = latin.substr(sign.size());
+        hint = fmt::format("write '{}({})'", is_square ? "lap" : sign,
+                           operand.empty() ? "…" : operand);
+    }
     diagnostics_.error(span(begin, end), first_wrong + " is not a letter of a name",
-                       has_spelling ? "write '" + latin + "'"
-                                    : "names are of a to z, A to Z, 0 to 9 and _");
+                       std::move(hint));
     push(TokenKind::garbage, begin, end);
 }
 

@@ -68,6 +68,7 @@ void ScriptParser::parse_header_of_system(ast::Block& block) {
         block.name = cursor_.word(cursor_.take());
     } else {
         cursor_.error(block.keyword.span, "this system has no name", "write 'system NAME {'");
+        block.is_damaged = true;
     }
     if (!cursor_.at(TokenKind::colon)) return;
     const Token colon = cursor_.take();
@@ -100,6 +101,7 @@ void ScriptParser::parse_header_of_stage(ast::Block& block) {
     } else if (!is_told && !cursor_.at(TokenKind::garbage)) {
         cursor_.error(has_colon ? cursor_.previous().span : block.name.span,
                       fmt::format("stage {} does not say its system", name), form);
+        block.is_damaged = true;
     }
 }
 
@@ -124,11 +126,17 @@ void ScriptParser::parse_body(ast::Block& block) {
         cursor_.take();
         add_docs(block.doc, docs_behind(block.keyword.span.begin));
     } else if (cursor_.at(TokenKind::garbage)) {
+        block.is_damaged = true;
         cursor_.skip_sentence();
     } else {
-        cursor_.error(header_end.span,
-                      fmt::format("'{{' is missing after {}", cursor_.describe(header_end)),
-                      "a block is written { sentences }");
+        // A header that ends too early has its message.
+        const bool is_told = block.is_damaged && !cursor_.at(TokenKind::name);
+        block.is_damaged = true;
+        if (!is_told) {
+            cursor_.error(header_end.span,
+                          fmt::format("'{{' is missing after {}", cursor_.describe(header_end)),
+                          "a block is written { sentences }");
+        }
         // What is left of the header's line is no sentence.
         if (header_end.kind != TokenKind::name || !cursor_.at(TokenKind::name)) {
             cursor_.skip_sentence();
@@ -138,9 +146,15 @@ void ScriptParser::parse_body(ast::Block& block) {
         if (cursor_.take_if(TokenKind::close_curly)) return;
         if (cursor_.take_if(TokenKind::newline) || cursor_.take_if(TokenKind::semicolon)) continue;
         if (refuse_function_or_use()) continue;
-        if (auto sentence = parse_sentence()) add_sentence(block, std::move(*sentence));
+        if (auto sentence = parse_sentence()) {
+            add_sentence(block, std::move(*sentence));
+        } else {
+            block.is_damaged = true;
+        }
     }
-    if (is_open && !cursor_.lost_in_text(open, "}")) report_unclosed(open, block);
+    if (!is_open) return;
+    block.is_damaged = true;
+    if (!cursor_.lost_in_text(open, "}")) report_unclosed(open, block);
 }
 
 void ScriptParser::report_unclosed(const Token& open, const ast::Block& block) {
@@ -199,9 +213,10 @@ void ScriptParser::parse_base_of_classic_stage(ast::Block& block) {
 /// A sentence that belongs to no stage is read, for its own faults, and forgotten.
 void ScriptParser::parse_outside_sentence() {
     const bool is_name = cursor_.at(TokenKind::name);
+    const std::size_t errors_before = cursor_.error_count();
     const auto sentence = parse_sentence();
-    if (!is_name || outside_reported_) return;
-    if (!sentence) return;
+    if (!is_name || outside_reported_ || !sentence) return;
+    if (cursor_.error_count() != errors_before) return;
     outside_reported_ = true;
     const std::array<std::string, 1> beginning = {"system_name"};
     const bool is_near = !nearest_name(sentence->name.text, beginning).empty();

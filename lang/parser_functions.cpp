@@ -43,7 +43,7 @@ void ScriptParser::parse_function() {
     function.doc = docs_before();
     const Token keyword = cursor_.take();
     function.name = cursor_.word(cursor_.take());
-    if (!parse_parameters(function)) return cursor_.skip_sentence();
+    if (!parse_parameters(function)) return keep_damaged(std::move(function));
     const std::string name = "'" + shortened(function.name.text) + "'";
     if (cursor_.at(TokenKind::colon) || cursor_.at(TokenKind::equal)) {
         const Token sign = cursor_.take();
@@ -54,7 +54,7 @@ void ScriptParser::parse_function() {
                           fmt::format("'=' is missing after the function {}", name),
                           function_form);
         }
-        return cursor_.skip_sentence();
+        return keep_damaged(std::move(function));
     }
     function.body = parse_behind_operator("the value of the function " + name, "");
     if (cursor_.at(TokenKind::dots) || cursor_.at(TokenKind::comma)) {
@@ -66,6 +66,16 @@ void ScriptParser::parse_function() {
     }
     add_docs(function.doc, docs_behind(keyword.span.begin));
     script_.functions.push_back(std::move(function));
+}
+
+/// A function that could not be read, with its message: calls of it are no faults of their own.
+void ScriptParser::keep_damaged(ast::FunctionDefinition function) {
+    const auto here = static_cast<ast::ExprId>(script_.expressions.size());
+    script_.expressions.push_back({function.name.span, ast::Garbage{}});
+    function.parameters.clear();
+    function.body = {here, here};
+    script_.functions.push_back(std::move(function));
+    cursor_.skip_sentence();
 }
 
 /// ( [ name { , name } ] ). False, with a message, if they cannot be read.

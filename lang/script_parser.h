@@ -47,6 +47,7 @@ private:
     bool refuse_function_or_use();
     void parse_function();
     bool parse_parameters(ast::FunctionDefinition& function);
+    void keep_damaged(ast::FunctionDefinition function);
     void parse_use();
 
     // Sentences (parser_sentences.cpp).

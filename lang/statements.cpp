@@ -63,6 +63,10 @@ bool can_be_index(Workspace& work, const ast::Word& name) {
     return false;
 }
 
+std::uint32_t number_of(const Workspace& work, const System& system) {
+    return static_cast<std::uint32_t>(&system - work.program.systems.data());
+}
+
 /// The indices, of the highest level each.
 void collect_indices(Workspace& work, System& system, std::span<const SystemSentence> sentences) {
     std::unordered_map<std::string_view, const SystemSentence*> latest;
@@ -79,9 +83,12 @@ void collect_indices(Workspace& work, System& system, std::span<const SystemSent
     for (const SystemSentence& each : sentences) {
         const auto found = latest.find(each.sentence->name.text);
         if (found == latest.end() || found->second != &each) continue;
-        if (!can_be_index(work, each.sentence->name)) continue;
-        auto index = check_index(work, each);
-        if (!index) continue;
+        auto index = can_be_index(work, each.sentence->name) ? check_index(work, each) : std::nullopt;
+        if (!index) {
+            work.incomplete[number_of(work, system)] = true;
+            work.faulty_indices.push_back(each.sentence->name.text);
+            continue;
+        }
         if (system.indices.size() == most_indices) {
             work.diagnostics.error(each.sentence->name.span,
                                    fmt::format("a system has at most {} indices", most_indices));
@@ -104,6 +111,10 @@ std::optional<std::int64_t> member_number(Workspace& work, const ast::Word& word
 }
 
 void report_unknown_index(Workspace& work, const System& system, const ast::Word& word) {
+    if (std::find(work.faulty_indices.begin(), work.faulty_indices.end(), word.text) !=
+        work.faulty_indices.end()) {
+        return;
+    }
     std::vector<std::string> names;
     for (const Index& index : system.indices) names.push_back(index.name);
     std::string hint;

@@ -68,6 +68,8 @@ public:
 
     void error(Span span, std::string message, std::string hint = "");
     void error(Diagnostic diagnostic);
+    /// Of all that was read so far.
+    std::size_t error_count() const { return diagnostics_.error_count(); }
     /// While true, errors are swallowed: the mistake has been told.
     void mute(bool muted) { muted_ = muted; }
 

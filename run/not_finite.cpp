@@ -10,6 +10,9 @@ namespace cascade {
 
 namespace {
 
+/// What has grown without bound has passed this before it is infinite.
+constexpr double most_that_is_sane = 1e4;
+
 /// A speed to try: nine tenths of the limit, two digits.
 double safe_speed(double largest) { return std::stod(fmt::format("{:.2g}", 0.9 * largest)); }
 
@@ -32,6 +35,18 @@ bool explains(double largest, double speed) { return std::isnan(speed) || larges
 
 }  // namespace
 
+double largest_magnitude(const std::vector<Field>& species) {
+    double largest = 0;
+    for (const Field& field : species) {
+        for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
+            for (std::int64_t column = 0; column < field.layout().width; ++column) {
+                largest = std::max(largest, std::abs(static_cast<double>(field.row(row)[column])));
+            }
+        }
+    }
+    return largest;
+}
+
 Failure describe(const NotFiniteReport& report) {
     const NotFinite& found = report.found;
     Failure failure;
@@ -53,6 +68,11 @@ Failure describe(const NotFiniteReport& report) {
     const auto largest = limit(report);
     if (largest && explains(*largest, report.speed)) {
         failure.hint = advice(*largest, report.speed);
+    } else if (report.largest_before < most_that_is_sane) {
+        failure.hint = fmt::format(
+            "no value was above {:.3g} before that step: look for a division by zero, or a logarithm "
+            "or root of a negative number, in its rate or in a parameter",
+            report.largest_before);
     } else {
         failure.hint = "the reaction itself grows without bound here";
         if (largest) {

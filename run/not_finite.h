@@ -6,6 +6,7 @@
 #include "solvers/stability.h"
 
 #include <string>
+#include <vector>
 
 namespace cascade {
 
@@ -15,9 +16,13 @@ struct NotFiniteReport {
     bool starting = false;                 ///< It was so before the first step.
     double speed = 0;                      ///< NaN where it varies by cell.
     std::string semi_implicit;             ///< The solver's name, if it is such a one.
+    double largest_before = 0;             ///< Magnitude of any value before that step.
     StabilityEstimate estimate_before;     ///< At the last look before.
     StabilityEstimate estimate_at_start;   ///< At the stage's starting values.
 };
+
+/// The largest magnitude of all values.
+double largest_magnitude(const std::vector<Field>& species);
 
 /// Which stage, species, cell and step, and the largest stable speed where the step is to blame.
 Failure describe(const NotFiniteReport& report);

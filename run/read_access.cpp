@@ -30,6 +30,11 @@ Result<std::filesystem::path> readable_path(const std::filesystem::path& folder,
     if (name.empty()) return failure("a file has a name");
     if (name.find('\0') != std::string::npos) return failure("the name of a file has no NUL byte");
     std::filesystem::path path = (folder / name).lexically_normal();
+    // Nothing would end the wait for a pipe that nobody writes to.
+    std::error_code error;
+    if (std::filesystem::is_other(path, error)) {
+        return failure(fmt::format("'{}' is a pipe or a device and no file", name));
+    }
     if (access.everything) return path;
     const std::filesystem::path file = real_path(path);
     const bool is_granted =

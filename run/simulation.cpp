@@ -488,6 +488,7 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
     }
     if (report.starting || !report.semi_implicit.empty()) return describe(report);
     report.estimate_before = stability(k, outcome.last_checked);
+    report.largest_before = largest_magnitude(states[k].species);
     // A state on its way to infinity says little about the speed that would have been right: the
     // start of the stage is asked as well.
     std::vector<Field> last_finite = std::move(states[k].species);

@@ -81,7 +81,7 @@ refused 2 "<--stop-at>:1:3: error: stage 's' has 20 steps" run good.cascade --st
 refused 2 "<--until-stage>:1:1: error: no stage is called 't'" run good.cascade --until-stage t
 for nonsense in '--range 1' '--range 1,1' '--scale 0' '--depth 9' '--palette nope' '--seed -1' \
     '--steps 1.5' '--threads 0' '--lanes 5' '--backend gpu' '--stop-at s' \
-    '--dump nope' '-o picture.jpg'; do
+    '--dump nope' '-o picture.jpg' '--volume volume.txt' '--log-file numbers.csv' '--log-every 5'; do
     # shellcheck disable=SC2086
     refused 64 "'cascade run --help' lists what there is." run good.cascade $nonsense
 done
@@ -141,4 +141,12 @@ refused 2 'this is not a manifest of a saved run' run --resume saved -q
 stage 'b: field("good.cascade")' field.cascade
 refused 2 "field.cascade:1:34: error: cannot read 'good.cascade': it is not a .npy file" \
     run field.cascade
+mkfifo pipe.npy
+stage 'b: field("pipe.npy")' pipe.cascade
+refused 2 "pipe.cascade:1:34: error: 'pipe.npy' is a pipe or a device and no file" run pipe.cascade
+
+# Values that no time step is to blame for.
+printf "system q { u: 1; k: log(x - 1); u' = k + lap(u) }\nstage s: q { iterations: 9; speed: 0.1 }\n" >log.cascade
+refused 3 'u is not finite any more at column 0, row 0, after step 1' run log.cascade -q
+grep -qF 'no value was above 1 before that step: look for a division by zero' err || fail "log.cascade"
 echo "bad input: right"
