@@ -16,10 +16,10 @@
 namespace cascade {
 
 /// Where a kernel finds and puts its values. Pointers are to cell (0, 0, 0) of planes of one layout;
-/// a field read by `laplacian` or `neighbour` has its halo filled. Outputs overlap nothing else. A kernel may
-/// write any values into an output row beyond its last cell, up to the next multiple of
-/// PlaneLayout::row_pad (so halo column `width` may hold garbage afterwards); cells of
-/// other rows and columns < 0 never.
+/// a field read by `laplacian` or `neighbour` has its halo filled. An output overlaps nothing else,
+/// but it may be a field of which the kernel reads the own cell only. A kernel may write any values
+/// into an output row beyond its last cell, up to the next multiple of PlaneLayout::row_pad (so halo
+/// column `width` may hold garbage afterwards); cells of other rows and columns < 0 never.
 struct KernelArguments {
     std::span<const float* const> fields;         ///< One per field slot.
     std::span<const std::uint8_t* const> masks;   ///< One per mask slot.

@@ -69,9 +69,11 @@ double stability_interval(Solver solver, std::uint32_t stages) {
     return row(solver).interval;
 }
 
+std::uint32_t least_stages(Solver solver) { return solver == Solver::rkl1 ? 1 : 3; }
+
 std::uint32_t stages_for(Solver solver, double ratio) {
     CHECK(is_stabilised(solver), "only stabilised solvers choose their stages");
-    std::uint32_t stages = 3;
+    std::uint32_t stages = least_stages(solver);
     // Not a ratio below the interval, NaN included, goes on to the end.
     while (stages < most_stages && !(stability_interval(solver, stages) >= 2 * ratio)) stages += 2;
     return stages;

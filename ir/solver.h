@@ -36,9 +36,11 @@ int order_of(Solver solver);
 /// of a stabilised solver.
 double stability_interval(Solver solver, std::uint32_t stages = 1);
 
-/// The least odd number of stages, from 3, with which a stabilised solver is stable for steps
-/// `ratio` times as long as the longest of explicit Euler; `most_stages` where none is.
+/// The least odd number of stages with which a stabilised solver is stable for steps `ratio` times
+/// as long as the longest of explicit Euler; `most_stages` where none is.
 std::uint32_t stages_for(Solver solver, double ratio);
+/// The fewest stages of a stabilised solver: `rkl1` of one stage is explicit Euler.
+std::uint32_t least_stages(Solver solver);
 inline constexpr std::uint32_t most_stages = 99;
 
 }  // namespace cascade

@@ -58,6 +58,16 @@ struct SweepForm {
     std::vector<std::uint32_t> species;
     bool last = true;                 ///< Output 0 is the new step: invariants clamp it.
 
+    /// Does it evaluate the rates, or only put together what was computed before?
+    bool uses_rates() const {
+        for (const SweepOutput& output : outputs) {
+            for (const SweepTerm& term : output.terms) {
+                if (term.source == SweepTerm::Source::rate) return true;
+            }
+        }
+        return false;
+    }
+
     friend bool operator==(const SweepForm&, const SweepForm&) = default;
 };
 
@@ -83,7 +93,8 @@ struct Sweep {
     std::uint32_t form = 0;               ///< Number of the form in its scheme.
     std::optional<SweepFilter> filter;    ///< Done before the sweep.
     std::vector<std::uint32_t> inputs;    ///< Register of each input.
-    std::vector<std::uint32_t> outputs;   ///< Register of each output; none of them is an input.
+    std::vector<std::uint32_t> outputs;   ///< Register of each output, which may be that of an
+                                          ///< input that is read in the own cell only.
     /// Species with a number below this are read from register 1 wherever input 0 is read.
     std::uint32_t renewed = 0;
     struct Coefficient {

@@ -36,6 +36,7 @@ public:
     GridFrame(llvm::Function& function, const CellKernel& kernel, const GridShape& shape,
               Builder& builder)
         : function_(function),
+          kernel_(kernel),
           shape_(shape),
           builder_(builder),
           aliases_(function.getContext(), kernel.results.size()) {}
@@ -63,6 +64,11 @@ public:
     }
     Value* splat(Builder& builder, Value* element) const {
         return builder.CreateVectorSplat(static_cast<unsigned>(lanes()), element);
+    }
+
+    /// Says that no result is written to the field that is read, where that is so.
+    llvm::LoadInst* mark(llvm::LoadInst* load, std::uint32_t slot) const {
+        return kernel_.reads_neighbours(slot) ? aliases_.mark(load, 0) : load;
     }
 
     Value* uniform(std::size_t slot) {
@@ -110,6 +116,7 @@ private:
     }
 
     llvm::Function& function_;
+    const CellKernel& kernel_;
     GridShape shape_;
     Builder& builder_;  ///< Writes in front of the loops.
     AliasScopes aliases_;
@@ -195,8 +202,8 @@ Value* CellLane::field(std::uint32_t slot, int row, int column, int slice) {
         Value* place = builder_.CreateAdd(element(row, slice), builder_.getInt64(column));
         Value* address = builder_.CreateInBoundsGEP(number, frame_.field_plane(slot), place);
         const int bytes = column == 0 ? 4 * frame_.lanes() : 4;
-        value = frame_.aliases().mark(
-            builder_.CreateAlignedLoad(frame_.vector_of(number), address, alignment(bytes)), 0);
+        value = frame_.mark(
+            builder_.CreateAlignedLoad(frame_.vector_of(number), address, alignment(bytes)), slot);
     }
     return value;
 }

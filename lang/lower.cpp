@@ -122,7 +122,7 @@ public:
         std::vector<PartId> wanted;
         for (const std::uint32_t item : system_.rate_order) {
             if (std::find(species_.begin(), species_.end(), item) == species_.end()) continue;
-            if (uses_rates()) wanted.push_back(rates_[item]);
+            if (form_.uses_rates()) wanted.push_back(rates_[item]);
         }
         for (const Invariant& invariant : system_.invariants) {
             if (!is_clamped(invariant)) continue;
@@ -141,15 +141,6 @@ public:
     }
 
 private:
-    bool uses_rates() const {
-        for (const SweepOutput& output : form_.outputs) {
-            for (const SweepTerm& term : output.terms) {
-                if (term.source == SweepTerm::Source::rate) return true;
-            }
-        }
-        return false;
-    }
-
     bool is_clamped(const Invariant& invariant) const {
         return form_.last && std::find(species_.begin(), species_.end(), invariant.species) !=
                                  species_.end();

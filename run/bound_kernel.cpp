@@ -42,6 +42,8 @@ public:
 
     /// Which species are read at neighbours. Other plans of the same step may need more.
     std::vector<bool>& species_needs_halo() { return problem_.species_needs_halo; }
+    /// By register of the scheme: is it read at neighbours by any sweep?
+    void set_halo_registers(const std::vector<bool>& registers) { halo_registers_ = registers; }
 
     StepProblem bind(const Compile& compile) {
         problem_.grid = context_.grid;
@@ -183,7 +185,8 @@ private:
             result.plane.in_register = sweep_->outputs[target.index / written];
             const auto position = static_cast<std::uint32_t>(target.index % written);
             result.plane.number = form_->species.empty() ? position : form_->species[position];
-            result.needs_halo = problem_.species_needs_halo[result.plane.number];
+            result.needs_halo = problem_.species_needs_halo[result.plane.number] &&
+                                halo_registers_[result.plane.in_register];
             return result;
         }
         result.needs_halo = system_ != nullptr && problem_.species_needs_halo[target.index];
@@ -198,7 +201,31 @@ private:
     const Sweep* sweep_;
     StepProblem problem_;
     std::vector<bool> temporary_needs_halo_;
+    std::vector<bool> halo_registers_;
 };
+
+/// Registers that rates are evaluated at: those of stages, the old step and the new one, which is
+/// the next old one. Kept rates and errors are read in the own cell only.
+std::vector<bool> halo_registers(const Scheme& scheme) {
+    std::vector<bool> registers(scheme.registers, false);
+    registers[old_register] = registers[new_register] = true;
+    for (const Sweep& sweep : scheme.sweeps) registers[sweep.inputs[0]] = true;
+    return registers;
+}
+
+/// Are the rates at the end of a step those at the start of the next one to the bit? Not where they
+/// read the number of the step or its length.
+bool rates_go_on(const StepPlan& plan) {
+    for (const Pass& pass : plan.passes) {
+        for (const SlotSource& source : pass.bound.uniforms) {
+            if (source.kind == SlotSource::Kind::step ||
+                source.kind == SlotSource::Kind::time_step) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
 
 }  // namespace
 
@@ -230,13 +257,23 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     for (const Sweep& sweep : scheme.sweeps) {
         add(plans[sweep.form], &scheme.forms[sweep.form], &sweep);
     }
+    const std::vector<bool> with_halo = halo_registers(scheme);
     for (std::size_t n = 0; n < binders.size(); ++n) {
         binders[n].species_needs_halo() = whole.species_needs_halo;
+        binders[n].set_halo_registers(with_halo);
         StepProblem part = binders[n].bind(compile);
         whole.temporaries = std::max(whole.temporaries, part.temporaries);
         whole.aggregates = std::max(whole.aggregates, part.aggregates);
         if (sweeps[n] != nullptr) part.passes.front().filter = sweeps[n]->filter;
         for (StepProblem::Pass& pass : part.passes) whole.passes.push_back(std::move(pass));
+    }
+    if (scheme.first_rate_register != 0) {
+        const StepPlan& first = plans[scheme.sweeps[0].form];
+        if (rates_go_on(first)) {
+            whole.first_rate_passes = first.passes.size();
+            whole.first_rate_register = scheme.first_rate_register;
+            whole.last_rate_register = scheme.last_rate_register;
+        }
     }
     return whole;
 }

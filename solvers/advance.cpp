@@ -200,8 +200,7 @@ private:
             const double length = left < 1.01 * wanted ? left : wanted;
             set_step(length);
             const CopyRoles before = stepper_.roles();
-            const bool finite = stepper_.advance(step_, 1, true);
-            const double error = finite ? stepper_.error(schedule_.tolerance) : NAN;
+            const double error = stepper_.attempt(step_, schedule_.tolerance);
             if (control_of_steps_.judge(length, error)) break;
             if (control_of_steps_.step() < least_step(t)) {
                 outcome_.too_short = where_error_is_largest(t);
@@ -211,6 +210,9 @@ private:
             stepper_.undo(before);
         }
         ++step_;
+        time_.clock.begin_at(step_);
+        stepper_.set_clock(time_.clock);
+        stepper_.accept();
         stepper_.keep();
         kept_step_ = step_;
         return true;

@@ -67,6 +67,18 @@ double root_mean_square(const Field& field, const Mask* inside) {
     }));
 }
 
+double sum_of_squares(const Field& field, std::int64_t row) {
+    return sum(field.layout().width, [cells = field.row(row)](std::int64_t i) {
+        return double{cells[i]} * cells[i];
+    });
+}
+
+double root_mean_square(std::span<const double> sums_of_squares, std::int64_t cells) {
+    double total = 0;
+    for (const double each : sums_of_squares) total += each;
+    return std::sqrt(total / static_cast<double>(cells));
+}
+
 double root_mean_square_of_difference(const Field& a, const Field& b, const Mask* inside) {
     return std::sqrt(mean_over_cells(a.layout(), inside, [&](std::int64_t row) {
         return [p = a.row(row), q = b.row(row)](std::int64_t i) {

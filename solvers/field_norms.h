@@ -4,6 +4,9 @@
 
 #include "core/plane.h"
 
+#include <cstdint>
+#include <span>
+
 namespace cascade {
 
 // With a mask `inside` the cells count where it is not 0; without one (nullptr) all.
@@ -18,6 +21,13 @@ FieldMoments moments(const Field& field, const Mask* inside = nullptr);
 
 /// The root mean square of a field's cells; NaN where one is NaN.
 double root_mean_square(const Field& field, const Mask* inside = nullptr);
+
+/// The sum of the squares of a row's cells: what threads can share.
+double sum_of_squares(const Field& field, std::int64_t row);
+/// The root mean square of so many cells, of whose rows these are the sums of squares, added in
+/// order: the same bits as root_mean_square(). Fields are 0 outside of a mask, so their rows are
+/// summed whole.
+double root_mean_square(std::span<const double> sums_of_squares, std::int64_t cells);
 
 /// The root mean square of a − b.
 double root_mean_square_of_difference(const Field& a, const Field& b,

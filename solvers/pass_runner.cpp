@@ -50,10 +50,11 @@ float* PassRunner::plane(const StepProblem::PlaneRef& ref, Registers registers) 
     return const_cast<float*>(ref.cells);  // Read only: no pass writes a fixed plane.
 }
 
-void PassRunner::run(Worker& worker, Team& team, Registers registers, const StepMoment& moment) {
-    for (std::size_t number = 0; number < problem_.passes.size(); ++number) {
+void PassRunner::run(Worker& worker, Team& team, Registers registers, const StepMoment& moment,
+                     std::size_t first_pass) {
+    for (std::size_t number = first_pass; number < problem_.passes.size(); ++number) {
         const StepProblem::Pass& pass = problem_.passes[number];
-        if (number > 0) team.barrier();
+        if (number > first_pass) team.barrier();
         if (!pass.reductions.empty()) reduce(worker, pass, team, registers, number);
         if (pass.filter) filter(worker, *pass.filter, team, registers, moment);
         set_uniforms(worker.uniforms[number], pass, moment);
@@ -74,8 +75,7 @@ void PassRunner::reduce(Worker& worker, const StepProblem::Pass& pass, Team& tea
         }
     }
     team.barrier();
-    const std::int64_t cells =
-        problem_.cells_inside > 0 ? problem_.cells_inside : problem_.grid.cell_count();
+    const std::int64_t cells = problem_.counted_cells();
     for (const StepProblem::Reduction& reduction : pass.reductions) {
         worker.row_values = row_values_[reduction.aggregate];
         const float value = reduce_rows(reduction.kind, worker.row_values, cells);

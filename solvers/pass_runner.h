@@ -7,6 +7,7 @@
 #include "solvers/step_problem.h"
 #include "solvers/wave_filter.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -44,10 +45,11 @@ public:
     /// Prepares a worker for its rows, being thread `number` of `count`.
     void prepare(Worker& worker, int number, int count) const;
 
-    /// One thread's part of a step. All threads of the team in use call it with the same registers
-    /// and moment. When it returns, this thread's rows of the results are written and their halo
+    /// One thread's part of a step, from pass `first_pass` on. All threads of the team in use call it
+    /// with the same registers and moment. When it returns, this thread's rows of the results are written and their halo
     /// filled; another meeting of the team makes them everybody's.
-    void run(Worker& worker, Team& team, Registers registers, const StepMoment& moment);
+    void run(Worker& worker, Team& team, Registers registers, const StepMoment& moment,
+             std::size_t first_pass = 0);
 
 private:
     float* plane(const StepProblem::PlaneRef& ref, Registers registers) const;

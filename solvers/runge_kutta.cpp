@@ -1,6 +1,11 @@
 // Butcher tableaux as sweeps.
+//
+// A step that no error is estimated of keeps its stages and not its rates: step · k_j is a sum of
+// differences between stages, so that a sweep writes one plane of each species and no more.
 #include "solvers/runge_kutta.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -10,23 +15,122 @@ namespace {
 using Source = SweepTerm::Source;
 using Weight = SweepTerm::Weight;
 
-/// Two registers for the states of stages that change places; the rates lie behind them.
-constexpr std::uint32_t first_state = 2, first_rate = 4;
+/// Step · `weight` times the rate that the sweep evaluates.
+SweepTerm own_rate(SweepForm& form, Sweep& sweep, double weight) {
+    sweep.coefficients.push_back({weight, true});
+    return {Source::rate, 0, Weight::coefficient, form.coefficients++};
+}
 
-class Builder {
+void add(Scheme& scheme, SweepForm form, Sweep sweep) {
+    sweep.form = static_cast<std::uint32_t>(scheme.forms.size());
+    scheme.forms.push_back(std::move(form));
+    scheme.sweeps.push_back(std::move(sweep));
+}
+
+double time_of(const std::vector<double>& row) {
+    return std::accumulate(row.begin(), row.end(), 0.0);
+}
+
+/// Stages in a register each; their differences from the old step stand for rates.
+class StateScheme {
 public:
-    explicit Builder(const ButcherTableau& tableau)
+    explicit StateScheme(const ButcherTableau& tableau) : tableau_(tableau) {}
+
+    Scheme build() && {
+        const auto stages = static_cast<std::uint32_t>(tableau_.b.size());
+        scheme_.registers = std::max(stages, 3U);
+        for (std::uint32_t stage = 0; stage < stages; ++stage) add_stage(stage);
+        return std::move(scheme_);
+    }
+
+private:
+    /// Stage 0 is the old step; the last one's successor the new, which overwrites stage 1 cell by
+    /// cell unless rates are evaluated there.
+    std::uint32_t register_of(std::uint32_t stage) const {
+        if (stage == 0) return old_register;
+        if (stage == tableau_.b.size()) return new_register;
+        return tableau_.b.size() == 2 ? stage + 1 : stage;
+    }
+
+    const std::vector<double>& row_of(std::uint32_t stage) const {
+        return stage < tableau_.b.size() ? tableau_.a[stage] : tableau_.b;
+    }
+
+    /// Weights of the differences stage − old by which Σ weights[j] step k_j is written, but for the
+    /// last rate: row j + 1 of the tableau gives k_j by stage j + 1 and the rates before.
+    std::vector<double> weights_of_stages(std::vector<double> weights) const {
+        std::vector<double> of_stages(weights.size(), 0);
+        for (std::size_t stage = weights.size() - 1; stage > 0; --stage) {
+            const std::vector<double>& row = tableau_.a[stage];
+            const double weight = weights[stage - 1] / row[stage - 1];
+            of_stages[stage] = weight;
+            for (std::size_t j = 0; j < stage; ++j) weights[j] -= weight * row[j];
+        }
+        return of_stages;
+    }
+
+    /// The sweep that evaluates the rate of a stage and writes the next stage.
+    void add_stage(std::uint32_t stage) {
+        const std::vector<double>& row = row_of(stage + 1);
+        SweepForm form;
+        Sweep sweep;
+        form.last = stage + 1 == tableau_.b.size();
+        sweep.inputs = {register_of(stage)};
+        sweep.outputs = {register_of(stage + 1)};
+        sweep.time = time_of(tableau_.a[stage]);
+        if (stage > 0) {
+            form.old_input = form.inputs++;
+            sweep.inputs.push_back(old_register);
+        }
+        SweepOutput state;
+        const std::vector<double> weights = weights_of_stages(row);
+        for (std::uint32_t other = 1; other < weights.size(); ++other) {
+            if (std::abs(weights[other]) < 1e-14) continue;
+            std::uint32_t input = 0;
+            if (other != stage) {
+                input = form.inputs++;
+                sweep.inputs.push_back(register_of(other));
+            }
+            state.terms.push_back({Source::difference, input, Weight::coefficient,
+                                   form.coefficients++});
+            sweep.coefficients.push_back({weights[other], false});
+        }
+        state.terms.push_back(own_rate(form, sweep, row.back()));
+        // The old values come last: the small terms are added to each other before.
+        state.terms.push_back({Source::value, form.old_input});
+        form.outputs = {std::move(state)};
+        add(scheme_, std::move(form), std::move(sweep));
+    }
+
+    const ButcherTableau& tableau_;
+    Scheme scheme_;
+};
+
+/// Rates in a register each, for an error that is a small difference of large ones. The rate of the
+/// new step is part of it, and the first of the next step.
+class EmbeddedScheme {
+public:
+    explicit EmbeddedScheme(const ButcherTableau& tableau)
         : tableau_(tableau), rate_register_(tableau.b.size(), 0) {}
 
     Scheme build() && {
         const auto stages = static_cast<std::uint32_t>(tableau_.b.size());
-        for (std::uint32_t stage = 0; stage < stages; ++stage) add_stage(stage);
-        if (!tableau_.error.empty()) add_error();
+        add_first_rate();
+        add_second_state();
+        for (std::uint32_t stage = 1; stage < stages; ++stage) add_stage(stage);
+        add_error();
         scheme_.registers = next_register_;
         return std::move(scheme_);
     }
 
 private:
+    /// Two registers for the states of stages that change places; the rates lie behind them.
+    static constexpr std::uint32_t first_state = 2, first_rate = 4;
+
+    static std::uint32_t state_register(std::uint32_t stage) {
+        return stage == 0 ? old_register : first_state + stage % 2;
+    }
+
     /// The row that gives the state behind a stage: of the next stage, or the new step.
     const std::vector<double>& row_behind(std::uint32_t stage) const {
         return stage + 1 < tableau_.b.size() ? tableau_.a[stage + 1] : tableau_.b;
@@ -37,55 +141,70 @@ private:
         for (std::uint32_t later = stage + 1; later < tableau_.b.size(); ++later) {
             if (row_behind(later)[stage] != 0) return true;
         }
-        return !tableau_.error.empty() && tableau_.error[stage] != 0;
+        return tableau_.error[stage] != 0;
     }
 
-    /// Adds the terms weights[j] · step · k_j, the last k being the rate of this sweep.
-    void add_terms(SweepForm& form, Sweep& sweep, SweepOutput& output,
-                   const std::vector<double>& weights) const {
-        const std::size_t own = weights.size() - 1;
-        for (std::size_t j = 0; j < weights.size(); ++j) {
+    /// Step · weights[j] · k_j from the registers of rates, without the last weight.
+    void add_kept_rates(SweepForm& form, Sweep& sweep, SweepOutput& output,
+                        const std::vector<double>& weights) const {
+        for (std::size_t j = 0; j + 1 < weights.size(); ++j) {
             if (weights[j] == 0) continue;
-            SweepTerm term{Source::rate, 0, Weight::coefficient, form.coefficients++};
-            if (j < own) {
-                term.source = Source::value;
-                term.input = form.inputs++;
-                sweep.inputs.push_back(rate_register_[j]);
-            }
-            output.terms.push_back(term);
+            output.terms.push_back({Source::value, form.inputs++, Weight::coefficient,
+                                    form.coefficients++});
+            sweep.inputs.push_back(rate_register_[j]);
             sweep.coefficients.push_back({weights[j], true});
         }
     }
 
-    void add(SweepForm form, Sweep sweep) {
-        sweep.form = static_cast<std::uint32_t>(scheme_.forms.size());
-        scheme_.forms.push_back(std::move(form));
-        scheme_.sweeps.push_back(std::move(sweep));
+    void keep_rate(SweepForm& form, Sweep& sweep, std::uint32_t in_register) const {
+        form.outputs.push_back({SweepOutput::Kind::change, {{Source::rate}}});
+        sweep.outputs.push_back(in_register);
+    }
+
+    void add_first_rate() {
+        SweepForm form;
+        Sweep sweep;
+        form.last = false;
+        sweep.inputs = {old_register};
+        scheme_.first_rate_register = rate_register_[0] = next_register_++;
+        keep_rate(form, sweep, rate_register_[0]);
+        add(scheme_, std::move(form), std::move(sweep));
+    }
+
+    /// No rate is evaluated: how long the step is was not known when the first one was.
+    void add_second_state() {
+        SweepForm form;
+        Sweep sweep;
+        form.last = false;
+        form.inputs = 2;
+        form.coefficients = 1;
+        form.outputs = {{SweepOutput::Kind::state,
+                         {{Source::value, 1, Weight::coefficient, 0}, {Source::value, 0}}}};
+        sweep.inputs = {old_register, rate_register_[0]};
+        sweep.outputs = {state_register(1)};
+        sweep.coefficients = {{tableau_.a[1][0], true}};
+        add(scheme_, std::move(form), std::move(sweep));
     }
 
     void add_stage(std::uint32_t stage) {
-        const bool last = stage + 1 == tableau_.b.size();
         SweepForm form;
         Sweep sweep;
-        form.last = last;
-        sweep.inputs = {stage == 0 ? old_register : first_state + stage % 2};
-        sweep.time = std::accumulate(tableau_.a[stage].begin(), tableau_.a[stage].end(), 0.0);
-        if (stage > 0) {
-            form.old_input = form.inputs++;
-            sweep.inputs.push_back(old_register);
-        }
+        form.last = stage + 1 == tableau_.b.size();
+        form.old_input = form.inputs++;
+        sweep.inputs = {state_register(stage), old_register};
+        sweep.time = time_of(tableau_.a[stage]);
         SweepOutput state;
-        add_terms(form, sweep, state, row_behind(stage));
-        // The old values come last: the small terms are added to each other before.
+        const std::vector<double>& weights = row_behind(stage);
+        add_kept_rates(form, sweep, state, weights);
+        state.terms.push_back(own_rate(form, sweep, weights.back()));
         state.terms.push_back({Source::value, form.old_input});
         form.outputs.push_back(std::move(state));
-        sweep.outputs = {last ? new_register : first_state + (stage + 1) % 2};
+        sweep.outputs = {form.last ? new_register : state_register(stage + 1)};
         if (is_read_later(stage)) {
             rate_register_[stage] = next_register_++;
-            form.outputs.push_back({SweepOutput::Kind::change, {{Source::rate}}});
-            sweep.outputs.push_back(rate_register_[stage]);
+            keep_rate(form, sweep, rate_register_[stage]);
         }
-        add(std::move(form), std::move(sweep));
+        add(scheme_, std::move(form), std::move(sweep));
     }
 
     void add_error() {
@@ -98,11 +217,14 @@ private:
         sweep.time = 1;
         SweepOutput error;
         error.kind = SweepOutput::Kind::change;
-        add_terms(form, sweep, error, tableau_.error);
+        add_kept_rates(form, sweep, error, tableau_.error);
+        error.terms.push_back(own_rate(form, sweep, tableau_.error.back()));
         form.outputs = {std::move(error)};
         scheme_.error_register = next_register_++;
         sweep.outputs = {scheme_.error_register};
-        add(std::move(form), std::move(sweep));
+        scheme_.last_rate_register = next_register_++;
+        keep_rate(form, sweep, scheme_.last_rate_register);
+        add(scheme_, std::move(form), std::move(sweep));
     }
 
     const ButcherTableau& tableau_;
@@ -137,6 +259,8 @@ ButcherTableau dormand_prince() {
              -1.0 / 40}};
 }
 
-Scheme explicit_runge_kutta(const ButcherTableau& tableau) { return Builder(tableau).build(); }
+Scheme explicit_runge_kutta(const ButcherTableau& tableau) {
+    return tableau.error.empty() ? StateScheme(tableau).build() : EmbeddedScheme(tableau).build();
+}
 
 }  // namespace cascade

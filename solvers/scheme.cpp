@@ -10,6 +10,8 @@
 #include "solvers/runge_kutta.h"
 #include "solvers/semi_implicit.h"
 
+#include <algorithm>
+
 namespace cascade {
 namespace {
 
@@ -118,17 +120,18 @@ SweepForm legendre_form(bool second, bool keeps_rates, bool last) {
     return form;
 }
 
-/// Registers: 0 and 1, three of stages that change places, and L(Y₀).
+/// Registers: 0; two of stages in turn, the last stage in 1, for Y_j may overwrite Y_{j−2} cell by
+/// cell; L(Y₀).
 Scheme legendre(Solver solver, std::uint32_t stages) {
-    CHECK(stages >= 3 && stages % 2 == 1, "an odd number of stages");
-    constexpr std::uint32_t first_scratch = 2, rates_register = 5;
+    CHECK(stages >= least_stages(solver) && stages % 2 == 1, "an odd number of stages");
+    if (stages == 1) return euler(false);
+    constexpr std::uint32_t rates_register = 3;
     const bool keeps_rates = solver == Solver::rkl2;
     const auto place = [&](std::uint32_t j) {
-        if (j == 0) return old_register;
-        return j == stages ? new_register : first_scratch + j % 3;
+        return j == 0 ? old_register : new_register + (stages - j) % 2;
     };
     Scheme scheme;
-    scheme.registers = keeps_rates ? 6 : 5;
+    scheme.registers = keeps_rates ? 4 : 3;
     scheme.forms = {first_legendre_form(keeps_rates), legendre_form(true, keeps_rates, false),
                     legendre_form(false, keeps_rates, false),
                     legendre_form(false, keeps_rates, true)};
@@ -159,6 +162,13 @@ Scheme legendre(Solver solver, std::uint32_t stages) {
 }
 
 }  // namespace
+
+std::size_t Scheme::evaluations() const {
+    const auto count = std::count_if(sweeps.begin(), sweeps.end(), [&](const Sweep& sweep) {
+        return forms[sweep.form].uses_rates();
+    });
+    return static_cast<std::size_t>(count) - (first_rate_register != 0 ? 1 : 0);
+}
 
 Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint32_t stages) {
     switch (solver) {

@@ -7,6 +7,7 @@
 #include "ir/solver.h"
 #include "ir/sweep_form.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,13 +20,20 @@ struct Scheme {
     /// The register that holds an estimate of the step's error, proportional to step^order_of; 0
     /// where there is none.
     std::uint32_t error_register = 0;
+    /// Methods whose last rate is the first of the next step ("first same as last"): sweep 0 does
+    /// nothing but write the first rate, and the last sweep writes the last. Where a step follows
+    /// another the two registers change places and sweep 0 is left out. 0 where there is none.
+    std::uint32_t first_rate_register = 0, last_rate_register = 0;
+
+    /// Evaluations of the rates in a step, after the first one.
+    std::size_t evaluations() const;
 };
 
 /// Builds the scheme of a solver.
 ///
 /// `species` counts the system's species. `by_item`: the step of `euler` and `symplectic` is the
 /// stage's item `speed` (which may vary by cell) and not the time loop's. `stages` is of
-/// stabilised solvers only: an odd number from 3.
+/// stabilised solvers only: an odd number from least_stages() on.
 Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint32_t stages = 3);
 
 }  // namespace cascade

@@ -25,6 +25,12 @@ struct StageClock {
         base_step = complete;
         step = length;
     }
+    /// Counts the time from here on, so that the end of an adaptive step is the start of the next
+    /// one to the bit.
+    void begin_at(std::int64_t complete) {
+        base_time = at(complete);
+        base_step = complete;
+    }
 };
 
 /// What a stage that is interrupted must keep of its time to go on with the same bits.

@@ -8,6 +8,7 @@
 #include "ir/reduction.h"
 #include "ir/sweep_form.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -79,12 +80,19 @@ struct StepProblem {
     /// one, further ones are scratch.
     std::uint32_t registers = 2;
     std::uint32_t error_register = 0;       ///< An estimate of the step's error; 0 for none.
+    /// So many passes at the start write the rates of the old step to `first_rate_register` and
+    /// nothing else, and `last_rate_register` gets the rates of the new one: behind a step the two
+    /// change places and those passes are left out. 0 for none.
+    std::size_t first_rate_passes = 0;
+    std::uint32_t first_rate_register = 0, last_rate_register = 0;
     std::uint32_t temporaries = 0;
     std::uint32_t aggregates = 0;
     std::vector<DiffusionTerms<DiffusionFactor>> diffusion;  ///< Per species, for filters.
     std::vector<SideRules> sides;           ///< Per species; none: the grid's boundary for all.
     std::vector<bool> species_needs_halo;   ///< Per species: the old step is read at neighbours.
 
+    /// How many cells a mean is taken over.
+    std::int64_t counted_cells() const { return cells_inside > 0 ? cells_inside : grid.cell_count(); }
     /// What holds at the sides of a plane that a pass writes. What is no species is mirrored.
     SideRules sides_of(const PlaneRef& plane) const {
         const bool is_species = plane.kind == PlaneRef::Kind::species;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cascade {
 namespace {
@@ -40,38 +41,74 @@ Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int mos
     for (std::size_t copy = 0; copy < 3; ++copy) {
         for (Field& field : copies_[copy]) cells_[copy].push_back(field.origin());
     }
-    for (std::uint32_t k = 2; k < problem.registers; ++k) {
+    add_scratch();
+    use_threads(team_.size());
+}
+
+/// Planes for all registers of the problem.
+void Stepper::add_scratch() {
+    while (scratch_.size() + first_scratch < problem_->registers) {
         std::vector<Field>& planes = scratch_.emplace_back();
         std::vector<float*>& cells = scratch_cells_.emplace_back();
         for (std::size_t s = 0; s < copies_[0].size(); ++s) {
             cells.push_back(planes.emplace_back(layout_).origin());
         }
     }
-    use_threads(team_.size());
 }
 
 void Stepper::use(const StepProblem& problem) {
-    CHECK(problem.grid == problem_->grid && problem.registers <= scratch_.size() + first_scratch,
-          "planes for all passes");
-    if (problem_ == &problem) return;
+    CHECK(problem.grid == problem_->grid, "passes of one grid");
     problem_ = &problem;
+    add_scratch();
+    knows_first_rates_ = false;
     runner_.emplace(problem);
     for (Worker& worker : workers_) {
         runner_->prepare(worker.passes, worker.passes.number, worker.passes.count);
     }
 }
 
-double Stepper::error(double tolerance) const {
-    const std::vector<Field>& fields = copies_[static_cast<std::size_t>(roles_.current)];
+double Stepper::attempt(std::int64_t complete, double tolerance) {
+    squares_.resize(error_planes().size());
+    for (Squares& squares : squares_) {
+        squares.of_errors.resize(static_cast<std::size_t>(layout_.row_count()));
+        squares.of_values.resize(squares.of_errors.size());
+    }
+    team_.run([&](int index) {
+        Worker& worker = workers_[static_cast<std::size_t>(index)];
+        step(worker, roles_, complete);
+        add_squares(worker);
+    }, static_cast<int>(workers_.size()));
+    roles_.current = roles_.target();
+    knows_first_rates_ = problem_->first_rate_passes > 0;
+    const std::int64_t cells = problem_->counted_cells();
     double largest = 0;
-    for (std::size_t k = 0; k < fields.size(); ++k) {
-        const double error = root_mean_square(error_planes()[k]);
-        if (std::isnan(error)) return error;
-        if (error == 0) continue;
-        const double unit = tolerance * std::max(root_mean_square(fields[k]), 1e-30);
-        largest = std::max(largest, error / unit);
+    for (const Squares& squares : squares_) {
+        const double error = root_mean_square(squares.of_errors, cells);
+        const double size = root_mean_square(squares.of_values, cells);
+        if (!std::isfinite(error) || !std::isfinite(size)) return NAN;
+        if (error > 0) largest = std::max(largest, error / (tolerance * std::max(size, 1e-30)));
     }
     return largest;
+}
+
+void Stepper::accept() {
+    if (problem_->first_rate_passes == 0) return;
+    const std::size_t first = place_of(problem_->first_rate_register);
+    const std::size_t last = place_of(problem_->last_rate_register);
+    std::swap(scratch_[first], scratch_[last]);
+    std::swap(scratch_cells_[first], scratch_cells_[last]);
+}
+
+/// Of the worker's rows of the step just computed.
+void Stepper::add_squares(const Worker& worker) {
+    const std::vector<Field>& values = copies_[static_cast<std::size_t>(roles_.target())];
+    for (std::size_t k = 0; k < squares_.size(); ++k) {
+        for (std::int64_t row = worker.passes.rows.begin; row < worker.passes.rows.end; ++row) {
+            const auto place = static_cast<std::size_t>(row);
+            squares_[k].of_errors[place] = sum_of_squares(error_planes()[k], row);
+            squares_[k].of_values[place] = sum_of_squares(values[k], row);
+        }
+    }
 }
 
 void Stepper::use_threads(int threads) {
@@ -84,6 +121,7 @@ void Stepper::use_threads(int threads) {
 }
 
 bool Stepper::advance(std::int64_t complete, std::int64_t count, bool look) {
+    knows_first_rates_ = false;
     team_.run([&](int index) {
         work(workers_[static_cast<std::size_t>(index)], complete, count, look);
     }, static_cast<int>(workers_.size()));
@@ -116,7 +154,9 @@ void Stepper::step(Worker& worker, CopyRoles roles, std::int64_t complete) {
     worker.registers.emplace_back(cells_[static_cast<std::size_t>(roles.current)]);
     worker.registers.emplace_back(cells_[static_cast<std::size_t>(roles.target())]);
     for (const std::vector<float*>& cells : scratch_cells_) worker.registers.emplace_back(cells);
-    runner_->run(worker.passes, team_, worker.registers, {complete, clock_.at(complete), clock_.step});
+    runner_->run(worker.passes, team_, worker.registers,
+                 {complete, clock_.at(complete), clock_.step},
+                 knows_first_rates_ ? problem_->first_rate_passes : 0);
 }
 
 bool Stepper::rows_finite(const Worker& worker, int copy) const {

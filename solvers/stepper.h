@@ -13,6 +13,7 @@
 #include "solvers/step_problem.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -41,24 +42,29 @@ public:
 
     /// Time and length of the steps from now on.
     void set_clock(const StageClock& clock) { clock_ = clock; }
-    /// Takes steps by other passes from now on, over no more registers. The problem must live as
-    /// long as it is in use.
+    /// Takes steps by other passes from now on. The problem must live as long as it is in use.
     void use(const StepProblem& problem);
 
-    /// The error of the step just taken, in units of the tolerance: of each species the root mean
-    /// square over that of its new values, times `tolerance`; the largest of all; NaN if one is. Of
-    /// a problem with an error register.
-    double error(double tolerance) const;
+    /// Tries one step of a problem with an error register and returns its error in units of the
+    /// tolerance: of each species the root mean square over that of its new values, times
+    /// `tolerance`; the largest of all; NaN where the error or a new value is not finite. Then
+    /// undo() or accept().
+    double attempt(std::int64_t complete, double tolerance);
+    /// The step just tried is taken: its last rates are the first ones of the next step.
+    void accept();
     /// The planes of that estimate, one for each species.
     const std::vector<Field>& error_planes() const {
-        return scratch_[problem_->error_register - first_scratch];
+        return scratch_[place_of(problem_->error_register)];
     }
 
     /// Are all current values finite?
     bool is_finite();
 
     void keep() { roles_.kept = roles_.current; }
-    void back() { roles_.current = roles_.kept; }
+    void back() {
+        roles_.current = roles_.kept;
+        knows_first_rates_ = false;
+    }
     /// Undoes the last step: `before` are the roles as they were before it.
     void undo(CopyRoles before) { roles_ = before; }
     CopyRoles roles() const { return roles_; }
@@ -77,11 +83,20 @@ private:
         std::vector<std::span<float* const>> registers;
         bool finite = true;
     };
+    /// Sums of squares by row.
+    struct Squares {
+        std::vector<double> of_errors, of_values;
+    };
 
     void work(Worker& worker, std::int64_t complete, std::int64_t count, bool look);
     void step(Worker& worker, CopyRoles roles, std::int64_t complete);
     bool rows_finite(const Worker& worker, int copy) const;
     bool all_finite() const;
+    void add_scratch();
+    void add_squares(const Worker& worker);
+    std::size_t place_of(std::uint32_t scratch_register) const {
+        return scratch_register - first_scratch;
+    }
 
     static constexpr std::uint32_t first_scratch = 2;
 
@@ -93,6 +108,8 @@ private:
     std::vector<std::vector<Field>> scratch_;    ///< Registers from 2 on.
     std::vector<std::vector<float*>> scratch_cells_;
     CopyRoles roles_;
+    bool knows_first_rates_ = false;  ///< The register of first rates holds those of the current copy.
+    std::vector<Squares> squares_;    ///< By species.
     Team team_;
     std::optional<PassRunner> runner_;
     std::vector<Worker> workers_;  ///< One for each thread in use.

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace cascade::testing {
@@ -26,13 +27,22 @@ public:
 
     /// Takes a step and stays at the old one; accept() goes on to the new one.
     void attempt(double step) {
-        for (const Sweep& sweep : scheme_.sweeps) run(sweep, step);
+        const bool has_first_rate = scheme_.first_rate_register != 0 && knows_first_rate_;
+        for (std::size_t k = has_first_rate ? 1 : 0; k < scheme_.sweeps.size(); ++k) {
+            run(scheme_.sweeps[k], step);
+        }
         step_ = step;
+        knows_first_rate_ = true;
     }
     void accept() {
         registers_[old_register] = registers_[new_register];
+        std::swap(registers_[scheme_.first_rate_register],
+                  registers_[scheme_.last_rate_register]);
         time_ += step_;
     }
+    /// Evaluates the first rate of each step anew.
+    void forget_first_rate() { knows_first_rate_ = false; }
+    int evaluations() const { return evaluations_; }
     void step(double step) {
         attempt(step);
         accept();
@@ -50,7 +60,11 @@ private:
         for (std::uint32_t s = 0; s < sweep.renewed; ++s) {
             evaluated[s] = registers_[new_register][s];
         }
-        const PlainState rates = rates_(evaluated, time_ + sweep.time * step);
+        PlainState rates = evaluated;
+        if (form.uses_rates()) {
+            rates = rates_(evaluated, time_ + sweep.time * step);
+            ++evaluations_;
+        }
         std::vector<PlainState> inputs;
         for (const std::uint32_t input : sweep.inputs) inputs.push_back(registers_[input]);
         std::vector<std::uint32_t> species = form.species;
@@ -85,6 +99,8 @@ private:
     double speed_;
     std::vector<PlainState> registers_;
     double time_ = 0, step_ = 0;
+    bool knows_first_rate_ = false;
+    int evaluations_ = 0;
 };
 
 }  // namespace cascade::testing

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 namespace cascade {
 namespace {
@@ -49,6 +50,67 @@ INSTANTIATE_TEST_SUITE_P(Solvers, Order,
                                            Solver::gauss),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
+/// What a step costs: the classical methods as many evaluations as stages, embedded ones one less
+/// than they have, since the last rate is the first of the next step.
+TEST(Scheme, EvaluatesTheRatesAsOftenAsItMust) {
+    const std::pair<Solver, std::size_t> all[] = {
+        {Solver::euler, 1}, {Solver::rk2, 2},  {Solver::rk4, 4}, {Solver::rk23, 3},
+        {Solver::rk45, 6},  {Solver::rkl1, 5}, {Solver::rkl2, 5}};
+    for (const auto& [solver, expected] : all) {
+        const Scheme scheme = make_scheme(solver, 2, false, 5);
+        EXPECT_EQ(scheme.evaluations(), expected) << name_of(solver);
+        SchemeRunner runner(scheme, swing, {{0.0}, {1.0}});
+        for (int n = 0; n < 10; ++n) runner.step(0.1);
+        const std::size_t first = scheme.first_rate_register != 0 ? 1 : 0;
+        EXPECT_EQ(runner.evaluations(), static_cast<int>(10 * expected + first)) << name_of(solver);
+    }
+    EXPECT_EQ(make_scheme(Solver::symplectic, 3, true).evaluations(), 3u);
+}
+
+TEST(Scheme, RatesThatAreKeptAreThoseThatWouldBeEvaluated) {
+    for (const Solver solver : {Solver::rk23, Solver::rk45}) {
+        const Scheme scheme = make_scheme(solver, 2, false);
+        SchemeRunner keeping(scheme, swing, {{0.0}, {1.0}});
+        SchemeRunner forgetting(scheme, swing, {{0.0}, {1.0}});
+        for (int n = 0; n < 20; ++n) {
+            forgetting.forget_first_rate();
+            for (SchemeRunner* runner : {&keeping, &forgetting}) {
+                runner->attempt(0.25);  // A step that is rejected.
+                runner->step(0.125);
+            }
+            EXPECT_EQ(keeping.state(), forgetting.state()) << name_of(solver) << n;
+            EXPECT_EQ(keeping.error(), forgetting.error()) << name_of(solver) << n;
+        }
+        EXPECT_LT(keeping.evaluations(), forgetting.evaluations());
+    }
+}
+
+/// Planes that lie in the cache: a step writes one plane of each species in each sweep and keeps few
+/// stages. What it overwrites is read in the own cell only, and the old step stays.
+TEST(Scheme, StepsWithoutAnErrorKeepFewPlanes) {
+    EXPECT_EQ(make_scheme(Solver::rk2, 1, false).registers, 3u);
+    EXPECT_EQ(make_scheme(Solver::rk4, 1, false).registers, 4u);
+    EXPECT_EQ(make_scheme(Solver::rkl1, 1, false, 9).registers, 3u);
+    EXPECT_EQ(make_scheme(Solver::rkl1, 1, false, 1).registers, 2u);
+    EXPECT_EQ(make_scheme(Solver::rkl2, 1, false, 9).registers, 4u);
+    for (const Solver solver : {Solver::rk2, Solver::rk4, Solver::rk23, Solver::rk45, Solver::rkl1,
+                                Solver::rkl2}) {
+        const Scheme scheme = make_scheme(solver, 1, false, 9);
+        for (const Sweep& sweep : scheme.sweeps) {
+            if (scheme.error_register == 0 && solver != Solver::rkl2) {
+                EXPECT_EQ(sweep.outputs.size(), 1u) << name_of(solver);
+            }
+            for (const std::uint32_t output : sweep.outputs) {
+                EXPECT_NE(output, sweep.inputs[0]) << name_of(solver);
+                EXPECT_NE(output, old_register) << name_of(solver);
+                EXPECT_LT(output, scheme.registers) << name_of(solver);
+            }
+        }
+        EXPECT_EQ(scheme.sweeps.back().outputs[0],
+                  scheme.error_register != 0 ? scheme.error_register : new_register);
+    }
+}
+
 TEST(Scheme, NamesAreTheSettings) {
     EXPECT_EQ(solver_names().size(), 11u);
     for (const std::string& name : solver_names()) {
@@ -81,7 +143,8 @@ TEST(Scheme, IsStableUpToItsInterval) {
 
 TEST(Scheme, StagesMakeLegendreStable) {
     for (const Solver solver : {Solver::rkl1, Solver::rkl2}) {
-        for (const std::uint32_t stages : {3u, 5u, 9u, 21u}) {
+        for (const std::uint32_t stages : {1u, 3u, 5u, 9u, 21u}) {
+            if (stages < least_stages(solver)) continue;
             const Scheme scheme = make_scheme(solver, 1, false, stages);
             const double interval = stability_interval(solver, stages);
             for (int n = 1; n < 400; ++n) {
@@ -98,7 +161,7 @@ TEST(Scheme, LegendreTakesAsFewStagesAsItCan) {
             const std::uint32_t stages = stages_for(solver, ratio);
             EXPECT_EQ(stages % 2, 1u);
             EXPECT_GE(stability_interval(solver, stages), 2 * ratio);
-            if (stages > 3) {
+            if (stages > least_stages(solver)) {
                 EXPECT_LT(stability_interval(solver, stages - 2), 2 * ratio);
             }
         }
