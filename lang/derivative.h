@@ -14,16 +14,15 @@ namespace cascade {
 std::optional<Formula> rate_derivative(const Program& program, std::uint32_t stage,
                                        std::uint32_t of, std::uint32_t by);
 
-/// What bounds the eigenvalues of the Jacobian J of the rates in a state: in each cell the largest
-/// over the species of Σ |J_ij|, j being species and cells; the largest of all cells is no smaller
-/// than the magnitude of any eigenvalue (S. Gerschgorin, 1931). The derivative of what an operator
-/// is applied to is taken at the cell itself.
+/// Bounds of the Jacobian J of the rates in a state, each one number: the largest of all cells (an
+/// aggregate over the domain). Coefficients of operators are taken at the cell itself; see slopes.h.
 struct JacobianBound {
-    Formula whole;     ///< Reaction and operators.
-    Formula reaction;  ///< Without lap of species: what is left when diffusion costs nothing.
-    /// Without any operator through which a species reads itself: what is left when waves of each
-    /// species are damped at no cost.
-    Formula without_own_operators;
+    /// Of the magnitude of the eigenvalues: the largest Σ |J_ij| of a row i, j being species and
+    /// cells (S. Gerschgorin, 1931). It bounds the step of an explicit method, or its stages.
+    Formula whole;
+    /// Of what stages do not tame: the reaction, waves, and the growth that operators cause, as
+    /// -lap(c) does in lap(c^3 - c - lap(c)). It bounds the step of a stabilised method.
+    Formula reaction;
 };
 
 /// Empty as above, or where the formulas become too large.

@@ -140,62 +140,10 @@ private:
     const Node node_;  ///< A copy: the builder's list grows.
 };
 
-/// How much larger an operator or aggregate makes a change of its operand, summed over all cells it
-/// reads. Of lap: neighbours count 1 each and the cell as much as all of them.
-std::optional<double> gain(Function function, const Grid& grid) {
-    const double h = grid.spacing;
-    switch (function) {
-        case Function::lap: return 4 * grid.stencil().axes() / (h * h);
-        case Function::dx:
-        case Function::dy:
-        case Function::dz: return 1 / h;
-        case Function::dxx:
-        case Function::dyy:
-        case Function::dzz: return 4 / (h * h);
-        case Function::dxy:
-        case Function::dxz:
-        case Function::dyz: return 1 / (h * h);
-        case Function::domain_mean:
-        case Function::domain_min:
-        case Function::domain_max: return 1;
-        case Function::domain_sum: return static_cast<double>(grid.cell_count());
-        default: return std::nullopt;
-    }
-}
-
 }  // namespace
 
-std::optional<PartId> partial_derivative(FormulaBuilder& builder, PartId id, std::size_t n) {
-    return Rules(builder, builder[id]).partial(n);
-}
-
-std::optional<Slope> slope_of(FormulaBuilder& builder, PartId id, std::uint32_t species,
-                              const std::vector<Slope>& before, const Grid& grid) {
-    const Node node = builder[id];
-    const PartId zero = builder.number(0);
-    if (node.kind == NodeKind::own && node.index == species) return Slope{builder.number(1), zero, zero};
-    Slope slope{zero, zero, zero};
-    if (node.kind != NodeKind::call) return slope;
-    for (std::size_t n = 0; n < operand_count(node); ++n) {
-        const Slope& inner = before[node.operands[n]];
-        if (builder.is_number(inner.own, 0) && builder.is_number(inner.far, 0)) continue;
-        if (const auto factor = gain(node.function, grid)) {
-            const PartId all = builder.add(builder.absolute(inner.own), inner.far);
-            const PartId gained = builder.multiply(builder.number(*factor), all);
-            slope.far = builder.add(slope.far, gained);
-            const bool is_plain = node.function == Function::lap &&
-                                  builder[node.operands[n]].kind == NodeKind::own;
-            if (!is_plain) slope.wide = builder.add(slope.wide, gained);
-            continue;
-        }
-        const auto partial = Rules(builder, node).partial(n);
-        if (!partial) return std::nullopt;
-        slope.own = builder.add(slope.own, builder.multiply(*partial, inner.own));
-        const PartId size = builder.absolute(*partial);
-        slope.far = builder.add(slope.far, builder.multiply(size, inner.far));
-        slope.wide = builder.add(slope.wide, builder.multiply(size, inner.wide));
-    }
-    return slope;
+std::optional<PartId> partial_derivative(FormulaBuilder& builder, const Node& call, std::size_t n) {
+    return Rules(builder, call).partial(n);
 }
 
 }  // namespace cascade

@@ -70,7 +70,7 @@ private:
             // The change of a factor times a gradient is a drift.
             if (is_vector && builder_[operand].type != ValueType::vector) continue;
             if (is_nothing(found_[operand])) continue;
-            const auto partial = partial_derivative(builder_, id, n);
+            const auto partial = partial_derivative(builder_, node, n);
             if (!partial) continue;
             add(result, *partial, found_[operand]);
         }

@@ -13,22 +13,9 @@ bool is_usable(double bound) { return std::isfinite(bound) && bound > 0; }
 
 }  // namespace
 
-double fastest_growth(const DiffusionTerms<double>& least, const Grid& grid) {
-    constexpr int samples = 400;
-    constexpr double range = 1e8;
-    const double largest = 4 * grid.stencil().axes() / (grid.spacing * grid.spacing);
-    const double axis = std::min({least[4], least[5], least[6]});
-    double fastest = 0;
-    for (int n = 0; n <= samples; ++n) {
-        const double q = largest * std::pow(range, -n / double{samples});
-        const double damping =
-            q * (axis + least[0] + q * (least[1] + q * (least[2] + q * least[3])));
-        fastest = std::max(fastest, -damping);
-    }
-    return fastest;
+std::int64_t choose_every(Solver solver, bool by_rule) {
+    return takes_long_steps(solver) && by_rule ? 10 : 100;
 }
-
-std::int64_t choose_every(Solver solver) { return takes_long_steps(solver) ? 10 : 100; }
 
 std::uint32_t choose_stages(Solver solver, const RateBounds& bounds, double step) {
     // The limit of explicit Euler is 2 / bound.
@@ -57,15 +44,20 @@ StepChoice choose_step(Solver solver, const RateBounds& bounds, double duration)
         }
         return choice;
     }
-    choice.step = longest;
-    if (is_usable(bounds.reaction)) {
-        choice.step = std::min(longest, reaction_part / bounds.reaction);
-    }
-    choice.stages = choose_stages(solver, bounds, choice.step);
-    if (is_usable(bounds.whole)) {
-        // More stages than there may be would be needed: then diffusion decides after all.
-        choice.step = std::min(choice.step, step_safety * stability_interval(solver, choice.stages) /
-                                                bounds.whole);
+    double wanted = longest;
+    if (is_usable(bounds.reaction)) wanted = std::min(wanted, reaction_part / bounds.reaction);
+    double most_per_stage = 0;
+    for (std::uint32_t stages = least_stages(solver); stages <= most_stages; stages += 2) {
+        double step = wanted;
+        if (is_usable(bounds.whole)) {
+            step = std::min(step, step_safety * stability_interval(solver, stages) / bounds.whole);
+        }
+        if (step / stages > most_per_stage) {
+            most_per_stage = step / stages;
+            choice.step = step;
+            choice.stages = stages;
+        }
+        if (step == wanted) break;
     }
     return choice;
 }

@@ -1,7 +1,6 @@
 // How long steps may be: what `speed: auto` and the stages of Runge-Kutta-Legendre are chosen by.
 #pragma once
 
-#include "ir/diffusion.h"
 #include "lang/program.h"
 #include "solvers/advance.h"
 
@@ -10,25 +9,22 @@
 
 namespace cascade {
 
-/// Magnitudes that no eigenvalue of the rates' Jacobian exceeds, in 1 / time, at some state.
+/// Magnitudes at some state, in 1 / time (lang/derivative.h).
 struct RateBounds {
-    double whole = 0;     ///< Reaction and diffusion.
-    double reaction = 0;  ///< The reaction alone.
+    double whole = 0;     ///< No eigenvalue of the rates' Jacobian is larger.
+    double reaction = 0;  ///< Of what neither stages nor implicit diffusion tame.
 };
 
-/// The rate at which the fastest wave grows by diffusion whose factors are nowhere below these; 0
-/// where all waves are damped.
-double fastest_growth(const DiffusionTerms<double>& least, const Grid& grid);
-
-/// Steps between two choices.
-std::int64_t choose_every(Solver solver);
+/// Steps between two choices. An estimate costs more than a bound by rule.
+std::int64_t choose_every(Solver solver, bool by_rule);
 
 /// The longest step that is safe at that state, and for stabilised solvers accurate, but no longer
 /// than a twentieth of `duration`; and how many stages it takes. Steps are `safety` times the limit
-/// of stability; a stabilised one, whose stages make diffusion stable at any length, is as long as
-/// the reaction allows: `reaction_part` / (bound of the reaction), and so is a semi-implicit one, for
-/// which growth by diffusion counts as reaction. Where bounds are not finite, or
-/// there are none, the step is a thousandth of the duration.
+/// of stability; a stabilised one, whose stages make diffusion stable at any length, is at most
+/// `reaction_part` / (bound of the reaction) long, and of that length or the most that fewer stages
+/// allow, whichever takes fewer evaluations of the rates for a stretch of time. A semi-implicit one
+/// is `reaction_part` / (bound of the reaction) long. Where bounds are not finite, or there are
+/// none, the step is a thousandth of the duration.
 StepChoice choose_step(Solver solver, const RateBounds& bounds, double duration);
 
 /// The stages of a stabilised solver for a step of that length.

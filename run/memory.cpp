@@ -2,7 +2,9 @@
 
 #include "core/plane.h"
 #include "core/resample.h"
+#include "lang/derivative.h"
 #include "lang/diffusion.h"
+#include "lang/lower.h"
 #include "run/stage_time.h"
 #include "solvers/scheme.h"
 
@@ -68,6 +70,18 @@ std::int64_t plane_size(const Program& program) {
     return size + coarse;
 }
 
+/// Planes that choosing steps and stages takes for a moment: what bounds are computed in, or an
+/// eigenvalue is estimated with (two planes of each species and four vectors in double precision).
+std::uint64_t planes_to_choose(const Program& program, std::uint32_t stage) {
+    const StageTime& time = program.stages[stage].time;
+    if (!is_stabilised(time.solver) && !(time.automatic_speed && !is_adaptive(time.solver))) return 0;
+    const auto bound = jacobian_bound(program, stage);
+    if (!bound) return std::uint64_t{10} * program.system_of(stage).species_count();
+    const Formula* const formulas[] = {&bound->whole, &bound->reaction};
+    const StepPlan plan = plan_view(program, formulas, stage);
+    return std::uint64_t{plan.temporaries} + plan.result_count;
+}
+
 }  // namespace
 
 double memory_of(const Program& program) {
@@ -91,7 +105,8 @@ double memory_of(const Program& program, StagePlans& plans) {
     }
     std::uint64_t while_running = 0;
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
-        while_running = std::max(while_running, planes_while_running(program, k, plans));
+        while_running = std::max(while_running, planes_while_running(program, k, plans) +
+                                                    planes_to_choose(program, k));
     }
     planes += while_running;
     if (program.domain.surface) planes += metric_plane_count;

@@ -172,18 +172,32 @@ struct Simulation::Implementation {
         };
     }
 
+    /// What is computed every few steps is compiled where there are many cells.
+    Compile often() const {
+        if (is_small()) return interpreted(grid);
+        return [this, interpret = interpreted(grid)](const CellKernel& kernel) {
+            auto made = stepper->compile(kernel, grid.stencil());
+            return made ? *made : interpret(kernel);
+        };
+    }
+    /// Evaluating a small grid is over before code is made for it or a second thread has woken up.
+    bool is_small() const { return grid.cell_count() < 65536; }
+
     /// What the time of a stage needs to know of it.
     StageTools tools(std::uint32_t k, RunControl& control) const;
     Failure explain(const StageOutcome& outcome, std::uint32_t k);
     Failure explain(const StepTooShort& place, std::uint32_t k) const;
     void warn_of_chequerboard(std::uint32_t k, RunControl& control) const;
     StabilityEstimate stability(std::uint32_t k, std::span<const Field> species) const {
+        return stability(k, species, interpreted(grid));
+    }
+    StabilityEstimate stability(std::uint32_t k, std::span<const Field> species,
+                                const Compile& compile) const {
         // Rates know nothing of frozen cells, but those cannot blow up.
         const Mask* frozen = states[k].frozen.empty() ? nullptr : &states[k].frozen;
         const Mask still = mask ? still_cells(*mask, frozen) : Mask();
         if (mask) frozen = &still;
-        return estimate_stability(problem(plan_rates(*program, k), interpreted(grid), k), species,
-                                  frozen);
+        return estimate_stability(problem(plan_rates(*program, k), compile, k), species, frozen);
     }
     double speed_number(std::uint32_t k) const {
         const std::uint32_t item = program->system_of(k).speed_item();
@@ -224,9 +238,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
         if (!stepper) return tl::unexpected(stepper.error());
         self.stepper = std::move(*stepper);
     }
-    // Evaluating a small grid is over before a second thread has woken up.
-    const bool small = self.grid.cell_count() < 65536;
-    self.team = std::make_unique<Team>(small ? 1 : self.threads);
+    self.team = std::make_unique<Team>(self.is_small() ? 1 : self.threads);
     self.states.resize(self.program->stages.size());
     if (auto found = self.find_mask(); !found) return tl::unexpected(found.error());
     return simulation;
@@ -394,6 +406,15 @@ std::optional<std::uint32_t> Simulation::shown_stage() const {
 
 StageTools Simulation::Implementation::tools(std::uint32_t k, RunControl& control) const {
     StageTools tools;
+    tools.numbers = [this, k](std::span<const Formula* const> formulas) {
+        return [this, k, plan = plan_view(*program, formulas, k), compile = often()] {
+            std::vector<double> numbers;
+            for (const Field& field : run_plan(plan, compile, context(k), grid, *team)) {
+                numbers.push_back(field.at(0, 0));
+            }
+            return numbers;
+        };
+    };
     const auto largest = [this, k](std::span<const Formula* const> formulas) {
         std::vector<double> values;
         for (const Field& field : evaluate(plan_view(*program, formulas, k), k)) {
@@ -414,13 +435,12 @@ StageTools Simulation::Implementation::tools(std::uint32_t k, RunControl& contro
         diffusion.add_to(problem);
         return problem;
     };
-    tools.largest = largest;
     tools.inside = mask ? &mask->inside : nullptr;
     tools.is_true = [this, k](const Formula& formula) {
         return evaluate(plan_view(*program, formula, k), k)[0].at(0, 0) != 0;
     };
-    tools.estimate = [this, k] {
-        const auto limit = stability(k, states[k].species).largest_speed;
+    tools.estimate = [this, k, compile = often()] {
+        const auto limit = stability(k, states[k].species, compile).largest_speed;
         return limit ? 2 / *limit : 0;
     };
     return tools;

@@ -1,5 +1,7 @@
 #include "run/stage_time.h"
 
+#include "lang/derivative.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,16 +14,6 @@ namespace {
 /// Where nothing says how long a stage takes, steps of chosen length are no longer than a part of
 /// this.
 constexpr double usual_duration = 10000;
-Formula negative_of(Formula formula) {
-    Node node;
-    node.kind = NodeKind::call;
-    node.function = Function::negate;
-    node.operands[0] = static_cast<std::uint32_t>(formula.nodes.size() - 1);
-    node.operand_count = 1;
-    formula.nodes.push_back(node);
-    return formula;
-}
-
 /// What is not known to be reaction or diffusion is taken for diffusion in the main.
 constexpr double share_of_reaction = 0.02;
 
@@ -44,15 +36,16 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     : stage_(program.stages[stage]),
       state_(state),
       tools_(std::move(tools)),
-      species_(static_cast<std::uint32_t>(state.species.size())),
-      grid_(program.domain.grid) {
+      species_(static_cast<std::uint32_t>(state.species.size())) {
     const System& system = program.system_of(stage);
     uniform_speed_ = stage_.uniform[system.speed_item()];
     speed_ = uniform_speed_ ? static_cast<double>(state.numbers[system.speed_item()]) : 1;
     duration_ = duration_of(stage_, system, state);
-    if (chooses()) bound_ = jacobian_bound(program, stage);
-    if (chooses() && is_semi_implicit(stage_.time.solver)) {
-        diffusion_ = diffusion_of(program, stage);
+    if (chooses()) {
+        if (const auto bound = jacobian_bound(program, stage)) {
+            const Formula* const formulas[] = {&bound->whole, &bound->reaction};
+            bounds_by_rule_ = tools_.numbers(formulas);
+        }
     }
     // A stage whose time is known goes on as it was.
     if (state_.steps > 0 && state_.time.control.step > 0) return;
@@ -74,38 +67,17 @@ const StepProblem& StageTimer::problem() { return problem_of(state_.time.stages)
 const StepProblem& StageTimer::problem_of(std::uint32_t stages) {
     const auto known = problems_.find(stages);
     if (known != problems_.end()) return known->second;
-    const Scheme scheme = make_scheme(stage_.time.solver, species_, steps_by_item(stage_),
-                                      std::max(stages, 3u));
+    const Scheme scheme = make_scheme(stage_.time.solver, species_, steps_by_item(stage_), stages);
     return problems_.emplace(stages, tools_.bind(scheme)).first->second;
 }
 
 RateBounds StageTimer::bounds() const {
-    if (bound_) {
-        const bool is_implicit = is_semi_implicit(stage_.time.solver);
-        const Formula* const formulas[] = {
-            &bound_->whole, is_implicit ? &bound_->without_own_operators : &bound_->reaction};
-        std::vector<double> largest = tools_.largest(formulas);
-        if (is_implicit) largest[1] += growth_by_diffusion();
-        if (std::isfinite(largest[0]) && std::isfinite(largest[1])) return {largest[0], largest[1]};
+    if (bounds_by_rule_) {
+        const std::vector<double> bounds = bounds_by_rule_();
+        if (std::isfinite(bounds[0]) && std::isfinite(bounds[1])) return {bounds[0], bounds[1]};
     }
     const double whole = tools_.estimate();
     return {whole, share_of_reaction * whole};
-}
-
-/// Waves that diffusion makes grow, as where it runs backwards, take no longer steps than reactions.
-double StageTimer::growth_by_diffusion() const {
-    double fastest = 0;
-    for (const SpeciesDiffusion& species : diffusion_) {
-        DiffusionTerms<double> least{};
-        for (std::size_t k = 0; k < diffusion_terms; ++k) {
-            if (species[k].nodes.empty()) continue;
-            const Formula negated = negative_of(species[k]);
-            const Formula* const formulas[] = {&negated};
-            least[k] = -tools_.largest(formulas)[0];
-        }
-        fastest = std::max(fastest, fastest_growth(least, grid_));
-    }
-    return fastest;
 }
 
 StepChoice StageTimer::choose(std::int64_t step) {
@@ -149,7 +121,7 @@ Schedule StageTimer::schedule(std::int64_t last_step, std::int64_t interval) {
         schedule.error_order = order_of(stage_.time.solver);
     }
     if (chooses()) {
-        schedule.choose_every = choose_every(stage_.time.solver);
+        schedule.choose_every = choose_every(stage_.time.solver, bounds_by_rule_ != nullptr);
         schedule.choose = [this](std::int64_t step, std::span<const Field>) { return choose(step); };
     }
     return schedule;

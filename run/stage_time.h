@@ -1,8 +1,6 @@
 // The time of one stage in a run: the passes of its solver, how long steps are, when it ends.
 #pragma once
 
-#include "lang/derivative.h"
-#include "lang/diffusion.h"
 #include "lang/program.h"
 #include "run/automatic_speed.h"
 #include "run/simulation.h"
@@ -11,17 +9,19 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <span>
 #include <vector>
 
 namespace cascade {
 
+/// Computes some numbers from the present values.
+using NumberSource = std::function<std::vector<double>()>;
+
 /// What the time of a stage asks of the simulation it belongs to. All look at the present values.
 struct StageTools {
     std::function<StepProblem(const Scheme&)> bind;
-    /// Each formula's largest value over the cells; NaN if one cell's is.
-    std::function<std::vector<double>(std::span<const Formula* const>)> largest;
+    /// Makes what computes formulas that are the same in all cells, again and again.
+    std::function<NumberSource(std::span<const Formula* const>)> numbers;
     std::function<bool(const Formula&)> is_true;
     /// A bound of the eigenvalues by a power iteration, where there is none by rule.
     std::function<double()> estimate;
@@ -41,7 +41,6 @@ public:
 private:
     bool chooses() const;
     RateBounds bounds() const;
-    double growth_by_diffusion() const;
     StepChoice choose(std::int64_t step);
     const StepProblem& problem_of(std::uint32_t stages);
     bool has_ended(double t);
@@ -53,9 +52,7 @@ private:
     bool uniform_speed_;
     double speed_;      ///< The item's value; 1 where it varies by cell.
     double duration_;   ///< Infinite where there is none.
-    const Grid& grid_;
-    std::optional<JacobianBound> bound_;
-    std::vector<SpeciesDiffusion> diffusion_;        ///< Of a semi-implicit solver.
+    NumberSource bounds_by_rule_;  ///< Of RateBounds; none where there is no rule.
     std::map<std::uint32_t, StepProblem> problems_;  ///< By the number of stages.
 };
 

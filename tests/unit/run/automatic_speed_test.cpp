@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace cascade {
@@ -21,6 +22,28 @@ TEST(AutomaticSpeed, StabilisedSolversStepAsTheReactionAllows) {
         EXPECT_GE(0.9 * stability_interval(solver, choice.stages), choice.step * 1.035);
         EXPECT_LT(0.9 * stability_interval(solver, choice.stages - 2), choice.step * 1.035);
     }
+}
+
+/// Evaluations of the rates for a unit of time.
+double cost(const StepChoice& choice) { return std::max(choice.stages, 1u) / choice.step; }
+
+TEST(AutomaticSpeed, StagesAreTakenWhereTheyPay) {
+    for (double reaction = 0.001; reaction < 100; reaction *= 1.07) {
+        const RateBounds bounds{1 + reaction, reaction};
+        const double euler = cost(choose_step(Solver::euler, bounds, 1e6));
+        const StepChoice choice = choose_step(Solver::rkl1, bounds, 1e6);
+        const bool is_limited = choice.step * reaction > 0.7 * (1 - 1e-12);
+        if (!is_limited || choice.stages > 1) {
+            EXPECT_LE(cost(choice), euler * (1 + 1e-12)) << reaction;
+        }
+        EXPECT_LE(choice.step * reaction, 0.7 * (1 + 1e-12));
+        EXPECT_LE(choice.step * bounds.whole,
+                  0.9 * stability_interval(Solver::rkl1, choice.stages) * (1 + 1e-12));
+    }
+    // Euler's steps of 1.8 cost 0.56: two thirds, a quarter and a tenth of it.
+    EXPECT_LT(cost(choose_step(Solver::rkl1, {1, 1.0 / 12}, 1e6)), 0.56 * 2 / 3);
+    EXPECT_LT(cost(choose_step(Solver::rkl1, {1, 1.0 / 100}, 1e6)), 0.56 / 4);
+    EXPECT_LT(cost(choose_step(Solver::rkl1, {1, 1.0 / 700}, 1e6)), 0.56 / 10);
 }
 
 TEST(AutomaticSpeed, TakesNoMoreStagesThanThereAre) {

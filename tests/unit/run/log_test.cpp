@@ -194,6 +194,10 @@ TEST_F(RunTest, MemoryCountsWhatSolversAndSurfacesKeep) {
     };
     const double plain = planes("", "");
     EXPECT_GE(planes("", "solver: rk45"), plain + 2 * 6);  // Six rates of two species at least.
+    // Stages in turn, the rates of the old step, and what bounds are computed in.
+    EXPECT_GE(planes("", "solver: rkl1"), plain + 2 + 2);
+    EXPECT_EQ(planes("", "solver: rkl2"), planes("", "solver: rkl1") + 2);
+    EXPECT_LE(planes("", "solver: rkl2"), plain + 10);
     EXPECT_EQ(planes("surface: sx, sy, sx * sy", ""), plain + 7);
 }
 
