@@ -2,6 +2,7 @@
 #include "run_fixture.h"
 
 #include "picture/grey_picture.h"
+#include "run/compile.h"
 #include "run/measured.h"
 
 #include <gmock/gmock.h>
@@ -67,6 +68,35 @@ TEST_F(RunTest, MaskedRunsGoOnWhereTheyStopped) {
     EXPECT_EQ(bytes("whole/second.b.npy"), bytes("rest/second.b.npy"));
     EXPECT_EQ(bytes("whole/first.a.npy"), bytes("rest/first.a.npy"));
 }
+
+TEST_F(RunTest, ValuesOfTheDomainThatAreNotFiniteAreRefused) {
+    Script script = load(disc);
+    RunRequest wanted = request();
+    wanted.save = path("saved");
+    wanted.stop_at = StopAt{"second", 13};
+    run_well(script, wanted);
+    auto resumed = load_saved_script(path("saved"), {});
+    ASSERT_TRUE(resumed);
+    const auto damaged = read_npy(path("saved/second.a.npy"));
+    ASSERT_TRUE(damaged);
+    Field values = to_field(*damaged);
+    EXPECT_FALSE(std::isfinite(values.at(0, 0)));  // Outside it may be so.
+    values.at(10, 8) = values.at(0, 0);
+    ASSERT_TRUE(write_npy(path("saved/second.a.npy"), values));
+    wanted.stop_at.reset();
+    wanted.resume = path("saved");
+    EXPECT_THAT(run_badly(*resumed, wanted),
+                ::testing::HasSubstr("second.a.npy has a value that is not finite"));
+}
+
+#if CASCADE_HAS_JIT
+TEST_F(RunTest, AMaskIsNotCompiledToAnObjectFile) {
+    const Script script = load(disc);
+    const auto compiled = compile_step(script, {});
+    ASSERT_FALSE(compiled);
+    EXPECT_THAT(compiled.error().message, ::testing::HasSubstr("a domain with a mask"));
+}
+#endif
 
 TEST_F(RunTest, MaskedPicturesAreTransparentOutside) {
     Script script = load(disc);

@@ -1,0 +1,86 @@
+// What tests of masks share: scripts that have run, and their values.
+#pragma once
+
+#include "run/script.h"
+#include "run/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace cascade::testing {
+
+inline BackendKind stepper() { return has_jit() ? BackendKind::jit : BackendKind::interpreter; }
+
+/// A script with a simulation whose stages have run.
+struct Ran {
+    Script script;
+    std::unique_ptr<Simulation> simulation;
+    std::string failure;
+
+    const Field& field(const std::string& name, std::uint32_t stage = 0) const {
+        const System& system = simulation->program().system_of(stage);
+        for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+            if (system.quantities[item].name == name) return simulation->state(stage).field(item);
+        }
+        ADD_FAILURE() << name;
+        return simulation->state(stage).field(0);
+    }
+    float number(const std::string& name) const {
+        const System& system = simulation->program().system_of(0);
+        for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+            if (system.quantities[item].name == name) return simulation->state(0).numbers[item];
+        }
+        ADD_FAILURE() << name;
+        return 0;
+    }
+};
+
+/// Runs every stage to its end. The script stays where it is: the simulation refers to it.
+inline std::unique_ptr<Ran> run_text(const std::string& text, BackendKind backend = stepper()) {
+    auto ran = std::make_unique<Ran>();
+    ran->script = load_script("test", text, ".");
+    EXPECT_TRUE(ran->script.program) << text << ran->script.messages(false);
+    if (!ran->script.program) return ran;
+    auto simulation = Simulation::create(ran->script, {backend, 0, 2});
+    if (!simulation) {
+        ran->failure = ran->script.messages(false) + simulation.error().message;
+        return ran;
+    }
+    ran->simulation = std::move(*simulation);
+    RunControl control;
+    for (std::uint32_t k = 0; k < ran->script.stage_count(); ++k) {
+        if (auto started = ran->simulation->start_stage(k); !started) {
+            ran->failure = started.error().message;
+            break;
+        }
+        const auto last = ran->script.program->stages[k].iterations;
+        if (auto end = ran->simulation->advance_stage(k, last, control, {}); !end) {
+            ran->failure = end.error().message + " | " + end.error().hint;
+            break;
+        }
+    }
+    return ran;
+}
+
+/// The word of a number; all NaN are one.
+inline std::uint32_t word(float value) {
+    return std::isnan(value) ? 0x7fc00000U : std::bit_cast<std::uint32_t>(value);
+}
+
+/// The sum over the grid. Outside cells are 0, so it is that over the domain.
+inline double sum_of(const Field& field) {
+    double sum = 0;
+    for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
+        for (std::int64_t i = 0; i < field.layout().width; ++i) {
+            sum += static_cast<double>(field.row(row)[i]);
+        }
+    }
+    return sum;
+}
+
+}  // namespace cascade::testing
