@@ -1,0 +1,78 @@
+// Numbers that sum up fields, of the cells inside a mask.
+#include "solvers/field_norms.h"
+#include "solvers/stability.h"
+#include "solvers/steady.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace cascade {
+namespace {
+
+constexpr std::int64_t side = 12;
+
+/// The left half is inside; outside everything is 0.
+Mask left_half() {
+    Mask mask{PlaneLayout(Grid{side, side})};
+    for (std::int64_t j = 0; j < side; ++j) {
+        for (std::int64_t i = 0; i < side / 2; ++i) mask.at(i, j) = 1;
+    }
+    return mask;
+}
+
+template <typename Value>
+Field field_of(std::int64_t width, Value value) {
+    Field field{PlaneLayout(Grid{width, side})};
+    for (std::int64_t j = 0; j < side; ++j) {
+        for (std::int64_t i = 0; i < width; ++i) field.at(i, j) = value(i, j);
+    }
+    return field;
+}
+
+float pattern(std::int64_t i, std::int64_t j) { return 5 + std::sin(0.7F * static_cast<float>(i + j)); }
+
+TEST(MaskedNorms, AreThoseOfASmallField) {
+    const Mask inside = left_half();
+    const Field small = field_of(side / 2, pattern);
+    const Field large = field_of(side, [](std::int64_t i, std::int64_t j) {
+        return i < side / 2 ? pattern(i, j) : 0.0F;
+    });
+    const FieldMoments expected = moments(small), found = moments(large, &inside);
+    EXPECT_DOUBLE_EQ(found.mean, expected.mean);
+    EXPECT_DOUBLE_EQ(found.root_mean_square, expected.root_mean_square);
+    EXPECT_DOUBLE_EQ(found.deviation, expected.deviation);
+    EXPECT_GT(std::abs(moments(large).mean - expected.mean), 1);
+}
+
+TEST(MaskedNorms, TheRateOfChangeIsThatOfTheDomain) {
+    const Mask inside = left_half();
+    const auto at = [](float amplitude, std::int64_t width) {
+        std::vector<Field> species;
+        species.push_back(field_of(width, [&](std::int64_t i, std::int64_t j) {
+            return i < side / 2 ? amplitude * pattern(i, j) : 0.0F;
+        }));
+        return species;
+    };
+    EXPECT_DOUBLE_EQ(relative_change_rate(at(1, side), at(1.5F, side), 2, &inside),
+                     relative_change_rate(at(1, side / 2), at(1.5F, side / 2), 2));
+}
+
+TEST(MaskedNorms, AChequerboardIsLookedForInside) {
+    const Mask inside = left_half();
+    const auto alternating = [](std::int64_t i, std::int64_t j) {
+        return 3 + ((i + j) % 2 == 0 ? 0.1F : -0.1F);
+    };
+    const Field there = field_of(side, [&](std::int64_t i, std::int64_t j) {
+        return i < side / 2 ? alternating(i, j) : 0.0F;
+    });
+    EXPECT_GT(chequerboard(there, &inside), 0.99);
+    EXPECT_LT(chequerboard(there), chequerboard_threshold);  // The edge of the mask hides it.
+    const Field smooth = field_of(side, [&](std::int64_t i, std::int64_t j) {
+        return i < side / 2 ? pattern(i, j) : 0.0F;
+    });
+    EXPECT_LT(chequerboard(smooth, &inside), 0.2);
+}
+
+}  // namespace
+}  // namespace cascade
