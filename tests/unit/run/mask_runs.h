@@ -30,10 +30,10 @@ struct Ran {
         ADD_FAILURE() << name;
         return simulation->state(stage).field(0);
     }
-    float number(const std::string& name) const {
-        const System& system = simulation->program().system_of(0);
+    float number(const std::string& name, std::uint32_t stage = 0) const {
+        const System& system = simulation->program().system_of(stage);
         for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
-            if (system.quantities[item].name == name) return simulation->state(0).numbers[item];
+            if (system.quantities[item].name == name) return simulation->state(stage).numbers[item];
         }
         ADD_FAILURE() << name;
         return 0;

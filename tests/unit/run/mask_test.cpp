@@ -219,5 +219,43 @@ TEST(Mask, FluxesLoseNothing) {
     }
 }
 
+/// On a surface the integral stays: each cell counts as much as its area.
+TEST(Mask, FluxesOnASurfaceLoseNothing) {
+    for (const char* rate : {"lap(u)", "div(u * vector(sin(9 * sy), 1))",
+                             "div(tensor(1, 0.3, 5 * sx) * grad(u^2))"}) {
+        const auto ran = run_text(fmt::format(
+            "domain {{\n  grid: 40, 32\n  mask: noise(0.3) > -0.2\n"
+            "  surface: (3 + cos(2*pi*sy)) * cos(2*pi*sx), (3 + cos(2*pi*sy)) * sin(2*pi*sx), "
+            "sin(2*pi*sy)\n}}\n"
+            "system s {{\n  u: 1 + random(0, 0.5)\n  total: sum([u] over domain)\n  u' = {}\n}}\n"
+            "stage before: s {{ iterations: 400; speed: 0.01 }}\n"
+            "stage after: s {{ iterations: 0; u: u }}\n", rate));
+        ASSERT_EQ(ran->failure, "");
+        EXPECT_NE(ran->field("u").at(20, 16), 0);
+        EXPECT_NEAR(ran->number("total", 1) / ran->number("total", 0), 1, 3e-6) << rate;
+    }
+}
+
+/// A flat surface of square cells is the plane, with a mask too.
+TEST(Mask, AFlatSurfaceIsThePlane) {
+    const auto script = [](const char* surface) {
+        return fmt::format(
+            "domain {{ grid: 24, 20; boundary: noflux; mask: disc(0.4, 0.3, 0.3) and x < 0.6{} }}\n"
+            "system s {{\n  u: sin(9 * x + 3 * y)\n  v: cos(7 * y)\n"
+            "  u' = lap(u) + grad2(v) + diffuse(v, 1, 0.4, 0.7)\n  v' = div(u * grad(v)) + dx(u)\n}}\n"
+            "stage only: s {{ iterations: 10; speed: 0.05 }}\n", surface);
+    };
+    const auto plane = run_text(script(""));
+    const auto surface = run_text(script("; surface: 24 * sx, 20 * sy, 0; unit: 1"));
+    for (const std::string name : {"u", "v"}) {
+        for (int j = 0; j < 20; ++j) {
+            for (int i = 0; i < 24; ++i) {
+                EXPECT_NEAR(plane->field(name).at(i, j), surface->field(name).at(i, j), 2e-5)
+                    << name << " " << i << " " << j;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace cascade
