@@ -287,6 +287,9 @@ TEST(SemiImplicit, SaysWhatItCannotTake) {
                 HasSubstr("stage 'one' freezes cells, which imex cannot"));
     EXPECT_THAT(faults_of("system s { u: 1; u' = -u }\nstage one: s { solver: gauss }"),
                 HasSubstr("gauss finds no diffusion to take implicitly"));
+    EXPECT_THAT(faults_of("stage one: cahn_hilliard { solver: imex; c.top: fixed(1) }\n"
+                          "domain { boundary: noflux }"),
+                HasSubstr("stage 'one': imex cannot hold c at a side"));
     Overrides changes;
     changes.solver = "imex2";
     EXPECT_THAT(faults_of("stage one: turing_spots { speed: 0.5 + x }", changes),
