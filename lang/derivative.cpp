@@ -125,7 +125,10 @@ public:
     void add(const Slope& slope, std::size_t of, std::size_t by) {
         rows_[of].add(slope, of == by);
         columns_[by].add(slope, of == by);
+        jumps_ |= slope.jumps;
     }
+
+    bool jumps() const { return jumps_; }
 
     PartId whole() {
         std::vector<PartId> parts;
@@ -153,6 +156,7 @@ private:
 
     FormulaBuilder& builder_;
     std::vector<LineBound> rows_, columns_;
+    bool jumps_ = false;
 };
 
 }  // namespace
@@ -185,7 +189,7 @@ std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_
     }
     const PartId whole = matrix.whole(), reaction = matrix.reaction();
     if (builder.size() > most_parts) return std::nullopt;
-    return JacobianBound{over_domain(builder, whole), over_domain(builder, reaction)};
+    return JacobianBound{over_domain(builder, whole), over_domain(builder, reaction), matrix.jumps()};
 }
 
 }  // namespace cascade

@@ -23,6 +23,9 @@ struct JacobianBound {
     /// Of what stages do not tame: the reaction, waves, and the growth that operators cause, as
     /// -lap(c) does in lap(c^3 - c - lap(c)). It bounds the step of a stabilised method.
     Formula reaction;
+    /// Does a rate jump where a species passes a threshold? The reaction is faster there than it
+    /// says.
+    bool jumps = false;
 };
 
 /// Empty as above, or where the formulas become too large.

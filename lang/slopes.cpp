@@ -7,6 +7,32 @@
 
 namespace cascade {
 
+namespace {
+
+/// Does the function jump as its operand n passes some value?
+bool jumps_by(Function function, std::size_t n) {
+    switch (function) {
+        case Function::logical_or:
+        case Function::logical_and:
+        case Function::logical_not:
+        case Function::less:
+        case Function::less_equal:
+        case Function::greater:
+        case Function::greater_equal:
+        case Function::equal:
+        case Function::not_equal:
+        case Function::step:
+        case Function::sign:
+        case Function::floor:
+        case Function::ceil:
+        case Function::round: return true;
+        case Function::if_: return n == 0;
+        default: return false;
+    }
+}
+
+}  // namespace
+
 SlopeRules::SlopeRules(FormulaBuilder& builder, const Program& program)
     : builder_(builder),
       grid_(program.domain.grid),
@@ -14,7 +40,7 @@ SlopeRules::SlopeRules(FormulaBuilder& builder, const Program& program)
       zero_(builder.number(0)) {}
 
 bool SlopeRules::is_zero(const Slope& slope) const {
-    return slope.own == zero_ && slope.far == zero_;
+    return slope.own == zero_ && slope.far == zero_ && !slope.jumps;
 }
 
 PartId SlopeRules::all_of(const Slope& slope) { return sum(magnitude(slope.own), slope.far); }
@@ -23,6 +49,7 @@ void SlopeRules::add(Slope& sum_so_far, const Slope& slope) {
     sum_so_far.own = sum(sum_so_far.own, slope.own);
     sum_so_far.far = sum(sum_so_far.far, slope.far);
     sum_so_far.other = sum(sum_so_far.other, slope.other);
+    sum_so_far.jumps |= slope.jumps;
     if (sum_so_far.diffusion.size() < slope.diffusion.size()) {
         sum_so_far.diffusion.resize(slope.diffusion.size(), zero_);
     }
@@ -34,7 +61,7 @@ void SlopeRules::add(Slope& sum_so_far, const Slope& slope) {
 Slope SlopeRules::scaled(const Slope& slope, PartId factor) {
     const PartId size = magnitude(factor);
     Slope result{product(slope.own, factor), product(slope.far, size), {},
-                 product(slope.other, size)};
+                 product(slope.other, size), slope.jumps};
     for (const PartId each : slope.diffusion) result.diffusion.push_back(product(each, factor));
     return result;
 }
@@ -42,6 +69,7 @@ Slope SlopeRules::scaled(const Slope& slope, PartId factor) {
 /// Behind an operator of diffusion, or half of one: a gradient or a divergence.
 Slope SlopeRules::through_diffusion(const Slope& slope, PartId gain) {
     Slope result = zero();
+    result.jumps = slope.jumps;
     result.far = product(gain, all_of(slope));
     result.other = product(gain, slope.other);
     result.diffusion.push_back(product(gain, slope.own));
@@ -51,13 +79,13 @@ Slope SlopeRules::through_diffusion(const Slope& slope, PartId gain) {
 
 Slope SlopeRules::through_other(const Slope& slope, PartId gain) {
     const PartId far = product(gain, all_of(slope));
-    return {zero_, far, {}, far};
+    return {zero_, far, {}, far, slope.jumps};
 }
 
 /// A factor's slope in a product that goes to faces: what of it is diffusion there cannot be told.
 Slope SlopeRules::as_other(const Slope& slope, PartId factor) {
     const PartId far = product(slope.far, magnitude(factor));
-    return {product(slope.own, factor), far, {}, far};
+    return {product(slope.own, factor), far, {}, far, slope.jumps};
 }
 
 std::optional<Slopes> SlopeRules::slopes_of(PartId id, std::uint32_t species,
@@ -110,6 +138,7 @@ std::optional<Slope> SlopeRules::by_partials(const Node& node, const std::vector
         const auto partial = partial_derivative(builder_, node, n);
         if (!partial) return std::nullopt;
         add(slope, scaled(inner, *partial));
+        slope.jumps |= jumps_by(node.function, n);
     }
     return slope;
 }
@@ -140,7 +169,8 @@ Slope SlopeRules::of_advection(const Node& node, const std::vector<Slopes>& befo
         by_change.operands[axis] = change.own;
         velocity_changes |= change.own != zero_;
         if (!has_axis(axis)) continue;
-        add(slope, as_other({zero_, change.far, {}, change.other}, derivative(carried, axis)));
+        add(slope, as_other({zero_, change.far, {}, change.other, change.jumps},
+                            derivative(carried, axis)));
         speed = sum(speed, product(magnitude(velocity), gradient_gain(axis)));
     }
     if (velocity_changes) slope.own = builder_.part(by_change);
@@ -165,6 +195,7 @@ Slope SlopeRules::of_divergence(const Slopes& flux) {
         const Slope& along = flux[axis];
         if (axis < vector.operand_count) vector.operands[axis] = along.own;
         changes |= along.own != zero_;
+        slope.jumps |= along.jumps;
         if (!has_axis(axis)) continue;
         const PartId gain = gradient_gain(axis);
         slope.far = sum(slope.far, product(gain, all_of(along)));

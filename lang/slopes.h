@@ -31,6 +31,8 @@ struct Slope {
     std::vector<PartId> diffusion;
     /// The magnitude of what is not: waves that travel, mixed derivatives, aggregates.
     PartId other = 0;
+    /// Does it jump where the species passes a threshold? No derivative knows of it.
+    bool jumps = false;
 };
 /// Of a number the first one; of a vector one for each axis.
 using Slopes = std::array<Slope, 3>;
@@ -45,7 +47,7 @@ public:
                                     const std::vector<Slopes>& before);
 
 private:
-    Slope zero() const { return {zero_, zero_, {}, zero_}; }
+    Slope zero() const { return {zero_, zero_, {}, zero_, false}; }
     bool is_zero(const Slope& slope) const;
     PartId all_of(const Slope& slope);
     void add(Slope& sum, const Slope& slope);

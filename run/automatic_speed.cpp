@@ -30,14 +30,7 @@ StepChoice choose_step(Solver solver, const RateBounds& bounds, double duration)
         choice.stages = is_stabilised(solver) ? 3 : 0;
         return choice;
     }
-    if (is_semi_implicit(solver)) {
-        choice.step = longest;
-        if (is_usable(bounds.reaction)) {
-            choice.step = std::min(longest, reaction_part / bounds.reaction);
-        }
-        return choice;
-    }
-    if (!is_stabilised(solver)) {
+    if (!takes_long_steps(solver)) {
         choice.step = longest;
         if (is_usable(bounds.whole)) {
             choice.step = std::min(longest, step_safety * stability_interval(solver) / bounds.whole);
@@ -45,7 +38,12 @@ StepChoice choose_step(Solver solver, const RateBounds& bounds, double duration)
         return choice;
     }
     double wanted = longest;
-    if (is_usable(bounds.reaction)) wanted = std::min(wanted, reaction_part / bounds.reaction);
+    const double part = bounds.jumps ? reaction_part_with_jumps : reaction_part;
+    if (is_usable(bounds.reaction)) wanted = std::min(wanted, part / bounds.reaction);
+    if (is_semi_implicit(solver)) {
+        choice.step = wanted;
+        return choice;
+    }
     double most_per_stage = 0;
     for (std::uint32_t stages = least_stages(solver); stages <= most_stages; stages += 2) {
         double step = wanted;

@@ -45,6 +45,7 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
         if (const auto bound = jacobian_bound(program, stage)) {
             const Formula* const formulas[] = {&bound->whole, &bound->reaction};
             bounds_by_rule_ = tools_.numbers(formulas);
+            jumps_ = bound->jumps;
         }
     }
     // A stage whose time is known goes on as it was.
@@ -74,12 +75,12 @@ const StepProblem& StageTimer::problem_of(std::uint32_t stages) {
 RateBounds StageTimer::bounds() const {
     if (bounds_by_rule_) {
         const std::vector<double> bounds = bounds_by_rule_();
-        if (std::isfinite(bounds[0]) && std::isfinite(bounds[1])) return {bounds[0], bounds[1]};
+        if (std::isfinite(bounds[0]) && std::isfinite(bounds[1])) return {bounds[0], bounds[1], jumps_};
     }
     const double whole = tools_.estimate();
     // What is explicit may be as fast as all of it: advection is no diffusion.
-    if (is_semi_implicit(stage_.time.solver)) return {whole, whole};
-    return {whole, share_of_reaction * whole};
+    if (is_semi_implicit(stage_.time.solver)) return {whole, whole, jumps_};
+    return {whole, share_of_reaction * whole, jumps_};
 }
 
 StepChoice StageTimer::choose(std::int64_t step) {

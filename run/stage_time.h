@@ -53,6 +53,7 @@ private:
     double speed_;      ///< The item's value; 1 where it varies by cell.
     double duration_;   ///< Infinite where there is none.
     NumberSource bounds_by_rule_;  ///< Of RateBounds; none where there is no rule.
+    bool jumps_ = false;           ///< Do rates jump at thresholds?
     std::map<std::uint32_t, StepProblem> problems_;  ///< By the number of stages.
 };
 

@@ -127,6 +127,18 @@ TEST(JacobianBound, GoesThroughFluxesAndTensors) {
     EXPECT_DOUBLE_EQ(of_upwind, 3);
 }
 
+TEST(JacobianBound, KnowsOfThresholds) {
+    const auto jumps = [](const std::string& rate) {
+        return jacobian_bound(*rates_of(" u' = " + rate + "\n v' = lap(v)\n")->program, 0)->jumps;
+    };
+    EXPECT_TRUE(jumps("k * (u > 0.5) - u"));
+    EXPECT_TRUE(jumps("if(u - v > 0, u, v)"));
+    EXPECT_TRUE(jumps("lap(u) + floor(u * 5)"));
+    EXPECT_TRUE(jumps("div(step(0.5, v) * grad(u))"));
+    EXPECT_FALSE(jumps("if(x > 0.5, u, v) + max(u, v) + abs(u)"));
+    EXPECT_FALSE(jumps("u * step(0.5, k)"));
+}
+
 TEST(JacobianBound, IsThatOfTuringsSpots) {
     // Row of a: |ka b| + |ka a| + 8 diff_a; of b: |ka (a − 1)| + |ka b| + 8 diff_b, at a = b = 4.
     const auto checked = check_text("stage one: turing_spots { beta: 12 }\ndomain { grid: 16, 16 }");

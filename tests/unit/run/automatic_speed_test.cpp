@@ -46,6 +46,11 @@ TEST(AutomaticSpeed, StagesAreTakenWhereTheyPay) {
     EXPECT_LT(cost(choose_step(Solver::rkl1, {1, 1.0 / 700}, 1e6)), 0.56 / 10);
 }
 
+TEST(AutomaticSpeed, ThresholdsAreMetByShorterSteps) {
+    EXPECT_DOUBLE_EQ(choose_step(Solver::rkl1, {300, 1, true}, 1e4).step, 0.1);
+    EXPECT_DOUBLE_EQ(choose_step(Solver::euler, {300, 1, true}, 1e4).step, 0.9 * 2 / 300);
+}
+
 TEST(AutomaticSpeed, TakesNoMoreStagesThanThereAre) {
     const StepChoice choice = choose_step(Solver::rkl1, {1e9, 1e-3}, 1e6);
     EXPECT_EQ(choice.stages, most_stages);
