@@ -20,12 +20,12 @@ struct RateBounds {
 std::int64_t choose_every(Solver solver, bool by_rule);
 
 /// The longest step that is safe at that state, and for stabilised solvers accurate, but no longer
-/// than a twentieth of `duration`; and how many stages it takes. Steps are `safety` times the limit
-/// of stability; a stabilised one, whose stages make diffusion stable at any length, is at most
-/// `reaction_part` / (bound of the reaction) long, where rates jump `reaction_part_with_jumps`, and
-/// of that length or the most that fewer stages allow, whichever takes fewer evaluations of the rates
-/// for a stretch of time. A semi-implicit one has that length. Where bounds are not finite, or there
-/// are none, the step is a thousandth of the duration.
+/// than a twentieth of `duration`; and how many stages it takes. Steps are `step_safety` times the
+/// limit of stability. A stabilised one, whose stages make diffusion stable at any length, is at
+/// most `reaction_part` / (bound of the reaction) long, or `reaction_part_with_jumps` over it where
+/// rates jump; it has that length or the most that fewer stages allow, whichever takes fewer
+/// evaluations of the rates for a stretch of time. A semi-implicit one has that length. Where bounds
+/// are not finite, or there are none, the step is a thousandth of the duration.
 StepChoice choose_step(Solver solver, const RateBounds& bounds, double duration);
 
 /// The stages of a stabilised solver for a step of that length.
