@@ -20,8 +20,8 @@ draw_one() {
         models/*) "$program" run -q "lang/systems/${1#*/}.cascade" -o "examples/$1.png" ;;
         figure_3_2) draw "$1" --space-time --scale 4 ;;
         # Grids of 128 cells and more.
-        butterfly | fish | brusselator | fitzhugh_nagumo | gray_scott_* | figure_3_3_cheetah | figure_3_3_leopard | \
-            figure_3_4_mixed_stripes | figure_3_4_reticulation) draw "$1" --scale 2 ;;
+        automatic_cascade | butterfly | fish | brusselator | fitzhugh_nagumo | gray_scott_* | figure_3_3_cheetah | \
+            figure_3_3_leopard | figure_3_4_mixed_stripes | figure_3_4_reticulation) draw "$1" --scale 2 ;;
         *) draw "$1" --scale 4 ;;
     esac
 }

@@ -98,7 +98,7 @@ void fill_time(Stage& stage, const Settings& own, const Settings& defaults) {
     time.automatic_speed = pick(own.time.automatic_speed, defaults.time.automatic_speed, false);
     time.coarse = pick(own.time.coarse, defaults.time.coarse, time.coarse);
     time.coarse_span = (own.time.coarse ? own : defaults).time.coarse_span;
-    time.check = pick(own.time.check, defaults.time.check, time.check);
+    time.check = own.time.check ? own.time.check : defaults.time.check;
     const bool own_condition = own.time.until || own.time.steady;
     const TimeSettings& condition = own_condition ? own.time : defaults.time;
     time.until = condition.until;

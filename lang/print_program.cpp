@@ -70,7 +70,9 @@ void print_time(const Program& program, const System& system, const Stage& stage
     if (time.until) {
         fmt::format_to(out, "  until: {}\n", print_formula(program, system, *time.until, index));
     }
-    if (time.steady || time.until) fmt::format_to(out, "  check: {}\n", time.check);
+    if (time.steady || time.until) {
+        fmt::format_to(out, "  check: {}\n", time.steps_between_looks());
+    }
 }
 
 void print_sides(const Program& program, std::uint32_t index, std::uint32_t item,

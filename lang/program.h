@@ -174,8 +174,8 @@ struct StageTime {
     bool open_end = false;            ///< Only `until` ends it, or the most steps it may take.
     bool automatic_speed = false;     ///< The step is as long as stability allows.
     std::optional<Formula> until;     ///< The stage ends where this, the same in all cells, is true.
-    std::optional<double> steady;     ///< The stage ends when nothing changes by more.
-    std::int64_t check = 100;         ///< Steps between two looks at `until`.
+    std::optional<double> steady;     ///< The stage ends when its pattern has settled so far.
+    std::optional<std::int64_t> check;  ///< Steps between two looks at `until`; see below.
     /// The stage is run first on a grid whose cells are so many times as wide; 1 for no such run.
     std::int64_t coarse = 1;
     Span coarse_span;                 ///< Where that was written.
@@ -183,6 +183,10 @@ struct StageTime {
     bool has_duration() const { return duration || duration_in_steps; }
     /// Are the steps of different length, chosen as the stage runs?
     bool chooses_steps() const { return automatic_speed || is_adaptive(solver); }
+    /// Steps that are as long as the state allows need closer looks.
+    std::int64_t steps_between_looks() const {
+        return check.value_or(chooses_steps() || takes_long_steps(solver) ? 10 : 100);
+    }
 };
 
 /// Settings that a system may give as defaults and a stage may replace.

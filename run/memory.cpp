@@ -90,14 +90,14 @@ double memory_of(const Program& program) {
 }
 
 double memory_of(const Program& program, StagePlans& plans) {
-    // Two buffers and the kept copy of every species, and every varying parameter, of all stages:
-    // later stages and pictures may read any of them.
+    // Two buffers and the kept copy of every species, its last look at whether it has settled, and
+    // every varying parameter, of all stages: later stages and pictures may read any of them.
     std::uint64_t planes = 4;
     for (const Stage& stage : program.stages) {
         const System& system = program.systems[stage.system];
         for (std::uint32_t item = 0; item < system.item_count(); ++item) {
             if (system.is_species(item)) {
-                planes += 3;
+                planes += stage.time.steady ? 4 : 3;
             } else if (!stage.uniform[item]) {
                 planes += 1;
             }

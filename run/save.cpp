@@ -194,7 +194,10 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             if (time->last_look) {
                 auto looked_at = read_species(folder, simulation, k, last_look);
                 if (!looked_at) return tl::unexpected(looked_at.error());
-                watch.remember(std::move(*looked_at), *time->last_look);
+                if (time->formations.size() != looked_at->size()) {
+                    return tl::unexpected(damaged(folder, "it lacks how a species has formed"));
+                }
+                watch.remember(std::move(*looked_at), *time->last_look, time->formations);
             }
             simulation.set_time(k, time->t, time->state, std::move(watch));
         }

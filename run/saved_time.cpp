@@ -4,13 +4,20 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace cascade {
 
 namespace {
 
 bool is_length(double number) { return std::isfinite(number) && number >= 0; }
+
+bool makes_sense(const Formation& formation) {
+    return is_length(formation.least) && is_length(formation.greatest) &&
+           is_length(formation.speed);
+}
 
 bool makes_sense(const SavedTime& saved) {
     const StageClock& clock = saved.state.clock;
@@ -19,7 +26,29 @@ bool makes_sense(const SavedTime& saved) {
            clock.base_step >= 0 && is_length(control.step) && is_length(control.error_before) &&
            control.error_before > 0 && saved.state.stages <= most_stages &&
            (saved.state.stages == 0 || saved.state.stages % 2 == 1) &&
-           (!saved.last_look || is_length(*saved.last_look));
+           (!saved.last_look || is_length(*saved.last_look)) &&
+           std::all_of(saved.formations.begin(), saved.formations.end(),
+                       [](const Formation& formation) { return makes_sense(formation); });
+}
+
+nlohmann::json to_json(std::span<const Formation> formations) {
+    nlohmann::json json = nlohmann::json::array();
+    for (const Formation& formation : formations) {
+        json.push_back({{"least", formation.least},
+                        {"greatest", formation.greatest},
+                        {"speed", formation.speed},
+                        {"risen", formation.risen}});
+    }
+    return json;
+}
+
+Formation formation_from(const nlohmann::json& json) {
+    Formation formation;
+    json.at("least").get_to(formation.least);
+    json.at("greatest").get_to(formation.greatest);
+    json.at("speed").get_to(formation.speed);
+    json.at("risen").get_to(formation.risen);
+    return formation;
 }
 
 }  // namespace
@@ -33,7 +62,10 @@ nlohmann::json to_json(const StageState& state) {
                            {"next_step", state.time.control.step},
                            {"error_before", state.time.control.error_before},
                            {"rejected", state.time.control.rejected}};
-    if (!state.watch.last().empty()) json["last_look"] = state.watch.last_time();
+    if (!state.watch.last().empty()) {
+        json["last_look"] = state.watch.last_time();
+        json["formations"] = to_json(state.watch.formations());
+    }
     return json;
 }
 
@@ -47,7 +79,12 @@ std::optional<SavedTime> saved_time_from(const nlohmann::json& json) {
     json.at("next_step").get_to(saved.state.control.step);
     json.at("error_before").get_to(saved.state.control.error_before);
     json.at("rejected").get_to(saved.state.control.rejected);
-    if (json.contains("last_look")) saved.last_look = json.at("last_look").get<double>();
+    if (json.contains("last_look")) {
+        saved.last_look = json.at("last_look").get<double>();
+        for (const nlohmann::json& each : json.at("formations")) {
+            saved.formations.push_back(formation_from(each));
+        }
+    }
     if (!makes_sense(saved)) return std::nullopt;
     return saved;
 }

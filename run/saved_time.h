@@ -6,13 +6,15 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <optional>
+#include <vector>
 
 namespace cascade {
 
 struct SavedTime {
     double t = 0;
     TimeState state;
-    std::optional<double> last_look;  ///< Of `until: steady(…)`; its species are arrays of their own.
+    std::optional<double> last_look;    ///< Of `until: steady(…)`; its species are arrays apart.
+    std::vector<Formation> formations;  ///< What it knows of each species; empty without a look.
 };
 
 nlohmann::json to_json(const StageState& state);

@@ -55,6 +55,7 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     state_.time.control.step = speed_;
     state_.time.stages = is_stabilised(stage_.time.solver) ? 3 : 0;
     state_.t = state_.time.clock.at(state_.steps);
+    if (state_.steps == 0 && stage_.time.steady) state_.watch.begin(state_.species);
 }
 
 /// Are steps or stages chosen by the state of the species?
@@ -113,7 +114,7 @@ Schedule StageTimer::schedule(std::int64_t last_step, std::int64_t interval) {
     schedule.end_time = duration_;
     schedule.interval = interval;
     if (stage_.time.until || stage_.time.steady) {
-        schedule.check = stage_.time.check;
+        schedule.check = stage_.time.steps_between_looks();
         schedule.ends = [this](std::int64_t step, double t, std::span<const Field>) {
             state_.steps = step;
             return has_ended(t);

@@ -44,21 +44,36 @@ double mean_over_cells(const PlaneLayout& layout, const Mask* inside, ValueOfRow
     return total / cells;
 }
 
-}  // namespace
-
-FieldMoments moments(const Field& field, const Mask* inside) {
+/// `value_of_row(row)` is a function of the cell in it.
+template <typename ValueOfRow>
+FieldMoments moments_of(const PlaneLayout& layout, const Mask* inside, ValueOfRow value_of_row) {
     FieldMoments result;
-    result.mean = mean_over_cells(field.layout(), inside, [&](std::int64_t row) {
-        return [cells = field.row(row)](std::int64_t i) { return double{cells[i]}; };
-    });
-    result.root_mean_square = root_mean_square(field, inside);
+    result.mean = mean_over_cells(layout, inside, value_of_row);
+    result.root_mean_square = std::sqrt(mean_over_cells(layout, inside, [&](std::int64_t row) {
+        return [value = value_of_row(row)](std::int64_t i) { return value(i) * value(i); };
+    }));
     // About the mean: the difference of two squares would lose a pattern of small amplitude.
-    result.deviation = std::sqrt(mean_over_cells(field.layout(), inside, [&](std::int64_t row) {
-        return [cells = field.row(row), mean = result.mean](std::int64_t i) {
-            return (cells[i] - mean) * (cells[i] - mean);
+    result.deviation = std::sqrt(mean_over_cells(layout, inside, [&](std::int64_t row) {
+        return [value = value_of_row(row), mean = result.mean](std::int64_t i) {
+            const double apart = value(i) - mean;
+            return apart * apart;
         };
     }));
     return result;
+}
+
+}  // namespace
+
+FieldMoments moments(const Field& field, const Mask* inside) {
+    return moments_of(field.layout(), inside, [&](std::int64_t row) {
+        return [cells = field.row(row)](std::int64_t i) { return double{cells[i]}; };
+    });
+}
+
+FieldMoments moments_of_difference(const Field& a, const Field& b, const Mask* inside) {
+    return moments_of(a.layout(), inside, [&](std::int64_t row) {
+        return [p = a.row(row), q = b.row(row)](std::int64_t i) { return double{p[i]} - q[i]; };
+    });
 }
 
 double root_mean_square(const Field& field, const Mask* inside) {

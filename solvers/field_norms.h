@@ -18,6 +18,8 @@ struct FieldMoments {
     double deviation = 0;  ///< Standard deviation over the cells.
 };
 FieldMoments moments(const Field& field, const Mask* inside = nullptr);
+/// Those of a − b, in double precision.
+FieldMoments moments_of_difference(const Field& a, const Field& b, const Mask* inside = nullptr);
 
 /// The root mean square of a field's cells; NaN where one is NaN.
 double root_mean_square(const Field& field, const Mask* inside = nullptr);

@@ -5,45 +5,76 @@
 #include "solvers/field_norms.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace cascade {
 namespace {
 
-/// A flat field has no pattern to measure by; the rounding of its values is what remains.
+/// A pattern has formed where its progress has become so many times the smallest before. Anything
+/// that grows out of noise or spreads over a plane does far more: from 2 to 10, nothing changes in
+/// the table of spec/time.md.
+constexpr double rise_of_a_formation = 3;
+
+/// What never rose was there when the stage began, or fades: it has settled when it would change by
+/// no more than this part of its contrast in as long again as the stage has run. Noise that fades
+/// by diffusion, below which a pattern may be growing, keeps above 0.35.
+constexpr double little_progress = 0.1;
+
+/// A flat field has no contrast; the rounding of its values is what remains.
 constexpr double least_deviation = 1e-6;
+
+double contrast(const Field& field, const Mask* inside) {
+    const FieldMoments all = moments(field, inside);
+    return all.deviation + least_deviation * all.root_mean_square;
+}
+
+void observe(Formation& formation, double speed_of_pattern, double t) {
+    const double progress = speed_of_pattern * t;
+    formation.least = std::min(formation.least, progress);
+    if (progress < formation.greatest) return;
+    formation.greatest = progress;
+    formation.speed = speed_of_pattern;
+    formation.risen = progress > rise_of_a_formation * formation.least;
+}
 
 }  // namespace
 
-double relative_change_rate(std::span<const Field> before, std::span<const Field> now, double time,
-                            const Mask* inside) {
-    CHECK(before.size() == now.size() && time > 0, "two states at different times");
-    double largest = 0;
-    for (std::size_t k = 0; k < now.size(); ++k) {
-        const double change = root_mean_square_of_difference(now[k], before[k], inside);
-        if (change == 0) continue;
-        const FieldMoments all = moments(now[k], inside);
-        const double size = all.deviation + least_deviation * all.root_mean_square;
-        // A pattern that has vanished has no size of its own any more: that is a change.
-        largest = std::max(largest, change / (time * std::max(size, 1e-30)));
-    }
-    return largest;
+void SteadyWatch::keep(std::span<const Field> species, double t) {
+    last_.clear();
+    for (const Field& field : species) last_.push_back(field.clone());
+    last_time_ = t;
 }
 
-void SteadyWatch::remember(std::vector<Field> species, double t) {
+void SteadyWatch::begin(std::span<const Field> species) {
+    keep(species, 0);
+    formations_.assign(species.size(), Formation{});
+}
+
+void SteadyWatch::remember(std::vector<Field> species, double t,
+                           std::vector<Formation> formations) {
+    CHECK(species.size() == formations.size(), "every species has formed in some way");
     last_ = std::move(species);
     last_time_ = t;
+    formations_ = std::move(formations);
 }
 
 bool SteadyWatch::settled(std::span<const Field> species, double t, double tolerance,
                           const Mask* inside) {
-    const bool first = last_.empty();
-    const bool is_settled =
-        !first && t > last_time_ &&
-        relative_change_rate(last_, species, t - last_time_, inside) * t <= tolerance;
-    last_.clear();
-    for (const Field& field : species) last_.push_back(field.clone());
-    last_time_ = t;
-    return is_settled;
+    bool all_settled = !last_.empty() && t > last_time_;
+    formations_.resize(species.size());
+    for (std::size_t k = 0; k < last_.size() && t > last_time_; ++k) {
+        const FieldMoments change = moments_of_difference(species[k], last_[k], inside);
+        const double interval = t - last_time_;
+        const double speed = change.root_mean_square / interval;
+        Formation& formation = formations_[k];
+        observe(formation, change.deviation / interval, t);
+        // The contrast costs passes over the plane and is seldom needed.
+        all_settled = all_settled && speed <= tolerance * formation.speed &&
+                      (formation.risen ||
+                       speed * t <= little_progress * contrast(species[k], inside));
+    }
+    keep(species, t);
+    return all_settled;
 }
 
 }  // namespace cascade

@@ -31,7 +31,7 @@ TEST(CheckTime, ByDefaultTheStepIsEulers) {
     EXPECT_FALSE(time.chooses_steps());
     EXPECT_FALSE(time.until);
     EXPECT_FALSE(time.steady);
-    EXPECT_EQ(time.check, 100);
+    EXPECT_EQ(time.steps_between_looks(), 100);
 }
 
 TEST(CheckTime, SettingsAreTakenAsWritten) {

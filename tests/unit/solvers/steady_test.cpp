@@ -58,41 +58,131 @@ TEST(FieldNorms, DoNotHideNaN) {
     EXPECT_TRUE(std::isnan(root_mean_square(field)));
 }
 
-TEST(Steady, TheRateIsThatOfTheGrowthWhateverTheGrid) {
+TEST(FieldNorms, OfADifferenceTellShiftFromShape) {
+    const Field field = make(64, [](double x, double y) { return 1000 + 0.01 * wave(x, y); });
+    const Field other = make(64, [](double x, double y) { return 1003 + 0.03 * wave(x, y); });
+    const FieldMoments found = moments_of_difference(other, field);
+    EXPECT_NEAR(found.mean, 3, 1e-4);
+    EXPECT_NEAR(found.deviation, 0.01, 2e-4);
+    EXPECT_NEAR(found.root_mean_square, 3, 1e-4);
+}
+
+/// The time at which a pattern that is told by t has settled, looked at every `interval` from
+/// t = 0; 0 where it has not by t = `last`.
+double end_of(std::int64_t side, double interval, double last, double tolerance,
+              const std::function<double(double t, double x, double y)>& value) {
+    const auto state = [&](double t) {
+        return one(make(side, [&](double x, double y) { return value(t, x, y); }));
+    };
+    SteadyWatch watch;
+    watch.begin(state(0));
+    for (double t = interval; t <= last; t += interval) {
+        if (watch.settled(state(t), t, tolerance)) return t;
+    }
+    return 0;
+}
+
+/// Grows from 1e-4 to 1 at the rate 0.01: half of it at t = 921, and a tenth of the speed that it
+/// has there at t = 921 + 363.
+double amplitude(double t) { return 1 / (1 + 9999 * std::exp(-0.01 * t)); }
+
+TEST(Steady, EndsBehindTheGrowthWhateverTheGridAndTheLooks) {
+    const auto value = [](double t, double x, double y) { return 4 + amplitude(t) * wave(x, y); };
     for (const std::int64_t side : {32, 64, 200}) {
-        const auto at = [&](double t) {
-            return one(make(side, [=](double x, double y) { return 4 + std::exp(0.01 * t) * wave(x, y); }));
-        };
-        EXPECT_NEAR(relative_change_rate(at(0), at(1), 1), 0.01, 2e-4) << side;
+        for (const double interval : {10.0, 40.0, 100.0}) {
+            const double end = end_of(side, interval, 5000, 0.1, value);
+            EXPECT_GT(end, 1200) << side << ' ' << interval;
+            EXPECT_LE(end, 1400) << side << ' ' << interval;
+        }
     }
 }
 
-TEST(Steady, GoesOnThroughGrowthAndEndsBehindIt) {
-    // A logistic amplitude from 1e-4 to 1, at the rate 0.01: half of it is reached at t = 921.
-    SteadyWatch watch;
-    double ended = 0;
-    for (double t = 0; t < 5000 && ended == 0; t += 100) {
-        const double amplitude = 1 / (1 + 9999 * std::exp(-0.01 * t));
-        const auto state = one(make(64, [=](double x, double y) { return 4 + amplitude * wave(x, y); }));
-        if (watch.settled(state, t, 0.01)) ended = t;
-    }
-    EXPECT_GT(ended, 1700);
-    EXPECT_LT(ended, 2600);
+TEST(Steady, DoesNotWaitForWhatGoesOnMoving) {
+    // Behind its growth the pattern drifts, at a hundredth of the speed of its formation: enough to
+    // change altogether in as long again as it has run.
+    const auto value = [](double t, double x, double y) {
+        return 4 + amplitude(t) * wave(x + 1e-5 * t, y);
+    };
+    const double end = end_of(64, 40, 5000, 0.2, value);
+    EXPECT_GT(end, 1000);
+    EXPECT_LT(end, 1400);
 }
 
-TEST(Steady, WhatDoesNotChangeIsSettledAtTheSecondLook) {
-    SteadyWatch watch;
-    const auto state = one(make(16, [](double, double) { return 0.0; }));
-    EXPECT_FALSE(watch.settled(state, 0, 0.01));
-    EXPECT_TRUE(watch.settled(state, 100, 0.01));
+TEST(Steady, GrowthHiddenBelowFadingNoiseIsWaitedFor) {
+    // A chequered noise of 0.1 fades as 1/t; below it a pattern of 1e-4 grows.
+    const auto value = [](double t, double x, double y) {
+        const double noise = std::sin(1e4 * (x + 3 * y * y));
+        return 4 + 0.1 * noise / (1 + t / 10) + amplitude(t) * wave(x, y);
+    };
+    for (const double tolerance : {0.5, 0.2, 0.05}) {
+        EXPECT_GT(end_of(64, 40, 5000, tolerance, value), 950) << tolerance;
+    }
 }
 
-TEST(Steady, AWaveThatTravelsNeverSettles) {
+TEST(Steady, GrowthHiddenBelowASwingOfTheMeanIsWaitedFor) {
+    const auto value = [](double t, double x, double y) {
+        return 4 + std::exp(-0.01 * t) * std::cos(0.013 * t) + amplitude(t) * wave(x, y);
+    };
+    const double end = end_of(64, 40, 5000, 0.2, value);
+    EXPECT_GT(end, 1000);
+    EXPECT_LT(end, 1500);
+}
+
+TEST(Steady, AFrontIsWaitedForWhileItSpreads) {
+    // It crosses the plane until t = 4000.
+    const auto value = [](double t, double x, double) {
+        return 0.5 * (1 - std::tanh(20 * (x - 0.05 - t / 4000)));
+    };
+    const double end = end_of(64, 40, 8000, 0.3, value);
+    EXPECT_GT(end, 3600);
+    EXPECT_LT(end, 4500);
+}
+
+TEST(Steady, WhatFadesEndsWhenLittleIsLeftToFade) {
+    // A pattern that was there from the start and comes to rest: speed 0.01 · exp(−t / 100).
+    const auto value = [](double t, double x, double y) {
+        return 4 + (1 + std::exp(-0.01 * t)) * wave(x, y);
+    };
+    const double end = end_of(64, 20, 5000, 0.2, value);
+    EXPECT_GT(end, 160);
+    EXPECT_LT(end, 600);
+}
+
+TEST(Steady, WhatDoesNotChangeIsSettledAtTheFirstLook) {
+    const auto nothing = [](double, double, double) { return 0.0; };
+    const auto pattern = [](double, double x, double y) { return wave(x, y); };
+    EXPECT_EQ(end_of(16, 100, 1000, 0.01, nothing), 100);
+    EXPECT_EQ(end_of(16, 100, 1000, 0.01, pattern), 100);
+}
+
+TEST(Steady, WithoutABeginningTheFirstLookJudgesNothing) {
     SteadyWatch watch;
-    for (double t = 0; t < 10000; t += 100) {
-        const auto state = one(make(32, [=](double x, double y) { return wave(x + 0.003 * t, y); }));
-        EXPECT_FALSE(watch.settled(state, t, 0.01)) << t;
+    const auto state = one(make(16, wave));
+    EXPECT_FALSE(watch.settled(state, 100, 0.01));
+    EXPECT_TRUE(watch.settled(state, 200, 0.01));
+}
+
+TEST(Steady, WavesAndSwingsNeverSettle) {
+    const auto travels = [](double t, double x, double y) { return wave(x + 0.003 * t, y); };
+    const auto swings = [](double t, double, double) { return std::sin(0.0371 * t); };
+    EXPECT_EQ(end_of(32, 100, 10000, 0.5, travels), 0);
+    EXPECT_EQ(end_of(32, 100, 10000, 0.5, swings), 0);
+}
+
+TEST(Steady, EverySpeciesCounts) {
+    SteadyWatch watch;
+    const auto at = [](double t) {
+        std::vector<Field> both = one(make(16, wave));
+        both.push_back(make(16, [=](double x, double y) { return amplitude(t) * wave(x, y); }));
+        return both;
+    };
+    watch.begin(at(0));
+    double end = 0;
+    for (double t = 50; t < 3000 && end == 0; t += 50) {
+        if (watch.settled(at(t), t, 0.1)) end = t;
     }
+    EXPECT_GT(end, 1200);
+    EXPECT_LT(end, 1400);
 }
 
 }  // namespace
