@@ -92,6 +92,18 @@ stage only: smear { iterations: 1000000; speed: 0.1 }
 )";
 }
 
+std::string allen_cahn_text(std::int64_t side) {
+    return domain(side) + "stage only: allen_cahn { iterations: 1000000 }\n";
+}
+
+std::string rock_scissors_paper_text(std::int64_t side) {
+    return domain(side) + "stage only: rock_scissors_paper { iterations: 1000000 }\n";
+}
+
+std::string perona_malik_text(std::int64_t side) {
+    return domain(side) + "stage only: perona_malik { iterations: 1000000 }\n";
+}
+
 CascadeSide::CascadeSide(const std::string& text, Backend& backend)
     : script_(load_script("bench", text, ".")) {
     if (!script_.program) give_up(script_.messages(false));

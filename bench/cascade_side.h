@@ -24,6 +24,9 @@ std::string stripes_text(std::int64_t side);     ///< ai varies.
 std::string cahn_hilliard_text(std::int64_t side);  ///< Two passes a step.
 std::string chemotaxis_text(std::int64_t side);     ///< Fluxes at faces.
 std::string tensor_text(std::int64_t side);         ///< Diffusion with a direction, flux form.
+std::string allen_cahn_text(std::int64_t side);     ///< One species: what least can be done a cell.
+std::string rock_scissors_paper_text(std::int64_t side);  ///< Three species.
+std::string perona_malik_text(std::int64_t side);   ///< An exponential a cell, fluxes, two passes.
 
 /// The first stage of a text, ready to step on one thread with kernels of `backend`. Ends the
 /// program with a message where something fails: a benchmark has no user to talk to.

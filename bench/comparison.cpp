@@ -37,7 +37,10 @@ std::vector<System> systems() {
             {"stripes", stripes_text, "ai", &StraightSteps::stripes},
             {"cahn_hilliard", cahn_hilliard_text, "", &StraightSteps::cahn_hilliard},
             {"chemotaxis", chemotaxis_text, "", &StraightSteps::chemotaxis},
-            {"tensor", tensor_text, "", &StraightSteps::tensor}};
+            {"tensor", tensor_text, "", &StraightSteps::tensor},
+            {"allen_cahn", allen_cahn_text, "", &StraightSteps::allen_cahn},
+            {"three_species", rock_scissors_paper_text, "", &StraightSteps::rock_scissors_paper},
+            {"perona_malik", perona_malik_text, "", &StraightSteps::perona_malik}};
 }
 
 /// One system at one size, on both sides. Made when first needed: the large ones take memory.

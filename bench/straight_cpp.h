@@ -13,7 +13,8 @@ struct StraightFields {
     float* next[5];               ///< Species of the new step.
     const float* varying;         ///< beta of Turing's system, ai of the stripes.
     const std::uint8_t* frozen;   ///< Turing's system only.
-    float* scratch;               ///< Between two passes: the chemical potential of Cahn-Hilliard.
+    float* scratch;               ///< Between two passes: Cahn-Hilliard's chemical potential, how
+                                  ///< well heat goes with Perona and Malik.
     std::int64_t width, height, stride;
 };
 
@@ -27,13 +28,17 @@ struct StraightConstants {
     float chi = 5.0F, spread = 10.0F, swarm_speed = 0.02F;                     // Chemotaxis.
     float a11 = 0.709873F, a12 = 0.424078F, a22 = 0.380127F;                   // Tensor: a1 = 1,
     float tensor_speed = 0.1F;                                                 // a2 = 0.3, θ = 0.6.
+    float diffusion = 1, wall_speed = 0.1F;                                    // Allen-Cahn.
+    float growth = 1, defeat = 1, mobility = 0.5F, game_speed = 0.1F;          // Three in a ring.
+    float edge = 0.08F, cleaning_speed = 0.15F;                                // Perona-Malik.
 };
 
 /// One step of a system, halo of the new fields included (periodic).
 using StraightStep = void (*)(const StraightFields&, const StraightConstants&);
 
 struct StraightSteps {
-    StraightStep turing, gray_scott, stripes, cahn_hilliard, chemotaxis, tensor;
+    StraightStep turing, gray_scott, stripes, cahn_hilliard, chemotaxis, tensor, allen_cahn,
+        rock_scissors_paper, perona_malik;
 };
 
 StraightSteps straight_contracted();  ///< -O3 -march=native -ffp-contract=fast, g++'s default.
