@@ -55,7 +55,8 @@ std::optional<Outcome> grow(const Pattern& pattern, const std::string& solver, s
     changes.solver = solver;
     Script script = load_script(pattern.name, pattern.text, ".", std::move(changes));
     const auto refused = [&](const std::string& why) {
-        std::fprintf(stderr, "%s does not grow %s: %s\n", solver.c_str(), pattern.name, why.c_str());
+        std::fprintf(stderr, "%s does not grow %s: %s\n", solver.c_str(), pattern.name,
+                     why.c_str());
         return std::nullopt;
     };
     if (!script.program) return refused(script.messages(false));
@@ -63,10 +64,13 @@ std::optional<Outcome> grow(const Pattern& pattern, const std::string& solver, s
     options.threads = threads;
     auto simulation = Simulation::create(script, options);
     if (!simulation) return refused(simulation.error().message);
-    if (auto started = (*simulation)->start_stage(0); !started) return refused(started.error().message);
+    if (auto started = (*simulation)->start_stage(0); !started) {
+        return refused(started.error().message);
+    }
+    const std::int64_t most = script.program->stages[0].iterations;
     RunControl control;
     const auto before = std::chrono::steady_clock::now();
-    const auto end = (*simulation)->advance_stage(0, script.program->stages[0].iterations, control, {});
+    const auto end = (*simulation)->advance_stage(0, most, control, {});
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
     if (!end) return refused(end.error().message);
     const StageState& state = (*simulation)->state(0);
@@ -90,8 +94,9 @@ double correlation(const Field& a, const Field& b) {
 }
 
 void compare(const Pattern& pattern, std::int64_t side, int threads) {
-    fmt::print("\n{}, {} × {}\n{:<12}{:>8}{:>9}{:>10}{:>9}{:>13}{:>12}{:>8}\n", pattern.name, side, side,
-               "solver", "steps", "t", "seconds", "Euler's", "correlation", "wavelength", "spots");
+    fmt::print("\n{}, {} × {}\n{:<12}{:>8}{:>9}{:>10}{:>9}{:>13}{:>12}{:>8}\n", pattern.name, side,
+               side, "solver", "steps", "t", "seconds", "Euler's", "correlation", "wavelength",
+               "spots");
     const std::optional<Outcome> euler = grow(pattern, "euler", side, threads);
     if (!euler) std::exit(1);
     for (const std::string& solver : solver_names()) {
@@ -100,9 +105,9 @@ void compare(const Pattern& pattern, std::int64_t side, int threads) {
         if (!found && solver != "euler") continue;
         const Outcome& it = found ? *found : *euler;
         // Spots of b are where it is low.
-        fmt::print("{:<12}{:>8}{:>9.0f}{:>10.2f}{:>9.2f}{:>13.4f}{:>12.2f}{:>8.0f}\n", solver, it.steps,
-                   it.t, it.seconds, it.seconds / euler->seconds, correlation(it.field, euler->field),
-                   it.features.wavelength, it.features.holes);
+        fmt::print("{:<12}{:>8}{:>9.0f}{:>10.2f}{:>9.2f}{:>13.4f}{:>12.2f}{:>8.0f}\n", solver,
+                   it.steps, it.t, it.seconds, it.seconds / euler->seconds,
+                   correlation(it.field, euler->field), it.features.wavelength, it.features.holes);
         std::fflush(stdout);
     }
 }

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <initializer_list>
 
-/// With this promise g++ takes the vector functions of glibc's libmvec, which it otherwise does under
-/// -ffast-math alone. An opponent that calls expf cell by cell would be a straw man.
+/// With this promise g++ takes the vector functions of glibc's libmvec, which it otherwise does
+/// under -ffast-math alone. An opponent that calls expf cell by cell would be a straw man.
 extern "C" [[gnu::simd("notinbranch")]] float expf(float);
 
 namespace cascade::bench {

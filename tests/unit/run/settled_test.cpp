@@ -110,7 +110,7 @@ TEST(Settled, CoarseningAndWavesAreEndedByTheirIterations) {
     const std::string mixing =
         "system mixing { c: random(0, 0.1); c' = lap(c^3 - c - 0.5 * lap(c)); speed: 0.02 }\n"
         "stage s: mixing { until: steady(0.2); iterations: 5000 }\n";
-    EXPECT_EQ(rests_of(mixing, 96)[0].steps, 5000);
+    EXPECT_EQ(rests_of(mixing, 64)[0].steps, 5000);
     const std::string waves =
         "system waves { u: if(x < 0.5, 1, -1); v: if(y < 0.5, -0.3, 0.3); speed: 0.1\n"
         " u' = lap(u) + u - u^3 - v\n v' = 0.05 * (u - 0.5 * v) }\n"
