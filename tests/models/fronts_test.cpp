@@ -111,6 +111,29 @@ TEST(Fronts, BarkleySpiralTurns) {
     EXPECT_NEAR(periods[1] / periods[0], 1, 0.05);
 }
 
+/// R. P. Munafo 2014: a skate glides along its axis at one pace and keeps its shape.
+TEST(Fronts, GrayScottSkatesGlide) {
+    Model model("gray_scott_gliders", "grid: 192, 192", "");
+    const std::string dent = "(v < 0.15) * (y < 0.4)", other = "(v < 0.15) * (abs(y - 0.5) < 0.1)";
+    const auto place = [&](const std::string& where, const std::string& axis) {
+        return 192 * model.mean(axis + " * " + where) / model.mean(where);
+    };
+    std::vector<double> right, left, down, size;
+    for (int k = 0; k < 4; ++k) {
+        model.step(4000);
+        right.push_back(place(dent, "x"));
+        left.push_back(place(other, "x"));
+        down.push_back(place(dent, "y"));
+        size.push_back(model.mean(dent) * 192 * 192);
+    }
+    const double pace = (right[3] - right[1]) / 2;
+    EXPECT_GT(pace, 4);
+    EXPECT_NEAR((right[3] - right[2]) / pace, 1, 0.1);
+    EXPECT_NEAR((left[3] - left[1]) / 2 / pace, -1, 0.05) << "the one that faces the other way";
+    EXPECT_NEAR(down[3], down[1], 0.3);
+    EXPECT_NEAR(size[3] / size[1], 1, 0.1);
+}
+
 /// A = √(1 − q²) exp(i (q x − ω t)) with ω = β + (α − β) q² (I. S. Aranson, L. Kramer, Reviews of
 /// Modern Physics 74, 2002).
 TEST(Fronts, ComplexGinzburgLandauPlaneWave) {

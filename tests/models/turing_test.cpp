@@ -87,6 +87,22 @@ std::vector<Case> cases() {
           },
           {0.02, 0.45}},
          {0.8, 0.5}, {"a", "b"}, 0.4},
+        {"maginu",
+         {[](const State& s) {
+              return State{0.9 * (s[0] - s[0] * s[0] * s[0]) - s[1], 2 * (s[0] - s[1])};
+          },
+          {1, 10}},
+         {0, 0}, {"a", "b"}, 0.02},
+        {"cubic_coupled_brusselators",
+         {[](const State& s) {
+              const double first = s[0] * s[0] * s[1], second = s[2] * s[2] * s[3];
+              const double swap_a = 0.09 * s[0] * s[2] * (s[2] - s[0]);
+              const double swap_b = 0.09 * s[1] * s[3] * (s[3] - s[1]);
+              return State{3 - 10 * s[0] + first + swap_a, 9 * s[0] - first + swap_b,
+                           3 - 10 * s[2] + second - swap_a, 9 * s[2] - second - swap_b};
+          },
+          {1.85, 5.66, 50.6, 186}},
+         {3, 3, 3, 3}, {"a", "b", "c", "d"}, 0.001},
     };
 }
 

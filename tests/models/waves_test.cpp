@@ -1,4 +1,5 @@
 // Systems of the library that keep something for ever, with solvers that keep it.
+#include "tests/models/dispersion.h"
 #include "tests/models/model.h"
 
 #include <gtest/gtest.h>
@@ -85,6 +86,72 @@ TEST(Waves, LotkaVolterraKeepsVolterrasQuantity) {
         most = std::max(most, model.at("prey", 0));
     }
     EXPECT_GT(most - least, 1) << "it goes round";
+}
+
+/// Long waves of a pond run at √(gravity · depth); the central differences see k as sin k.
+TEST(Waves, ShallowWaterSwings) {
+    const double omega = std::sqrt(2.0) * std::sin(2 * std::numbers::pi * 4 / 64);
+    const double time_step = 2 * std::numbers::pi / omega / 1000;
+    Model model("shallow_water", "grid: 64; boundary: periodic",
+                "viscosity: 0; depth: 2; gravity: 1; height: 1e-4 * cos(8 * pi * x); speed: " +
+                    std::to_string(time_step));
+    const double before = model.at("height", 0);
+    model.step(500);
+    EXPECT_NEAR(model.at("height", 0) / before, -1, 5e-3);
+    model.step(500);
+    EXPECT_NEAR(model.at("height", 0) / before, 1, 5e-3);
+    EXPECT_NEAR(model.largest("abs(east)") / before, 0, 0.02);
+}
+
+/// No water leaves the pond, however its waves cross.
+TEST(Waves, ShallowWaterStaysInThePond) {
+    Model model("shallow_water", "grid: 96, 96; boundary: noflux",
+                "east.left: fixed(0); east.right: fixed(0)\n"
+                "south.top: fixed(0); south.bottom: fixed(0)");
+    const double before = model.mean("height");
+    model.step(1500);
+    EXPECT_GT(model.deviation("height"), before) << "there are waves";
+    EXPECT_NEAR(model.mean("height") / before, 1, 1e-3);
+}
+
+/// With p = u' the linear system of a wave of wave number k is u' = p, inertia · p' = (J − k² D) u − p:
+/// its eigenvalues say whether the waves of the hyperbolic Brusselator grow, and how fast.
+TEST(Waves, HyperbolicBrusselatorGrowsAsTheorySays) {
+    constexpr int cells = 64, mode = 3;
+    const double step = 2 * std::sin(std::numbers::pi * mode / cells);
+    std::vector<double> rates;
+    for (const double inertia : {0.35, 0.6}) {
+        const auto linear = [&](double square) {
+            return ReactionDiffusion{[=](const State& s) {
+                                         const double u = (1 - 40 * square) * s[0] + 4 * s[1];
+                                         const double v = -2 * s[0] - (4 + 0.5 * square) * s[1];
+                                         return State{s[2], s[3], (u - s[2]) / inertia,
+                                                      (v - s[3]) / inertia};
+                                     },
+                                     {0, 0, 0, 0}};
+        };
+        const double predicted = growth_rate(linear(step * step), {0, 0, 0, 0}, 0);
+        EXPECT_LT(growth_rate(linear(0), {0, 0, 0, 0}, 0), 0) << "without waves it is at rest";
+        Model model("hyperbolic_brusselator", "grid: 64",
+                    "speed: 0.002; u: 2 + 0.01 * cos(6 * pi * x); v: 1; inertia: " +
+                        std::to_string(inertia));
+        // The wave swings: its largest swing in a stretch of some periods is taken.
+        const auto swing = [&] {
+            double most = 0;
+            for (int k = 0; k < 100; ++k) {
+                model.step(25);
+                most = std::max(most, wave_amplitude(model.values("u"), mode));
+            }
+            return most;
+        };
+        swing();
+        const double early = swing();
+        const double late = swing();
+        rates.push_back(std::log(late / early) / 5);
+        EXPECT_NEAR(rates.back(), predicted, 0.1 * std::abs(predicted) + 0.005) << inertia;
+    }
+    EXPECT_LT(rates[0], 0);
+    EXPECT_GT(rates[1], 0);
 }
 
 }  // namespace
