@@ -22,6 +22,7 @@ struct Case {
     State guess;                        ///< Near the flat state.
     std::vector<std::string> species;
     double speed;
+    double tolerance = 0.03;           ///< Of the wavelength; more where many waves grow alike.
 };
 
 std::vector<Case> cases() {
@@ -79,7 +80,7 @@ std::vector<Case> cases() {
                            -1.27 * s[0] - 0.1 * s[2]};
           },
           {0, 2.5, 1}},
-         {0, 0, 0}, {"sox9", "bmp", "wnt"}, 0.05},
+         {0, 0, 0}, {"sox9", "bmp", "wnt"}, 0.05, 0.06},
         {"insect_eyes",
          {[](const State& s) {
               return State{0.067 * s[0] - 0.08 * s[1] + 0.01 - 0.03 * s[0],
@@ -136,7 +137,7 @@ TEST_P(TuringTest, WavelengthIsThatOfTheDispersionRelation) {
     samples.cells = {side, side, 1};
     samples.values = model.values(each.species[0]);
     const double measured = measure::peak_wavelength(measure::radial_spectrum(samples));
-    EXPECT_NEAR(measured / predicted, 1, 0.06) << "predicted " << predicted;
+    EXPECT_NEAR(measured / predicted, 1, each.tolerance) << "predicted " << predicted;
 }
 
 INSTANTIATE_TEST_SUITE_P(Library, TuringTest, testing::ValuesIn(cases()),
