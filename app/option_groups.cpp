@@ -41,6 +41,10 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
               whole_number(0, std::numeric_limits<std::uint32_t>::max()),
               [&](auto seed) { overrides.seed = static_cast<std::uint32_t>(seed); })
         ->group(group);
+    add_value(app, "--precision", "NAME", "Numbers of 32 bits, 'single', or of 64, 'double'",
+              one_of({"single", "double"}),
+              [&](const std::string& name) { overrides.precision = precision_of_name(name); })
+        ->group(group);
     app.add_option("--set", overrides.sets,
                    "A parameter or setting: ka=1/400, large.ka=1/400;\nmay be given again")
         ->allow_extra_args(false)

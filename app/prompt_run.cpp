@@ -44,7 +44,8 @@ Result<std::unique_ptr<Simulation>> PromptSession::carry_over(Script& script) co
     Simulation& simulation = **created;
     const Program& before = *script_->program;
     const Program& after = *script.program;
-    if (!(before.domain.grid == after.domain.grid) || before.domain.seed != after.domain.seed) {
+    if (!(before.domain.grid == after.domain.grid) || before.domain.seed != after.domain.seed ||
+        before.domain.precision != after.domain.precision) {
         return created;
     }
     const std::size_t count = std::min(before.stages.size(), after.stages.size());

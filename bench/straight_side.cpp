@@ -6,12 +6,12 @@ namespace cascade::bench {
 StraightSide::StraightSide(const CascadeSide& like, const std::string& varying)
     : grid_(like.grid()), layout_(grid_) {
     for (const Field& field : like.start().species) {
-        now_.emplace_back(field);
-        next_.emplace_back(field);
+        now_.emplace_back(field.plane());
+        next_.emplace_back(field.plane());
         fill_halo(now_.back().origin(), layout_, grid_.boundary);
     }
-    scratch_ = StraightPlane<float>(like.start().species[0]);
-    if (!varying.empty()) varying_ = StraightPlane<float>(like.parameter(varying));
+    scratch_ = StraightPlane<float>(like.start().species[0].plane());
+    if (!varying.empty()) varying_ = StraightPlane<float>(like.parameter(varying).plane());
     if (!like.start().frozen.empty()) {
         frozen_ = StraightPlane<std::uint8_t>(like.start().frozen);
     }

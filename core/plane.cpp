@@ -24,15 +24,20 @@ std::int64_t source_of(const SideRule& rule, Side side, std::int64_t count) {
     return is_before == (rule.kind == SideKind::periodic) ? count - 1 : 0;
 }
 
-float beyond(const SideRule& rule, float cell, float value, float spacing) {
-    return rule.kind == SideKind::fixed ? 2.0f * value - cell : cell + spacing * value;
+template <typename Number>
+Number beyond(const SideRule& rule, Number cell, Number value, Number spacing) {
+    return rule.kind == SideKind::fixed ? 2 * value - cell : cell + spacing * value;
 }
 
 /// Fills the halo that comes from some rows of a slice.
+template <typename Number>
 class HaloFill {
 public:
-    HaloFill(float* origin, const PlaneLayout& layout, const SideRules& sides)
-        : origin_(origin), layout_(layout), sides_(sides) {
+    HaloFill(Number* origin, const PlaneLayout& layout, const SideRules& sides)
+        : origin_(origin),
+          layout_(layout),
+          sides_(sides),
+          spacing_(static_cast<Number>(sides.spacing)) {
         const std::int64_t cells[3] = {layout.width, layout.height, layout.depth};
         for (std::size_t side = 0; side < side_count; ++side) {
             sources_[side] = source_of(sides.at[side], static_cast<Side>(side), cells[side / 2]);
@@ -66,6 +71,9 @@ private:
         std::int64_t row, slice;
     };
 
+    static const Number* values_of(const SideRule& rule) {
+        return static_cast<const Number*>(rule.values);
+    }
     std::int64_t source(Side side) const { return sources_[static_cast<std::size_t>(side)]; }
     std::int64_t start(RowPlace place) const {
         return place.slice * layout_.slice_stride + place.row * layout_.stride;
@@ -76,23 +84,23 @@ private:
         const SideRule& right = sides_[Side::right];
         const std::int64_t behind = layout_.width;
         for (std::int64_t j = begin; j < end; ++j) {
-            float* cells = origin_ + start({j, slice});
+            Number* cells = origin_ + start({j, slice});
             cells[-1] = cells[source(Side::left)];
             cells[behind] = cells[source(Side::right)];
         }
         if (!left.has_value() && !right.has_value()) return;
         for (std::int64_t j = begin; j < end; ++j) {
             const std::int64_t row = start({j, slice});
-            float* cells = origin_ + row;
+            Number* cells = origin_ + row;
             const auto value = [&](const SideRule& rule, std::int64_t i) {
-                return rule.values ? rule.values[row + i] : rule.value;
+                return rule.values ? values_of(rule)[row + i] : static_cast<Number>(rule.value);
             };
             if (left.has_value()) {
-                cells[-1] = beyond(left, cells[0], value(left, 0), sides_.spacing);
+                cells[-1] = beyond(left, cells[0], value(left, 0), spacing_);
             }
             if (right.has_value()) {
                 cells[behind] = beyond(right, cells[behind - 1], value(right, behind - 1),
-                                       sides_.spacing);
+                                       spacing_);
             }
         }
     }
@@ -100,26 +108,28 @@ private:
     /// A row of the halo beyond a side, with its halo columns.
     void fill_row(Side side, RowPlace from, RowPlace to) const {
         const SideRule& rule = sides_[side];
-        const float* cells = origin_ + start(from) - 1;
-        float* halo = origin_ + start(to) - 1;
+        const Number* cells = origin_ + start(from) - 1;
+        Number* halo = origin_ + start(to) - 1;
         const std::int64_t count = layout_.width + 2;
         if (!rule.has_value()) {
-            std::memcpy(halo, cells, static_cast<std::size_t>(count) * sizeof(float));
+            std::memcpy(halo, cells, static_cast<std::size_t>(count) * sizeof(Number));
         } else if (rule.values) {
-            const float* values = rule.values + start(from) - 1;
+            const Number* values = values_of(rule) + start(from) - 1;
             for (std::int64_t i = 0; i < count; ++i) {
-                halo[i] = beyond(rule, cells[i], values[i], sides_.spacing);
+                halo[i] = beyond(rule, cells[i], values[i], spacing_);
             }
         } else {
+            const auto value = static_cast<Number>(rule.value);
             for (std::int64_t i = 0; i < count; ++i) {
-                halo[i] = beyond(rule, cells[i], rule.value, sides_.spacing);
+                halo[i] = beyond(rule, cells[i], value, spacing_);
             }
         }
     }
 
-    float* origin_;
+    Number* origin_;
     const PlaneLayout& layout_;
     const SideRules& sides_;
+    Number spacing_;
     std::array<std::int64_t, side_count> sources_{};
 };
 
@@ -139,14 +149,31 @@ void* allocate_plane(std::size_t bytes) {
 
 void free_plane(void* plane) { std::free(plane); }
 
-void fill_halo(float* origin, const PlaneLayout& layout, const SideRules& sides) {
+Field Field::converted(Precision precision) const {
+    if (precision == this->precision()) return clone();
+    Field copy(layout(), precision);
+    visit([&](const auto& from) {
+        copy.visit([&](auto& to) {
+            const auto* cells = from.origin() - layout().offset(0, 0);
+            auto* target = to.origin() - layout().offset(0, 0);
+            std::transform(cells, cells + layout().size(), target, [](auto cell) {
+                return static_cast<std::remove_reference_t<decltype(*target)>>(cell);
+            });
+        });
+    });
+    return copy;
+}
+
+template <typename Number>
+void fill_halo(Number* origin, const PlaneLayout& layout, const SideRules& sides) {
     fill_halo_from_rows(origin, layout, sides, 0, layout.row_count());
 }
 
-void fill_halo_from_rows(float* origin, const PlaneLayout& layout, const SideRules& sides,
+template <typename Number>
+void fill_halo_from_rows(Number* origin, const PlaneLayout& layout, const SideRules& sides,
                          std::int64_t begin, std::int64_t end) {
     CHECK(0 <= begin && end <= layout.row_count(), "a halo comes from rows of the plane");
-    const HaloFill fill(origin, layout, sides);
+    const HaloFill<Number> fill(origin, layout, sides);
     while (begin < end) {
         const std::int64_t slice = begin / layout.height;
         const std::int64_t first = begin - slice * layout.height;
@@ -155,5 +182,16 @@ void fill_halo_from_rows(float* origin, const PlaneLayout& layout, const SideRul
         begin += last - first;
     }
 }
+
+void fill_halo(Field& field, const SideRules& sides) {
+    field.visit([&](auto& plane) { fill_halo(plane.origin(), plane.layout(), sides); });
+}
+
+template void fill_halo<float>(float*, const PlaneLayout&, const SideRules&);
+template void fill_halo<double>(double*, const PlaneLayout&, const SideRules&);
+template void fill_halo_from_rows<float>(float*, const PlaneLayout&, const SideRules&,
+                                         std::int64_t, std::int64_t);
+template void fill_halo_from_rows<double>(double*, const PlaneLayout&, const SideRules&,
+                                          std::int64_t, std::int64_t);
 
 }  // namespace cascade

@@ -1,6 +1,8 @@
 // A plane of values, one per cell of a grid, with a halo.
 #pragma once
 
+#include "core/check.h"
+#include "core/precision.h"
 #include "core/side.h"
 
 #include <cstddef>
@@ -8,6 +10,8 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <utility>
+#include <variant>
 
 namespace cascade {
 
@@ -62,18 +66,120 @@ private:
     std::unique_ptr<T[], Free> data_;
 };
 
-using Field = Plane<float>;         ///< A species, or a parameter that varies over the surface.
 using Mask = Plane<std::uint8_t>;   ///< 1 where a cell is frozen, else 0.
 
+/// A species, or a parameter that varies over the surface: a plane of the run's numbers, which knows
+/// their precision. Loops over its cells are written for a `Plane<Number>` and chosen once, by visit().
+///
+/// Where the precision is known cells are reached as those of a plane: `field.row<double>(j)`, and
+/// without a word, `field.row(j)`, those of binary32. Asking for the other precision is a mistake of
+/// ours.
+class Field {
+public:
+    Field() = default;
+    explicit Field(const PlaneLayout& layout, Precision precision = Precision::single) {
+        if (precision == Precision::single) {
+            cells_ = Plane<float>(layout);
+        } else {
+            cells_ = Plane<double>(layout);
+        }
+    }
+    template <typename Number>
+    explicit Field(Plane<Number> plane) : cells_(std::move(plane)) {}
+
+    Precision precision() const {
+        return cells_.index() == 0 ? Precision::single : Precision::binary64;
+    }
+    /// Calls `look` with the plane, a `Plane<float>` or a `Plane<double>`.
+    template <typename Look>
+    decltype(auto) visit(Look&& look) {
+        return std::visit(std::forward<Look>(look), cells_);
+    }
+    template <typename Look>
+    decltype(auto) visit(Look&& look) const {
+        return std::visit(std::forward<Look>(look), cells_);
+    }
+
+    /// Address of cell (0, 0, 0), for those who know the precision from elsewhere.
+    void* address() {
+        return visit([](auto& plane) -> void* { return plane.origin(); });
+    }
+    const void* address() const {
+        return visit([](const auto& plane) -> const void* { return plane.origin(); });
+    }
+
+    bool empty() const {
+        return visit([](const auto& plane) { return plane.empty(); });
+    }
+    const PlaneLayout& layout() const {
+        return visit([](const auto& plane) -> const PlaneLayout& { return plane.layout(); });
+    }
+    Field clone() const {
+        return visit([](const auto& plane) { return Field(plane.clone()); });
+    }
+    /// The same in another precision, rounded where that is less. The halo comes along.
+    Field converted(Precision precision) const;
+
+    template <typename Number = float>
+    Plane<Number>& plane() {
+        CHECK(precision() == precision_of<Number>, "a field is read in its own precision");
+        return *std::get_if<Plane<Number>>(&cells_);
+    }
+    template <typename Number = float>
+    const Plane<Number>& plane() const {
+        CHECK(precision() == precision_of<Number>, "a field is read in its own precision");
+        return *std::get_if<Plane<Number>>(&cells_);
+    }
+    template <typename Number = float>
+    Number* origin() {
+        return plane<Number>().origin();
+    }
+    template <typename Number = float>
+    const Number* origin() const {
+        return plane<Number>().origin();
+    }
+    template <typename Number = float>
+    Number* row(std::int64_t number) {
+        return plane<Number>().row(number);
+    }
+    template <typename Number = float>
+    const Number* row(std::int64_t number) const {
+        return plane<Number>().row(number);
+    }
+    template <typename Number = float>
+    Number& at(std::int64_t i, std::int64_t j, std::int64_t k = 0) {
+        return plane<Number>().at(i, j, k);
+    }
+    template <typename Number = float>
+    Number at(std::int64_t i, std::int64_t j, std::int64_t k = 0) const {
+        return plane<Number>().at(i, j, k);
+    }
+    /// A cell of either precision.
+    double number_at(std::int64_t i, std::int64_t j, std::int64_t k = 0) const {
+        return visit([&](const auto& plane) { return static_cast<double>(plane.at(i, j, k)); });
+    }
+
+    static std::size_t bytes(const PlaneLayout& layout, Precision precision = Precision::single) {
+        return static_cast<std::size_t>(layout.size()) * bytes_of(precision);
+    }
+
+private:
+    std::variant<Plane<float>, Plane<double>> cells_;
+};
+
 /// Fills the halo of a field, edges and corners included: columns −1 and width, rows −1 and height
-/// and, where there is more than one slice, slices −1 and depth, by the rules of its sides.
-/// Columns come first, then rows with the halo columns, then slices with both.
-void fill_halo(float* origin, const PlaneLayout& layout, const SideRules& sides);
+/// and, where there is more than one slice, slices −1 and depth, by the rules of its sides, whose
+/// planes have the same precision. Columns come first, then rows with the halo columns, then slices
+/// with both.
+template <typename Number>
+void fill_halo(Number* origin, const PlaneLayout& layout, const SideRules& sides);
+void fill_halo(Field& field, const SideRules& sides);
 
 /// All of the halo whose values come from rows [begin, end), numbered through all slices. Threads
 /// that call it on parts of the rows have filled the whole halo together, without reading each
 /// other's rows.
-void fill_halo_from_rows(float* origin, const PlaneLayout& layout, const SideRules& sides,
+template <typename Number>
+void fill_halo_from_rows(Number* origin, const PlaneLayout& layout, const SideRules& sides,
                          std::int64_t begin, std::int64_t end);
 
 }  // namespace cascade

@@ -91,6 +91,8 @@ Plane<Number> refined(Plane<Number>& coarse, const Grid& coarse_grid, const Grid
 }
 
 template Plane<float> restricted(const Plane<float>&, const Grid&, const Grid&);
+template Plane<double> restricted(const Plane<double>&, const Grid&, const Grid&);
 template Plane<float> refined(Plane<float>&, const Grid&, const Grid&, const SideRules&);
+template Plane<double> refined(Plane<double>&, const Grid&, const Grid&, const SideRules&);
 
 }  // namespace cascade

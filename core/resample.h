@@ -20,6 +20,8 @@ Plane<Number> refined(Plane<Number>& coarse, const Grid& coarse_grid, const Grid
                       const SideRules& sides);
 
 extern template Plane<float> restricted(const Plane<float>&, const Grid&, const Grid&);
+extern template Plane<double> restricted(const Plane<double>&, const Grid&, const Grid&);
 extern template Plane<float> refined(Plane<float>&, const Grid&, const Grid&, const SideRules&);
+extern template Plane<double> refined(Plane<double>&, const Grid&, const Grid&, const SideRules&);
 
 }  // namespace cascade

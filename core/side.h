@@ -39,11 +39,12 @@ inline constexpr std::array<std::string_view, 4> side_kind_words{"periodic", "no
                                                                  "flux"};
 
 /// A side of one field. `values`, where it is set, points to cell (0, 0, 0) of a plane whose cells
-/// beside the side hold e (its halo is filled); elsewhere e is `value` everywhere.
+/// beside the side hold e (its halo is filled), numbers of the field's precision; elsewhere e is
+/// `value` everywhere.
 struct SideRule {
     SideKind kind = SideKind::periodic;
-    float value = 0;
-    const float* values = nullptr;
+    double value = 0;
+    const void* values = nullptr;
 
     bool has_value() const { return takes_value(kind); }
 };
@@ -51,7 +52,7 @@ struct SideRule {
 /// All sides of one field.
 struct SideRules {
     std::array<SideRule, side_count> at{};
-    float spacing = 1;
+    double spacing = 1;
 
     SideRules() = default;
     SideRules(const Boundaries& boundary) {  // NOLINT: boundaries are rules.

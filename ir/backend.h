@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/grid.h"
+#include "core/check.h"
 #include "core/parallel.h"
 #include "core/result.h"
 #include "ir/cell_kernel.h"
@@ -20,21 +21,29 @@ namespace cascade {
 /// but it may be a field of which the kernel reads the own cell only. A kernel may write any values
 /// into an output row beyond its last cell, up to the next multiple of PlaneLayout::row_pad (so halo
 /// column `width` may hold garbage afterwards); cells of other rows and columns < 0 never.
-struct KernelArguments {
-    std::span<const float* const> fields;         ///< One per field slot.
+template <typename Number>
+struct KernelArgumentsOf {
+    std::span<const Number* const> fields;        ///< One per field slot.
     std::span<const std::uint8_t* const> masks;   ///< One per mask slot.
-    std::span<const float> uniforms;              ///< One per uniform slot.
-    std::span<float* const> results;              ///< One per result.
+    std::span<const Number> uniforms;             ///< One per uniform slot.
+    std::span<Number* const> results;             ///< One per result.
     PlaneLayout layout;
 };
+using KernelArguments = KernelArgumentsOf<float>;
 
 /// A kernel ready to run. Immutable and safe to run on several threads at once, each on its own
 /// rows, inside a FlushDenormals.
 class Kernel {
 public:
     virtual ~Kernel() = default;
-    /// Computes rows, numbered through all slices.
-    virtual void run(const KernelArguments& arguments, RowRange rows) const = 0;
+    /// Computes rows, numbered through all slices, with numbers of the kernel's precision.
+    virtual void run(const KernelArgumentsOf<float>&, RowRange) const { wrong_precision(); }
+    virtual void run(const KernelArgumentsOf<double>&, RowRange) const { wrong_precision(); }
+
+private:
+    [[noreturn]] static void wrong_precision() {
+        CHECK(false, "a kernel is given numbers of its own precision");
+    }
 };
 
 using KernelPointer = std::shared_ptr<const Kernel>;

@@ -9,13 +9,15 @@
 
 namespace cascade {
 
-/// Computes `count` words. Operands are words in the form of floats; a scalar operand is one word
-/// that all cells share. `out` overlaps no operand.
-using BlockLoop = void (*)(float* out, const float* a, const float* b, const float* c,
+/// Computes `count` words. Operands are words in the form of numbers, float or double; a scalar
+/// operand is one word that all cells share. `out` overlaps no operand.
+template <typename Number>
+using BlockLoop = void (*)(Number* out, const Number* a, const Number* b, const Number* c,
                            std::int64_t count);
 
 /// The loop of an operation that depends on its operands alone. Bit k of `scalar_operands` says
 /// that operand k is a scalar; at least one operand is not.
-BlockLoop block_loop(Op op, unsigned scalar_operands);
+template <typename Number>
+BlockLoop<Number> block_loop(Op op, unsigned scalar_operands);
 
 }  // namespace cascade

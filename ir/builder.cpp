@@ -4,7 +4,6 @@
 #include "core/check.h"
 #include "core/floating_point.h"
 #include "ir/interpreter.h"
-#include "ir/word_operations.h"
 
 #include <cmath>
 #include <limits>
@@ -13,13 +12,11 @@
 namespace cascade {
 namespace {
 
-/// The one NaN: folding must not depend on which of them the host's processor makes.
-constexpr std::uint32_t nan_bits = 0x7fc00000;
-
 std::uint64_t hash_of(const Instruction& instruction) {
     std::uint64_t hash = static_cast<std::uint64_t>(instruction.op) + 1;
     const auto [a, b, c] = instruction.operands;
-    for (const std::uint32_t word : {a, b, c, instruction.payload}) {
+    for (const std::uint64_t word :
+         {std::uint64_t{a}, std::uint64_t{b}, std::uint64_t{c}, instruction.payload}) {
         hash = (hash ^ word) * 0x9e3779b97f4a7c15ULL;
         hash ^= hash >> 29;
     }
@@ -41,13 +38,16 @@ bool yields_truth(Op op) { return op == Op::mask || (op >= Op::less && op <= Op:
 
 }  // namespace
 
-ValueId KernelBuilder::number(float value) {
-    if (std::isnan(value)) return word(nan_bits);
-    const bool is_denormal = std::fpclassify(value) == FP_SUBNORMAL;
-    return word(is_denormal ? to_bits(value) & sign_bit : to_bits(value));
+// The one NaN: kernels must not depend on which of them the host's processor makes.
+ValueId KernelBuilder::number(double value) {
+    if (std::isnan(value)) return word(format().nan());
+    const std::uint64_t bits = word_of(value, precision());
+    return word(format().is_denormal(bits) ? bits & format().sign() : bits);
 }
 
-ValueId KernelBuilder::word(std::uint32_t bits) { return emit({Op::constant, {}, bits}); }
+ValueId KernelBuilder::word(std::uint64_t bits) {
+    return emit({Op::constant, {}, bits & format().all()});
+}
 
 std::uint32_t KernelBuilder::field_slot(const std::string& name) {
     return slot_of(name, kernel_.field_names, field_slots_);
@@ -144,7 +144,7 @@ std::optional<ValueId> KernelBuilder::simplify(const Instruction& instruction) {
     if (is_foldable) return fold(instruction);
     if (instruction.op == Op::select) {
         if (b == c) return b;
-        if (is_constant(a)) return is_true(kernel_.code[a].payload) ? b : c;
+        if (is_constant(a)) return is_true_word(kernel_.code[a].payload) ? b : c;
     }
     if (instruction.op == Op::logical_and || instruction.op == Op::logical_or) {
         if (is_constant(a)) return simplify_logic(instruction.op, b, kernel_.code[a].payload);
@@ -156,16 +156,21 @@ std::optional<ValueId> KernelBuilder::simplify(const Instruction& instruction) {
 ValueId KernelBuilder::fold(const Instruction& instruction) {
     const auto [a, b, c] = instruction.operands;
     const FlushDenormals environment;
-    const std::uint32_t bits = evaluate(instruction.op, kernel_.code[a].payload,
-                                        kernel_.code[b].payload, kernel_.code[c].payload);
-    const bool is_nan = (bits & ~sign_bit) > 0x7f800000;
-    return word(is_nan && yields_number(instruction.op) ? nan_bits : bits);
+    const std::uint64_t bits =
+        evaluate(instruction.op, kernel_.code[a].payload, kernel_.code[b].payload,
+                 kernel_.code[c].payload, precision());
+    return word(format().is_nan(bits) && yields_number(instruction.op) ? format().nan() : bits);
+}
+
+/// Denormal numbers are zeros.
+bool KernelBuilder::is_true_word(std::uint64_t word) const {
+    return (word & format().exponent()) != 0;
 }
 
 /// `x and known`, `x or known`.
-std::optional<ValueId> KernelBuilder::simplify_logic(Op op, ValueId x, std::uint32_t known) {
-    const bool decides = is_true(known) == (op == Op::logical_or);
-    if (decides) return number(op == Op::logical_or ? 1.0f : 0.0f);
+std::optional<ValueId> KernelBuilder::simplify_logic(Op op, ValueId x, std::uint64_t known) {
+    const bool decides = is_true_word(known) == (op == Op::logical_or);
+    if (decides) return number(op == Op::logical_or ? 1 : 0);
     if (yields_truth(kernel_.code[x].op)) return x;
     return std::nullopt;
 }

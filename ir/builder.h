@@ -21,9 +21,15 @@ namespace cascade {
 
 class KernelBuilder {
 public:
+    explicit KernelBuilder(Precision precision = Precision::single) {
+        kernel_.precision = precision;
+    }
+    Precision precision() const { return kernel_.precision; }
+    WordFormat format() const { return format_of(kernel_.precision); }
+
     // Sources. A slot is made at its first use; the same name gives the same slot.
-    ValueId number(float value);  ///< Denormals become zero.
-    ValueId word(std::uint32_t bits);
+    ValueId number(double value);      ///< Rounded to the kernel's precision; denormals become zero.
+    ValueId word(std::uint64_t bits);  ///< Modulo 2^32 or 2^64.
     std::uint32_t field_slot(const std::string& name);
     std::uint32_t mask_slot(const std::string& name);
     std::uint32_t uniform_slot(const std::string& name);
@@ -75,7 +81,8 @@ public:
     ValueId round_to_even(ValueId x);    ///< The nearest whole number, ties to even.
     ValueId round_down(ValueId x);
     ValueId round_up(ValueId x);
-    /// x − y · floor(x / y), of the sign of y; NaN where |x / y| is 2^24 or more.
+    /// x − y · floor(x / y), of the sign of y; NaN where |x / y| is 2^24 (in binary64 2^52)
+    /// or more.
     ValueId modulus(ValueId x, ValueId y);
     /// 0 up to `low`, 1 from `high` on, between them 3 t² − 2 t³.
     ValueId smooth_step(ValueId low, ValueId high, ValueId x);
@@ -84,9 +91,12 @@ public:
     ValueId power(ValueId x, ValueId y);
 
     // Random numbers (ir/random_numbers.cpp).
-    /// Uniform in (−1, 1), symmetric, 2^23 different values: a pure function of the cell, the
-    /// `draw` word (which step, or 0) and the 64-bit `key` (seed, stage, parameter, occurrence).
+    /// Uniform in (−1, 1), symmetric, 2^23 different values, in binary64 2^52 whose first digits are
+    /// the same: a pure function of the cell, the `draw` word (which step, or 0) and the
+    /// 64-bit `key` (seed, stage, parameter, occurrence).
     ValueId random_symmetric(ValueId draw, std::uint64_t key);
+    /// The word of 32 bits that stands for a number in draws: its bits as a binary32 number.
+    ValueId draw_word(ValueId number);
     /// Gaussian, of mean 0 and variance 1, at most 6.7 in magnitude: a function of the same.
     ValueId random_normal(ValueId draw, std::uint64_t key);
 
@@ -99,11 +109,14 @@ public:
     std::size_t size() const { return kernel_.code.size(); }
     const Instruction& operator[](ValueId id) const { return kernel_.code[id]; }
     bool is_constant(ValueId id) const { return kernel_.code[id].op == Op::constant; }
+    /// The number that a constant is.
+    double constant(ValueId id) const { return number_of(kernel_.code[id].payload, precision()); }
 
 private:
     ValueId emit(Instruction instruction);
     std::optional<ValueId> simplify(const Instruction& instruction);
-    std::optional<ValueId> simplify_logic(Op op, ValueId x, std::uint32_t known);
+    std::optional<ValueId> simplify_logic(Op op, ValueId x, std::uint64_t known);
+    bool is_true_word(std::uint64_t word) const;
     ValueId fold(const Instruction& instruction);
 
     CellKernel kernel_;

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <iterator>
 
 namespace cascade {
@@ -31,11 +30,15 @@ std::string slot_text(const std::vector<std::string>& names, std::uint32_t slot)
 }
 
 std::string payload_text(const CellKernel& kernel, const Instruction& instruction) {
-    const std::uint32_t payload = instruction.payload;
+    const std::uint32_t payload = instruction.slot();
     switch (info(instruction.op).payload) {
         case PayloadKind::none: return "";
         case PayloadKind::bits:
-            return fmt::format(" 0x{:08x}  # {}", payload, to_number(payload));
+            if (kernel.precision == Precision::single) {
+                return fmt::format(" 0x{:08x}  # {}", payload, to_number(payload));
+            }
+            return fmt::format(" 0x{:016x}  # {}", instruction.payload,
+                               number_of(instruction.payload, kernel.precision));
         case PayloadKind::field: return slot_text(kernel.field_names, payload);
         case PayloadKind::neighbour: {
             const Neighbour at = Neighbour::of(payload);
@@ -60,16 +63,19 @@ std::size_t slot_count(const CellKernel& kernel, PayloadKind kind) {
 
 std::string verify_payload(const CellKernel& kernel, const Instruction& instruction) {
     const PayloadKind kind = info(instruction.op).payload;
-    if (kind == PayloadKind::bits) return "";
+    if (kind == PayloadKind::bits) {
+        const bool fits = instruction.payload <= format_of(kernel.precision).all();
+        return fits ? "" : "has more bits than its word";
+    }
     if (kind == PayloadKind::none) {
         return instruction.payload == 0 ? "" : "has a payload but takes none";
     }
-    std::uint32_t slot = instruction.payload;
+    std::uint64_t slot = instruction.payload;
     if (kind == PayloadKind::neighbour) {
         const std::uint32_t offset = slot % Neighbour::offset_count;
         if (offset > Neighbour::last_offset) return "reads farther than the next cell";
         if (offset == Neighbour::own_offset) return "reads the cell itself as a neighbour";
-        slot = Neighbour::of(slot).slot;
+        slot = Neighbour::of(instruction.slot()).slot;
     }
     const std::size_t slots = slot_count(kernel, kind);
     return slot < slots ? "" : fmt::format("names slot {} of {}", slot, slots);
@@ -79,7 +85,8 @@ std::string verify_shift(const CellKernel& kernel, const Instruction& instructio
     if (instruction.op != Op::bits_shift_left && instruction.op != Op::bits_shift_right) return "";
     const Instruction& amount = kernel.code[instruction.operands[1]];
     if (amount.op != Op::constant) return "shifts by an amount that is not constant";
-    return amount.payload <= 31 ? "" : fmt::format("shifts by {}", amount.payload);
+    const auto most = static_cast<std::uint64_t>(format_of(kernel.precision).bits - 1);
+    return amount.payload <= most ? "" : fmt::format("shifts by {}", amount.payload);
 }
 
 std::string verify_instruction(const CellKernel& kernel, std::size_t id) {
@@ -109,7 +116,7 @@ const OpInfo& info(Op op) {
 bool CellKernel::reads_neighbours(std::uint32_t field_slot) const {
     for (const Instruction& instruction : code) {
         if (instruction.op == Op::laplacian && instruction.payload == field_slot) return true;
-        if (instruction.op == Op::neighbour && Neighbour::of(instruction.payload).slot == field_slot) {
+        if (instruction.op == Op::neighbour && Neighbour::of(instruction.slot()).slot == field_slot) {
             return true;
         }
     }
@@ -118,6 +125,7 @@ bool CellKernel::reads_neighbours(std::uint32_t field_slot) const {
 
 std::uint64_t hash(const CellKernel& kernel) {
     std::uint64_t result = mix(kernel.code.size(), kernel.results.size());
+    if (kernel.precision != Precision::single) result = mix(result, bytes_of(kernel.precision));
     for (const Instruction& instruction : kernel.code) {
         const auto [a, b, c] = instruction.operands;
         result = mix(result, static_cast<std::uint64_t>(instruction.op) << 32 | a);
@@ -163,8 +171,5 @@ std::string verify(const CellKernel& kernel) {
     }
     return "";
 }
-
-std::uint32_t to_bits(float number) { return std::bit_cast<std::uint32_t>(number); }
-float to_number(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 
 }  // namespace cascade

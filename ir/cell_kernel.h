@@ -6,6 +6,9 @@
 // lie (KernelArguments does). It cannot fail: users' errors end in lang/.
 #pragma once
 
+#include "core/precision.h"
+#include "ir/word_format.h"
+
 #include <array>
 #include <cstdint>
 #include <string>
@@ -54,7 +57,10 @@ using ValueId = std::uint32_t;
 struct Instruction {
     Op op = Op::constant;
     std::array<ValueId, 3> operands{};  ///< The first `info(op).arity` count; others are 0.
-    std::uint32_t payload = 0;          ///< Bits of a word, or a slot; 0 where there is none.
+    std::uint64_t payload = 0;          ///< Bits of a word, or a slot; 0 where there is none.
+
+    /// The payload of what reads a slot.
+    std::uint32_t slot() const { return static_cast<std::uint32_t>(payload); }
 
     friend bool operator==(const Instruction&, const Instruction&) = default;
 };
@@ -87,6 +93,7 @@ struct CellKernel {
     std::vector<std::string> mask_names;
     std::vector<std::string> uniform_names;
     std::vector<std::string> result_names;
+    Precision precision = Precision::single;  ///< Of all words.
 
     /// True if some instruction is a laplacian or a neighbour of this field slot (its halo must be
     /// filled).
@@ -102,9 +109,5 @@ std::string print(const CellKernel& kernel);
 /// Checks that operands come before their users, slots exist, results exist. Returns an empty text
 /// or what is wrong. Tests and debug builds run it behind every stage that makes a kernel.
 std::string verify(const CellKernel& kernel);
-
-/// A number as a word and back.
-std::uint32_t to_bits(float number);
-float to_number(std::uint32_t bits);
 
 }  // namespace cascade

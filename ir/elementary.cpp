@@ -3,8 +3,10 @@
 // The methods are the classical ones (W. J. Cody and W. Waite, "Software Manual for the Elementary
 // Functions", 1980; J.-M. Muller, "Elementary Functions", 3rd ed., 2016): reduce the argument with
 // a constant split into an exact head and a tail, evaluate a polynomial, put the result together.
-// The coefficients are ours: weighted minimax fits, rounded to binary32 one after the other, each
-// time fitting the rest again. No operation fuses, so every executor computes the same bits.
+// The coefficients are ours: weighted minimax fits, rounded to the format one after the other, each
+// time fitting the rest again. No operation fuses, so every executor computes the same bits. An
+// algorithm is the same in binary32 and binary64; what differs stands in tables by precision, and
+// in comments in brackets.
 //
 // Largest errors, in units in the last place of the exact value:
 //     exp 1.0    log 0.9               all binary32 arguments
@@ -21,29 +23,55 @@
 namespace cascade {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-constexpr float log2_of_e = 0x1.715476p+0f;
-// ln 2 as a head of 14 bits, whose product with a whole number of 10 bits is exact, and the rest.
-constexpr float ln2_head = 0x1.62e8p-1f;
-constexpr float ln2_tail = -0x1.e8082ep-16f;
+constexpr ByPrecision<double> log2_of_e = {0x1.715476p+0, 0x1.71547652b82fep+0};
 
-// (e^r − 1 − r) / r² for |r| ≤ 0.354; error 2^−33 of e^r.
-constexpr float exp_coefficients[] = {0x1.000000p-1f, 0x1.555554p-3f,  0x1.5554e0p-5f,
-                                      0x1.11130ap-7f, 0x1.6d5826p-10f, 0x1.9e15e8p-13f};
+/// ln 2 as a head of 14 (42) bits, whose product with the exponent of a number is exact, and the rest.
+struct Split {
+    double head;
+    double tail;
+};
+constexpr ByPrecision<Split> ln2 = {{{0x1.62e8p-1, -0x1.e8082ep-16},
+                                     {0x1.62e42fefa38p-1, 0x1.ef35793c7673p-45}}};
 
-// (2 artanh(s)/s − 2) / s² in s², for |s| ≤ 0.172; error 2^−35 of the logarithm.
-constexpr float log_coefficients[] = {0x1.555554p-1f, 0x1.999c24p-2f, 0x1.23d4dcp-2f,
-                                      0x1.f103dep-3f};
+/// Arguments of exp beyond which the result is infinite or 0.
+constexpr ByPrecision<double> exp_reach = {100, 750};
 
-// (sinh(a)/a − 1) / a² in a², for a ≤ 1; error 2^−31 of sinh.
-constexpr float sinh_coefficients[] = {0x1.555556p-3f, 0x1.1110d8p-7f, 0x1.a02800p-13f,
-                                       0x1.749762p-19f};
+// (e^r − 1 − r) / r² for |r| ≤ 0.347; error 2^−33 (2^−63) of e^r.
+constexpr double exp_single[] = {0x1.000000p-1, 0x1.555554p-3,  0x1.5554e0p-5,
+                                 0x1.11130ap-7, 0x1.6d5826p-10, 0x1.9e15e8p-13};
+constexpr double exp_double[] = {
+    0x1.0000000000000p-1,  0x1.555555555555bp-3,  0x1.5555555555538p-5,  0x1.111111110ed8bp-7,
+    0x1.6c16c16c23bf1p-10, 0x1.a01a01b32d42dp-13, 0x1.a01a01627b44bp-16, 0x1.71ddf0acc9b1fp-19,
+    0x1.27e56b7283b64p-22, 0x1.af6b445dfd100p-26, 0x1.1e99cba9a8d4ap-29};
+constexpr ByPrecision<std::span<const double>> exp_coefficients = {exp_single, exp_double};
 
-// (tanh(a)/a − 1) / a² in a², for a ≤ 0.55; error 2^−29 of tanh.
-constexpr float tanh_coefficients[] = {-0x1.55554cp-2f, 0x1.110d6ap-3f, -0x1.b931fep-5f,
-                                       0x1.5982a4p-6f, -0x1.9c9668p-8f};
+// (2 artanh(s)/s − 2) / s² in s², for |s| ≤ 0.172; error 2^−35 (2^−67) of the logarithm.
+constexpr double log_single[] = {0x1.555554p-1, 0x1.999c24p-2, 0x1.23d4dcp-2, 0x1.f103dep-3};
+constexpr double log_double[] = {
+    0x1.5555555555555p-1, 0x1.9999999999c71p-2, 0x1.2492492450090p-2,
+    0x1.c71c722476616p-3, 0x1.745cf2f046de4p-3, 0x1.3b1be82892b24p-3,
+    0x1.0fff3b75b16f1p-3, 0x1.03c1bff31ad59p-3, 0x1.626c8a3d50bc8p-5};
+constexpr ByPrecision<std::span<const double>> log_coefficients = {log_single, log_double};
+
+// (sinh(a)/a − 1) / a² in a², for a ≤ 1; error 2^−31 (2^−62) of sinh.
+constexpr double sinh_single[] = {0x1.555556p-3, 0x1.1110d8p-7, 0x1.a02800p-13, 0x1.749762p-19};
+constexpr double sinh_double[] = {
+    0x1.5555555555555p-3,  0x1.111111111119ap-7,  0x1.a01a01a0076ffp-13, 0x1.71de3a6884e07p-19,
+    0x1.ae64418041398p-26, 0x1.613110a20e7fbp-33, 0x1.a68cd14262705p-41, 0x1.cd84bf4ddefa3p-48};
+constexpr ByPrecision<std::span<const double>> sinh_coefficients = {sinh_single, sinh_double};
+
+// (tanh(a)/a − 1) / a² in a², for a ≤ 0.55; error 2^−29 (2^−60) of tanh.
+constexpr double tanh_single[] = {-0x1.55554cp-2, 0x1.110d6ap-3, -0x1.b931fep-5, 0x1.5982a4p-6,
+                                  -0x1.9c9668p-8};
+constexpr double tanh_double[] = {
+    -0x1.555555555554fp-2, 0x1.1111111110793p-3,   -0x1.ba1ba1b97cfa6p-5, 0x1.664f4859546f6p-6,
+    -0x1.226e2f1130738p-7, 0x1.d6d29b1b514cap-9,   -0x1.7d8fcdd262886p-10, 0x1.348380be66a46p-11,
+    -0x1.e96e074b97d57p-13, 0x1.5d6f89a5f0370p-14, -0x1.47058bf3dd2bfp-16};
+constexpr ByPrecision<std::span<const double>> tanh_coefficients = {tanh_single, tanh_double};
+constexpr ByPrecision<double> tanh_border = {0x1.19999ap-1, 0.55};
 
 /// A number as m · 2^n with m about 1.
 struct Scaled {
@@ -51,19 +79,19 @@ struct Scaled {
     Expression exponent;  ///< As a word.
 };
 
-/// e^x. Beyond ±100 the result is infinite or 0 as it is at ±100.
+/// e^x. Beyond the reach the result is infinite or 0 as it is there.
 Scaled scaled_exponential(Expression argument) {
-    const Expression x = argument.clamped(-100.0f, 100.0f);
-    const Rounded n = round_to_whole(x * log2_of_e);
-    const Expression r = (x - n.number * ln2_head) - n.number * ln2_tail;
-    const Expression curved = (r * r) * polynomial(r, exp_coefficients);
-    return {(r + curved) + 1.0f, n.word};
+    const Expression x = argument.clamped(-argument.pick(exp_reach), argument.pick(exp_reach));
+    const Rounded n = round_to_whole(x * x.pick(log2_of_e));
+    const Expression r = (x - n.number * x.pick(ln2).head) - n.number * x.pick(ln2).tail;
+    const Expression curved = (r * r) * polynomial(r, x.pick(exp_coefficients));
+    return {(r + curved) + 1, n.word};
 }
 
 /// e^x / 2, which is finite wherever sinh and cosh are.
 Expression half_exponential(Expression x) {
     const Scaled power = scaled_exponential(x);
-    return scale(power.factor, power.exponent.plus_word(-1u));
+    return scale(power.factor, power.exponent.plus_word(~std::uint64_t{0}));
 }
 
 }  // namespace
@@ -77,16 +105,16 @@ ValueId KernelBuilder::hyperbolic_sine(ValueId argument) {
     const Expression x(*this, argument);
     const Expression a = x.absolute();
     const Expression z = a * a;
-    const Expression near = a + a * (z * polynomial(z, sinh_coefficients));
+    const Expression near = a + a * (z * polynomial(z, x.pick(sinh_coefficients)));
     const Expression growth = half_exponential(a);
-    const Expression far = growth - 0.25f / growth;
-    const Expression magnitude = (a < 1.0f).choose(near, far);
-    return magnitude.binary(Op::bits_or, x.and_word(0x80000000)).id();
+    const Expression far = growth - 0.25 / growth;
+    const Expression magnitude = (a < 1).choose(near, far);
+    return magnitude.with_sign_of(x).id();
 }
 
 ValueId KernelBuilder::hyperbolic_cosine(ValueId argument) {
     const Expression growth = half_exponential(Expression(*this, argument).absolute());
-    return (growth + 0.25f / growth).id();
+    return (growth + 0.25 / growth).id();
 }
 
 ValueId KernelBuilder::logarithm(ValueId argument) {
@@ -94,16 +122,16 @@ ValueId KernelBuilder::logarithm(ValueId argument) {
     const auto [m, e] = decompose(x);
     // With s = f / (2 + f): ln(1 + f) = 2 artanh(s), and 2 s = f − h + s h for h = f²/2. In this
     // form the large part, f, is exact.
-    const Expression f = m - 1.0f;
-    const Expression s = f / (f + 2.0f);
+    const Expression f = m - 1;
+    const Expression s = f / (f + 2);
     const Expression z = s * s;
-    const Expression h = (f * f) * 0.5f;
-    const Expression curved = s * (h + z * polynomial(z, log_coefficients));
-    const Expression small = h - (curved + e * ln2_tail);
-    const Expression finite = e * ln2_head - (small - f);
+    const Expression h = (f * f) * 0.5;
+    const Expression curved = s * (h + z * polynomial(z, x.pick(log_coefficients)));
+    const Expression small = h - (curved + e * x.pick(ln2).tail);
+    const Expression finite = e * x.pick(ln2).head - (small - f);
     const Expression positive = (x < infinity).choose(finite, x);  // Infinity and NaN stay.
-    const Expression real = equals(x, 0.0f).choose(-infinity, positive);
-    return (x < 0.0f).choose(nan, real).id();
+    const Expression real = equals(x, 0).choose(-infinity, positive);
+    return (x < 0).choose(nan, real).id();
 }
 
 ValueId KernelBuilder::hyperbolic_tangent(ValueId argument) {
@@ -111,11 +139,11 @@ ValueId KernelBuilder::hyperbolic_tangent(ValueId argument) {
     const Expression a = x.absolute();
     // Near 0 the difference below would cancel.
     const Expression z = a * a;
-    const Expression near = a + a * (z * polynomial(z, tanh_coefficients));
+    const Expression near = a + a * (z * polynomial(z, x.pick(tanh_coefficients)));
     const Expression growth(*this, exponential((a + a).id()));
-    const Expression far = 1.0f - 2.0f / (growth + 1.0f);
-    const Expression magnitude = (a < 0.55f).choose(near, far);
-    return magnitude.binary(Op::bits_or, x.and_word(0x80000000)).id();
+    const Expression far = 1 - 2 / (growth + 1);
+    const Expression magnitude = (a < x.pick(tanh_border)).choose(near, far);
+    return magnitude.with_sign_of(x).id();
 }
 
 }  // namespace cascade

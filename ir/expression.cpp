@@ -1,21 +1,17 @@
 // Pieces that several elementary functions are made of.
 #include "ir/expression.h"
 
+#include <cmath>
+
 namespace cascade {
 namespace {
 
-// The sum of 1.5 · 2^23 and a smaller number has no digits behind the point, and its last bits are
-// the whole number in two's complement.
-constexpr float rounder = 0x1.8p23f;
-constexpr std::uint32_t rounder_bits = 0x4b400000;
-
-// The word of √½: subtracted from a number's word it moves the border between two exponents there.
-constexpr std::uint32_t root_half_bits = 0x3f3504f3;
-constexpr std::uint32_t one_word = 0x3f800000;
+/// The word of √½: subtracted from a number's word it moves the border between two exponents there.
+constexpr ByPrecision<std::uint64_t> root_half_bits = {0x3f3504f3, 0x3fe6a09e667f3bcd};
 
 }  // namespace
 
-Expression polynomial(Expression x, std::span<const float> coefficients) {
+Expression polynomial(Expression x, std::span<const double> coefficients) {
     Expression sum = x.number(coefficients.back());
     for (std::size_t k = coefficients.size() - 1; k-- > 0;) {
         const Expression product = sum * x;
@@ -24,25 +20,34 @@ Expression polynomial(Expression x, std::span<const float> coefficients) {
     return sum;
 }
 
+// The sum of 1.5 · 2^23 (2^52) and a smaller number has no digits behind the point, and its last
+// bits are the whole number in two's complement.
 Rounded round_to_whole(Expression x) {
+    const WordFormat format = x.format();
+    const double rounder = std::ldexp(1.5, format.fraction_bits);
+    const auto exponent = static_cast<std::uint64_t>(format.bias + format.fraction_bits);
+    const std::uint64_t half = std::uint64_t{1} << (format.fraction_bits - 1);
     const Expression sum = x + rounder;
-    return {sum - rounder, sum.plus_word(-rounder_bits)};
+    return {sum - rounder, sum.plus_word(-((exponent << format.fraction_bits) + half))};
 }
 
 Expression scale(Expression x, Expression n) {
     // One factor 2^n may be out of range where the product is not; so there are two, of about the
-    // same size. Their exponents plus 127 are the halves of n + 254.
-    const Expression sum = n.plus_word(254);
+    // same size. Their exponents plus the bias are the halves of n plus twice the bias.
+    const WordFormat format = x.format();
+    const Expression sum = n.plus_word(static_cast<std::uint64_t>(2 * format.bias));
     const Expression first = sum.shifted_right(1);
     const Expression second = sum.binary(Op::bits_subtract, first);
-    const Expression scaled = x * first.shifted_left(23);
-    return scaled * second.shifted_left(23);
+    const Expression scaled = x * first.shifted_left(format.fraction_bits);
+    return scaled * second.shifted_left(format.fraction_bits);
 }
 
 Decomposed decompose(Expression x) {
-    const Expression moved = x.plus_word(one_word - root_half_bits);
-    const Expression significand = moved.and_word(0x007fffff).plus_word(root_half_bits);
-    return {significand, moved.shifted_right(23).to_number() - 127.0f};
+    const WordFormat format = x.format();
+    const std::uint64_t root_half = x.pick(root_half_bits);
+    const Expression moved = x.plus_word(format.one() - root_half);
+    const Expression significand = moved.and_word(format.fraction()).plus_word(root_half);
+    return {significand, moved.shifted_right(format.fraction_bits).to_number() - format.bias};
 }
 
 }  // namespace cascade

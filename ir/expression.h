@@ -6,17 +6,29 @@
 
 #include "ir/builder.h"
 
+#include <array>
 #include <span>
 
 namespace cascade {
+
+/// What an algorithm takes from the number format: a row for binary32 and one for binary64. Numbers of
+/// the first are binary32 numbers, so that nothing is rounded when they are read.
+template <typename Constants>
+using ByPrecision = std::array<Constants, 2>;
 
 class Expression {
 public:
     Expression(KernelBuilder& builder, ValueId id) : builder_(&builder), id_(id) {}
 
     ValueId id() const { return id_; }
-    Expression number(float value) const { return {*builder_, builder_->number(value)}; }
-    Expression word(std::uint32_t bits) const { return {*builder_, builder_->word(bits)}; }
+    WordFormat format() const { return builder_->format(); }
+    template <typename Constants>
+    const Constants& pick(const ByPrecision<Constants>& rows) const {
+        return rows[static_cast<std::size_t>(builder_->precision())];
+    }
+
+    Expression number(double value) const { return {*builder_, builder_->number(value)}; }
+    Expression word(std::uint64_t bits) const { return {*builder_, builder_->word(bits)}; }
 
     Expression unary(Op op) const { return {*builder_, builder_->apply(op, id_)}; }
     Expression binary(Op op, Expression other) const {
@@ -24,7 +36,7 @@ public:
     }
 
     Expression absolute() const { return unary(Op::absolute); }
-    Expression clamped(float low, float high) const {
+    Expression clamped(double low, double high) const {
         const ValueId below = builder_->clamp_below(id_, builder_->number(low));
         return {*builder_, builder_->clamp_above(below, builder_->number(high))};
     }
@@ -34,23 +46,35 @@ public:
     Expression choose(Expression then, Expression otherwise) const {
         return {*builder_, builder_->select(id_, then.id_, otherwise.id_)};
     }
-    Expression choose(float then, Expression otherwise) const {
+    Expression choose(double then, Expression otherwise) const {
         return choose(number(then), otherwise);
     }
 
     // Words as unsigned integers.
-    Expression plus_word(std::uint32_t bits) const { return binary(Op::bits_add, word(bits)); }
-    Expression and_word(std::uint32_t bits) const { return binary(Op::bits_and, word(bits)); }
-    Expression shifted_left(std::uint32_t amount) const {
-        return binary(Op::bits_shift_left, word(amount));
+    Expression plus_word(std::uint64_t bits) const { return binary(Op::bits_add, word(bits)); }
+    Expression and_word(std::uint64_t bits) const { return binary(Op::bits_and, word(bits)); }
+    Expression shifted_left(int amount) const {
+        return binary(Op::bits_shift_left, word(static_cast<std::uint64_t>(amount)));
     }
-    Expression shifted_right(std::uint32_t amount) const {
-        return binary(Op::bits_shift_right, word(amount));
+    Expression shifted_right(int amount) const {
+        return binary(Op::bits_shift_right, word(static_cast<std::uint64_t>(amount)));
     }
     Expression to_number() const { return unary(Op::bits_to_number); }
 
-    /// The number without the lower 12 bits of its significand: products of two such are exact.
-    Expression head() const { return and_word(0xfffff000); }
+    /// The bit of the sign, as a word, and the number with the sign of another put in front.
+    Expression sign_word() const { return and_word(format().sign()); }
+    Expression with_sign_of(Expression other) const {
+        return binary(Op::bits_or, other.sign_word());
+    }
+
+    /// The number without the lower half of its significand, of which 12 (26) bits are left:
+    /// products of two such are exact.
+    Expression head() const {
+        return and_word(format().all() << (format().fraction_bits / 2 + 1));
+    }
+
+    /// A word modulo 2^32: formulas of 32-bit words are the same in both formats.
+    Expression low_word() const { return format().bits == 32 ? *this : and_word(0xffffffff); }
 
 private:
     KernelBuilder* builder_;
@@ -61,32 +85,32 @@ inline Expression operator+(Expression a, Expression b) { return a.binary(Op::ad
 inline Expression operator-(Expression a, Expression b) { return a.binary(Op::subtract, b); }
 inline Expression operator*(Expression a, Expression b) { return a.binary(Op::multiply, b); }
 inline Expression operator/(Expression a, Expression b) { return a.binary(Op::divide, b); }
-inline Expression operator+(Expression a, float b) { return a + a.number(b); }
-inline Expression operator-(Expression a, float b) { return a - a.number(b); }
-inline Expression operator*(Expression a, float b) { return a * a.number(b); }
-inline Expression operator-(float a, Expression b) { return b.number(a) - b; }
-inline Expression operator/(float a, Expression b) { return b.number(a) / b; }
+inline Expression operator+(Expression a, double b) { return a + a.number(b); }
+inline Expression operator-(Expression a, double b) { return a - a.number(b); }
+inline Expression operator*(Expression a, double b) { return a * a.number(b); }
+inline Expression operator-(double a, Expression b) { return b.number(a) - b; }
+inline Expression operator/(double a, Expression b) { return b.number(a) / b; }
 
 inline Expression operator<(Expression a, Expression b) { return a.binary(Op::less, b); }
-inline Expression operator<(Expression a, float b) { return a < a.number(b); }
-inline Expression operator<(float a, Expression b) { return b.number(a) < b; }
+inline Expression operator<(Expression a, double b) { return a < a.number(b); }
+inline Expression operator<(double a, Expression b) { return b.number(a) < b; }
 inline Expression equals(Expression a, Expression b) { return a.binary(Op::equal, b); }
-inline Expression equals(Expression a, float b) { return equals(a, a.number(b)); }
+inline Expression equals(Expression a, double b) { return equals(a, a.number(b)); }
 inline Expression both(Expression a, Expression b) { return a.binary(Op::logical_and, b); }
 inline Expression either(Expression a, Expression b) { return a.binary(Op::logical_or, b); }
 inline Expression operator!(Expression a) { return a.unary(Op::logical_not); }
 
 /// c[0] + x (c[1] + x (c[2] + …)), from the innermost bracket outwards.
-Expression polynomial(Expression x, std::span<const float> coefficients);
+Expression polynomial(Expression x, std::span<const double> coefficients);
 
-/// A number rounded to the nearest whole one, ties to even: for |x| < 2^22.
+/// A number rounded to the nearest whole one, ties to even: for |x| < 2^22 (2^51).
 struct Rounded {
     Expression number;  ///< As a number.
-    Expression word;    ///< As a word, modulo 2^32.
+    Expression word;    ///< As a word in two's complement.
 };
 Rounded round_to_whole(Expression x);
 
-/// x · 2^n for a whole word n of −254 … 254. Exact, or flushed, or infinite.
+/// x · 2^n for a whole word n of −254 … 254 (−2046 … 2046). Exact, or flushed, or infinite.
 Expression scale(Expression x, Expression n);
 
 /// A positive normal number as m · 2^e with m in [√½, √2).

@@ -11,6 +11,7 @@
 #include "ir/word_operations.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <vector>
 
@@ -35,33 +36,36 @@ struct Place {
 /// An instruction that is computed once a run.
 struct ScalarStep {
     Op op = Op::constant;
-    std::uint32_t payload = 0;
+    std::uint64_t payload = 0;
     std::array<std::uint32_t, 3> operands{};  ///< Scalars.
 };
 
 /// An instruction that is computed once a block, into a register.
+template <typename Number>
 struct BlockStep {
     Op op = Op::constant;
-    std::uint32_t payload = 0;
+    std::uint32_t payload = 0;  ///< A slot.
     std::uint32_t target = 0;
     std::array<Place, 3> operands{};
-    BlockLoop loop = nullptr;  ///< Of operations that are functions of their operands.
+    BlockLoop<Number> loop = nullptr;  ///< Of operations that are functions of their operands.
 };
 
+template <typename Number>
 struct Plan {
     std::vector<ScalarStep> scalar_steps;  ///< Step k computes scalar k.
-    std::vector<BlockStep> block_steps;
+    std::vector<BlockStep<Number>> block_steps;
     std::vector<Place> results;
     std::uint32_t register_count = 0;
 };
 
 /// Gives every value a place.
+template <typename Number>
 class Planner {
 public:
     explicit Planner(const CellKernel& kernel)
         : kernel_(kernel), places_(kernel.code.size()), readers_(kernel.code.size()) {}
 
-    Plan plan() && {
+    Plan<Number> plan() && {
         count_readers();
         for (ValueId id = 0; id < kernel_.code.size(); ++id) place(id);
         for (const ValueId id : kernel_.results) plan_.results.push_back(places_[id]);
@@ -95,9 +99,9 @@ private:
         if (is_scalar(id)) {
             place_scalar(id);
         } else if (kernel_.code[id].op == Op::field) {
-            places_[id] = {Place::Kind::field, kernel_.code[id].payload};
+            places_[id] = {Place::Kind::field, kernel_.code[id].slot()};
         } else if (kernel_.code[id].op == Op::neighbour) {
-            places_[id] = {Place::Kind::beside, kernel_.code[id].payload};
+            places_[id] = {Place::Kind::beside, kernel_.code[id].slot()};
         } else {
             place_vector(id);
         }
@@ -116,15 +120,15 @@ private:
 
     void place_vector(ValueId id) {
         const Instruction& instruction = kernel_.code[id];
-        BlockStep step;
+        BlockStep<Number> step;
         step.op = instruction.op;
-        step.payload = instruction.payload;
+        step.payload = instruction.slot();
         unsigned scalars = 0;
         for (std::size_t k = 0; k < arity(id); ++k) {
             step.operands[k] = places_[instruction.operands[k]];
             if (step.operands[k].kind == Place::Kind::scalar) scalars |= 1u << k;
         }
-        if (is_function_of_operands(step.op)) step.loop = block_loop(step.op, scalars);
+        if (is_function_of_operands(step.op)) step.loop = block_loop<Number>(step.op, scalars);
         // The target is taken before operands are released: a loop's output overlaps no operand.
         step.target = take_register();
         for (std::size_t k = 0; k < arity(id); ++k) release(instruction.operands[k]);
@@ -149,20 +153,21 @@ private:
     std::vector<Place> places_;
     std::vector<std::uint32_t> readers_;  ///< Reads of a value that are still to come.
     std::vector<std::uint32_t> free_;
-    Plan plan_;
+    Plan<Number> plan_;
 };
 
 /// One run of a plan: its arguments, and the memory it works in.
+template <typename Number>
 class Runner {
 public:
-    Runner(const Plan& plan, Stencil stencil, const KernelArguments& arguments)
+    Runner(const Plan<Number>& plan, Stencil stencil, const KernelArgumentsOf<Number>& arguments)
         : plan_(plan),
           stencil_(stencil),
           arguments_(arguments),
           scalars_(plan.scalar_steps.size()),
           registers_(static_cast<std::size_t>(plan.register_count * block_cells)) {
         for (std::size_t k = 0; k < scalars_.size(); ++k) {
-            scalars_[k] = to_number(scalar(plan.scalar_steps[k]));
+            scalars_[k] = number(scalar(plan.scalar_steps[k]));
         }
     }
 
@@ -174,29 +179,32 @@ public:
             for (column_ = 0; column_ < layout.width; column_ += block_cells) {
                 count_ = std::min(block_cells, layout.width - column_);
                 offset_ = layout.row_start(number) + column_;
-                for (const BlockStep& step : plan_.block_steps) compute(step);
+                for (const BlockStep<Number>& step : plan_.block_steps) compute(step);
                 for (std::size_t k = 0; k < plan_.results.size(); ++k) store(k);
             }
         }
     }
 
 private:
-    std::uint32_t scalar(const ScalarStep& step) const {
-        if (step.op == Op::constant) return step.payload;
-        if (step.op == Op::uniform) return to_bits(arguments_.uniforms[step.payload]);
-        const auto word = [&](std::size_t k) { return to_bits(scalars_[step.operands[k]]); };
-        switch (info(step.op).arity) {
-            case 1: return evaluate(step.op, word(0), 0, 0);
-            case 2: return evaluate(step.op, word(0), word(1), 0);
-            default: return evaluate(step.op, word(0), word(1), word(2));
-        }
+    using Word = WordOf<Number>;
+
+    static Number number(Word word) { return std::bit_cast<Number>(word); }
+    static Word bits(Number value) { return std::bit_cast<Word>(value); }
+
+    Word scalar(const ScalarStep& step) const {
+        if (step.op == Op::constant) return static_cast<Word>(step.payload);
+        if (step.op == Op::uniform) return bits(arguments_.uniforms[step.payload]);
+        const auto word = [&](std::size_t k) { return bits(scalars_[step.operands[k]]); };
+        const int arity = info(step.op).arity;
+        return static_cast<Word>(evaluate(step.op, word(0), arity > 1 ? word(1) : 0,
+                                          arity > 2 ? word(2) : 0, precision_of<Number>));
     }
 
-    float* register_of(std::uint32_t index) {
+    Number* register_of(std::uint32_t index) {
         return registers_.data() + static_cast<std::int64_t>(index) * block_cells;
     }
 
-    const float* address(Place place) {
+    const Number* address(Place place) {
         switch (place.kind) {
             case Place::Kind::scalar: return scalars_.data() + place.index;
             case Place::Kind::field: return arguments_.fields[place.index] + offset_;
@@ -207,7 +215,7 @@ private:
         return nullptr;
     }
 
-    const float* beside(Neighbour at) const {
+    const Number* beside(Neighbour at) const {
         std::int64_t offset = offset_;
         if (stencil_.x) offset += at.dx;
         if (stencil_.y) offset += at.dy * arguments_.layout.stride;
@@ -215,8 +223,8 @@ private:
         return arguments_.fields[at.slot] + offset;
     }
 
-    void compute(const BlockStep& step) {
-        float* out = register_of(step.target);
+    void compute(const BlockStep<Number>& step) {
+        Number* out = register_of(step.target);
         if (step.loop) {
             step.loop(out, address(step.operands[0]), address(step.operands[1]),
                       address(step.operands[2]), count_);
@@ -227,33 +235,33 @@ private:
             case Op::mask: mask(out, arguments_.masks[step.payload] + offset_); break;
             case Op::cell_column:
                 for (std::int64_t i = 0; i < count_; ++i) {
-                    out[i] = to_number(static_cast<std::uint32_t>(column_ + i));
+                    out[i] = number(static_cast<Word>(column_ + i));
                 }
                 break;
             case Op::cell_row:
-                std::fill_n(out, count_, to_number(static_cast<std::uint32_t>(row_)));
+                std::fill_n(out, count_, number(static_cast<Word>(row_)));
                 break;
             case Op::cell_slice:
-                std::fill_n(out, count_, to_number(static_cast<std::uint32_t>(slice_)));
+                std::fill_n(out, count_, number(static_cast<Word>(slice_)));
                 break;
             default: CHECK(false, "interpreter: every source has its loop");
         }
     }
 
     // The order of the sums is the specification's: ((((N + S) + E) + W) + U) + D.
-    void laplacian(float* __restrict out, const float* c) const {
+    void laplacian(Number* __restrict out, const Number* c) const {
         const std::int64_t count = count_;
         if (stencil_ == Stencil::plane) {
-            const float* north = c - arguments_.layout.stride;
-            const float* south = c + arguments_.layout.stride;
+            const Number* north = c - arguments_.layout.stride;
+            const Number* south = c + arguments_.layout.stride;
             for (std::int64_t i = 0; i < count; ++i) {
-                out[i] = (((north[i] + south[i]) + c[i + 1]) + c[i - 1]) - 4.0f * c[i];
+                out[i] = (((north[i] + south[i]) + c[i + 1]) + c[i - 1]) - Number{4} * c[i];
             }
             return;
         }
         // Other grids one pair after the other.
         bool is_first = true;
-        const auto add_pair = [&](const float* first, const float* second) {
+        const auto add_pair = [&](const Number* first, const Number* second) {
             for (std::int64_t i = 0; i < count; ++i) {
                 out[i] = is_first ? first[i] + second[i] : (out[i] + first[i]) + second[i];
             }
@@ -263,29 +271,29 @@ private:
         if (stencil_.y) add_pair(c - row, c + row);
         if (stencil_.x) add_pair(c + 1, c - 1);
         if (stencil_.z) add_pair(c - slice, c + slice);
-        const auto neighbours = static_cast<float>(2 * stencil_.axes());
+        const auto neighbours = static_cast<Number>(2 * stencil_.axes());
         for (std::int64_t i = 0; i < count; ++i) out[i] -= neighbours * c[i];
     }
 
-    void mask(float* __restrict out, const std::uint8_t* bytes) const {
-        for (std::int64_t i = 0; i < count_; ++i) out[i] = bytes[i] != 0 ? 1.0f : 0.0f;
+    void mask(Number* __restrict out, const std::uint8_t* bytes) const {
+        for (std::int64_t i = 0; i < count_; ++i) out[i] = bytes[i] != 0 ? Number{1} : Number{0};
     }
 
     void store(std::size_t result) {
         const Place place = plan_.results[result];
-        float* out = arguments_.results[result] + offset_;
+        Number* out = arguments_.results[result] + offset_;
         if (place.kind == Place::Kind::scalar) {
             std::fill_n(out, count_, scalars_[place.index]);
         } else {
-            std::memcpy(out, address(place), static_cast<std::size_t>(count_) * sizeof(float));
+            std::memcpy(out, address(place), static_cast<std::size_t>(count_) * sizeof(Number));
         }
     }
 
-    const Plan& plan_;
+    const Plan<Number>& plan_;
     Stencil stencil_;
-    const KernelArguments& arguments_;
-    std::vector<float> scalars_;
-    std::vector<float> registers_;
+    const KernelArgumentsOf<Number>& arguments_;
+    std::vector<Number> scalars_;
+    std::vector<Number> registers_;
     std::int64_t row_ = 0;     ///< In its slice.
     std::int64_t slice_ = 0;
     std::int64_t column_ = 0;  ///< Of the block's first cell.
@@ -293,25 +301,27 @@ private:
     std::int64_t offset_ = 0;  ///< Of the block's first cell from cell (0, 0, 0), in elements.
 };
 
+template <typename Number>
 class InterpretedKernel : public Kernel {
 public:
     InterpretedKernel(const CellKernel& kernel, Stencil stencil)
-        : plan_(Planner(kernel).plan()),
+        : plan_(Planner<Number>(kernel).plan()),
           stencil_(stencil),
           field_count_(kernel.field_names.size()),
           mask_count_(kernel.mask_names.size()),
           uniform_count_(kernel.uniform_names.size()) {}
 
-    void run(const KernelArguments& arguments, RowRange rows) const override {
+    using Kernel::run;
+    void run(const KernelArgumentsOf<Number>& arguments, RowRange rows) const override {
         CHECK(arguments.fields.size() == field_count_ && arguments.masks.size() == mask_count_ &&
                   arguments.uniforms.size() == uniform_count_ &&
                   arguments.results.size() == plan_.results.size(),
               "interpreter: a kernel gets an argument for every slot and result");
-        Runner(plan_, stencil_, arguments).run(rows);
+        Runner<Number>(plan_, stencil_, arguments).run(rows);
     }
 
 private:
-    Plan plan_;
+    Plan<Number> plan_;
     Stencil stencil_;
     std::size_t field_count_, mask_count_, uniform_count_;
 };
@@ -322,7 +332,9 @@ public:
     std::string_view name() const override { return "interp"; }
 
     Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) override {
-        return std::make_shared<const InterpretedKernel>(kernel, stencil);
+        return with_number(kernel.precision, [&](auto zero) -> KernelPointer {
+            return std::make_shared<const InterpretedKernel<decltype(zero)>>(kernel, stencil);
+        });
     }
 };
 

@@ -10,30 +10,49 @@
 namespace cascade {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// (atan(t)/t − 1) / t² in t², for |t| ≤ tan(π/8); error 2^−30 of the angle.
-constexpr float atan_coefficients[] = {-0x1.55554cp-2f, 0x1.99929cp-3f, -0x1.23c4f2p-3f,
-                                       0x1.b2b4cep-4f, -0x1.f57118p-5f};
-constexpr float tan_of_eighth = 0x1.a8279ap-2f;  // tan(π/8)
+// (atan(t)/t − 1) / t² in t², for |t| ≤ tan(π/8); error 2^−30 (2^−63) of the angle.
+constexpr double atan_single[] = {-0x1.55554cp-2, 0x1.99929cp-3, -0x1.23c4f2p-3, 0x1.b2b4cep-4,
+                                  -0x1.f57118p-5};
+constexpr double atan_double[] = {
+    -0x1.5555555555554p-2, 0x1.9999999999592p-3, -0x1.24924924702e5p-3, 0x1.c71c71b4e9fe7p-4,
+    -0x1.745d14698bbb9p-4, 0x1.3b13678703244p-4, -0x1.110c1637b75ecp-4, 0x1.e16b4d2113a6cp-5,
+    -0x1.ab54999750efdp-5, 0x1.704f1b853c3ebp-5, -0x1.10d8ab095b952p-5, 0x1.ec95e53aab699p-7};
+constexpr ByPrecision<std::span<const double>> atan_coefficients = {atan_single, atan_double};
+constexpr ByPrecision<double> tan_of_eighth = {0x1.a8279ap-2, 0x1.a827999fcef32p-2};  // tan(π/8)
 
-// (asin(s)/s − 1) / s² in s², for |s| ≤ ½; error 2^−31 of the angle.
-constexpr float asin_coefficients[] = {0x1.555550p-3f, 0x1.333734p-4f, 0x1.6cd7c4p-5f,
-                                       0x1.0367ccp-5f, 0x1.e8e968p-7f, 0x1.2e435cp-5f};
+// (asin(s)/s − 1) / s² in s², for |s| ≤ ½; error 2^−31 (A2^−63) of the angle.
+constexpr double asin_single[] = {0x1.555550p-3, 0x1.333734p-4, 0x1.6cd7c4p-5,
+                                  0x1.0367ccp-5, 0x1.e8e968p-7, 0x1.2e435cp-5};
+constexpr double asin_double[] = {
+    0x1.5555555555553p-3, 0x1.33333333339e8p-4, 0x1.6db6db6d4c57cp-5, 0x1.f1c71ca6dd014p-6,
+    0x1.6e8b9b19ee83ap-6, 0x1.1c4f826d9a856p-6, 0x1.c98131facbd0ep-7, 0x1.7ba13d27acb3p-7,
+    0x1.36d6aa7c4b231p-7, 0x1.47ad5a5225e72p-7, 0x1.764876ce9350dp-11, 0x1.95a8b0d68748ap-6,
+    -0x1.ab1153c532dfap-6, 0x1.133ac6097cf2fp-5};
+constexpr ByPrecision<std::span<const double>> asin_coefficients = {asin_single, asin_double};
+
+/// Points farther away, or nearer than its inverse, are moved before their coordinates are added.
+constexpr ByPrecision<double> far_away = {0x1p64, 0x1p512};
 
 /// A multiple of π/4 as a number and what it lacks.
 struct Angle {
-    float head;
-    float tail;
+    double head;
+    double tail;
 };
-constexpr Angle none = {0.0f, 0.0f};
-constexpr Angle eighth = {0x1.921fb6p-1f, -0x1.777a5cp-26f};         // π/4
-constexpr Angle quarter = {0x1.921fb6p+0f, -0x1.777a5cp-25f};        // π/2
-constexpr Angle three_eighths = {0x1.2d97c8p+1f, -0x1.99bc5cp-28f};  // 3π/4
-constexpr Angle half = {0x1.921fb6p+1f, -0x1.777a5cp-24f};           // π
-
-Expression sign_of_word(Expression x) { return x.and_word(0x80000000); }
+/// π/4, π/2, 3π/4 and π.
+struct Angles {
+    Angle eighth, quarter, three_eighths, half;
+};
+constexpr ByPrecision<Angles> eighths = {{{{0x1.921fb6p-1, -0x1.777a5cp-26},
+                                           {0x1.921fb6p+0, -0x1.777a5cp-25},
+                                           {0x1.2d97c8p+1, -0x1.99bc5cp-28},
+                                           {0x1.921fb6p+1, -0x1.777a5cp-24}},
+                                          {{0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55},
+                                           {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54},
+                                           {0x1.2d97c7f3321d2p+1, 0x1.a79394c9e8a0ap-54},
+                                           {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53}}}};
 
 /// The angle of a point in the upper half plane, folded twice: at the diagonal and at tan(π/8).
 Expression upper_angle(Expression y, Expression x) {
@@ -42,27 +61,29 @@ Expression upper_angle(Expression y, Expression x) {
     const Expression longer = steep.choose(y, width);
     const Expression shorter = steep.choose(width, y);
     // So that neither the sum of the two overflows nor their difference vanishes.
-    const Expression factor = (0x1p64f < longer)
-                                  .choose(0x1p-64f, (longer < 0x1p-64f).choose(
-                                                        0x1p64f, x.number(1.0f)));
+    const double reach = x.pick(far_away);
+    const Expression factor = (reach < longer).choose(
+        1 / reach, (longer < 1 / reach).choose(reach, x.number(1)));
     const Expression diagonal = equals(shorter, infinity);
-    const Expression p = diagonal.choose(1.0f, shorter * factor);
-    const Expression q = either(diagonal, equals(longer, 0.0f)).choose(1.0f, longer * factor);
-    const Expression folded = q * tan_of_eighth < p;
+    const Expression p = diagonal.choose(1, shorter * factor);
+    const Expression q = either(diagonal, equals(longer, 0)).choose(1, longer * factor);
+    const Expression folded = q * x.pick(tan_of_eighth) < p;
     const Expression t = folded.choose(p - q, p) / folded.choose(p + q, q);
     const Expression z = t * t;
-    const Expression small = t + t * (z * polynomial(z, atan_coefficients));
+    const Expression small = t + t * (z * polynomial(z, x.pick(atan_coefficients)));
 
-    const Expression backwards = x.shifted_right(31).to_number();
-    const auto taken_off = [&](float Angle::*part) {
+    const Expression backwards = x.shifted_right(x.format().bits - 1).to_number();
+    const Angles& angles = x.pick(eighths);
+    const auto taken_off = [&](double Angle::*part) {
+        const double at_quarter = angles.quarter.*part;
         const Expression forward =
-            folded.choose(eighth.*part, steep.choose(quarter.*part, x.number(none.*part)));
-        const Expression behind =
-            folded.choose(three_eighths.*part, steep.choose(quarter.*part, x.number(half.*part)));
+            folded.choose(angles.eighth.*part, steep.choose(at_quarter, x.number(0)));
+        const Expression behind = folded.choose(
+            angles.three_eighths.*part, steep.choose(at_quarter, x.number(angles.half.*part)));
         return backwards.choose(behind, forward);
     };
-    const Expression turned = steep.choose(x.word(0x80000000), x.word(0));
-    const Expression sign = turned.binary(Op::bits_xor, sign_of_word(x));
+    const Expression turned = steep.choose(x.word(x.format().sign()), x.word(0));
+    const Expression sign = turned.binary(Op::bits_xor, x.sign_word());
     const Expression rest = small.binary(Op::bits_xor, sign);
     return taken_off(&Angle::head) + (rest + taken_off(&Angle::tail));
 }
@@ -75,15 +96,15 @@ struct Arc {
 };
 
 Arc arc_of(Expression a) {
-    const Expression near = a.binary(Op::less_equal, a.number(0.5f));
-    const Expression z = near.choose(a * a, (1.0f - a) * 0.5f);
+    const Expression near = a.binary(Op::less_equal, a.number(0.5));
+    const Expression z = near.choose(a * a, (1 - a) * 0.5);
     const Expression s = near.choose(a, z.unary(Op::square_root));
-    const Expression curved = s * (z * polynomial(z, asin_coefficients));
-    // What the square root lacks: z − h² is exact for a head h of 12 bits.
+    const Expression curved = s * (z * polynomial(z, a.pick(asin_coefficients)));
+    // What the square root lacks: z − h² is exact for a head h of 12 bits (26).
     const Expression h = near.choose(s, s.head());
     const Expression lacking = (z - h * h) / (s + h);
-    const Expression has_rest = both(!near, 0.0f < s);
-    return {near, h, has_rest.choose(lacking, a.number(0.0f)) + curved};
+    const Expression has_rest = both(!near, 0 < s);
+    return {near, h, has_rest.choose(lacking, a.number(0)) + curved};
 }
 
 }  // namespace
@@ -91,7 +112,7 @@ Arc arc_of(Expression a) {
 ValueId KernelBuilder::arc_tangent(ValueId first, ValueId second) {
     const Expression y(*this, first);
     const Expression x(*this, second);
-    const Expression angle = upper_angle(y.absolute(), x).binary(Op::bits_or, sign_of_word(y));
+    const Expression angle = upper_angle(y.absolute(), x).with_sign_of(y);
     return both(equals(y, y), equals(x, x)).choose(angle, x.number(nan)).id();
 }
 
@@ -99,20 +120,22 @@ ValueId KernelBuilder::arc_sine(ValueId argument) {
     const Expression x(*this, argument);
     const auto [near, head, tail] = arc_of(x.absolute());
     // π/2 − 2 (head + tail)
-    const Expression far = (quarter.head - head * 2.0f) - (tail * 2.0f - quarter.tail);
-    return near.choose(head + tail, far).binary(Op::bits_or, sign_of_word(x)).id();
+    const Angle& quarter = x.pick(eighths).quarter;
+    const Expression far = (quarter.head - head * 2) - (tail * 2 - quarter.tail);
+    return near.choose(head + tail, far).with_sign_of(x).id();
 }
 
 ValueId KernelBuilder::arc_cosine(ValueId argument) {
     const Expression x(*this, argument);
     const auto [near, head, tail] = arc_of(x.absolute());
-    const Expression sign = sign_of_word(x);
+    const auto& [eighth, quarter, three_eighths, half] = x.pick(eighths);
+    const Expression sign = x.sign_word();
     const Expression signed_head = head.binary(Op::bits_xor, sign);
     const Expression signed_tail = tail.binary(Op::bits_xor, sign);
     const Expression middle = quarter.head - (signed_head + (signed_tail - quarter.tail));
-    const Expression right = (head + tail) * 2.0f;
-    const Expression left = half.head - (head * 2.0f + (tail * 2.0f - half.tail));
-    const Expression side = (x < 0.0f).choose(left, right);
+    const Expression right = (head + tail) * 2;
+    const Expression left = half.head - (head * 2 + (tail * 2 - half.tail));
+    const Expression side = (x < 0).choose(left, right);
     return near.choose(middle, side).id();
 }
 

@@ -3,11 +3,12 @@
 #include "core/hash.h"
 
 #include <array>
+#include <cmath>
 
 namespace cascade {
 namespace {
 
-constexpr float most_cells = 0x1p20f;
+constexpr double most_cells = 0x1p20;
 constexpr std::array<std::uint32_t, 3> axis_factor = {0x9e3779b1, 0x85ebca6b, 0xc2b2ae35};
 constexpr std::uint32_t draw_factor = 0x27d4eb2f;
 
@@ -18,19 +19,19 @@ LatticeAxis lattice_axis(KernelBuilder& builder, const SpaceAxis& axis, Expressi
     const Expression wanted = axis.length / side;
     const Expression count =
         axis.is_periodic
-            ? Expression(builder, builder.round_to_even(wanted.id())).clamped(1.0f, most_cells)
-            : wanted.clamped(0.0f, most_cells);
+            ? Expression(builder, builder.round_to_even(wanted.id())).clamped(1, most_cells)
+            : wanted.clamped(0, most_cells);
     const Expression fitting = axis.is_periodic ? axis.length / count : side;
     return {fitting, count, coordinate * (count / count.number(axis.length)), axis.is_periodic};
 }
 
 Expression lattice_floor(Expression position) {
-    return round_to_whole(position - 0.5f).number;
+    return round_to_whole(position - 0.5).number;
 }
 
 Expression lattice_word(const LatticeAxis& axis, Expression index) {
     if (!axis.is_periodic) return round_to_whole(index).word;
-    const Expression before = (index < 0.0f).choose(index + axis.count, index);
+    const Expression before = (index < 0).choose(index + axis.count, index);
     const Expression inside = (before < axis.count).choose(before, before - axis.count);
     return round_to_whole(inside).word;
 }
@@ -50,18 +51,22 @@ Expression LatticeHash::part(std::size_t axis, Expression word) const {
 }
 
 Expression LatticeHash::mixed(Expression h) const {
+    h = h.low_word();
     h = h.binary(Op::bits_xor, h.shifted_right(16));
-    h = h.binary(Op::bits_multiply, h.word(0x7feb352d));
+    h = h.binary(Op::bits_multiply, h.word(0x7feb352d)).low_word();
     h = h.binary(Op::bits_xor, h.word(second_key_));
     h = h.binary(Op::bits_xor, h.shifted_right(15));
-    h = h.binary(Op::bits_multiply, h.word(0x846ca68b));
+    h = h.binary(Op::bits_multiply, h.word(0x846ca68b)).low_word();
     return h.binary(Op::bits_xor, h.shifted_right(16));
 }
 
 Expression signed_fraction(Expression word, std::size_t which) {
     if (which == 1) word = word.shifted_left(16);
     if (which == 2) word = word.binary(Op::bits_multiply, word.word(0x2545f491));
-    return word.to_number() * 0x1p-31f;
+    // The upper bits of a word are read as a signed number.
+    const int bits = word.format().bits;
+    if (bits > 32) word = word.shifted_left(bits - 32);
+    return word.to_number() * std::ldexp(1.0, 1 - bits);
 }
 
 }  // namespace cascade

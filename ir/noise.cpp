@@ -19,7 +19,7 @@ struct Pair {
 
 /// 6 t^5 − 15 t^4 + 10 t³.
 Expression fade(Expression t) {
-    return ((t * t) * t) * (t * (t * 6.0f - 15.0f) + 10.0f);
+    return ((t * t) * t) * (t * (t * 6 - 15) + 10);
 }
 
 Pair pair_along(const LatticeHash& hash, std::size_t axis, const LatticeAxis& lattice) {
@@ -27,8 +27,8 @@ Pair pair_along(const LatticeHash& hash, std::size_t axis, const LatticeAxis& la
     const Expression t = lattice.position - first;
     return {axis,
             {hash.part(axis, lattice_word(lattice, first)),
-             hash.part(axis, lattice_word(lattice, first + 1.0f))},
-            {t, t - 1.0f},
+             hash.part(axis, lattice_word(lattice, first + 1))},
+            {t, t - 1},
             fade(t)};
 }
 
@@ -68,7 +68,7 @@ Expression octave(KernelBuilder& builder, const Space& space, Expression side, c
         values.resize(values.size() / 2, side);
     }
     // Blended planes reach half the number of axes where all gradients point to the middle.
-    return values[0] * (2.0f / static_cast<float>(pairs.size()));
+    return values[0] * (2.0 / static_cast<double>(pairs.size()));
 }
 
 }  // namespace
@@ -78,14 +78,14 @@ ValueId smooth_noise(KernelBuilder& builder, const Space& space, ValueId scale, 
     CHECK(octaves >= 1 && octaves <= most_octaves, "noise: the checker has counted the octaves");
     const Expression side(builder, scale);
     Expression sum = octave(builder, space, side, draw, 0);
-    float weight = 1;
-    float weights = 1;
+    double weight = 1;
+    double weights = 1;
     for (int number = 1; number < octaves; ++number) {
-        weight *= 0.5f;
+        weight *= 0.5;
         weights += weight;
         sum = sum + octave(builder, space, side * weight, draw, number) * weight;
     }
-    return octaves == 1 ? sum.id() : (sum * (1.0f / weights)).id();
+    return octaves == 1 ? sum.id() : (sum * (1 / weights)).id();
 }
 
 }  // namespace cascade

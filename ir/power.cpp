@@ -1,8 +1,9 @@
 // x^y, expanded into operations of the table.
 //
 // Whole constant exponents up to 64 multiply. Others are 2^(y · log2|x|), where the logarithm is
-// carried as a head and a tail of together some 36 bits: the product may be as large as 128, and
-// its error is the relative error of the result. Products of heads of 12 bits are exact (G. W.
+// carried as a head and a tail of together some 36 bits (in binary64 66): the product may be as large
+// as 128 (1024), and its error is the relative error of the result. Products of heads of 12 bits (26)
+// are exact (G. W.
 // Veltkamp and T. J. Dekker, Numerische Mathematik 18, 1971), so that no fused operation is needed.
 //
 // Special cases are those of C's pow(): 1 for y = 0 or x = 1, even if the other is NaN; NaN for a
@@ -16,30 +17,44 @@
 namespace cascade {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float largest_multiplied = 64.0f;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double largest_multiplied = 64;
 
-// Beyond this the result is infinite or 0 for every x but 1: |log2 x| is at least 2^−25.
-constexpr float large_exponent = 0x1p40f;
-// 2^200 is infinite and 2^−200 is 0.
-constexpr float large_logarithm = 200.0f;
+// Beyond this the result is infinite or 0 for every x but 1: |log2 x| is at least 2^−25 (2^−53).
+constexpr ByPrecision<double> large_exponent = {0x1p40, 0x1p70};
+// 2 to this is infinite, and 0 to minus this.
+constexpr ByPrecision<double> large_logarithm = {200, 1200};
 
-// 2 / (3 ln 2): to 24 bits, and as a head of 11 bits and a tail.
-constexpr float log2_factor = 0x1.ec709ep-1f;
-constexpr float log2_factor_head = 0x1.ec8p-1f;
-constexpr float log2_factor_tail = -0x1.ec478cp-14f;
+/// 2 / (3 ln 2): rounded, and as a head of 11 bits (26) and a tail.
+struct Factor {
+    double rounded;
+    double head;
+    double tail;
+};
+constexpr ByPrecision<Factor> log2_factor = {
+    {{0x1.ec709ep-1, 0x1.ec8p-1, -0x1.ec478cp-14},
+     {0x1.ec709dc3a03fdp-1, 0x1.ec709ep-1, -0x1.e2fe0145b01f5p-28}}};
 
-// (3 artanh(s)/s − 3 − s²) / s⁴ in s², for |s| ≤ 0.172; error 2^−44 of the logarithm.
-constexpr float log2_coefficients[] = {0x1.333334p-1f, 0x1.b6d9e6p-2f, 0x1.55d65cp-2f,
-                                       0x1.056c74p-2f, 0x1.d51992p-2f};
+// (3 artanh(s)/s − 3 − s²) / s⁴ in s², for |s| ≤ 0.172; error 2^−44 (2^−77) of the logarithm.
+constexpr double log2_single[] = {0x1.333334p-1, 0x1.b6d9e6p-2, 0x1.55d65cp-2, 0x1.056c74p-2,
+                                  0x1.d51992p-2};
+constexpr double log2_double[] = {
+    0x1.3333333333333p-1, 0x1.b6db6db6db7f4p-2, 0x1.5555555542fafp-2, 0x1.1745d17e2a1c1p-2,
+    0x1.d89d83f9a2a6cp-3, 0x1.999a96838034p-3, 0x1.69548ac328237p-3, 0x1.4390f257aea23p-3,
+    0x1.3ab87b29f334dp-3};
+constexpr ByPrecision<std::span<const double>> log2_coefficients = {log2_single, log2_double};
 
-// (2^f − 1) / f for |f| ≤ 0.51; error 2^−32 of 2^f.
-constexpr float exp2_coefficients[] = {0x1.62e430p-1f, 0x1.ebfbe0p-3f,  0x1.c6b070p-5f,
-                                       0x1.3b2a54p-7f, 0x1.5da228p-10f, 0x1.4419cap-13f,
-                                       0x1.e5b8e2p-17f};
+// (2^f − 1) / f for |f| ≤ 0.51; error 2^−32 (2^−59) of 2^f.
+constexpr double exp2_single[] = {0x1.62e430p-1,  0x1.ebfbe0p-3,  0x1.c6b070p-5, 0x1.3b2a54p-7,
+                                  0x1.5da228p-10, 0x1.4419cap-13, 0x1.e5b8e2p-17};
+constexpr double exp2_double[] = {
+    0x1.62e42fefa39efp-1, 0x1.ebfbdff82c58ep-3, 0x1.c6b08d704a1d1p-5, 0x1.3b2ab6fba518cp-7,
+    0x1.5d87fe78754f8p-10, 0x1.430912f7619ebp-13, 0x1.ffcbfd429af0dp-17, 0x1.62c026e86747p-20,
+    0x1.b5234335b9904p-24, 0x1.e4bcc117d7c51p-28, 0x1.ec533db49a12bp-32, 0x1.def3528c7368ap-36};
+constexpr ByPrecision<std::span<const double>> exp2_coefficients = {exp2_single, exp2_double};
 
-/// The sum of a head of 12 bits and a tail.
+/// The sum of a head of 12 bits (26) and a tail.
 struct Split {
     Expression head;
     Expression tail;
@@ -52,12 +67,12 @@ struct Quotient {
 };
 
 Quotient quotient_of(Expression m) {
-    const Expression f = m - 1.0f;  // Exact.
-    const Expression d = m + 1.0f;
-    const Expression inverse = 1.0f / d;
+    const Expression f = m - 1;  // Exact.
+    const Expression d = m + 1;
+    const Expression inverse = 1 / d;
     const Expression s = f * inverse;
     const Expression d_head = d.head();
-    const Expression d_tail = m - (d_head - 1.0f);  // Of the exact m + 1.
+    const Expression d_tail = m - (d_head - 1);  // Of the exact m + 1.
     const Expression s_head = s.head();
     const Expression rest = (f - s_head * d_head) - s_head * d_tail;
     return {s, {s_head, rest * inverse}};
@@ -70,31 +85,32 @@ Split logarithm_to_base_2(Expression x) {
     const Expression z = s * s;
     const Expression square = parts.head * parts.head;  // Exact.
     const Expression small =
-        (z * z) * polynomial(z, log2_coefficients) + parts.tail * (parts.head + s);
-    const Expression series_head = ((square + 3.0f) + small).head();
-    const Expression series_tail = small - ((series_head - 3.0f) - square);
+        (z * z) * polynomial(z, z.pick(log2_coefficients)) + parts.tail * (parts.head + s);
+    const Expression series_head = ((square + 3) + small).head();
+    const Expression series_tail = small - ((series_head - 3) - square);
 
     const Expression product = parts.head * series_head;  // Exact.
     const Expression rest = parts.tail * series_head + series_tail * s;
     const Expression p_head = (product + rest).head();
     const Expression p_tail = rest - (p_head - product);
 
-    const Expression large = p_head * log2_factor_head;  // Exact.
-    const Expression little = p_head * log2_factor_tail + p_tail * log2_factor;
+    const Factor& factor = x.pick(log2_factor);
+    const Expression large = p_head * factor.head;  // Exact.
+    const Expression little = p_head * factor.tail + p_tail * factor.rounded;
     const Expression head = ((large + little) + e).head();
     return {head, little - ((head - e) - large)};
 }
 
-/// 2^(p + q), where q is small beside p or beside 1 and |p| ≤ 200.
+/// 2^(p + q), where q is small beside p or beside 1 and |p| is not above the largest logarithm.
 Expression exponential_to_base_2(Expression p, Expression q) {
     const Rounded n = round_to_whole(p + q);
     const Expression f = (p - n.number) + q;
-    return scale(f * polynomial(f, exp2_coefficients) + 1.0f, n.word);
+    return scale(f * polynomial(f, f.pick(exp2_coefficients)) + 1, n.word);
 }
 
 /// |x|^y, for any words.
 Expression power_of_magnitude(Expression a, Expression exponent) {
-    const Expression y = exponent.clamped(-large_exponent, large_exponent);
+    const Expression y = exponent.clamped(-a.pick(large_exponent), a.pick(large_exponent));
     const Split logarithm = logarithm_to_base_2(a);
     const Expression y_head = y.head();
     const Expression y_tail = y - y_head;
@@ -102,12 +118,13 @@ Expression power_of_magnitude(Expression a, Expression exponent) {
     const Expression little = y_tail * logarithm.head + y * logarithm.tail;
     // Zero, infinity and NaN have no significand to take the logarithm of; and the head of a NaN
     // may be the word of an infinity.
-    const Expression is_ordinary = both(both(0.0f < a, a < infinity), equals(y, y));
-    const Expression extreme = y * equals(a, 0.0f).choose(-infinity, a);
+    const Expression is_ordinary = both(both(0 < a, a < infinity), equals(y, y));
+    const Expression extreme = y * equals(a, 0).choose(-infinity, a);
     const Expression p = is_ordinary.choose(large, extreme);
-    const Expression has_tail = p.absolute() < large_logarithm;
-    const Expression q = has_tail.choose(little, a.number(0.0f));
-    return exponential_to_base_2(p.clamped(-large_logarithm, large_logarithm), q);
+    const double largest = a.pick(large_logarithm);
+    const Expression has_tail = p.absolute() < largest;
+    const Expression q = has_tail.choose(little, a.number(0));
+    return exponential_to_base_2(p.clamped(-largest, largest), q);
 }
 
 struct Parity {
@@ -117,19 +134,22 @@ struct Parity {
 
 Parity parity_of(Expression y) {
     // 2^23 + a has no digits behind the point for a < 2^23, and its last bit is that of a. From
-    // 2^23 to 2^24 the last bit of a itself is worth 1; beyond, all numbers are even.
+    // 2^23 to 2^24 the last bit of a itself is worth 1; beyond, all numbers are even. In binary64
+    // these are 2^52 and 2^53.
+    const double all_whole = std::ldexp(1.0, y.format().fraction_bits);
+    const double all_even = 2 * all_whole;
     const Expression a = y.absolute();
-    const Expression is_small = a < 0x1p23f;
-    const Expression sum = is_small.choose(a + 0x1p23f, a);
-    const Expression is_whole = either(equals(sum - 0x1p23f, a), !is_small);
-    const Expression odd_bit = (a < 0x1p24f).choose(sum.and_word(1), a.word(0));
-    return {is_whole, both(is_whole, a < 0x1p24f).choose(odd_bit, a.word(0))};
+    const Expression is_small = a < all_whole;
+    const Expression sum = is_small.choose(a + all_whole, a);
+    const Expression is_whole = either(equals(sum - all_whole, a), !is_small);
+    const Expression odd_bit = (a < all_even).choose(sum.and_word(1), a.word(0));
+    return {is_whole, both(is_whole, a < all_even).choose(odd_bit, a.word(0))};
 }
 
 /// The whole constant of at most 64 in magnitude that `y` is, if it is one.
 std::optional<int> small_whole(const KernelBuilder& builder, ValueId y) {
     if (!builder.is_constant(y)) return std::nullopt;
-    const float value = to_number(builder[y].payload);
+    const double value = builder.constant(y);
     if (!(std::fabs(value) <= largest_multiplied) || std::trunc(value) != value) {
         return std::nullopt;
     }
@@ -153,19 +173,19 @@ Expression repeated_product(Expression x, unsigned n) {
 ValueId KernelBuilder::power(ValueId base, ValueId exponent) {
     const Expression x(*this, base);
     if (const std::optional<int> n = small_whole(*this, exponent)) {
-        if (*n == 0) return number(1.0f);
+        if (*n == 0) return number(1);
         const Expression product = repeated_product(x, static_cast<unsigned>(std::abs(*n)));
-        return (*n > 0 ? product : 1.0f / product).id();
+        return (*n > 0 ? product : 1 / product).id();
     }
     const Expression y(*this, exponent);
     const Expression magnitude = power_of_magnitude(x.absolute(), y);
     const Parity parity = parity_of(y);
-    const Expression odd_sign = parity.odd_bit.shifted_left(31);
+    const Expression odd_sign = parity.odd_bit.shifted_left(x.format().bits - 1);
     const Expression sign = odd_sign.binary(Op::bits_and, x);
-    const Expression is_negative = both(x < 0.0f, -infinity < x);
+    const Expression is_negative = both(x < 0, -infinity < x);
     const Expression is_undefined = both(is_negative, !parity.is_whole);
     const Expression real = is_undefined.choose(nan, magnitude.binary(Op::bits_xor, sign));
-    return either(equals(y, 0.0f), equals(x, 1.0f)).choose(1.0f, real).id();
+    return either(equals(y, 0), equals(x, 1)).choose(1, real).id();
 }
 
 }  // namespace cascade

@@ -1,7 +1,9 @@
-// Random numbers: the hash pcg4d (core/hash.h) of cell, draw and key, expanded into operations.
+// Random numbers: the hash pcg4d (core/hash.h) of cell, draw and key, expanded into operations. Its
+// words have 32 bits in both formats, so that both draw the same numbers, of more digits in binary64.
 #include "ir/expression.h"
 
 #include <array>
+#include <cmath>
 
 namespace cascade {
 namespace {
@@ -34,11 +36,14 @@ Hash hash_of(Words words) {
         word = product(word, word.word(1664525)).plus_word(1013904223);
     }
     mix(words);
-    for (Expression& word : words) word = word.binary(Op::bits_xor, word.shifted_right(16));
+    for (Expression& word : words) {
+        const Expression low = word.low_word();
+        word = low.binary(Op::bits_xor, low.shifted_right(16));
+    }
     // Of the second mixing only what these two words need is emitted: the rest is never read.
     const auto [x, y, z, w] = words;
     const Expression first = sum(x, product(y, w));
-    return {first, sum(y, product(z, first))};
+    return {first.low_word(), sum(y, product(z, first)).low_word()};
 }
 
 /// The hash of the cell.
@@ -54,11 +59,28 @@ Hash hash_of_cell(KernelBuilder& builder, ValueId draw, std::uint64_t key) {
 }  // namespace
 
 ValueId KernelBuilder::random_symmetric(ValueId draw, std::uint64_t key) {
-    const Expression hash = hash_of_cell(*this, draw, key).first;
-    // With k the upper 23 bits: (k + ½) · 2^−22 − 1 is (2k + 1 − 2^23) · 2^−23, and so without a
+    const auto [first, second] = hash_of_cell(*this, draw, key);
+    // With k the upper 23 (52) bits: (k + ½) · 2^−22 − 1 is (2k + 1 − 2^23) · 2^−23, and so without a
     // rounding.
-    const Expression odd = hash.shifted_right(9).shifted_left(1).plus_word(1);
-    return (odd.plus_word(-0x800000u).to_number() * 0x1p-23f).id();
+    const int digits = format().fraction_bits;
+    const Expression k = digits < 32 ? first.shifted_right(32 - digits)
+                                     : first.shifted_left(digits - 32)
+                                           .binary(Op::bits_or, second.shifted_right(64 - digits));
+    const Expression odd = k.shifted_left(1).plus_word(1);
+    const Expression centred = odd.plus_word(-(std::uint64_t{1} << digits));
+    return (centred.to_number() * std::ldexp(1.0, -digits)).id();
+}
+
+/// The number rounded to binary32, as its bits; those that rounding would lose are mixed in.
+ValueId KernelBuilder::draw_word(ValueId number) {
+    if (precision() == Precision::single) return number;
+    constexpr int lost = 52 - 23;
+    constexpr std::uint64_t moved_bias = std::uint64_t{1023 - 127} << 52;
+    const Expression n(*this, number);
+    const Expression bits = n.plus_word(-moved_bias).shifted_right(lost);
+    const Expression rest = n.and_word((std::uint64_t{1} << lost) - 1);
+    const Expression zero = n.word(0);
+    return equals(n, 0).choose(zero, bits.binary(Op::bits_xor, rest).low_word()).id();
 }
 
 /// √(−2 ln a) cos(2π b) of two uniform numbers a and b (G. E. P. Box, M. E. Muller, "A note on the
@@ -66,9 +88,13 @@ ValueId KernelBuilder::random_symmetric(ValueId draw, std::uint64_t key) {
 /// so that large numbers are as rare as they are to be.
 ValueId KernelBuilder::random_normal(ValueId draw, std::uint64_t key) {
     const auto [first, second] = hash_of_cell(*this, draw, key);
-    const Expression a = (first.shifted_right(1).to_number() + 0.5f) * 0x1p-31f;
-    const Expression angle = second.to_number() * 0x1.921fb6p-30f;  // 2π · 2^−32
-    const Expression minus_twice = Expression(*this, logarithm(a.id())) * -2.0f;
+    constexpr ByPrecision<double> two_pi = {0x1.921fb6p+2, 0x1.921fb54442d18p+2};
+    const Expression a = (first.shifted_right(1).to_number() + 0.5) * 0x1p-31;
+    // The upper bits of a word are read as a signed number.
+    const int bits = format().bits;
+    const Expression signed_word = bits == 32 ? second : second.shifted_left(bits - 32);
+    const Expression angle = signed_word.to_number() * std::ldexp(a.pick(two_pi), -bits);
+    const Expression minus_twice = Expression(*this, logarithm(a.id())) * -2;
     const Expression distance = minus_twice.unary(Op::square_root);
     return (distance * Expression(*this, cosine(angle.id()))).id();
 }

@@ -32,8 +32,8 @@ double fold_pairs(ReductionKind kind, std::span<double> values) {
     return values[0];
 }
 
-template <typename Take>
-void take_row(std::span<double, partial_results> partial, const float* cells, std::int64_t count,
+template <typename Number, typename Take>
+void take_row(std::span<double, partial_results> partial, const Number* cells, std::int64_t count,
               const Take& take) {
     const auto width = static_cast<std::int64_t>(partial_results);
     std::int64_t i = width;
@@ -49,7 +49,8 @@ void take_row(std::span<double, partial_results> partial, const float* cells, st
 
 }  // namespace
 
-double reduce_row(ReductionKind kind, const float* cells, std::int64_t count) {
+template <typename Number>
+double reduce_row(ReductionKind kind, const Number* cells, std::int64_t count) {
     std::array<double, partial_results> partial{};
     const auto start = static_cast<std::size_t>(
         count < static_cast<std::int64_t>(partial_results)
@@ -65,9 +66,12 @@ double reduce_row(ReductionKind kind, const float* cells, std::int64_t count) {
     return fold_pairs(kind, std::span(partial).first(start));
 }
 
-float reduce_rows(ReductionKind kind, std::span<double> rows, std::int64_t cells) {
+template double reduce_row<float>(ReductionKind, const float*, std::int64_t);
+template double reduce_row<double>(ReductionKind, const double*, std::int64_t);
+
+double reduce_rows(ReductionKind kind, std::span<double> rows, std::int64_t cells) {
     const double all = fold_pairs(kind, rows);
-    return static_cast<float>(kind == ReductionKind::mean ? all / static_cast<double>(cells) : all);
+    return kind == ReductionKind::mean ? all / static_cast<double>(cells) : all;
 }
 
 }  // namespace cascade

@@ -2,8 +2,7 @@
 //
 // Each row is reduced to one number in a fixed order, then rows are taken together in pairs, pairs
 // in pairs, and so on: the tree depends on the grid alone, so the result is the same bits with any
-// number of threads and any width of vectors. Sums are in binary64; the result is rounded to
-// binary32 at the end.
+// number of threads and any width of vectors. Sums are in binary64; who asks rounds the result.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +13,11 @@ namespace cascade {
 enum class ReductionKind : std::uint8_t { sum, mean, least, largest };
 
 /// Reduces `count` cells, at least one. Smallest and largest are NaN where one cell is NaN.
-double reduce_row(ReductionKind kind, const float* cells, std::int64_t count);
+template <typename Number>
+double reduce_row(ReductionKind kind, const Number* cells, std::int64_t count);
 
 /// Reduces the numbers of all rows, in order, at least one; `cells` is how many cells they stand
 /// for. Overwrites `rows`.
-float reduce_rows(ReductionKind kind, std::span<double> rows, std::int64_t cells);
+double reduce_rows(ReductionKind kind, std::span<double> rows, std::int64_t cells);
 
 }  // namespace cascade

@@ -2,7 +2,7 @@
 //
 // The cube root of a number m · 2^(3k) is that of m, begun by a polynomial and brought to full
 // length by one step of Halley's rule (W. Kahan, "Computing a real cube root", 1991), in which the
-// rest m − t³ is exact, t being a number of 12 bits.
+// rest m − t³ is exact, t being a number of 12 bits (in binary64 26).
 #include "ir/expression.h"
 
 #include <limits>
@@ -10,26 +10,40 @@
 namespace cascade {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// ∛m for m in [√½, √2); error 2^−16.
-constexpr float cube_root_coefficients[] = {0x1.ce7218p-2f, 0x1.cf6544p-1f, -0x1.127106p-1f,
-                                            0x1.bcd31ap-3f, -0x1.36184ap-5f};
-constexpr float cube_root_of_2 = 0x1.428a30p+0f;
-constexpr float cube_root_of_half = 0x1.965feap-1f;
+// ∛m for m in [√½, √2); error 2^−16 (2^−22).
+constexpr double cube_root_single[] = {0x1.ce7218p-2, 0x1.cf6544p-1, -0x1.127106p-1, 0x1.bcd31ap-3,
+                                       -0x1.36184ap-5};
+constexpr double cube_root_double[] = {
+    0x1.97ecf6b6e5344p-2, 0x1.326f1282751bep+0, -0x1.2fd80377786a2p+0, 0x1.f11cba034e209p-1,
+    -0x1.078c14f4b1ce7p-1, 0x1.3ee5a0ceebdbap-3, -0x1.4dd55b1ff21fdp-6};
+constexpr ByPrecision<std::span<const double>> cube_root_coefficients = {cube_root_single,
+                                                                         cube_root_double};
+constexpr ByPrecision<double> cube_root_of_2 = {0x1.428a30p+0, 0x1.428a2f98d728bp+0};
+constexpr ByPrecision<double> cube_root_of_half = {0x1.965feap-1, 0x1.965fea53d6e3dp-1};
+constexpr ByPrecision<double> third_of_one = {0x1.555556p-2, 0x1.5555555555555p-2};
+
+/// Where squares would overflow or vanish, and the powers of two that move numbers away from there.
+struct Reach {
+    double large, reduce;
+    double small, enlarge;
+};
+constexpr ByPrecision<Reach> square_reach = {
+    {{0x1p60, 0x1p-70, 0x1p-50, 0x1p75}, {0x1p500, 0x1p-600, 0x1p-450, 0x1p600}}};
 
 /// One of three numbers by the sign of n.
-Expression by_sign(Expression n, float below, float at, float above) {
-    return (n < 0.0f).choose(below, (0.0f < n).choose(above, n.number(at)));
+Expression by_sign(Expression n, double below, double at, double above) {
+    return (n < 0).choose(below, (0 < n).choose(above, n.number(at)));
 }
 
-/// t improved towards ∛y, where t has 12 bits.
+/// t improved towards ∛y, where t has 12 bits (26).
 Expression halley_step(Expression t, Expression y) {
     const Expression square = t * t;  // Exact.
     const Expression square_head = square.head();
     const Expression square_tail = square - square_head;
     const Expression rest = (y - square_head * t) - square_tail * t;
-    return t + t * (rest / (square * t * 2.0f + y));
+    return t + t * (rest / (square * t * 2 + y));
 }
 
 }  // namespace
@@ -38,15 +52,15 @@ ValueId KernelBuilder::cube_root(ValueId argument) {
     const Expression x(*this, argument);
     const Expression a = x.absolute();
     const auto [m, e] = decompose(a);
-    const Rounded third = round_to_whole(e * (1.0f / 3.0f));
-    const Expression left = e - third.number * 3.0f;  // −1, 0 or 1.
-    const Expression y = m * by_sign(left, 0.5f, 1.0f, 2.0f);
-    const Expression guess = polynomial(m, cube_root_coefficients) *
-                             by_sign(left, cube_root_of_half, 1.0f, cube_root_of_2);
+    const Rounded third = round_to_whole(e * x.pick(third_of_one));
+    const Expression left = e - third.number * 3;  // −1, 0 or 1.
+    const Expression y = m * by_sign(left, 0.5, 1, 2);
+    const Expression guess = polynomial(m, x.pick(cube_root_coefficients)) *
+                             by_sign(left, x.pick(cube_root_of_half), 1, x.pick(cube_root_of_2));
     const Expression magnitude = scale(halley_step(guess.head(), y), third.word);
-    const Expression root = magnitude.binary(Op::bits_or, x.and_word(0x80000000));
+    const Expression root = magnitude.with_sign_of(x);
     // Zero, infinity and NaN are their own; the sum flushes a denormal number.
-    return both(0.0f < a, a < infinity).choose(root, x + x).id();
+    return both(0 < a, a < infinity).choose(root, x + x).id();
 }
 
 /// √(x² + y²), both brought to where squares neither overflow nor vanish.
@@ -54,11 +68,13 @@ ValueId KernelBuilder::hypotenuse(ValueId first, ValueId second) {
     const Expression x = Expression(*this, first).absolute();
     const Expression y = Expression(*this, second).absolute();
     const Expression larger = (x < y).choose(y, x);
-    const Expression is_large = 0x1p60f < larger;
-    const Expression is_small = larger < 0x1p-50f;
+    const Reach& reach = x.pick(square_reach);
+    const Expression is_large = reach.large < larger;
+    const Expression is_small = larger < reach.small;
     const Expression factor =
-        is_large.choose(0x1p-70f, is_small.choose(0x1p75f, x.number(1.0f)));
-    const Expression back = is_large.choose(0x1p70f, is_small.choose(0x1p-75f, x.number(1.0f)));
+        is_large.choose(reach.reduce, is_small.choose(reach.enlarge, x.number(1)));
+    const Expression back =
+        is_large.choose(1 / reach.reduce, is_small.choose(1 / reach.enlarge, x.number(1)));
     const Expression u = x * factor;
     const Expression v = y * factor;
     const Expression finite = (u * u + v * v).unary(Op::square_root) * back;

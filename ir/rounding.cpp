@@ -7,22 +7,27 @@
 namespace cascade {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // From here on all numbers are whole.
-constexpr float all_whole = 0x1p23f;
+constexpr ByPrecision<double> all_whole = {0x1p23, 0x1p52};
+
+// Quotients from here on leave no rest that could be found: below, both halves of a whole quotient have
+// few enough bits for their products to be exact.
+constexpr ByPrecision<double> largest_quotient = {0x1p24, 0x1p52};
 
 Expression whole_nearest(Expression x) {
     const Expression a = x.absolute();
-    const Expression rounded = (a + all_whole) - all_whole;
-    const Expression with_sign = rounded.binary(Op::bits_or, x.and_word(0x80000000));
-    return (a < all_whole).choose(with_sign, x);
+    const double border = x.pick(all_whole);
+    const Expression rounded = (a + border) - border;
+    const Expression with_sign = rounded.with_sign_of(x);
+    return (a < border).choose(with_sign, x);
 }
 
 Expression whole_below(Expression x) {
     const Expression nearest = whole_nearest(x);
-    return (x < nearest).choose(nearest - 1.0f, nearest);
+    return (x < nearest).choose(nearest - 1, nearest);
 }
 
 /// What the rounded product q · b lacks of the exact one (T. J. Dekker, Numerische Mathematik 18,
@@ -37,8 +42,8 @@ Expression product_error(Expression q, Expression b, Expression product) {
 }
 
 Expression differ_in_sign(Expression a, Expression b) {
-    const Expression negative = a < 0.0f;
-    return both(negative.binary(Op::not_equal, b < 0.0f), !equals(a, 0.0f));
+    const Expression negative = a < 0;
+    return both(negative.binary(Op::not_equal, b < 0), !equals(a, 0));
 }
 
 }  // namespace
@@ -59,8 +64,8 @@ ValueId KernelBuilder::round_up(ValueId argument) {
 ValueId KernelBuilder::sign_of(ValueId argument) {
     const Expression x(*this, argument);
     // The product makes a denormal number the zero that it counts as.
-    const Expression zero_or_nan = x * 1.0f;
-    return (x < 0.0f).choose(-1.0f, (0.0f < x).choose(1.0f, zero_or_nan)).id();
+    const Expression zero_or_nan = x * 1;
+    return (x < 0).choose(-1, (0 < x).choose(1, zero_or_nan)).id();
 }
 
 ValueId KernelBuilder::modulus(ValueId x, ValueId y) {
@@ -72,7 +77,7 @@ ValueId KernelBuilder::modulus(ValueId x, ValueId y) {
     const Expression rest = (a - product) - product_error(q, b, product);
     // A quotient that was rounded up to a whole number leaves a small rest of the other sign.
     const Expression moved = differ_in_sign(rest, b).choose(rest + b, rest);
-    const Expression is_meaningful = quotient.absolute() < 0x1p24f;
+    const Expression is_meaningful = quotient.absolute() < a.pick(largest_quotient);
     const Expression finite = is_meaningful.choose(moved, a.number(nan));
     const Expression of_infinite = differ_in_sign(a, b).choose(b, a);
     const Expression is_infinite = both(equals(b.absolute(), infinity), a.absolute() < infinity);
@@ -83,8 +88,8 @@ ValueId KernelBuilder::smooth_step(ValueId low, ValueId high, ValueId argument) 
     const Expression from(*this, low);
     const Expression position = (Expression(*this, argument) - from) /
                                 (Expression(*this, high) - from);
-    const Expression t = position.clamped(0.0f, 1.0f);
-    return ((t * t) * (3.0f - t * 2.0f)).id();
+    const Expression t = position.clamped(0, 1);
+    return ((t * t) * (3 - t * 2)).id();
 }
 
 }  // namespace cascade

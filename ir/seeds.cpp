@@ -20,12 +20,12 @@ struct Candidates {
 
 /// Seeds lie at whole numbers + offset.
 Candidates candidates_along(const LatticeHash& hash, std::size_t axis, const LatticeAxis& lattice,
-                            float offset) {
+                            double offset) {
     Candidates found{axis, {}};
     const Expression beside = lattice.position - offset;
     const Expression first = lattice_floor(beside);
-    for (const float next : {0.0f, 1.0f}) {
-        const Expression index = next == 0.0f ? first : first + 1.0f;
+    for (const int next : {0, 1}) {
+        const Expression index = next == 0 ? first : first + 1;
         found.both.push_back({hash.part(axis, lattice_word(lattice, index)),
                               (index - beside) * lattice.side});
     }
@@ -56,9 +56,9 @@ ValueId seed_lattice(KernelBuilder& builder, const Space& space, LatticeKind kin
     const Expression side(builder, spacing);
     const Expression r(builder, radius);
     const Expression squared_radius = r * r;
-    const std::vector<float> offsets = kind == LatticeKind::square
-                                           ? std::vector<float>{0.5f}
-                                           : std::vector<float>{0.25f, 0.75f};
+    const std::vector<double> offsets = kind == LatticeKind::square
+                                           ? std::vector<double>{0.5}
+                                           : std::vector<double>{0.25, 0.75};
     std::optional<Expression> inside;
     for (std::size_t part = 0; part < offsets.size(); ++part) {
         const LatticeHash hash(builder, draw, static_cast<std::uint32_t>(part));

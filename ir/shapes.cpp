@@ -8,17 +8,14 @@
 namespace cascade {
 namespace {
 
-// The sum of 1.5 · 2^23 and a smaller number has no digits behind the point.
-constexpr float rounder = 0x1.8p23f;
-
 /// From `centre` to the cell along one axis, in the direction of the axis. Across periodic sides it
 /// is the shortest of all: whole periods, to the nearest number of them, are taken off.
 Expression distance_along(KernelBuilder& builder, const SpaceAxis& axis, ValueId centre) {
     const Expression distance =
         Expression(builder, axis.coordinate) - Expression(builder, centre);
     if (!axis.is_periodic) return distance;
-    const Expression periods = (distance / distance.number(axis.length) + rounder) - rounder;
-    return distance - periods * axis.length;
+    const Rounded periods = round_to_whole(distance / distance.number(axis.length));
+    return distance - periods.number * axis.length;
 }
 
 Expression squared_distance(KernelBuilder& builder, const Space& space,
@@ -34,7 +31,7 @@ Expression squared_distance(KernelBuilder& builder, const Space& space,
 
 /// |distance| < width / 2.
 Expression within_half(Expression distance, Expression width) {
-    return distance.absolute() < width * 0.5f;
+    return distance.absolute() < width * 0.5;
 }
 
 }  // namespace
@@ -69,7 +66,7 @@ ValueId gauss(KernelBuilder& builder, const Space& space, std::span<const ValueI
               ValueId width) {
     const Expression w(builder, width);
     const Expression squared = squared_distance(builder, space, centre);
-    return builder.exponential(((squared * -0.5f) / (w * w)).id());
+    return builder.exponential(((squared * -0.5) / (w * w)).id());
 }
 
 ValueId stripe(KernelBuilder& builder, const Space& space, ValueId position, ValueId width) {

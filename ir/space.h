@@ -17,7 +17,7 @@ namespace cascade {
 /// One axis of the domain, and where the cell is along it.
 struct SpaceAxis {
     ValueId coordinate = 0;    ///< 0 … length.
-    float length = 1;          ///< Of the whole side.
+    double length = 1;         ///< Of the whole side.
     bool is_periodic = false;
     bool has_extent = false;   ///< More than one cell.
 };

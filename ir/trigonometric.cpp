@@ -1,11 +1,12 @@
 // sin, cos and tan, expanded into operations of the table.
 //
 // The angle is brought to |r| ≤ π/4 by taking off n quarter turns; π/2 is split into four pieces of
-// 11 bits, whose products with n are exact, and a rest. What rounding loses is carried along as a
-// tail. So r is right to its last bit for every angle up to 8192, even beside multiples of π/2.
+// 11 bits (in binary64 26), whose products with n are exact, and a rest. What rounding loses is carried along as a
+// tail. So r is right to its last bit for every angle up to 8192 (2^27), even beside multiples of π/2.
 //
-// Angles from 8192 to 2^24 are first brought below 3217 by taking off multiples of 4096 quarter
-// turns in the same way; r then has an absolute error of at most 2^−33. Beyond 2^24, where
+// Angles from 8192 to 2^24 (2^27 to 2^53) are first brought below 3217 (2^26) by taking off multiples
+// of 4096 (2^26) quarter turns in the same way; r then has an absolute error of at most 2^−33
+// (2^−77). Beyond 2^24 (2^53), where
 // neighbouring numbers are 2 and more apart, an angle means nothing and the result is NaN, as it is
 // for infinities. −0 has the sine −0.
 #include "ir/expression.h"
@@ -16,23 +17,37 @@
 namespace cascade {
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float largest_angle = 0x1p24f;
-constexpr float largest_direct_angle = 8192.0f;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-constexpr float quarter_turns_per_radian = 0x1.45f306p-1f;  // 2/π
-constexpr std::array<float, 5> quarter_turn = {0x1.92p+0f, 0x1.fb8p-12f, -0x1.5ep-23f, 0x1.0b8p-34f,
-                                               -0x1.cf72cep-45f};
-constexpr float many = 4096.0f;  // Quarter turns that are taken off large angles together.
+/// How angles are reduced.
+struct Reduction {
+    double largest_angle;
+    double largest_direct_angle;
+    double many;                         ///< Quarter turns that are taken off large angles together.
+    std::array<double, 5> quarter_turn;  ///< Four pieces and the rest.
+};
+constexpr ByPrecision<Reduction> reductions = {
+    {{0x1p24, 0x1p13, 0x1p12, {0x1.92p+0, 0x1.fb8p-12, -0x1.5ep-23, 0x1.0b8p-34, -0x1.cf72cep-45}},
+     {0x1p53, 0x1p27, 0x1p26, {0x1.921fb58p+0, -0x1.dde974p-27, 0x1.1a6263p-54, 0x1.8a2e038p-81,
+                            -0x1.f1976b7ed8fbcp-110}}}};
+constexpr ByPrecision<double> quarter_turns_per_radian = {0x1.45f306p-1,  // 2/π
+                                                          0x1.45f306dc9c883p-1};
 
-// (sin(r)/r − 1) / r² in r², for |r| ≤ 0.79; error 2^−32 of the sine.
-constexpr float sin_coefficients[] = {-0x1.555556p-3f, 0x1.111174p-7f, -0x1.a05904p-13f,
-                                      0x1.7c0226p-19f};
+// (sin(r)/r − 1) / r² in r², for |r| ≤ 0.79; error 2^−32 (2^−63) of the sine.
+constexpr double sin_single[] = {-0x1.555556p-3, 0x1.111174p-7, -0x1.a05904p-13, 0x1.7c0226p-19};
+constexpr double sin_double[] = {
+    -0x1.5555555555555p-3, 0x1.1111111111069p-7, -0x1.a01a019ffe538p-13, 0x1.71de3a33a9ca5p-19,
+    -0x1.ae642c5a8b7f2p-26, 0x1.6109c4df77e2cp-33, -0x1.a001da9aec246p-41};
+constexpr ByPrecision<std::span<const double>> sin_coefficients = {sin_single, sin_double};
 
-// (cos(r) − 1 + r²/2) / r⁴ in r², for |r| ≤ 0.79; error 2^−32 of the cosine.
-constexpr float cos_coefficients[] = {0x1.55554ap-5f, -0x1.6c0c20p-10f, 0x1.99e42cp-16f};
+// (cos(r) − 1 + r²/2) / r⁴ in r², for |r| ≤ 0.79; error 2^−32 (2^−69) of the cosine.
+constexpr double cos_single[] = {0x1.55554ap-5, -0x1.6c0c20p-10, 0x1.99e42cp-16};
+constexpr double cos_double[] = {
+    0x1.5555555555555p-5, -0x1.6c16c16c16b31p-10, 0x1.a01a019ffcf6fp-16, -0x1.27e4fb5a7a892p-22,
+    0x1.1eed6ff967326p-29, -0x1.9374ed5847254p-37, 0x1.9dfa0de9af30ap-45};
+constexpr ByPrecision<std::span<const double>> cos_coefficients = {cos_single, cos_double};
 
-/// A number as the sum of two, the second being about 2^−24 of the first.
+/// A number as the sum of two, the second being about 2^−24 (2^−53) of the first.
 struct Sum {
     Expression head;
     Expression tail;
@@ -46,7 +61,8 @@ Sum exact_difference(Expression a, Expression b) {
 }
 
 /// The angle without n · unit quarter turns.
-Sum take_off(Expression angle, Expression n, float unit) {
+Sum take_off(Expression angle, Expression n, double unit) {
+    const std::array<double, 5>& quarter_turn = angle.pick(reductions).quarter_turn;
     const Expression rough =
         (angle - n * (quarter_turn[0] * unit)) - n * (quarter_turn[1] * unit);  // Exact.
     const Sum third = exact_difference(rough, n * (quarter_turn[2] * unit));
@@ -63,12 +79,12 @@ struct SineAndCosine {
 /// Of an angle of at most about π/4.
 SineAndCosine of_small_angle(Sum r) {
     const Expression z = r.head * r.head;
-    const Expression half = z * 0.5f;
-    const Expression rough_cosine = 1.0f - half;
-    const Expression lost = (1.0f - rough_cosine) - half;
-    const Expression curved_cosine = (z * z) * polynomial(z, cos_coefficients);
+    const Expression half = z * 0.5;
+    const Expression rough_cosine = 1 - half;
+    const Expression lost = (1 - rough_cosine) - half;
+    const Expression curved_cosine = (z * z) * polynomial(z, z.pick(cos_coefficients));
     const Expression cosine = rough_cosine + (lost + (curved_cosine - r.head * r.tail));
-    const Expression curved_sine = (r.head * z) * polynomial(z, sin_coefficients);
+    const Expression curved_sine = (r.head * z) * polynomial(z, z.pick(sin_coefficients));
     const Expression sine = r.head + (curved_sine + r.tail * rough_cosine);
     return {sine, cosine};
 }
@@ -81,28 +97,30 @@ struct Reduced {
 
 /// Of an angle that is not negative.
 Reduced reduce(Expression angle) {
-    const Expression turns = round_to_whole(angle * (quarter_turns_per_radian / many)).number;
-    const Expression whole = (largest_direct_angle < angle).choose(turns, angle.number(0.0f));
-    const Sum large = take_off(angle, whole, many);
-    const Rounded n = round_to_whole(large.head * quarter_turns_per_radian);
-    const Sum rest = take_off(large.head, n.number, 1.0f);
+    const Reduction& by = angle.pick(reductions);
+    const double per_radian = angle.pick(quarter_turns_per_radian);
+    const Expression turns = round_to_whole(angle * (per_radian / by.many)).number;
+    const Expression whole = (by.largest_direct_angle < angle).choose(turns, angle.number(0));
+    const Sum large = take_off(angle, whole, by.many);
+    const Rounded n = round_to_whole(large.head * per_radian);
+    const Sum rest = take_off(large.head, n.number, 1);
     const Expression tail = rest.tail + large.tail;
     const Expression head = rest.head + tail;
     return {of_small_angle({head, (rest.head - head) + tail}), n.word};
 }
 
 Expression nan_if_too_large(Expression angle, Expression value) {
-    const Expression is_angle = angle.binary(Op::less_equal, angle.number(largest_angle));
+    const Expression is_angle = angle.binary(Op::less_equal, angle.number(angle.pick(reductions).largest_angle));
     return is_angle.choose(value, angle.number(nan));
 }
 
 /// Sine (turned = 0) or cosine (turned = 1) of an angle that is not negative, as the sine of the
 /// angle and `turned` quarter turns.
-Expression sine_of(Expression angle, std::uint32_t turned) {
+Expression sine_of(Expression angle, std::uint64_t turned) {
     const auto [rest, quarter_turns] = reduce(angle);
     const Expression quadrant = quarter_turns.plus_word(turned);
     const Expression is_odd = quadrant.and_word(1).to_number();
-    const Expression sign = quadrant.and_word(2).shifted_left(30);
+    const Expression sign = quadrant.and_word(2).shifted_left(angle.format().bits - 2);
     const Expression value = is_odd.choose(rest.cosine, rest.sine).binary(Op::bits_xor, sign);
     return nan_if_too_large(angle, value);
 }
@@ -112,7 +130,7 @@ Expression sine_of(Expression angle, std::uint32_t turned) {
 ValueId KernelBuilder::sine(ValueId argument) {
     const Expression x(*this, argument);
     const Expression value = sine_of(x.absolute(), 0);
-    return value.binary(Op::bits_xor, x.and_word(0x80000000)).id();
+    return value.binary(Op::bits_xor, x.sign_word()).id();
 }
 
 ValueId KernelBuilder::cosine(ValueId argument) {
@@ -127,9 +145,9 @@ ValueId KernelBuilder::tangent(ValueId argument) {
     const Expression is_odd = quarter_turns.and_word(1).to_number();
     const Expression quotient =
         is_odd.choose(rest.cosine, rest.sine) / is_odd.choose(rest.sine, rest.cosine);
-    const Expression sign = quarter_turns.and_word(1).shifted_left(31);
+    const Expression sign = quarter_turns.and_word(1).shifted_left(x.format().bits - 1);
     const Expression value = nan_if_too_large(angle, quotient.binary(Op::bits_xor, sign));
-    return value.binary(Op::bits_xor, x.and_word(0x80000000)).id();
+    return value.binary(Op::bits_xor, x.sign_word()).id();
 }
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
 // What every operation of the table does with words: the one definition behind the folding of
-// constants and the loops of the interpreter.
+// constants and the loops of the interpreter. `Number` is float or double, whichever the words hold.
 //
 // Internal to ir/. Denormals are flushed by the processor, so all of this is right only inside a
 // FlushDenormals. The functions are written such that loops over them become vector code.
@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 namespace cascade {
 
@@ -25,23 +26,30 @@ constexpr bool is_comparison = op >= Op::less && op <= Op::not_equal;
 template <Op op>
 constexpr bool is_logic = op >= Op::logical_and && op <= Op::logical_not;
 
-inline constexpr std::uint32_t one_bits = 0x3f800000;
-inline constexpr std::uint32_t sign_bit = 0x80000000;
+template <typename Number>
+inline constexpr auto one_bits = static_cast<WordOf<Number>>(format_of(precision_of<Number>).one());
+template <typename Number>
+inline constexpr auto sign_bit = static_cast<WordOf<Number>>(format_of(precision_of<Number>).sign());
 
 /// A number other than zero. Asked of the word, because compilers that see a number made from a word
 /// and compared with 0 may look at its bits, and take a denormal for true.
-inline bool is_true(std::uint32_t word) { return (word & ~sign_bit) >= 0x00800000; }
+template <typename Number>
+bool is_true(WordOf<Number> word) {
+    constexpr WordFormat format = format_of(precision_of<Number>);
+    constexpr auto least_normal = static_cast<WordOf<Number>>(format.fraction() + 1);
+    return (word & ~sign_bit<Number>) >= least_normal;
+}
 
-template <Op op>
-float arithmetic(float a, float b) {
+template <Op op, typename Number>
+Number arithmetic(Number a, Number b) {
     if constexpr (op == Op::add) return a + b;
     if constexpr (op == Op::subtract) return a - b;
     if constexpr (op == Op::multiply) return a * b;
     if constexpr (op == Op::divide) return a / b;
 }
 
-template <Op op>
-bool comparison(float a, float b) {
+template <Op op, typename Number>
+bool comparison(Number a, Number b) {
     if constexpr (op == Op::less) return a < b;
     if constexpr (op == Op::less_equal) return a <= b;
     if constexpr (op == Op::equal) return a == b;
@@ -55,42 +63,43 @@ bool logic(bool a, bool b) {
     if constexpr (op == Op::logical_not) return !a;
 }
 
-template <Op op>
-std::uint32_t integer(std::uint32_t a, std::uint32_t b) {
+template <Op op, typename Number, typename Word = WordOf<Number>>
+Word integer(Word a, Word b) {
+    constexpr Word largest_shift = 8 * sizeof(Word) - 1;
     if constexpr (op == Op::bits_add) return a + b;
     if constexpr (op == Op::bits_subtract) return a - b;
     if constexpr (op == Op::bits_multiply) return a * b;
     if constexpr (op == Op::bits_and) return a & b;
     if constexpr (op == Op::bits_or) return a | b;
     if constexpr (op == Op::bits_xor) return a ^ b;
-    if constexpr (op == Op::bits_shift_left) return a << (b & 31);
-    if constexpr (op == Op::bits_shift_right) return a >> (b & 31);
+    if constexpr (op == Op::bits_shift_left) return a << (b & largest_shift);
+    if constexpr (op == Op::bits_shift_right) return a >> (b & largest_shift);
     if constexpr (op == Op::bits_to_number) {
-        return std::bit_cast<std::uint32_t>(static_cast<float>(static_cast<std::int32_t>(a)));
+        return std::bit_cast<Word>(static_cast<Number>(static_cast<std::make_signed_t<Word>>(a)));
     }
 }
 
 /// The word that `op` makes of its operands; those beyond its arity are not looked at.
-template <Op op>
-inline std::uint32_t word_operation(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const float x = std::bit_cast<float>(a);
-    const float y = std::bit_cast<float>(b);
+template <Op op, typename Number, typename Word = WordOf<Number>>
+inline Word word_operation(Word a, Word b, Word c) {
+    const auto x = std::bit_cast<Number>(a);
+    const auto y = std::bit_cast<Number>(b);
     if constexpr (is_arithmetic<op>) {
-        return std::bit_cast<std::uint32_t>(arithmetic<op>(x, y));
+        return std::bit_cast<Word>(arithmetic<op>(x, y));
     } else if constexpr (op == Op::negate) {
-        return a ^ sign_bit;
+        return a ^ sign_bit<Number>;
     } else if constexpr (op == Op::absolute) {
-        return a & ~sign_bit;
+        return a & ~sign_bit<Number>;
     } else if constexpr (op == Op::square_root) {
-        return std::bit_cast<std::uint32_t>(std::sqrt(x));
+        return std::bit_cast<Word>(std::sqrt(x));
     } else if constexpr (is_comparison<op>) {
-        return comparison<op>(x, y) ? one_bits : 0;
+        return comparison<op>(x, y) ? one_bits<Number> : 0;
     } else if constexpr (is_logic<op>) {
-        return logic<op>(is_true(a), is_true(b)) ? one_bits : 0;
+        return logic<op>(is_true<Number>(a), is_true<Number>(b)) ? one_bits<Number> : 0;
     } else if constexpr (op == Op::select) {
-        return is_true(a) ? b : c;
+        return is_true<Number>(a) ? b : c;
     } else {
-        return integer<op>(a, b);
+        return integer<op, Number>(a, b);
     }
 }
 

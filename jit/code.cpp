@@ -81,7 +81,7 @@ Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const GridSh
     }
     code.is_large = code.is_large || size > largest_optimised_kernel;
     llvm::Function* function = build_grid_function(*code.module, kernel, shape, name);
-    set_target(*function, machine, shape.lanes);
+    set_target(*function, machine, shape.lanes * static_cast<int>(bytes_of(kernel.precision)));
 
     std::string fault;
     llvm::raw_string_ostream stream(fault);

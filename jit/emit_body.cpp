@@ -14,16 +14,8 @@
 namespace cascade {
 namespace {
 
-constexpr std::uint32_t exponent_bits = 0x7f800000;
-constexpr std::uint32_t fraction_bits = 0x007fffff;
-constexpr std::uint32_t sign_bit = 0x80000000;
-
-bool is_denormal(std::uint32_t word) {
-    return (word & exponent_bits) == 0 && (word & fraction_bits) != 0;
-}
-
 /// Is `value` the constant `magnitude`, or minus that, in all lanes?
-bool is_plus_or_minus(llvm::Value* value, float magnitude) {
+bool is_plus_or_minus(llvm::Value* value, double magnitude) {
     const auto* constant = llvm::dyn_cast<llvm::Constant>(value);
     if (!constant) return false;
     const llvm::Constant* element = constant->getSplatValue();
@@ -34,16 +26,26 @@ bool is_plus_or_minus(llvm::Value* value, float magnitude) {
 
 }  // namespace
 
+llvm::APFloat number_constant(std::uint64_t word, Precision precision) {
+    const auto bits = static_cast<unsigned>(format_of(precision).bits);
+    return {precision == Precision::single ? llvm::APFloat::IEEEsingle()
+                                           : llvm::APFloat::IEEEdouble(),
+            llvm::APInt(bits, word)};
+}
+
 BodyScope::BodyScope(const CellKernel& kernel, std::span<const Level> levels, Level level,
                      Builder& builder, Lane& lane, int lanes, BodyScope* outer)
     : kernel_(kernel),
+      format_(format_of(kernel.precision)),
       levels_(levels),
       level_(level),
       builder_(builder),
       lane_(lane),
       outer_(outer),
-      number_type_(llvm::FixedVectorType::get(builder.getFloatTy(), static_cast<unsigned>(lanes))),
-      bits_type_(llvm::FixedVectorType::get(builder.getInt32Ty(), static_cast<unsigned>(lanes))),
+      number_type_(llvm::FixedVectorType::get(number_type(builder, kernel.precision),
+                                              static_cast<unsigned>(lanes))),
+      bits_type_(llvm::FixedVectorType::get(word_type(builder, kernel.precision),
+                                            static_cast<unsigned>(lanes))),
       values_(kernel.code.size()) {}
 
 void BodyScope::emit() {
@@ -68,7 +70,8 @@ llvm::Value* BodyScope::number(ValueId id) {
     if (value.number) return value.number;
     value.number = value.bits
                        ? scope.builder_.CreateBitCast(value.bits, number_type_)
-                       : scope.builder_.CreateSelect(value.truth, hidden(to_bits(1)), hidden(0));
+                       : scope.builder_.CreateSelect(value.truth, hidden(format_.one()),
+                                                    hidden(0));
     return value.number;
 }
 
@@ -92,26 +95,26 @@ llvm::Value* BodyScope::truth(ValueId id) {
     return value.truth;
 }
 
-llvm::Constant* BodyScope::splat(std::uint32_t word) const {
-    const llvm::APFloat value(llvm::APFloat::IEEEsingle(), llvm::APInt(32, word));
-    return llvm::ConstantFP::get(number_type_, value);
+llvm::Constant* BodyScope::splat(std::uint64_t word) const {
+    return llvm::ConstantFP::get(number_type_, number_constant(word, kernel_.precision));
+}
+
+llvm::Constant* BodyScope::word_splat(std::uint64_t word) const {
+    return llvm::ConstantInt::get(bits_type_, word);
 }
 
 // The word with a denormal number replaced by zero of its sign, in integer operations: these are
 // beyond what LLVM may do to floating-point ones.
 llvm::Value* BodyScope::flushed(ValueId id) {
-    const auto constant = [&](std::uint32_t word) {
-        return llvm::ConstantInt::get(bits_type_, word);
-    };
     llvm::Value* word = bits(id);
-    llvm::Value* exponent = builder_.CreateAnd(word, constant(exponent_bits));
-    llvm::Value* is_tiny = builder_.CreateICmpEQ(exponent, constant(0));
-    llvm::Value* zero = builder_.CreateAnd(word, constant(sign_bit));
+    llvm::Value* exponent = builder_.CreateAnd(word, word_splat(format_.exponent()));
+    llvm::Value* is_tiny = builder_.CreateICmpEQ(exponent, word_splat(0));
+    llvm::Value* zero = builder_.CreateAnd(word, word_splat(format_.sign()));
     return builder_.CreateBitCast(builder_.CreateSelect(is_tiny, zero, word), number_type_);
 }
 
 // A constant that all of LLVM takes for a variable. It belongs to the outermost scope.
-llvm::Value* BodyScope::hidden(std::uint32_t word) {
+llvm::Value* BodyScope::hidden(std::uint64_t word) {
     BodyScope* scope = this;
     while (scope->outer_) scope = scope->outer_;
     llvm::Value*& value = scope->hidden_[word];
@@ -120,7 +123,7 @@ llvm::Value* BodyScope::hidden(std::uint32_t word) {
 }
 
 // The word of a value that is the same constant in all cells. LLVM may have found that out.
-std::optional<std::uint32_t> BodyScope::constant_word(ValueId id) {
+std::optional<std::uint64_t> BodyScope::constant_word(ValueId id) {
     const Forms& value = forms(id);
     llvm::Value* form = value.truth && value.is_boolean ? value.truth
                         : value.number                  ? value.number
@@ -128,12 +131,11 @@ std::optional<std::uint32_t> BodyScope::constant_word(ValueId id) {
     const auto* constant = llvm::dyn_cast<llvm::Constant>(form);
     const llvm::Constant* element = constant ? constant->getSplatValue() : nullptr;
     if (const auto* number = llvm::dyn_cast_or_null<llvm::ConstantFP>(element)) {
-        return static_cast<std::uint32_t>(
-            number->getValueAPF().bitcastToAPInt().getZExtValue());
+        return number->getValueAPF().bitcastToAPInt().getZExtValue();
     }
     if (const auto* integer = llvm::dyn_cast_or_null<llvm::ConstantInt>(element)) {
-        const auto word = static_cast<std::uint32_t>(integer->getZExtValue());
-        return form == value.truth ? word * to_bits(1) : word;
+        const std::uint64_t word = integer->getZExtValue();
+        return form == value.truth ? word * format_.one() : word;
     }
     return std::nullopt;
 }
@@ -145,7 +147,7 @@ llvm::Value* BodyScope::operand(ValueId id) {
 
 // An operand whose partner may be the constant ±`neutral`, which would make the operation the
 // identity: LLVM drops such operations, also in one branch of a choice.
-llvm::Value* BodyScope::operand(ValueId id, ValueId partner, float neutral) {
+llvm::Value* BodyScope::operand(ValueId id, ValueId partner, double neutral) {
     if (!forms(id).may_be_denormal) return number(id);
     const bool may_be_neutral = is_plus_or_minus(operand(partner), neutral) ||
                                 forms(partner).may_be_neutral;
@@ -154,7 +156,7 @@ llvm::Value* BodyScope::operand(ValueId id, ValueId partner, float neutral) {
 
 // Evaluates an operation on constants.
 bool BodyScope::is_evaluated(const Instruction& instruction, Forms& value) {
-    std::array<std::uint32_t, 3> words{};
+    std::array<std::uint64_t, 3> words{};
     const auto arity = static_cast<std::size_t>(info(instruction.op).arity);
     if (arity == 0) return false;
     for (std::size_t k = 0; k < arity; ++k) {
@@ -163,9 +165,10 @@ bool BodyScope::is_evaluated(const Instruction& instruction, Forms& value) {
         words[k] = *word;
     }
     const FlushDenormals environment;
-    const std::uint32_t word = evaluate(instruction.op, words[0], words[1], words[2]);
+    const std::uint64_t word =
+        evaluate(instruction.op, words[0], words[1], words[2], kernel_.precision);
     value.number = splat(word);
-    value.may_be_denormal = is_denormal(word);
+    value.may_be_denormal = format_.is_denormal(word);
     value.is_choice = true;
     return true;
 }
@@ -217,24 +220,24 @@ BodyScope::Forms BodyScope::emit_source(const Instruction& instruction) {
     switch (instruction.op) {
         case Op::constant:
             value.number = splat(instruction.payload);
-            value.may_be_denormal = is_denormal(instruction.payload);
+            value.may_be_denormal = format_.is_denormal(instruction.payload);
             value.is_choice = true;
             break;
         case Op::field:
-            value.number = lane_.field(instruction.payload);
+            value.number = lane_.field(instruction.slot());
             value.may_be_denormal = true;
             break;
-        case Op::laplacian: value.number = lane_.laplacian(instruction.payload); break;
+        case Op::laplacian: value.number = lane_.laplacian(instruction.slot()); break;
         case Op::neighbour:
-            value.number = lane_.neighbour(Neighbour::of(instruction.payload));
+            value.number = lane_.neighbour(Neighbour::of(instruction.slot()));
             value.may_be_denormal = true;
             break;
         case Op::mask:
-            value.truth = lane_.mask(instruction.payload);
+            value.truth = lane_.mask(instruction.slot());
             value.is_boolean = value.is_choice = true;
             break;
         case Op::uniform:
-            value.number = lane_.uniform(instruction.payload);
+            value.number = lane_.uniform(instruction.slot());
             value.may_be_denormal = true;
             break;
         default:
@@ -356,10 +359,10 @@ BodyScope::Forms BodyScope::emit_word(const Instruction& instruction) {
         return value;
     }
     llvm::Value* b = bits(instruction.operands[1]);
-    // Amounts above 31 do not occur; the mask keeps LLVM from drawing conclusions from that, and
+    // Amounts above 31 (63) do not occur; the mask keeps LLVM from drawing conclusions from that, and
     // vanishes where the amount is a constant.
     const auto amount = [&] {
-        return builder_.CreateAnd(b, llvm::ConstantInt::get(bits_type_, 31));
+        return builder_.CreateAnd(b, word_splat(static_cast<std::uint64_t>(format_.bits - 1)));
     };
     value.may_be_denormal = true;
     value.may_be_neutral = true;

@@ -39,13 +39,14 @@ enum class Level : std::uint8_t {
 std::vector<Level> levels_of(const CellKernel& kernel);
 
 /// The cells that one execution of the body computes; N of them make a vector. A skeleton has a
-/// lane for each level, which is asked only for what belongs to this level.
+/// lane for each level, which is asked only for what belongs to this level. Of kernels of binary64,
+/// read double for float and i64 for i32, here and below.
 class Lane {
 public:
     virtual ~Lane() = default;
     // Of the call.
     virtual llvm::Value* uniform(std::uint32_t slot);    ///< <N x float>
-    virtual llvm::Value* hidden(std::uint32_t word);     ///< <N x float>, a hidden constant
+    virtual llvm::Value* hidden(std::uint64_t word);     ///< <N x float>, a hidden constant
     // Of the row.
     virtual llvm::Value* cell_row();                     ///< <N x i32>
     virtual llvm::Value* cell_slice();                   ///< <N x i32>
@@ -96,15 +97,17 @@ private:
     Forms emit_logic(const Instruction& instruction);
     Forms emit_select(const Instruction& instruction);
     Forms emit_word(const Instruction& instruction);
-    std::optional<std::uint32_t> constant_word(ValueId id);
+    std::optional<std::uint64_t> constant_word(ValueId id);
     llvm::Value* branch(ValueId id, ValueId other);
-    llvm::Value* hidden(std::uint32_t word);
+    llvm::Value* hidden(std::uint64_t word);
     llvm::Value* operand(ValueId id);
-    llvm::Value* operand(ValueId id, ValueId partner, float neutral);
+    llvm::Value* operand(ValueId id, ValueId partner, double neutral);
     llvm::Value* flushed(ValueId id);
-    llvm::Constant* splat(std::uint32_t word) const;
+    llvm::Constant* splat(std::uint64_t word) const;
+    llvm::Constant* word_splat(std::uint64_t word) const;
 
     const CellKernel& kernel_;
+    WordFormat format_;
     std::span<const Level> levels_;
     Level level_;
     Builder& builder_;
@@ -112,8 +115,18 @@ private:
     BodyScope* outer_;
     llvm::VectorType* number_type_;
     llvm::VectorType* bits_type_;
-    std::map<std::uint32_t, llvm::Value*> hidden_;
+    std::map<std::uint64_t, llvm::Value*> hidden_;
     std::vector<Forms> values_;  ///< By value; only those of this level are filled in.
 };
+
+/// The type of a kernel's numbers, and of its words.
+inline llvm::Type* number_type(llvm::IRBuilderBase& builder, Precision precision) {
+    return precision == Precision::single ? builder.getFloatTy() : builder.getDoubleTy();
+}
+inline llvm::Type* word_type(llvm::IRBuilderBase& builder, Precision precision) {
+    return builder.getIntNTy(static_cast<unsigned>(format_of(precision).bits));
+}
+/// A word as a constant of LLVM.
+llvm::APFloat number_constant(std::uint64_t word, Precision precision);
 
 }  // namespace cascade

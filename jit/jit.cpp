@@ -16,6 +16,7 @@
 namespace cascade {
 namespace {
 
+template <typename Number>
 class NativeKernel final : public Kernel {
 public:
     NativeKernel(const CellKernel& kernel, Stencil stencil, std::unique_ptr<LoadedFunction> function)
@@ -26,7 +27,8 @@ public:
           results_(kernel.results.size()),
           function_(std::move(function)) {}
 
-    void run(const KernelArguments& arguments, RowRange rows) const override {
+    using Kernel::run;
+    void run(const KernelArgumentsOf<Number>& arguments, RowRange rows) const override {
         CHECK(arguments.fields.size() >= fields_ && arguments.masks.size() >= masks_ &&
                   arguments.uniforms.size() >= uniforms_ && arguments.results.size() >= results_,
               "a kernel is given all its planes and numbers");
@@ -36,24 +38,24 @@ public:
         if (layout.width <= 0) return;
         CHECK(stencil_.z == (layout.depth > 1), "a kernel runs on grids of its stencil");
         if (stencil_.z) return run_slices(arguments, rows);
-        function_->address(arguments.fields.data(), arguments.masks.data(),
-                           arguments.uniforms.data(), arguments.results.data(), layout.width,
-                           layout.stride, rows.begin, rows.end);
+        function_->template as<GridFunction<Number>>()(
+            arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
+            arguments.results.data(), layout.width, layout.stride, rows.begin, rows.end);
     }
 
 private:
     /// One call for each slice that has some of the rows.
-    void run_slices(const KernelArguments& arguments, RowRange rows) const {
+    void run_slices(const KernelArgumentsOf<Number>& arguments, RowRange rows) const {
         const PlaneLayout& layout = arguments.layout;
         while (!rows.empty()) {
             const std::int64_t slice = rows.begin / layout.height;
             const std::int64_t end = std::min(rows.end, (slice + 1) * layout.height);
             // From numbers through the cells to numbers of rows in memory.
             const std::int64_t halo_rows = slice * (layout.slice_rows() - layout.height);
-            function_->volume_address(arguments.fields.data(), arguments.masks.data(),
-                                      arguments.uniforms.data(), arguments.results.data(),
-                                      layout.width, layout.stride, rows.begin + halo_rows,
-                                      end + halo_rows, layout.slice_rows(), slice);
+            function_->template as<VolumeFunction<Number>>()(
+                arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
+                arguments.results.data(), layout.width, layout.stride, rows.begin + halo_rows,
+                end + halo_rows, layout.slice_rows(), slice);
             rows.begin = end;
         }
     }
@@ -70,7 +72,8 @@ struct Known {
     KernelPointer compiled;
 
     bool is(const CellKernel& other, Stencil its_stencil) const {
-        return stencil == its_stencil && kernel.code == other.code &&
+        return stencil == its_stencil && kernel.precision == other.precision &&
+               kernel.code == other.code &&
                kernel.results == other.results &&
                kernel.field_names.size() == other.field_names.size() &&
                kernel.mask_names.size() == other.mask_names.size() &&
@@ -107,13 +110,17 @@ public:
 private:
     Result<KernelPointer> make(const CellKernel& kernel, Stencil stencil) {
         const std::string function_name = fmt::format("kernel{}", next_number_++);
-        auto code = make_code(kernel, {stencil, lanes_}, function_name, *machine_);
+        const GridShape shape = shape_for(kernel, stencil, lanes_);
+        auto code = make_code(kernel, shape, function_name, *machine_);
         if (!code) return tl::unexpected(code.error());
         const auto object = generate(*code, *machine_, CodeForm::object);
         if (!object) return tl::unexpected(object.error());
         auto function = session_->load({object->data(), object->size()}, function_name);
         if (!function) return tl::unexpected(function.error());
-        return std::make_shared<NativeKernel>(kernel, stencil, std::move(*function));
+        return with_number(kernel.precision, [&](auto zero) -> KernelPointer {
+            return std::make_shared<NativeKernel<decltype(zero)>>(kernel, stencil,
+                                                                  std::move(*function));
+        });
     }
 
     std::mutex mutex_;

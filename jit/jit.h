@@ -12,7 +12,8 @@
 namespace cascade {
 
 struct JitOptions {
-    int lanes = 0;      ///< Cells per vector: 4, 8 or 16; 0 takes the host's widest.
+    int lanes = 0;      ///< Cells of binary32 per vector: 4, 8 or 16 (half as many of binary64);
+                        ///< 0 takes the host's widest.
     int optimise = 2;   ///< 0 … 3, of LLVM's code generator.
 };
 
@@ -57,8 +58,8 @@ struct ObjectContent {
 ///
 /// (and for grids of several slices `int64_t slice_rows, int64_t slice` behind: row j of slice k is
 /// then row k * slice_rows + j, slice_rows is the height plus 2, and a call stays in one slice)
-/// that computes rows [row_begin, row_end): the same code and ABI as the JIT's own kernels. It
-/// calls nothing. Planes are laid out as in PlaneLayout: pointers are to cell (0, 0), of floats
+/// (of kernels of binary64 with double for float) that computes rows [row_begin, row_end): the same
+/// code and ABI as the JIT's own kernels. It calls nothing. Planes are laid out as in PlaneLayout: pointers are to cell (0, 0), of numbers
 /// aligned to 64 bytes and of masks to 16; `stride` is a multiple of 16 elements, with 16 or more
 /// in front of and behind each row; `width` is at least 1. The bits are those of a run if the
 /// processor flushes denormal inputs and results meanwhile (FTZ and DAZ on x86).

@@ -29,7 +29,7 @@ llvm::Value* not_here() {
 }  // namespace
 
 llvm::Value* Lane::uniform(std::uint32_t) { return not_here(); }
-llvm::Value* Lane::hidden(std::uint32_t) { return not_here(); }
+llvm::Value* Lane::hidden(std::uint64_t) { return not_here(); }
 llvm::Value* Lane::cell_row() { return not_here(); }
 llvm::Value* Lane::cell_slice() { return not_here(); }
 llvm::Value* Lane::field(std::uint32_t) { return not_here(); }

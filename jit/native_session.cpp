@@ -67,8 +67,7 @@ Result<std::unique_ptr<LoadedFunction>> OrcSession::load(std::span<const char> o
     }
     auto symbol = session_.lookup({library_}, name);
     if (!symbol) return tl::unexpected(as_failure(symbol.takeError()));
-    function->address = symbol->getAddress().toPtr<GridFunction*>();
-    function->volume_address = symbol->getAddress().toPtr<VolumeFunction*>();
+    function->address = static_cast<std::uintptr_t>(symbol->getAddress().getValue());
     return function;
 }
 

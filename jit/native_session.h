@@ -12,14 +12,16 @@
 
 namespace cascade {
 
-/// The function of every kernel; see jit/skeleton_grid.h.
-using GridFunction = void(const float* const* fields, const std::uint8_t* const* masks,
-                          const float* uniforms, float* const* results, std::int64_t width,
+/// The function of every kernel of float or double; see jit/skeleton_grid.h.
+template <typename Number>
+using GridFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
+                          const Number* uniforms, Number* const* results, std::int64_t width,
                           std::int64_t stride, std::int64_t row_begin, std::int64_t row_end);
 
 /// The same of grids of several slices.
-using VolumeFunction = void(const float* const* fields, const std::uint8_t* const* masks,
-                            const float* uniforms, float* const* results, std::int64_t width,
+template <typename Number>
+using VolumeFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
+                            const Number* uniforms, Number* const* results, std::int64_t width,
                             std::int64_t stride, std::int64_t row_begin, std::int64_t row_end,
                             std::int64_t slice_rows, std::int64_t slice);
 
@@ -27,8 +29,13 @@ using VolumeFunction = void(const float* const* fields, const std::uint8_t* cons
 class LoadedFunction {
 public:
     virtual ~LoadedFunction() = default;
-    GridFunction* address = nullptr;           ///< Of a kernel for grids of one slice,
-    VolumeFunction* volume_address = nullptr;  ///< and for others: the caller knows which it is.
+    std::uintptr_t address = 0;
+
+    /// As a function of the type that the caller knows it to be.
+    template <typename Function>
+    Function* as() const {
+        return reinterpret_cast<Function*>(address);
+    }
 };
 
 /// Links and loads object files. Safe to use by one thread at a time; functions that it loaded keep

@@ -22,7 +22,10 @@ using llvm::Value;
 // Rows of at least this width are computed while the rows behind them are prefetched. On narrower
 // ones the processor sees far enough ahead by itself, and prefetching costs 5 to 10 %. Vectors of
 // half a cache line prefetch each line twice, which pays only for planes that leave the caches.
-std::int64_t least_width_to_prefetch(int lanes) { return lanes == 16 ? 128 : 1024; }
+constexpr int cache_line = 64;
+std::int64_t least_width_to_prefetch(int vector_bytes) {
+    return vector_bytes == cache_line ? 128 : 1024;
+}
 
 // Kernels up to this size get a loop without prefetching for narrow planes; in larger ones the
 // prefetches cost nothing that could be noticed, and compiling the loop twice would.
@@ -38,12 +41,17 @@ public:
         : function_(function),
           kernel_(kernel),
           shape_(shape),
+          precision_(kernel.precision),
           builder_(builder),
           aliases_(function.getContext(), kernel.results.size()) {}
 
     llvm::Function& function() { return function_; }
     Stencil stencil() const { return shape_.stencil; }
     int lanes() const { return shape_.lanes; }
+    int number_bytes() const { return static_cast<int>(bytes_of(precision_)); }
+    int vector_bytes() const { return lanes() * number_bytes(); }
+    llvm::Type* number() const { return number_type(builder_, precision_); }
+    llvm::Type* word() const { return word_type(builder_, precision_); }
     Builder& builder() { return builder_; }
     const AliasScopes& aliases() const { return aliases_; }
 
@@ -72,21 +80,20 @@ public:
     }
 
     Value* uniform(std::size_t slot) {
-        llvm::Type* type = builder_.getFloatTy();
-        Value* address = builder_.CreateConstInBoundsGEP1_64(type, function_.getArg(2), slot);
-        llvm::LoadInst* number = builder_.CreateAlignedLoad(type, address, alignment(4));
-        return splat(builder_, aliases_.mark(number, 0));
+        Value* address = builder_.CreateConstInBoundsGEP1_64(number(), function_.getArg(2), slot);
+        llvm::LoadInst* load =
+            builder_.CreateAlignedLoad(number(), address, alignment(number_bytes()));
+        return splat(builder_, aliases_.mark(load, 0));
     }
 
     /// A variable of the module that nobody changes; the code generator does not know that.
-    Value* hidden(std::uint32_t word) {
-        llvm::Type* type = builder_.getFloatTy();
-        llvm::Constant* number = llvm::ConstantFP::get(
-            type, llvm::APFloat(llvm::APFloat::IEEEsingle(), llvm::APInt(32, word)));
-        auto* variable = new llvm::GlobalVariable(*function_.getParent(), type, false,
-                                                  llvm::GlobalValue::PrivateLinkage, number,
+    Value* hidden(std::uint64_t word) {
+        llvm::Constant* value = llvm::ConstantFP::get(number(), number_constant(word, precision_));
+        auto* variable = new llvm::GlobalVariable(*function_.getParent(), number(), false,
+                                                  llvm::GlobalValue::PrivateLinkage, value,
                                                   "hidden");  // The module owns it.
-        return splat(builder_, builder_.CreateAlignedLoad(type, variable, alignment(4)));
+        return splat(builder_, builder_.CreateAlignedLoad(number(), variable,
+                                                          alignment(number_bytes())));
     }
 
     /// Elements from a row to one that is `rows` rows and `slices` slices away.
@@ -118,6 +125,7 @@ private:
     llvm::Function& function_;
     const CellKernel& kernel_;
     GridShape shape_;
+    Precision precision_;
     Builder& builder_;  ///< Writes in front of the loops.
     AliasScopes aliases_;
     std::map<std::pair<unsigned, std::size_t>, Value*> planes_;
@@ -131,7 +139,7 @@ public:
         : frame_(frame), builder_(builder), row_(row) {}
 
     Value* uniform(std::uint32_t slot) override { return frame_.uniform(slot); }
-    Value* hidden(std::uint32_t word) override { return frame_.hidden(word); }
+    Value* hidden(std::uint64_t word) override { return frame_.hidden(word); }
     Value* cell_row() override {
         Value* row = row_;
         if (frame_.has_slices()) {
@@ -146,7 +154,7 @@ public:
 
 private:
     Value* word(Value* count) {
-        return frame_.splat(builder_, builder_.CreateTrunc(count, builder_.getInt32Ty()));
+        return frame_.splat(builder_, builder_.CreateTrunc(count, frame_.word()));
     }
 
     GridFrame& frame_;
@@ -198,10 +206,10 @@ private:
 Value* CellLane::field(std::uint32_t slot, int row, int column, int slice) {
     Value*& value = loads_[{slot, row, column, slice}];
     if (!value) {
-        llvm::Type* number = builder_.getFloatTy();
+        llvm::Type* number = frame_.number();
         Value* place = builder_.CreateAdd(element(row, slice), builder_.getInt64(column));
         Value* address = builder_.CreateInBoundsGEP(number, frame_.field_plane(slot), place);
-        const int bytes = column == 0 ? 4 * frame_.lanes() : 4;
+        const int bytes = column == 0 ? frame_.vector_bytes() : frame_.number_bytes();
         value = frame_.mark(
             builder_.CreateAlignedLoad(frame_.vector_of(number), address, alignment(bytes)), slot);
     }
@@ -248,7 +256,7 @@ Value* CellLane::mask(std::uint32_t slot) {
 }
 
 Value* CellLane::cell_column() {
-    llvm::Type* word = builder_.getInt32Ty();
+    llvm::Type* word = frame_.word();
     Value* first = builder_.CreateTrunc(builder_.CreateSub(element(0), row_start_), word);
     std::vector<llvm::Constant*> counts;
     for (int lane = 0; lane < frame_.lanes(); ++lane) {
@@ -258,16 +266,17 @@ Value* CellLane::cell_column() {
 }
 
 void CellLane::store(std::size_t result, Value* number) {
-    Value* address = builder_.CreateInBoundsGEP(builder_.getFloatTy(),
-                                                frame_.result_plane(result), element(0));
+    Value* address = builder_.CreateInBoundsGEP(frame_.number(), frame_.result_plane(result),
+                                                element(0));
     frame_.aliases().mark(
-        builder_.CreateAlignedStore(number, address, alignment(4 * frame_.lanes())), result + 1);
+        builder_.CreateAlignedStore(number, address, alignment(frame_.vector_bytes())),
+        result + 1);
 }
 
 // The place may lie behind the plane: a prefetch never faults.
 void CellLane::prefetch(std::uint32_t slot, int row) {
     Value* address =
-        builder_.CreateGEP(builder_.getFloatTy(), frame_.field_plane(slot), element(row));
+        builder_.CreateGEP(frame_.number(), frame_.field_plane(slot), element(row));
     const auto word = [&](unsigned value) { return builder_.getInt32(value); };
     builder_.CreateIntrinsic(llvm::Intrinsic::prefetch, {builder_.getPtrTy()},
                              {address, word(0), word(3), word(1)});  // To read, to L1, data.
@@ -367,15 +376,16 @@ void GridLoops::body(CellLane& lane, Builder& place, BodyScope& row_scope) {
 
 /// Writes the loops where `place` is, one or two ways.
 void build_loops(GridFrame& frame, GridLoops& loops, const CellKernel& kernel, Builder& place) {
-    const bool may_prefetch = frame.stencil().x && frame.stencil().y && frame.lanes() >= 8;
+    const int bytes = frame.vector_bytes();
+    const bool may_prefetch = frame.stencil().x && frame.stencil().y && bytes >= cache_line / 2;
     if (!may_prefetch || kernel.code.size() > largest_twofold_kernel) {
-        loops.rows(may_prefetch && frame.lanes() == 16, place);
+        loops.rows(may_prefetch && bytes == cache_line, place);
         place.CreateRetVoid();
         return;
     }
     llvm::BasicBlock* wide = loops.new_block("wide");
     llvm::BasicBlock* narrow = loops.new_block("narrow");
-    Value* least = place.getInt64(least_width_to_prefetch(frame.lanes()));
+    Value* least = place.getInt64(least_width_to_prefetch(bytes));
     place.CreateCondBr(place.CreateICmpSGE(frame.width(), least), wide, narrow);
     for (llvm::BasicBlock* block : {wide, narrow}) {
         place.SetInsertPoint(block);

@@ -6,6 +6,8 @@
 //               const float *uniforms, float *const *results,
 //               int64_t width, int64_t stride, int64_t row_begin, int64_t row_end);
 //
+// (of kernels of binary64 with double for float)
+//
 // and for grids of several slices two more arguments, `int64_t slice_rows, int64_t slice`.
 //
 // Pointers are to cell (0, 0, 0) of planes in the layout of PlaneLayout. Rows are rows of memory:
@@ -26,8 +28,13 @@ namespace cascade {
 /// What decides the code of a kernel besides the kernel.
 struct GridShape {
     Stencil stencil = Stencil::plane;
-    int lanes = 16;  ///< Cells per vector: 4, 8 or 16.
+    int lanes = 16;  ///< Cells per vector: 4, 8 or 16; half as many of kernels of binary64.
 };
+
+/// The shape with vectors as wide as `lanes` cells of binary32.
+inline GridShape shape_for(const CellKernel& kernel, Stencil stencil, int lanes) {
+    return {stencil, kernel.precision == Precision::single ? lanes : lanes / 2};
+}
 
 /// Adds the function to `module`, whose data layout is already that of the target.
 llvm::Function* build_grid_function(llvm::Module& module, const CellKernel& kernel,

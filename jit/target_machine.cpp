@@ -98,11 +98,11 @@ int widest_lanes(const llvm::TargetMachine& machine) {
     return features.checkFeatures("+avx") ? 8 : 4;
 }
 
-void set_target(llvm::Function& function, const llvm::TargetMachine& machine, int lanes) {
+void set_target(llvm::Function& function, const llvm::TargetMachine& machine, int vector_bytes) {
     function.addFnAttr("target-cpu", machine.getTargetCPU());
     function.addFnAttr("target-features", machine.getTargetFeatureString());
     // Processors that prefer narrower vectors than they have split ours without this.
-    const std::string bits = std::to_string(32 * lanes);
+    const std::string bits = std::to_string(8 * vector_bytes);
     function.addFnAttr("prefer-vector-width", bits);
     function.addFnAttr("min-legal-vector-width", bits);
     function.addFnAttr("denormal-fp-math", "preserve-sign,preserve-sign");

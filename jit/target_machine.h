@@ -30,7 +30,7 @@ int widest_lanes(const llvm::TargetMachine& machine);
 
 /// Sets what a function must say for the processor's features to be used, and for the arithmetic
 /// of the specification: strict, with denormals flushed to zero of the same sign.
-void set_target(llvm::Function& function, const llvm::TargetMachine& machine, int lanes);
+void set_target(llvm::Function& function, const llvm::TargetMachine& machine, int vector_bytes);
 
 /// Name of the host's CPU as LLVM knows it.
 std::string host_cpu_name();

@@ -152,6 +152,20 @@ void check_mask(Workspace& work, const ast::Script& script, const ast::Sentence&
     work.program.domain.mask = {std::move(checked->formula), span_of(script, sentence.values[0])};
 }
 
+void check_precision(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (!has_one_value(work, script, sentence)) return;
+    const ast::Expr& value = script.expressions[sentence.values[0].root];
+    if (std::holds_alternative<ast::Garbage>(value.node)) return;
+    const auto* name = std::get_if<ast::Name>(&value.node);
+    const std::string_view word = name != nullptr ? name->name : std::string_view();
+    if (const auto precision = precision_of_name(word)) {
+        work.program.domain.precision = *precision;
+        return;
+    }
+    work.diagnostics.error(value.span, "the precision is single or double",
+                           did_you_mean(work, word, {"single", "double"}));
+}
+
 /// Of one species, in a block that knows none.
 void report_sides(Workspace& work, const ast::Block& block) {
     for (const ast::Sentence& sentence : block.sides) {
@@ -178,6 +192,8 @@ void check_domain_sentence(Workspace& work, const ast::Script& script,
         check_seed(work, script, sentence);
     } else if (key == "mask") {
         check_mask(work, script, sentence);
+    } else if (key == "precision") {
+        check_precision(work, script, sentence);
     } else if (is_surface_setting(key)) {
         return;  // They come together, see below.
     } else if (key == "mesh" || key == "cells") {
@@ -185,9 +201,11 @@ void check_domain_sentence(Workspace& work, const ast::Script& script,
                                fmt::format("'{}' is not in this version of the language", key));
     } else {
         std::string hint = did_you_mean(work, key, {"grid", "spacing", "boundary", "seed", "mask",
-                                                   "left", "right", "top", "bottom", "front", "back",
-                                                   "sides"});
-        if (hint.empty()) hint = "a domain has grid, spacing, boundary, sides, mask, seed and surface";
+                                                   "precision", "left", "right", "top", "bottom",
+                                                   "front", "back", "sides"});
+        if (hint.empty()) {
+            hint = "a domain has grid, spacing, boundary, sides, mask, precision, seed and surface";
+        }
         work.diagnostics.error(sentence.name.span,
                                fmt::format("'{}' is not a setting of the domain", key),
                                std::move(hint));

@@ -8,7 +8,7 @@ namespace cascade::lowering {
 Value KernelAssembly::part(const Cursor& cursor) {
     const Node& node = cursor.part.node;
     switch (node.kind) {
-        case NodeKind::number: return {builder_.number(static_cast<float>(node.number))};
+        case NodeKind::number: return {builder_.number(node.number)};
         case NodeKind::text: return {};  // Its reader looks at the node itself.
         case NodeKind::own: return {own_item(node.index)};
         case NodeKind::earlier: return {item(node.stage, node.index)};

@@ -9,7 +9,7 @@ namespace cascade::lowering {
 /// Where the factor is 1 nothing is multiplied.
 ValueId PassLowering::scaled(ValueId value, double factor) {
     if (factor == 1) return value;
-    return builder_.multiply(value, builder_.number(static_cast<float>(factor)));
+    return builder_.multiply(value, builder_.number(factor));
 }
 
 /// The operation `laplacian` reads a plane as it is.
@@ -68,7 +68,7 @@ ValueId PassLowering::laplacian(PartId operand) {
     if (axes.has(1)) add(1, -1), add(1, 1);
     if (axes.has(0)) add(0, 1), add(0, -1);
     if (axes.has(2)) add(2, -1), add(2, 1);
-    const auto neighbours = static_cast<float>(2 * axes.present.size());
+    const auto neighbours = static_cast<double>(2 * axes.present.size());
     const ValueId own = builder_.multiply(builder_.number(neighbours), number_at(operand, {}));
     return scaled(builder_.subtract(*sum, own), factor);
 }

@@ -16,7 +16,7 @@ std::uint64_t random_key(std::uint32_t seed, std::string_view stage, std::string
 }
 
 KernelAssembly::KernelAssembly(const Program& program, std::uint32_t stage)
-    : program_(program), stage_(stage) {}
+    : program_(program), stage_(stage), builder_(program.domain.precision) {}
 
 /// Items of other stages are written large.b. No name of the language holds a dot, so the two kinds
 /// of slot names cannot meet.
@@ -151,8 +151,8 @@ ValueId KernelAssembly::step() { return uniform("step", {SlotSource::Kind::step,
 /// Cell centres: (i + 1/2) / side.
 ValueId KernelAssembly::coordinate(ValueId cell, std::int64_t side) {
     const ValueId number = builder_.apply(Op::bits_to_number, cell);
-    const ValueId centre = builder_.add(number, builder_.number(0.5f));
-    return builder_.divide(centre, builder_.number(static_cast<float>(side)));
+    const ValueId centre = builder_.add(number, builder_.number(0.5));
+    return builder_.divide(centre, builder_.number(static_cast<double>(side)));
 }
 
 /// The number of a cell beside, along one axis: beyond a side that of the opposite one, or of the
@@ -167,7 +167,7 @@ ValueId KernelAssembly::wrapped(ValueId cell, int by, std::int64_t count, Bounda
         builder_.apply(by > 0 ? Op::bits_add : Op::bits_subtract, cell, builder_.word(1));
     const ValueId is_at_side =
         builder_.apply(Op::equal, builder_.apply(Op::bits_to_number, cell),
-                       builder_.number(static_cast<float>(at_side)));
+                       builder_.number(static_cast<double>(at_side)));
     const std::int64_t beyond = boundary == Boundary::periodic ? opposite : at_side;
     return builder_.select(is_at_side, builder_.word(static_cast<std::uint32_t>(beyond)), moved);
 }

@@ -25,15 +25,16 @@ Space KernelAssembly::space() {
     const std::int64_t longest = grid.longest_side();
     const auto axis = [&](std::int64_t side, ValueId cell, Boundary boundary) {
         const double length = static_cast<double>(side) / static_cast<double>(longest);
-        return SpaceAxis{coordinate(cell, longest), static_cast<float>(length),
-                         boundary == Boundary::periodic, side > 1};
+        return SpaceAxis{coordinate(cell, longest), length, boundary == Boundary::periodic,
+                         side > 1};
     };
     return {axis(grid.width, column(), grid.boundary.x),
             axis(grid.height, row(), grid.boundary.y),
             axis(grid.depth, slice(), grid.boundary.z)};
 }
 
-/// The draw of a cell. Its hash knows columns and rows; slices other than the first change the draw.
+/// The draw of a cell, a word of 32 bits. Its hash knows columns and rows; slices other than the first
+/// change the draw.
 ValueId KernelAssembly::draw_of_cell(ValueId draw) {
     if (program_.domain.grid.depth == 1) return draw;
     const ValueId slice =
@@ -69,7 +70,7 @@ ValueId KernelAssembly::shape(const Node& node, const Cursor& cursor) {
 /// Every occurrence of a random function in a formula has numbers of its own.
 ValueId KernelAssembly::random(const Node& node, const Cursor& cursor) {
     const Draw draw{
-        cursor.noise.every_step ? step() : builder_.word(0),
+        cursor.noise.every_step ? builder_.draw_word(step()) : builder_.word(0),
         random_key(program_.domain.seed,
                    cursor.noise.owner.empty() ? stage().name : cursor.noise.owner,
                    cursor.noise.origin, cursor.occurrences)};
@@ -104,7 +105,7 @@ ValueId KernelAssembly::white(ValueId strength, const Draw& draw) {
     const ValueId normal = builder_.random_normal(draw_of_cell(draw.word), draw.key);
     const Grid& grid = program_.domain.grid;
     const int axes = int{grid.width > 1} + int{grid.height > 1} + int{grid.depth > 1};
-    const auto content = static_cast<float>(std::pow(grid.spacing, axes));
+    const double content = std::pow(grid.spacing, axes);
     const ValueId share = builder_.multiply(time_step(), builder_.number(content));
     const ValueId spread = builder_.apply(Op::square_root, share);
     return builder_.divide(builder_.multiply(strength, normal), spread);

@@ -136,7 +136,7 @@ ValueId PassLowering::through_sides(PartId flux, Face face, ValueId value) {
     const ValueId cell = face.axis == 0   ? builder_.cell_column()
                          : face.axis == 1 ? builder_.cell_row()
                                           : builder_.cell_slice();
-    const auto last = static_cast<float>(face.side == 0 ? count - 1 : 0);
+    const auto last = static_cast<double>(face.side == 0 ? count - 1 : 0);
     const ValueId is_side = builder_.apply(Op::equal, builder_.apply(Op::bits_to_number, cell),
                                            builder_.number(last));
     return builder_.select(is_side, builder_.number(0), value);

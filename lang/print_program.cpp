@@ -136,7 +136,11 @@ std::string print_program(const Program& program) {
     if (const auto& mask = program.domain.mask) {
         fmt::format_to(out, "\n  mask: {}", print_formula(program, {}, mask->formula));
     }
-    fmt::format_to(out, "\n  seed: {}\n}}\n", program.domain.seed);
+    fmt::format_to(out, "\n  seed: {}\n", program.domain.seed);
+    if (program.domain.precision != Precision::single) {
+        fmt::format_to(out, "  precision: {}\n", name_of(program.domain.precision));
+    }
+    fmt::format_to(out, "}}\n");
     for (std::uint32_t i = 0; i < program.stages.size(); ++i) {
         text += "\n";
         print_stage(program, i, out);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/grid.h"
+#include "core/precision.h"
 #include "core/side.h"
 #include "core/source.h"
 #include "ir/solver.h"
@@ -282,6 +283,7 @@ struct DomainSettings {
     std::optional<MaskSettings> mask;        ///< Without one all cells of the grid.
     std::optional<SurfaceSettings> surface;  ///< Without one the plane.
     std::uint32_t seed = 1;
+    Precision precision = Precision::single;  ///< Of all numbers of a run.
     std::array<std::optional<SideSetting>, side_count> sides;  ///< Of all species.
     Span grid_span;              ///< For messages about its size; empty when it is the default.
 };

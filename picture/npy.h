@@ -1,5 +1,5 @@
-// NumPy's .npy files: one array. Little-endian float32 is written; floats, integers and booleans of
-// both byte orders are read as float32. The format: NumPy Enhancement Proposal 1.
+// NumPy's .npy files: one array. Little-endian floats of a field's precision are written; floats,
+// integers and booleans of both byte orders are read. The format: NumPy Enhancement Proposal 1.
 #pragma once
 
 #include "core/plane.h"
@@ -19,20 +19,22 @@ struct NpyArray {
     std::int64_t slices = 1;
     std::int64_t rows = 0;
     std::int64_t columns = 0;
-    std::vector<float> values;
+    std::vector<double> values;
 };
 
 /// An array from a .npy file in memory, format versions 1 to 3. Types f4 f8 i1 i2 i4 i8 u1 u2 u4 u8
-/// b1, little- or big-endian, each value rounded to the nearest float32. Fails, with the reason, on
+/// b1, little- or big-endian, each value rounded to the nearest number of a precision. Fails, with the reason, on
 /// other types, Fortran order, no or more than three dimensions, no elements, missing or surplus
 /// bytes, a bad header. The message is a clause that follows "cannot read 'FILE': ".
-Result<NpyArray> parse_npy(std::string_view bytes);
+Result<NpyArray> parse_npy(std::string_view bytes, Precision precision = Precision::single);
 
 /// The same of a file.
-Result<NpyArray> read_npy(const std::filesystem::path& path);
+Result<NpyArray> read_npy(const std::filesystem::path& path,
+                          Precision precision = Precision::single);
 
 /// A field as a .npy file in memory: version 1.0, header as NumPy writes it, rows × columns
-/// (slices × rows × columns where there are several slices) of little-endian float32 in C order; every NaN as 0x7fc00000.
+/// (slices × rows × columns where there are several slices) of little-endian float32 or float64 in C
+/// order; every NaN as 0x7fc00000, or 0x7ff8000000000000.
 std::string encode_npy(const Field& field);
 
 /// Writes encode_npy(field), atomically.
@@ -41,7 +43,8 @@ Result<void> write_npy(const std::filesystem::path& path, const Field& field);
 /// Has the array the sides of the grid?
 bool fits(const NpyArray& array, const Grid& grid);
 
-/// The array as a field of a grid of its columns × rows × slices; the halo is zero.
-Field to_field(const NpyArray& array);
+/// The array, rounded to a precision, as a field of a grid of its columns × rows × slices; the halo is
+/// zero.
+Field to_field(const NpyArray& array, Precision precision = Precision::single);
 
 }  // namespace cascade

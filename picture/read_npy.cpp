@@ -1,4 +1,4 @@
-// Reads .npy files into arrays of float.
+// Reads .npy files.
 #include "core/file.h"
 #include "picture/npy.h"
 #include "picture/npy_header.h"
@@ -11,6 +11,7 @@
 #include <bit>
 #include <cstring>
 #include <new>
+#include <type_traits>
 
 namespace cascade {
 namespace {
@@ -20,37 +21,44 @@ static_assert(std::endian::native == std::endian::little);
 constexpr std::uint64_t most_elements = std::uint64_t{1} << 31;
 constexpr std::uint64_t largest_file = most_elements * 8 + (std::uint64_t{1} << 17);
 
-/// Turns the elements of a file into floats; `swapped` says that they are big-endian.
-using Convert = void (*)(std::string_view bytes, bool swapped, std::vector<float>& values);
+/// Turns the elements of a file into numbers; `swapped` says that they are big-endian.
+using Convert = void (*)(std::string_view bytes, bool swapped, std::vector<double>& values);
 
-template <typename T>
-void convert(std::string_view bytes, bool swapped, std::vector<float>& values) {
+/// Each element of type T is rounded to Number, once.
+template <typename T, typename Number>
+void convert(std::string_view bytes, bool swapped, std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) {
         std::array<char, sizeof(T)> element;
         std::memcpy(element.data(), bytes.data() + k * sizeof(T), sizeof(T));
         if (swapped) std::reverse(element.begin(), element.end());
-        values[k] = static_cast<float>(std::bit_cast<T>(element));
+        values[k] = static_cast<Number>(std::bit_cast<T>(element));
     }
 }
 
 struct ElementType {
     std::string_view name;
     std::uint64_t size;
-    Convert convert;
+    Convert to_single;
+    Convert to_double;
 };
 
+template <typename T>
+constexpr ElementType element_type(std::string_view name) {
+    return {name, sizeof(T), convert<T, float>, convert<T, double>};
+}
+
 constexpr std::array<ElementType, 11> element_types{{
-    {"f4", 4, convert<float>},
-    {"f8", 8, convert<double>},
-    {"i1", 1, convert<std::int8_t>},
-    {"i2", 2, convert<std::int16_t>},
-    {"i4", 4, convert<std::int32_t>},
-    {"i8", 8, convert<std::int64_t>},
-    {"u1", 1, convert<std::uint8_t>},
-    {"u2", 2, convert<std::uint16_t>},
-    {"u4", 4, convert<std::uint32_t>},
-    {"u8", 8, convert<std::uint64_t>},
-    {"b1", 1, convert<std::uint8_t>},
+    element_type<float>("f4"),
+    element_type<double>("f8"),
+    element_type<std::int8_t>("i1"),
+    element_type<std::int16_t>("i2"),
+    element_type<std::int32_t>("i4"),
+    element_type<std::int64_t>("i8"),
+    element_type<std::uint8_t>("u1"),
+    element_type<std::uint16_t>("u2"),
+    element_type<std::uint32_t>("u4"),
+    element_type<std::uint64_t>("u8"),
+    element_type<std::uint8_t>("b1"),
 }};
 
 /// The type without its byte order, or nullptr. Only a type of one byte may have none ('|').
@@ -113,7 +121,7 @@ Result<NpyArray> array_of_shape(const NpyHeader& header) {
 
 }  // namespace
 
-Result<NpyArray> parse_npy(std::string_view bytes) {
+Result<NpyArray> parse_npy(std::string_view bytes, Precision precision) {
     const Result<NpyHeader> header = parse_npy_header(bytes);
     if (!header) return tl::unexpected<Failure>(header.error());
     const ElementType* type = find_type(header->type);
@@ -132,11 +140,12 @@ Result<NpyArray> parse_npy(std::string_view bytes) {
     } catch (const std::bad_alloc&) {
         return failure("there is not enough memory");
     }
-    type->convert(data, header->type[0] == '>', array->values);
+    const Convert convert = precision == Precision::single ? type->to_single : type->to_double;
+    convert(data, header->type[0] == '>', array->values);
     return array;
 }
 
-Result<NpyArray> read_npy(const std::filesystem::path& path) {
+Result<NpyArray> read_npy(const std::filesystem::path& path, Precision precision) {
     // A device may have no end, and no size to compare with.
     std::error_code error;
     if (std::filesystem::exists(path, error) && std::filesystem::is_other(path, error)) {
@@ -144,7 +153,7 @@ Result<NpyArray> read_npy(const std::filesystem::path& path) {
     }
     const Result<std::string> bytes = read_file(path, largest_file);
     if (!bytes) return tl::unexpected<Failure>(bytes.error());
-    Result<NpyArray> array = parse_npy(*bytes);
+    Result<NpyArray> array = parse_npy(*bytes, precision);
     if (!array) {
         return failure(fmt::format("cannot read '{}': {}", path.string(), array.error().message),
                        array.error().hint);
@@ -156,11 +165,16 @@ bool fits(const NpyArray& array, const Grid& grid) {
     return array.slices == grid.depth && array.rows == grid.height && array.columns == grid.width;
 }
 
-Field to_field(const NpyArray& array) {
-    Field field{PlaneLayout(Grid{array.columns, array.rows, {}, array.slices})};
-    for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
-        std::copy_n(array.values.begin() + row * array.columns, array.columns, field.row(row));
-    }
+Field to_field(const NpyArray& array, Precision precision) {
+    Field field(PlaneLayout(Grid{array.columns, array.rows, {}, array.slices}), precision);
+    field.visit([&](auto& plane) {
+        using Number = std::remove_pointer_t<decltype(plane.row(0))>;
+        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+            const auto values = array.values.begin() + row * array.columns;
+            std::transform(values, values + array.columns, plane.row(row),
+                           [](double value) { return static_cast<Number>(value); });
+        }
+    });
     return field;
 }
 

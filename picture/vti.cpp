@@ -49,8 +49,9 @@ void append_size(std::string& text, BlockSize bytes) {
 std::string encode_vti(std::span<const VolumeArray> arrays, double spacing, const Mask* inside) {
     CHECK(!arrays.empty(), "a volume has an array");
     const PlaneLayout layout = arrays.front().field->layout();
+    const std::size_t bytes = bytes_of(arrays.front().field->precision());
     const auto cells = static_cast<BlockSize>(layout.width * layout.row_count());
-    const BlockSize bytes_of_array = cells * 4;
+    const BlockSize bytes_of_array = cells * bytes;
     const std::string extent =
         fmt::format("0 {} 0 {} 0 {}", layout.width, layout.height, layout.depth);
     std::string text = fmt::format(
@@ -64,9 +65,9 @@ std::string encode_vti(std::span<const VolumeArray> arrays, double spacing, cons
     BlockSize offset = 0;
     for (const VolumeArray& array : arrays) {
         text += fmt::format(
-            "        <DataArray type=\"Float32\" Name=\"{}\" format=\"appended\" "
+            "        <DataArray type=\"Float{}\" Name=\"{}\" format=\"appended\" "
             "offset=\"{}\"/>\n",
-            escaped(array.name), offset);
+            8 * bytes, escaped(array.name), offset);
         offset += sizeof(BlockSize) + bytes_of_array;
     }
     if (inside != nullptr) {
@@ -79,7 +80,8 @@ std::string encode_vti(std::span<const VolumeArray> arrays, double spacing, cons
             "  <AppendedData encoding=\"raw\">\n_";
     text.reserve(text.size() + offset + 64);
     for (const VolumeArray& array : arrays) {
-        CHECK(array.field->layout() == layout, "the arrays of a volume have one layout");
+        CHECK(array.field->layout() == layout && bytes_of(array.field->precision()) == bytes,
+              "the arrays of a volume have one layout and precision");
         append_size(text, bytes_of_array);
         append_floats(text, *array.field);
     }

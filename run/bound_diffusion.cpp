@@ -44,7 +44,7 @@ BoundDiffusion::BoundDiffusion(const Program& program, std::uint32_t stage,
     if (!constant.empty()) {
         const std::vector<double> values = largest(constant);
         for (std::size_t n = 0; n < values.size(); ++n) {
-            found_once[n]->value = static_cast<float>(values[n]);
+            found_once[n]->value = values[n];
         }
     }
     if (changing.empty()) return;

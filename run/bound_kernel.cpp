@@ -7,23 +7,24 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 namespace cascade {
 
 namespace {
 
-const float* plane_of(const SlotSource& source, const BindingContext& context) {
-    if (source.kind == SlotSource::Kind::image) return context.files.image(source.item).origin();
-    if (source.kind == SlotSource::Kind::file) return context.files.plane(source.item).origin();
-    if (source.kind == SlotSource::Kind::metric) return context.metric[source.item].origin();
-    if (source.kind == SlotSource::Kind::neighbourhood) return context.mask->neighbourhood.origin();
-    return context.states[source.stage].field(source.item).origin();
+const Field& plane_of(const SlotSource& source, const BindingContext& context) {
+    if (source.kind == SlotSource::Kind::image) return context.files.image(source.item);
+    if (source.kind == SlotSource::Kind::file) return context.files.plane(source.item);
+    if (source.kind == SlotSource::Kind::metric) return context.metric[source.item];
+    if (source.kind == SlotSource::Kind::neighbourhood) return context.mask->neighbourhood;
+    return context.states[source.stage].field(source.item);
 }
 
 /// The halo is no part of a field's value: whoever reads neighbours fills it.
-void fill_halo_of(const float* cells, const Grid& grid, const SideRules& sides) {
-    fill_halo(const_cast<float*>(cells), PlaneLayout(grid), sides);
+void fill_halo_of(const Field& field, const SideRules& sides) {
+    fill_halo(const_cast<Field&>(field), sides);
 }
 
 /// Binds the slots of a plan's passes.
@@ -48,6 +49,7 @@ public:
     StepProblem bind(const Compile& compile) {
         problem_.grid = context_.grid;
         problem_.cells_inside = context_.mask ? context_.mask->cells : 0;
+        problem_.precision = context_.precision;
         problem_.temporaries = plan_.temporaries;
         problem_.aggregates = plan_.aggregates;
         for (const Pass& pass : plan_.passes) {
@@ -82,7 +84,7 @@ private:
             plane.in_register = source.stage == 0 ? register_of(plane.number)
                                                   : sweep_->inputs[source.stage];
         } else {
-            plane.cells = plane_of(source, context_);
+            plane.cells = plane_of(source, context_).address();
         }
         return plane;
     }
@@ -114,8 +116,9 @@ private:
                     problem_.species_needs_halo[plane.number] = true;
                     break;
                 case PlaneRef::Kind::temporary: temporary_needs_halo_[plane.number] = true; break;
-                case PlaneRef::Kind::fixed: 
-                    fill_halo_of(plane.cells, context_.grid, sides_of(pass.bound.fields[slot]));
+                case PlaneRef::Kind::fixed:
+                    fill_halo_of(plane_of(pass.bound.fields[slot], context_),
+                                 sides_of(pass.bound.fields[slot]));
                     break;
             }
         }
@@ -141,7 +144,7 @@ private:
     void bind_uniform(const SlotSource& source, StepProblem::Pass& bound) const {
         const auto slot = static_cast<std::uint32_t>(bound.uniforms.size());
         using Kind = StepProblem::ChangingUniform::Kind;
-        float value = 0;
+        double value = 0;
         switch (source.kind) {
             case SlotSource::Kind::item:
                 value = context_.states[source.stage].numbers[source.item];
@@ -154,7 +157,7 @@ private:
                 bound.changing.push_back({Kind::time, slot, 0, sweep_ ? sweep_->time : 0, false});
                 break;
             case SlotSource::Kind::time_step:
-                value = static_cast<float>(context_.states[stage_].time.clock.step);
+                value = context_.states[stage_].time.clock.step;
                 bound.changing.push_back({Kind::coefficient, slot, 0, 1, true});
                 break;
             case SlotSource::Kind::coefficient: {
@@ -241,6 +244,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     StepProblem whole;
     whole.grid = context.grid;
     whole.cells_inside = context.mask ? context.mask->cells : 0;
+    whole.precision = context.precision;
     whole.registers = scheme.registers;
     whole.error_register = scheme.error_register;
     whole.sides = context.states[stage].sides;
@@ -285,11 +289,11 @@ std::vector<Field> run_plan(const StepPlan& plan, const Compile& compile,
     const StepProblem problem = Binder(plan, here, nullptr, 0).bind(compile);
     const PlaneLayout layout(on);
     std::vector<Field> results;
-    std::vector<float*> cells;
+    std::vector<void*> cells;
     for (std::uint32_t k = 0; k < plan.result_count; ++k) {
-        cells.push_back(results.emplace_back(layout).origin());
+        cells.push_back(results.emplace_back(layout, context.precision).address());
     }
-    const std::array<std::span<float* const>, 2> registers{std::span<float* const>(), cells};
+    const std::array<std::span<void* const>, 2> registers{std::span<void* const>(), cells};
     run_once(problem, team, registers, {context.steps, context.t, 0});
     return results;
 }
@@ -298,18 +302,20 @@ namespace {
 
 /// The first value inside the mask that no other beats; NaN if one is NaN.
 template <typename Beats>
-float extreme(const Field& field, const DomainMask* mask, const Beats& beats) {
-    std::optional<float> best;
-    for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
-        for (std::int64_t i = 0; i < field.layout().width; ++i) {
-            if (mask && mask->inside.row(row)[i] == 0) continue;
-            const float value = field.row(row)[i];
-            if (std::isnan(value)) return value;
-            if (!best || beats(value, *best)) best = value;
+double extreme(const Field& field, const DomainMask* mask, const Beats& beats) {
+    return field.visit([&](const auto& plane) -> double {
+        std::optional<double> best;
+        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+            for (std::int64_t i = 0; i < plane.layout().width; ++i) {
+                if (mask && mask->inside.row(row)[i] == 0) continue;
+                const double value = plane.row(row)[i];
+                if (std::isnan(value)) return value;
+                if (!best || beats(value, *best)) best = value;
+            }
         }
-    }
-    CHECK(best, "a domain has a cell");
-    return *best;
+        CHECK(best, "a domain has a cell");
+        return *best;
+    });
 }
 
 }  // namespace
@@ -318,28 +324,32 @@ Mask to_mask(const Field& field) {
     const PlaneLayout& layout = field.layout();
     Mask mask(layout);
     const FlushDenormals environment;
-    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-        for (std::int64_t i = 0; i < layout.width; ++i) mask.row(row)[i] = field.row(row)[i] != 0.0F;
-    }
+    field.visit([&](const auto& plane) {
+        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+            for (std::int64_t i = 0; i < layout.width; ++i) mask.row(row)[i] = plane.row(row)[i] != 0;
+        }
+    });
     return mask;
 }
 
-float smallest(const Field& field, const DomainMask* mask) {
-    return extreme(field, mask, [](float value, float least) { return value < least; });
+double smallest(const Field& field, const DomainMask* mask) {
+    return extreme(field, mask, [](double value, double least) { return value < least; });
 }
 
-float largest_value(const Field& field, const DomainMask* mask) {
-    return extreme(field, mask, [](float value, float most) { return value > most; });
+double largest_value(const Field& field, const DomainMask* mask) {
+    return extreme(field, mask, [](double value, double most) { return value > most; });
 }
 
 bool is_same_everywhere(const Field& field) {
-    const PlaneLayout& layout = field.layout();
-    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-        for (std::int64_t i = 0; i < layout.width; ++i) {
-            if (to_bits(field.row(row)[i]) != to_bits(field.at(0, 0))) return false;
+    return field.visit([](const auto& plane) {
+        const auto* first = plane.row(0);
+        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+            for (std::int64_t i = 0; i < plane.layout().width; ++i) {
+                if (std::memcmp(plane.row(row) + i, first, sizeof *first) != 0) return false;
+            }
         }
-    }
-    return true;
+        return true;
+    });
 }
 
 std::string species_name(const System& system, std::size_t species) {

@@ -24,6 +24,7 @@ struct BindingContext {
     const InputFiles& files;
     std::int64_t steps = 0;   ///< Complete steps of the stage the kernel belongs to.
     Grid grid;
+    Precision precision = Precision::single;
     double t = 0;             ///< Its time.
     std::span<const Field> metric = {};  ///< By MetricPlane; empty without a surface.
     const DomainMask* mask = nullptr;    ///< None where all cells belong to the domain.
@@ -51,9 +52,9 @@ std::vector<Field> run_plan(const StepPlan& plan, const Compile& compile,
 Mask to_mask(const Field& field);
 
 /// The smallest value of a field's cells inside the mask; NaN if one is NaN.
-float smallest(const Field& field, const DomainMask* mask);
+double smallest(const Field& field, const DomainMask* mask);
 /// The largest.
-float largest_value(const Field& field, const DomainMask* mask);
+double largest_value(const Field& field, const DomainMask* mask);
 
 /// Do all cells hold the same word?
 bool is_same_everywhere(const Field& field);

@@ -11,6 +11,11 @@ namespace {
 
 constexpr std::int64_t most_steps = 1'000'000'000;
 
+Field restricted_field(const Field& fine, const Grid& fine_grid, const Grid& coarse_grid) {
+    return fine.visit(
+        [&](const auto& plane) { return Field(restricted(plane, fine_grid, coarse_grid)); });
+}
+
 }  // namespace
 
 Program on_coarser_grid(const Program& program, std::uint32_t stage, std::int64_t times) {
@@ -35,7 +40,7 @@ StageState restricted(const StageState& fine, const Grid& fine_grid, const Grid&
     coarse.species_of_item = fine.species_of_item;
     const auto all = [&](const std::vector<Field>& fields, std::vector<Field>& into) {
         for (const Field& field : fields) {
-            into.push_back(field.empty() ? Field() : restricted(field, fine_grid, coarse_grid));
+            into.push_back(field.empty() ? Field() : restricted_field(field, fine_grid, coarse_grid));
         }
     };
     all(fine.fields, coarse.fields);
@@ -43,23 +48,23 @@ StageState restricted(const StageState& fine, const Grid& fine_grid, const Grid&
     all(fine.side_values, coarse.side_values);
     coarse.sides = fine.sides;
     for (SideRules& rules : coarse.sides) {
-        rules.spacing = static_cast<float>(coarse_grid.spacing);
+        rules.spacing = coarse_grid.spacing;
         for (SideRule& rule : rules.at) {
             if (rule.values == nullptr) continue;
             const auto same = std::find_if(
                 fine.side_values.begin(), fine.side_values.end(),
-                [&](const Field& values) { return values.origin() == rule.values; });
+                [&](const Field& values) { return values.address() == rule.values; });
             Field& values = coarse.side_values[static_cast<std::size_t>(
                 same - fine.side_values.begin())];
-            fill_halo(values.origin(), values.layout(), coarse_grid.boundary);
-            rule.values = values.origin();
+            fill_halo(values, coarse_grid.boundary);
+            rule.values = values.address();
         }
     }
     return coarse;
 }
 
 InputFiles restricted(const InputFiles& fine, const Grid& fine_grid, const Grid& coarse_grid) {
-    return fine.mapped([&](const Field& plane) { return restricted(plane, fine_grid, coarse_grid); });
+    return fine.mapped([&](const Field& plane) { return restricted_field(plane, fine_grid, coarse_grid); });
 }
 
 void take_refined(StageState& fine, const Grid& fine_grid, StageState& coarse,
@@ -67,14 +72,18 @@ void take_refined(StageState& fine, const Grid& fine_grid, StageState& coarse,
     for (std::size_t s = 0; s < fine.species.size(); ++s) {
         const SideRules sides =
             coarse.sides.empty() ? SideRules(coarse_grid.boundary) : coarse.sides[s];
-        Field values = refined(coarse.species[s], coarse_grid, fine_grid, sides);
+        Field values = coarse.species[s].visit([&](auto& plane) {
+            return Field(refined(plane, coarse_grid, fine_grid, sides));
+        });
         if (!fine.frozen.empty()) {
-            const PlaneLayout& layout = values.layout();
-            for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-                for (std::int64_t i = 0; i < layout.width; ++i) {
-                    if (fine.frozen.row(row)[i]) values.row(row)[i] = fine.species[s].row(row)[i];
+            values.visit([&]<typename Number>(Plane<Number>& plane) {
+                const Plane<Number>& old = fine.species[s].plane<Number>();
+                for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+                    for (std::int64_t i = 0; i < plane.layout().width; ++i) {
+                        if (fine.frozen.row(row)[i]) plane.row(row)[i] = old.row(row)[i];
+                    }
                 }
-            }
+            });
         }
         fine.species[s] = std::move(values);
     }

@@ -119,6 +119,10 @@ Result<CompiledStep> compile_step(Script& script, const CompileRequest& request)
     Program program = *script.program;
     const auto stage = find_stage(program, request.stage);
     if (!stage) return tl::unexpected(stage.error());
+    if (program.domain.precision != Precision::single) {
+        return failure("a stage in double precision is not compiled to an object file",
+                       "'cascade run' compiles it in memory; --precision single is compiled");
+    }
     if (program.domain.mask) {
         return failure("a domain with a mask is not compiled to an object file",
                        "'cascade run' compiles it in memory");

@@ -26,8 +26,11 @@ std::string csv_number(double value) {
     return std::isfinite(value) ? fmt::format("{:.9g}", value) : std::string();
 }
 
-std::string csv_number(float value) {
-    return std::isfinite(value) ? fmt::format("{}", value) : std::string();
+std::string csv_number(double value, Precision precision) {
+    return with_number(precision, [&](auto zero) {
+        const auto number = static_cast<decltype(zero)>(value);
+        return std::isfinite(number) ? fmt::format("{}", number) : std::string();
+    });
 }
 
 }  // namespace cascade

@@ -1,5 +1,7 @@
 #include "run/domain_mask.h"
 
+#include "ir/word_format.h"
+
 #include <cmath>
 #include <cstring>
 
@@ -8,7 +10,7 @@ namespace cascade {
 namespace {
 
 /// Bits of the cells around one, whose own value is that of (i, j, k).
-std::uint32_t bits_around(const Field& inside, std::int64_t i, std::int64_t j, std::int64_t k) {
+std::uint32_t bits_around(const Plane<float>& inside, std::int64_t i, std::int64_t j, std::int64_t k) {
     const std::int64_t reach = inside.layout().has_halo_slices() ? 1 : 0;
     std::uint32_t bits = 0;
     for (std::int64_t dz = -reach; dz <= reach; ++dz) {
@@ -28,25 +30,29 @@ DomainMask make_domain_mask(const Field& values, const Grid& grid) {
     const PlaneLayout& layout = values.layout();
     DomainMask mask;
     mask.inside = Mask(layout);
-    mask.neighbourhood = Field(layout);
-    Field inside(layout);
-    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-        for (std::int64_t i = 0; i < layout.width; ++i) {
-            const float value = values.row(row)[i];
-            const bool is_inside = std::isnormal(value) || std::isinf(value);
-            inside.row(row)[i] = is_inside ? 1 : 0;
-            mask.inside.row(row)[i] = is_inside ? 1 : 0;
-            mask.cells += is_inside ? 1 : 0;
+    mask.neighbourhood = Field(layout, values.precision());
+    Plane<float> inside(layout);
+    values.visit([&](const auto& plane) {
+        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+            for (std::int64_t i = 0; i < layout.width; ++i) {
+                const auto value = plane.row(row)[i];
+                const bool is_inside = std::isnormal(value) || std::isinf(value);
+                inside.row(row)[i] = is_inside ? 1 : 0;
+                mask.inside.row(row)[i] = is_inside ? 1 : 0;
+                mask.cells += is_inside ? 1 : 0;
+            }
         }
-    }
+    });
     fill_halo(inside.origin(), layout, grid.boundary);
-    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-        const std::int64_t j = row % layout.height, k = row / layout.height;
-        for (std::int64_t i = 0; i < layout.width; ++i) {
-            const std::uint32_t bits = bits_around(inside, i, j, k);
-            std::memcpy(mask.neighbourhood.row(row) + i, &bits, sizeof bits);
+    mask.neighbourhood.visit([&]<typename Number>(Plane<Number>& words) {
+        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+            const std::int64_t j = row % layout.height, k = row / layout.height;
+            for (std::int64_t i = 0; i < layout.width; ++i) {
+                const WordOf<Number> bits = bits_around(inside, i, j, k);
+                std::memcpy(words.row(row) + i, &bits, sizeof bits);
+            }
         }
-    }
+    });
     return mask;
 }
 
@@ -64,12 +70,13 @@ Mask still_cells(const DomainMask& mask, const Mask* frozen) {
 
 Field with_outside(const Field& field, const DomainMask& mask, float value) {
     Field copy = field.clone();
-    const PlaneLayout& layout = field.layout();
-    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-        for (std::int64_t i = 0; i < layout.width; ++i) {
-            if (mask.inside.row(row)[i] == 0) copy.row(row)[i] = value;
+    copy.visit([&](auto& plane) {
+        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+            for (std::int64_t i = 0; i < plane.layout().width; ++i) {
+                if (mask.inside.row(row)[i] == 0) plane.row(row)[i] = value;
+            }
         }
-    }
+    });
     return copy;
 }
 

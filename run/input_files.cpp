@@ -18,7 +18,8 @@ void read_one(Script& script, const Node& node, InputFiles& files) {
     const Grid& grid = script.program->domain.grid;
     const auto path = readable_path(script.folder, name, script.overrides.reads);
     if (!path) return script.diagnostics.error(node.span, path.error().message, path.error().hint);
-    const auto array = read_npy(*path);
+    const Precision precision = script.program->domain.precision;
+    const auto array = read_npy(*path, precision);
     if (!array) {
         script.diagnostics.error(node.span, array.error().message, array.error().hint);
     } else if (!fits(*array, grid)) {
@@ -36,7 +37,7 @@ void read_one(Script& script, const Node& node, InputFiles& files) {
                 : fmt::format("a grid of {}, {}, {} would fit", array->columns, array->rows,
                               array->slices));
     } else {
-        files.add(node.index, to_field(*array));
+        files.add(node.index, to_field(*array, precision));
     }
 }
 
@@ -49,7 +50,8 @@ void read_image(Script& script, const Node& node, InputFiles& files) {
     if (!picture) {
         return script.diagnostics.error(node.span, picture.error().message, picture.error().hint);
     }
-    files.add_image(node.index, to_field(resized(*picture, grid.width, grid.height), grid));
+    const Field plane = to_field(resized(*picture, grid.width, grid.height), grid);
+    files.add_image(node.index, plane.converted(script.program->domain.precision));
 }
 
 }  // namespace

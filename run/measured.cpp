@@ -11,9 +11,11 @@ measure::Samples to_samples(const Field& field, const Grid& grid) {
                         boundary.z == Boundary::periodic};
     samples.spacing = grid.spacing;
     samples.values.reserve(static_cast<std::size_t>(grid.cell_count()));
-    for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
-        samples.values.insert(samples.values.end(), field.row(row), field.row(row) + grid.width);
-    }
+    field.visit([&](const auto& plane) {
+        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+            samples.values.insert(samples.values.end(), plane.row(row), plane.row(row) + grid.width);
+        }
+    });
     return samples;
 }
 

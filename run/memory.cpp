@@ -111,7 +111,8 @@ double memory_of(const Program& program, StagePlans& plans) {
     planes += while_running;
     if (program.domain.surface) planes += metric_plane_count;
     if (program.domain.mask) planes += 2;  // One of words, one of bytes.
-    return static_cast<double>(planes) * static_cast<double>(plane_size(program)) * 4.0;
+    return static_cast<double>(planes) * static_cast<double>(plane_size(program)) *
+           static_cast<double>(bytes_of(program.domain.precision));
 }
 
 Result<void> check_memory(const Grid& grid, double needed, std::uint64_t limit) {

@@ -183,9 +183,12 @@ std::vector<float> Pattern::values(const std::string& text) {
     if (!formula) return {};
     const Field field = std::move(self_->simulation->evaluate(*formula, self_->stage)[0]);
     std::vector<float> values;
-    for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
-        values.insert(values.end(), field.row(row), field.row(row) + width());
-    }
+    field.visit([&](const auto& plane) {
+        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+            std::transform(plane.row(row), plane.row(row) + width(), std::back_inserter(values),
+                           [](auto value) { return static_cast<float>(value); });
+        }
+    });
     return values;
 }
 

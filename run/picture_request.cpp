@@ -33,17 +33,15 @@ bool makes_sense(const PictureRequest& request) {
 
 constexpr std::string_view axis_letters = "xyz";
 
-/// Of a volume the slice that the request shows.
-void cut_all(std::vector<Field>& fields, const PictureRequest& request) {
-    for (Field& field : fields) {
-        if (field.layout().depth > 1) field = cut(field, request.slice);
-    }
+/// A field as it is painted: in binary32, and of a volume the slice that the request shows.
+Field shown(Field field, const PictureRequest& request) {
+    if (field.precision() != Precision::single) field = field.converted(Precision::single);
+    return field.layout().depth > 1 ? cut(field, request.slice) : std::move(field);
 }
 
 /// The same of a copy that is NaN outside of the mask.
 Field as_shown(const Field& field, const DomainMask* mask, const PictureRequest& request) {
-    Field shown = mask ? with_outside(field, *mask, nothing_outside) : field.clone();
-    return shown.layout().depth > 1 ? cut(shown, request.slice) : std::move(shown);
+    return shown(mask ? with_outside(field, *mask, nothing_outside) : field.clone(), request);
 }
 
 }  // namespace
@@ -151,7 +149,7 @@ Canvas Painter::values(const Simulation& simulation) {
 
 Canvas Painter::canvas(const Simulation& simulation) {
     Canvas canvas = values(simulation);
-    cut_all(canvas.fields, request_);
+    for (Field& field : canvas.fields) field = shown(std::move(field), request_);
     if (const DomainMask* mask = simulation.mask()) {
         outside_ = as_shown(Field(PlaneLayout(simulation.grid())), mask, request_);
     }

@@ -29,7 +29,8 @@ struct PictureRequest {
 std::string to_json(const PictureRequest& request);
 Result<PictureRequest> picture_request_from_json(const std::string& json);
 
-/// Values to be painted: one field through the palette, or red, green and blue.
+/// Values to be painted: one field through the palette, or red, green and blue. Pictures are painted
+/// in binary32.
 struct Canvas {
     std::vector<Field> fields;
     bool is_colour() const { return fields.size() == 3; }
@@ -41,10 +42,10 @@ public:
     /// Checks `show` and the palette; faults of `show` go to `script.diagnostics`.
     static Result<Painter> create(Script& script, const PictureRequest& request);
 
-    /// The values to show now. Where the picture block names a stage that has not run, the default
+    /// The values to paint now. Where the picture block names a stage that has not run, the default
     /// is computed, and `fell_back()` is true from then on. Of a volume they are a slice.
     Canvas canvas(const Simulation& simulation);
-    /// The same of all cells, of a volume too.
+    /// The same of all cells, of a volume too, in the run's precision.
     Canvas values(const Simulation& simulation);
     bool fell_back() const { return fell_back_; }
 

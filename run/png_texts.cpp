@@ -51,6 +51,7 @@ std::string overrides_to_json(const Overrides& overrides) {
     if (overrides.until_stage) json["until_stage"] = *overrides.until_stage;
     if (!overrides.used.empty()) json["used"] = overrides.used;
     if (overrides.solver) json["solver"] = *overrides.solver;
+    if (overrides.precision) json["precision"] = name_of(*overrides.precision);
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -78,6 +79,10 @@ Result<Overrides> overrides_from_json(const std::string& text) {
         }
         if (json.contains("used")) json.at("used").get_to(overrides.used);
         if (json.contains("solver")) overrides.solver = json.at("solver").get<std::string>();
+        if (json.contains("precision")) {
+            overrides.precision = precision_of_name(json.at("precision").get<std::string>());
+            if (!overrides.precision) return failure(unreadable);
+        }
         return overrides;
     } catch (const std::exception&) {
         return failure(unreadable);
@@ -90,6 +95,7 @@ Overrides merge(Overrides base, const Overrides& changes) {
     if (changes.seed) base.seed = changes.seed;
     if (changes.steps) base.steps = changes.steps;
     if (changes.solver) base.solver = changes.solver;
+    if (changes.precision) base.precision = changes.precision;
     if (changes.until_stage) base.until_stage = changes.until_stage;
     base.reads = changes.reads;
     return base;

@@ -15,7 +15,7 @@ namespace cascade {
 
 namespace {
 
-constexpr float none = std::numeric_limits<float>::quiet_NaN();
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 Result<void> check_rows(const Script& script, const LogRequest& request) {
     std::int64_t rows = 0;
@@ -38,6 +38,7 @@ Result<void> check_rows(const Script& script, const LogRequest& request) {
 Result<RunLog> RunLog::create(Script& script, const LogRequest& request) {
     RunLog log;
     log.request_ = request;
+    log.precision_ = script.program->domain.precision;
     for (const Stage& stage : script.program->stages) log.stage_names_.push_back(stage.name);
     if (auto fits = check_rows(script, request); !fits) return tl::unexpected(fits.error());
     bool right = true;
@@ -88,12 +89,12 @@ void RunLog::record(const Simulation& simulation, std::uint32_t stage) {
     const std::int64_t step = simulation.state(stage).steps;
     if (!rows_.empty() && rows_.back().stage == stage && rows_.back().step == step) return;
     rows_.push_back({stage, step});
-    values_.push_back(static_cast<float>(simulation.time(stage)));
+    values_.push_back(simulation.time(stage));
     std::vector<const Formula*> here;
     for (const auto& formulas : formulas_) {
         if (formulas[stage]) here.push_back(&*formulas[stage]);
     }
-    const std::vector<float> numbers = simulation.evaluate_numbers(here, stage);
+    const std::vector<double> numbers = simulation.evaluate_numbers(here, stage);
     auto number = numbers.begin();
     for (const auto& formulas : formulas_) {
         values_.push_back(formulas[stage] ? *number++ : none);
@@ -107,7 +108,9 @@ Result<void> RunLog::write(const std::filesystem::path& path) const {
     const std::size_t width = 1 + formulas_.size();
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         cells = {stage_names_[rows_[r].stage], fmt::format("{}", rows_[r].step)};
-        for (std::size_t k = 0; k < width; ++k) cells.push_back(csv_number(values_[r * width + k]));
+        for (std::size_t k = 0; k < width; ++k) {
+            cells.push_back(csv_number(values_[r * width + k], precision_));
+        }
         table += csv_row(cells);
     }
     return write_file(path, table);

@@ -51,7 +51,8 @@ private:
     std::vector<std::string> stage_names_;
     std::vector<std::vector<std::optional<Formula>>> formulas_;   ///< Per expression, per stage.
     std::vector<Row> rows_;
-    std::vector<float> values_;   ///< Of all rows: t, then the expressions.
+    std::vector<double> values_;  ///< Of all rows: t, then the expressions.
+    Precision precision_ = Precision::single;
 };
 
 }  // namespace cascade

@@ -78,13 +78,13 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
         if (!system.is_species(item)) continue;
         const auto path = array_path(folder, program.stages[stage],
                                      fmt::format("{}{}", system.item_name(item), suffix));
-        const auto array = read_npy(path);
+        const auto array = read_npy(path, program.domain.precision);
         if (!array) return tl::unexpected(damaged(folder, array.error().message));
         if (!fits(*array, grid)) {
             return tl::unexpected(
                 damaged(folder, fmt::format("{} has another shape", path.filename().string())));
         }
-        Field field = to_field(*array);
+        Field field = to_field(*array, program.domain.precision);
         // Outside of the mask files have NaN and runs have 0.
         if (simulation.mask()) field = with_outside(field, *simulation.mask(), 0);
         if (first_not_finite(field)) {
@@ -146,8 +146,8 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
 Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes) {
     auto json = read_manifest(folder);
     if (!json) return tl::unexpected(json.error());
-    if (!changes.sets.empty() || changes.grid || changes.seed || changes.solver) {
-        return failure("a resumed run keeps its grid, seed, parameters and solver",
+    if (!changes.sets.empty() || changes.grid || changes.seed || changes.solver || changes.precision) {
+        return failure("a resumed run keeps its grid, seed, precision, parameters and solver",
                        "only --steps and --until-stage can change");
     }
     try {

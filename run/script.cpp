@@ -144,7 +144,9 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
     script.program = check(script.tree, script.sources, script.diagnostics);
     if (!script.program) return script;
 
-    if (script.overrides.seed) script.program->domain.seed = *script.overrides.seed;
+    DomainSettings& domain = script.program->domain;
+    domain.seed = script.overrides.seed.value_or(domain.seed);
+    domain.precision = script.overrides.precision.value_or(domain.precision);
     apply_grid(script);
     apply_solver(script);
     apply_steps(script);

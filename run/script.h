@@ -30,6 +30,7 @@ struct Overrides {
     std::vector<std::pair<std::string, std::string>> used;
     ReadAccess reads;                                            ///< Travels nowhere.
     std::optional<std::string> solver;                           ///< Of every stage.
+    std::optional<Precision> precision;
 
     friend bool operator==(const Overrides&, const Overrides&) = default;
 };

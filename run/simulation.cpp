@@ -44,7 +44,7 @@ std::string describe_backend() {
 
 StageState empty_state(const System& system) {
     StageState state;
-    state.numbers.assign(system.item_count(), 0.0F);
+    state.numbers.assign(system.item_count(), 0);
     state.fields.resize(system.item_count());
     state.species_of_item.assign(system.item_count(), -1);
     for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
@@ -86,9 +86,10 @@ struct Simulation::Implementation {
     const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
     const DomainMask* inside() const { return mask ? &*mask : nullptr; }
     Result<void> find_mask();
+    Precision precision() const { return program->domain.precision; }
 
     BindingContext context(std::uint32_t stage) const {
-        return {states, files, states[stage].steps, grid, states[stage].t, metric, inside()};
+        return {states, files, states[stage].steps, grid, precision(), states[stage].t, metric, inside()};
     }
 
     /// Starting values need no compiling and pictures neither: both are interpreted.
@@ -109,7 +110,7 @@ struct Simulation::Implementation {
         const Grid one{1, 1, Boundary::periodic};
         const std::vector<Field> values = run_plan(plan, interpreted(one), context(k), one, *team);
         for (std::size_t r = 0; r < values.size(); ++r) {
-            states[k].numbers[plan.results[r]] = values[r].at(0, 0);
+            states[k].numbers[plan.results[r]] = values[r].number_at(0, 0);
         }
     }
 
@@ -122,7 +123,7 @@ struct Simulation::Implementation {
             const std::uint32_t item = plan.results[r];
             const int species = state.species_of_item[item];
             if (stage(k).uniform[item]) {
-                state.numbers[item] = values[r].at(0, 0);
+                state.numbers[item] = values[r].number_at(0, 0);
             } else if (species >= 0) {
                 state.species[static_cast<std::size_t>(species)] = std::move(values[r]);
             } else {
@@ -137,11 +138,14 @@ struct Simulation::Implementation {
     Result<void> check_speed(std::uint32_t k) const {
         const System& system = program->system_of(k);
         const std::uint32_t item = system.speed_item();
-        float slowest = states[k].numbers[item];
+        double slowest = states[k].numbers[item];
         if (!stage(k).uniform[item]) slowest = smallest(states[k].fields[item], inside());
         if (slowest > 0 && std::isfinite(slowest)) return {};
+        const std::string text = with_number(precision(), [&](auto zero) {
+            return fmt::format("{}", static_cast<decltype(zero)>(slowest));
+        });
         return failure(fmt::format("stage '{}': its speed is {}, but a time step must be above 0",
-                                   stage(k).name, slowest));
+                                   stage(k).name, text));
     }
 
     /// The simulation of stage `k` on a grid whose cells are `times` as wide, ready to be started.
@@ -156,7 +160,7 @@ struct Simulation::Implementation {
 
     bool frozen_everywhere(std::uint32_t k) const {
         const std::uint32_t item = program->system_of(k).frozen_item();
-        return stage(k).uniform[item] && states[k].numbers[item] != 0.0F;
+        return stage(k).uniform[item] && states[k].numbers[item] != 0;
     }
 
     /// Steps are compiled.
@@ -376,10 +380,10 @@ std::vector<Field> Simulation::evaluate(std::span<const Formula* const> formulas
     return self_->evaluate(plan_view(*self_->program, formulas, stage), stage);
 }
 
-std::vector<float> Simulation::evaluate_numbers(std::span<const Formula* const> formulas,
+std::vector<double> Simulation::evaluate_numbers(std::span<const Formula* const> formulas,
                                                 std::uint32_t stage) const {
-    std::vector<float> numbers;
-    for (const Field& field : evaluate(formulas, stage)) numbers.push_back(field.at(0, 0));
+    std::vector<double> numbers;
+    for (const Field& field : evaluate(formulas, stage)) numbers.push_back(field.number_at(0, 0));
     return numbers;
 }
 
@@ -410,7 +414,7 @@ StageTools Simulation::Implementation::tools(std::uint32_t k, RunControl& contro
         return [this, k, plan = plan_view(*program, formulas, k), compile = often()] {
             std::vector<double> numbers;
             for (const Field& field : run_plan(plan, compile, context(k), grid, *team)) {
-                numbers.push_back(field.at(0, 0));
+                numbers.push_back(field.number_at(0, 0));
             }
             return numbers;
         };
@@ -437,7 +441,7 @@ StageTools Simulation::Implementation::tools(std::uint32_t k, RunControl& contro
     };
     tools.inside = mask ? &mask->inside : nullptr;
     tools.is_true = [this, k](const Formula& formula) {
-        return evaluate(plan_view(*program, formula, k), k)[0].at(0, 0) != 0;
+        return evaluate(plan_view(*program, formula, k), k)[0].number_at(0, 0) != 0;
     };
     tools.estimate = [this, k, compile = often()] {
         const auto limit = stability(k, states[k].species, compile).largest_speed;
@@ -477,17 +481,17 @@ void Simulation::Implementation::find_sides(std::uint32_t k) {
     std::vector<SideRules> found;
     for (const auto& settings : stage(k).sides) {
         SideRules rules;
-        rules.spacing = static_cast<float>(grid.spacing);
+        rules.spacing = grid.spacing;
         for (std::size_t side = 0; side < side_count; ++side) {
             SideRule& rule = rules.at[side];
             rule.kind = settings[side].kind;
             if (!rule.has_value()) continue;
             Field values = std::move(
                 evaluate(plan_view(*program, settings[side].value, k), k)[0]);
-            rule.value = values.at(0, 0);
+            rule.value = values.number_at(0, 0);
             if (is_same_everywhere(values)) continue;
-            fill_halo(values.origin(), values.layout(), grid.boundary);
-            rule.values = state.side_values.emplace_back(std::move(values)).origin();
+            fill_halo(values, grid.boundary);
+            rule.values = state.side_values.emplace_back(std::move(values)).address();
         }
         found.push_back(rules);
     }

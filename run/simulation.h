@@ -37,7 +37,7 @@ struct StageState {
     double t = 0;                       ///< The time then; 0 where speed varies by cell.
     TimeState time;                     ///< What steps of other lengths go on from.
     SteadyWatch watch;                  ///< The last look of `until: steady(…)`.
-    std::vector<float> numbers;         ///< Per item; meaningful where it is uniform.
+    std::vector<double> numbers;        ///< Of the run's precision, per item; meaningful where it is uniform.
     std::vector<Field> fields;          ///< Per item; empty where uniform, and for species.
     std::vector<Field> species;         ///< In order of the species' items.
     std::vector<int> species_of_item;   ///< Per item; −1 for parameters.
@@ -113,7 +113,7 @@ public:
                                 std::uint32_t stage) const;
     /// Formulas that are the same in all cells, such as aggregates over the domain (of others the
     /// first cell's value).
-    std::vector<float> evaluate_numbers(std::span<const Formula* const> formulas,
+    std::vector<double> evaluate_numbers(std::span<const Formula* const> formulas,
                                         std::uint32_t stage) const;
 
     const Program& program() const;

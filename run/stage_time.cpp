@@ -28,7 +28,7 @@ double duration_of(const Stage& stage, const System& system, const StageState& s
     if (stage.time.duration) return *stage.time.duration;
     if (!stage.time.duration_in_steps) return std::numeric_limits<double>::infinity();
     return static_cast<double>(*stage.time.duration_in_steps) *
-           static_cast<double>(state.numbers[system.speed_item()]);
+           state.numbers[system.speed_item()];
 }
 
 StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& state,
@@ -39,7 +39,7 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
       species_(static_cast<std::uint32_t>(state.species.size())) {
     const System& system = program.system_of(stage);
     uniform_speed_ = stage_.uniform[system.speed_item()];
-    speed_ = uniform_speed_ ? static_cast<double>(state.numbers[system.speed_item()]) : 1;
+    speed_ = uniform_speed_ ? state.numbers[system.speed_item()] : 1;
     duration_ = duration_of(stage_, system, state);
     if (chooses()) {
         if (const auto bound = jacobian_bound(program, stage)) {
@@ -48,9 +48,11 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
             jumps_ = bound->jumps;
         }
     }
+    state_.time.clock.precision = program.domain.precision;
     // A stage whose time is known goes on as it was.
     if (state_.steps > 0 && state_.time.control.step > 0) return;
     state_.time = {};
+    state_.time.clock.precision = program.domain.precision;
     state_.time.clock.step = uniform_speed_ ? speed_ : 0;
     state_.time.control.step = speed_;
     state_.time.stages = is_stabilised(stage_.time.solver) ? 3 : 0;

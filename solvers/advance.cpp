@@ -229,12 +229,12 @@ private:
         place.step = control_of_steps_.step();
         double most = -1;
         const std::vector<Field>& errors = stepper_.error_planes();
-        for (std::size_t k = 0; k < errors.size(); ++k) {
-            const PlaneLayout& layout = errors[k].layout();
+        const auto look = [&](std::size_t k, const auto& plane) {
+            const PlaneLayout& layout = plane.layout();
             for (std::int64_t row = 0; row < layout.row_count(); ++row) {
                 for (std::int64_t i = 0; i < layout.width; ++i) {
                     // What is not a number is larger than any.
-                    const double size = std::abs(double{errors[k].row(row)[i]});
+                    const double size = std::abs(double{plane.row(row)[i]});
                     if (std::isnan(most) || size <= most) continue;
                     most = size;
                     place.species = k;
@@ -242,6 +242,9 @@ private:
                     place.row = row;
                 }
             }
+        };
+        for (std::size_t k = 0; k < errors.size(); ++k) {
+            errors[k].visit([&](const auto& plane) { look(k, plane); });
         }
         return place;
     }

@@ -6,7 +6,10 @@
 
 namespace cascade {
 
-double chequerboard(const Field& field, const Mask* inside) {
+namespace {
+
+template <typename Number>
+double chequerboard_of(const Plane<Number>& field, const Mask* inside) {
     const PlaneLayout& layout = field.layout();
     if (field.empty()) return 0;
     // Calls visit(value, column + row + slice) for every cell that counts.
@@ -21,14 +24,14 @@ double chequerboard(const Field& field, const Mask* inside) {
 
     // Two passes: sums of squares of values far from 0 would lose the deviations.
     double sum = 0, cells = 0;
-    for_each_cell([&](float value, std::int64_t) {
+    for_each_cell([&](double value, std::int64_t) {
         sum += value;
         ++cells;
     });
     if (cells < 1) return 0;
     const double mean = sum / cells;
     double alternating = 0, squares = 0, largest = 0;
-    for_each_cell([&](float value, std::int64_t place) {
+    for_each_cell([&](double value, std::int64_t place) {
         const double deviation = value - mean;
         alternating += place % 2 == 0 ? deviation : -deviation;
         squares += deviation * deviation;
@@ -37,6 +40,12 @@ double chequerboard(const Field& field, const Mask* inside) {
     // Deviations of a rounding are no pattern.
     if (!(largest > 1e-6 * std::abs(mean))) return 0;
     return std::abs(alternating) / cells / std::sqrt(squares / cells);
+}
+
+}  // namespace
+
+double chequerboard(const Field& field, const Mask* inside) {
+    return field.visit([&](const auto& plane) { return chequerboard_of(plane, inside); });
 }
 
 }  // namespace cascade

@@ -62,29 +62,48 @@ FieldMoments moments_of(const PlaneLayout& layout, const Mask* inside, ValueOfRo
     return result;
 }
 
+/// Calls `look` with the planes of two fields of one precision.
+template <typename Look>
+auto with_planes(const Field& a, const Field& b, const Look& look) {
+    return with_number(a.precision(), [&](auto zero) {
+        using Number = decltype(zero);
+        return look(a.plane<Number>(), b.plane<Number>());
+    });
+}
+
 }  // namespace
 
 FieldMoments moments(const Field& field, const Mask* inside) {
-    return moments_of(field.layout(), inside, [&](std::int64_t row) {
-        return [cells = field.row(row)](std::int64_t i) { return double{cells[i]}; };
+    return field.visit([&](const auto& plane) {
+        return moments_of(plane.layout(), inside, [&](std::int64_t row) {
+            return [cells = plane.row(row)](std::int64_t i) { return double{cells[i]}; };
+        });
     });
 }
 
 FieldMoments moments_of_difference(const Field& a, const Field& b, const Mask* inside) {
-    return moments_of(a.layout(), inside, [&](std::int64_t row) {
-        return [p = a.row(row), q = b.row(row)](std::int64_t i) { return double{p[i]} - q[i]; };
+    return with_planes(a, b, [&](const auto& first, const auto& second) {
+        return moments_of(first.layout(), inside, [&](std::int64_t row) {
+            return [p = first.row(row), q = second.row(row)](std::int64_t i) {
+                return double{p[i]} - q[i];
+            };
+        });
     });
 }
 
 double root_mean_square(const Field& field, const Mask* inside) {
-    return std::sqrt(mean_over_cells(field.layout(), inside, [&](std::int64_t row) {
-        return [cells = field.row(row)](std::int64_t i) { return double{cells[i]} * cells[i]; };
-    }));
+    return field.visit([&](const auto& plane) {
+        return std::sqrt(mean_over_cells(plane.layout(), inside, [&](std::int64_t row) {
+            return [cells = plane.row(row)](std::int64_t i) { return double{cells[i]} * cells[i]; };
+        }));
+    });
 }
 
 double sum_of_squares(const Field& field, std::int64_t row) {
-    return sum(field.layout().width, [cells = field.row(row)](std::int64_t i) {
-        return double{cells[i]} * cells[i];
+    return field.visit([&](const auto& plane) {
+        return sum(plane.layout().width, [cells = plane.row(row)](std::int64_t i) {
+            return double{cells[i]} * cells[i];
+        });
     });
 }
 
@@ -95,12 +114,14 @@ double root_mean_square(std::span<const double> sums_of_squares, std::int64_t ce
 }
 
 double root_mean_square_of_difference(const Field& a, const Field& b, const Mask* inside) {
-    return std::sqrt(mean_over_cells(a.layout(), inside, [&](std::int64_t row) {
-        return [p = a.row(row), q = b.row(row)](std::int64_t i) {
-            const double difference = double{p[i]} - q[i];
-            return difference * difference;
-        };
-    }));
+    return with_planes(a, b, [&](const auto& first, const auto& second) {
+        return std::sqrt(mean_over_cells(first.layout(), inside, [&](std::int64_t row) {
+            return [p = first.row(row), q = second.row(row)](std::int64_t i) {
+                const double difference = double{p[i]} - q[i];
+                return difference * difference;
+            };
+        }));
+    });
 }
 
 }  // namespace cascade

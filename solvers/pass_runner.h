@@ -11,6 +11,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
+#include <variant>
 #include <vector>
 
 namespace cascade {
@@ -22,24 +24,30 @@ struct StepMoment {
     double length = 0;          ///< The time step.
 };
 
-/// The planes of every register, one address per species.
-using Registers = std::span<const std::span<float* const>>;
+/// The planes of every register, of each species the address of cell (0, 0, 0): numbers of the
+/// problem's precision.
+using Registers = std::span<const std::span<void* const>>;
 
 class PassRunner {
 public:
     /// Allocates temporaries. `problem` must outlive the runner.
     explicit PassRunner(const StepProblem& problem);
 
+    /// What a kernel is given.
+    template <typename Number>
+    struct Arguments {
+        std::vector<std::vector<Number>> uniforms;  ///< By pass.
+        std::vector<Number> aggregates;             ///< As they were computed last.
+        std::vector<const Number*> fields;
+        std::vector<Number*> results;
+    };
     /// What one thread needs of its own.
     struct alignas(64) Worker {
         int number = 0;                            ///< Of the `count` threads in use.
         int count = 1;
         RowRange rows;
-        std::vector<std::vector<float>> uniforms;  ///< By pass.
-        std::vector<float> aggregates;             ///< As they were computed last.
         std::vector<DiffusionSymbol> symbols;
-        std::vector<const float*> fields;
-        std::vector<float*> results;
+        std::variant<Arguments<float>, Arguments<double>> arguments;
         std::vector<double> row_values;
     };
     /// Prepares a worker for its rows, being thread `number` of `count`.
@@ -52,21 +60,30 @@ public:
              std::size_t first_pass = 0);
 
 private:
-    float* plane(const StepProblem::PlaneRef& ref, Registers registers) const;
-    void reduce(Worker& worker, const StepProblem::Pass& pass, Team& team, Registers registers,
-                std::size_t pass_number);
-    void filter(Worker& worker, const SweepFilter& filter, Team& team, Registers registers,
-                const StepMoment& moment) const;
-    void set_uniforms(std::vector<float>& uniforms, const StepProblem::Pass& pass,
+    template <typename Number>
+    Number* plane(const StepProblem::PlaneRef& ref, Registers registers) const;
+    template <typename Number>
+    void run_as(Worker& worker, Arguments<Number>& arguments, Team& team, Registers registers,
+                const StepMoment& moment, std::size_t first_pass);
+    template <typename Number>
+    void reduce(Worker& worker, Arguments<Number>& arguments, const StepProblem::Pass& pass,
+                Team& team, Registers registers, std::size_t pass_number);
+    template <typename Number>
+    void filter(Worker& worker, Arguments<Number>& arguments, const SweepFilter& filter, Team& team,
+                Registers registers, const StepMoment& moment) const;
+    template <typename Number>
+    void set_uniforms(std::vector<Number>& uniforms, const StepProblem::Pass& pass,
                       const StepMoment& moment) const;
-    void run_kernel(Worker& worker, const StepProblem::Pass& pass, std::size_t number,
-                    Registers registers);
+    template <typename Number>
+    void run_kernel(RowRange rows, Arguments<Number>& arguments, const StepProblem::Pass& pass,
+                    std::size_t number, Registers registers);
 
     const StepProblem& problem_;
     PlaneLayout layout_;
-    std::optional<WaveFilter<float>> wave_filter_;  ///< Where a pass has a filter.
+    /// One of them, where a pass has a filter.
+    std::tuple<std::optional<WaveFilter<float>>, std::optional<WaveFilter<double>>> wave_filters_;
     std::vector<Field> temporaries_;
-    std::vector<float*> temporary_cells_;
+    std::vector<void*> temporary_cells_;
     std::vector<std::vector<double>> row_values_;  ///< By aggregate and row.
 };
 

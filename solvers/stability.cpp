@@ -29,7 +29,9 @@ constexpr std::size_t entries_to_visit = 50'000'000;
 
 /// The largest change of a value in a difference, in units of its species' root mean square: near
 /// the cube root of the rounding error, where truncation and rounding of a central difference meet.
-constexpr double difference_step = 0.005;
+double difference_step(Precision precision) {
+    return precision == Precision::single ? 0.005 : 6e-6;
+}
 
 using Vector = std::vector<double>;  ///< Species after species, row after row, without halo.
 
@@ -61,13 +63,14 @@ public:
           runner_(rates) {
         runner_.prepare(worker_, 0, 1);
         for_each_cell([&](std::size_t, std::int64_t i, std::int64_t row) {
-            moves_.row(row)[i] = frozen && frozen->row(row)[i] ? 0.0f : 1.0f;
+            moves_.row(row)[i] = frozen && frozen->row(row)[i] ? 0 : 1;
         });
         for (const Field& field : species) {
             CHECK(field.layout() == layout_, "species lie as the grid says");
-            moved_cells_.push_back(moved_.emplace_back(layout_).origin());
-            rate_cells_.push_back(rates_of_.emplace_back(layout_).origin());
-            scales_.push_back(root_mean_square(field));
+            moved_cells_.push_back(moved_.emplace_back(layout_, rates.precision).address());
+            rate_cells_.push_back(rates_of_.emplace_back(layout_, rates.precision).address());
+            scales_.push_back(
+                field.visit([&](const auto& plane) { return root_mean_square(plane); }));
         }
         // A species that is zero everywhere takes the scale of the others.
         const double largest = *std::max_element(scales_.begin(), scales_.end());
@@ -82,7 +85,7 @@ public:
     Vector multiply(const Vector& v, double shift) {
         double largest = 0;
         for (const double value : v) largest = std::max(largest, std::abs(value));
-        const double step = largest > 0 ? difference_step / largest : 1;
+        const double step = largest > 0 ? difference_step(rates_.precision) / largest : 1;
         Vector product(v.size());
         add_rates(v, step, 0.5 / step, product);
         add_rates(v, -step, -0.5 / step, product);
@@ -114,7 +117,8 @@ private:
         }
     }
 
-    double root_mean_square(const Field& field) const {
+    template <typename Number>
+    double root_mean_square(const Plane<Number>& field) const {
         double squares = 0;
         for_each_cell([&](std::size_t, std::int64_t i, std::int64_t row) {
             squares += static_cast<double>(field.row(row)[i]) * field.row(row)[i];
@@ -124,30 +128,40 @@ private:
 
     /// Adds weight · rates(state + step · v), in units of the scales; frozen cells have rate 0.
     void add_rates(const Vector& v, double step, double weight, Vector& sum) {
+        with_number(rates_.precision, [&](auto zero) {
+            add_rates_of<decltype(zero)>(v, step, weight, sum);
+        });
+    }
+
+    template <typename Number>
+    void add_rates_of(const Vector& v, double step, double weight, Vector& sum) {
         for (std::size_t k = 0; k < state_.size(); ++k) {
             const double* entries = v.data() + k * cells();
             const double scaled_step = step * scales_[k];
+            const Plane<Number>& state = state_[k].template plane<Number>();
+            Plane<Number>& moved = moved_[k].template plane<Number>();
             for_each_cell([&](std::size_t n, std::int64_t i, std::int64_t row) {
-                moved_[k].row(row)[i] =
-                    static_cast<float>(state_[k].row(row)[i] + scaled_step * entries[n]);
+                moved.row(row)[i] =
+                    static_cast<Number>(state.row(row)[i] + scaled_step * entries[n]);
             });
         }
         run_kernel();
         for (std::size_t k = 0; k < state_.size(); ++k) {
             double* entries = sum.data() + k * cells();
             const double scaled_weight = weight / scales_[k];
+            const Plane<Number>& rates = rates_of_[k].template plane<Number>();
             for_each_cell([&](std::size_t n, std::int64_t i, std::int64_t row) {
                 // Not a product: a frozen cell may have any rate, even an infinite one.
-                if (moves_.row(row)[i] != 0) entries[n] += scaled_weight * rates_of_[k].row(row)[i];
+                if (moves_.row(row)[i] != 0) entries[n] += scaled_weight * rates.row(row)[i];
             });
         }
     }
 
     void run_kernel() {
         for (std::size_t k = 0; k < moved_.size(); ++k) {
-            fill_halo(moved_[k].origin(), layout_, rates_.sides_of(k));
+            fill_halo(moved_[k], rates_.sides_of(k));
         }
-        const std::array<std::span<float* const>, 2> registers{moved_cells_, rate_cells_};
+        const std::array<std::span<void* const>, 2> registers{moved_cells_, rate_cells_};
         // Noise needs some length of a step; it cancels from differences.
         team_.run([&](int) { runner_.run(worker_, team_, registers, {0, 0, 1}); });
     }
@@ -155,9 +169,9 @@ private:
     const StepProblem& rates_;
     PlaneLayout layout_;
     std::span<const Field> state_;
-    Field moves_;  ///< 1 where a cell moves, 0 where it is frozen.
+    Mask moves_;  ///< 1 where a cell moves, 0 where it is frozen.
     std::vector<Field> moved_, rates_of_;
-    std::vector<float*> moved_cells_, rate_cells_;
+    std::vector<void*> moved_cells_, rate_cells_;
     std::vector<double> scales_;
     Team team_;
     PassRunner runner_;

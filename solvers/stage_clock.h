@@ -1,6 +1,7 @@
 // The time of a stage, as its steps go on.
 #pragma once
 
+#include "core/precision.h"
 #include "solvers/step_control.h"
 
 #include <cstdint>
@@ -14,9 +15,14 @@ struct StageClock {
     std::int64_t base_step = 0;  ///< Where steps of this length began,
     double base_time = 0;        ///< and the time then.
     double step = 0;             ///< The length of a step; 0 where it varies by cell.
+    Precision precision = Precision::single;  ///< Of the run: steps are counted in its numbers.
 
     double at(std::int64_t complete) const {
-        return base_time + static_cast<double>(static_cast<float>(complete - base_step)) * step;
+        const double count =
+            with_number(precision, [&](auto zero) -> double {
+                return static_cast<decltype(zero)>(complete - base_step);
+            });
+        return base_time + count * step;
     }
     /// Steps are so long from `complete` on.
     void set_step(std::int64_t complete, double length) {

@@ -21,12 +21,13 @@ struct StepProblem {
         enum class Kind : std::uint8_t {
             species,    ///< Species `number` in register `in_register`.
             temporary,  ///< Temporary `number`.
-            fixed,      ///< A plane that does not change: `cells` is its cell (0, 0, 0).
+            fixed,      ///< A plane that does not change: `cells` is its cell (0, 0, 0), a
+                        ///< number of the problem's precision.
         };
         Kind kind = Kind::fixed;
         std::uint32_t number = 0;
         std::uint32_t in_register = 0;
-        const float* cells = nullptr;
+        const void* cells = nullptr;
     };
 
     /// A uniform that is not the same in all steps.
@@ -57,7 +58,7 @@ struct StepProblem {
 
     /// A factor of a species' diffusion.
     struct DiffusionFactor {
-        float value = 0;
+        double value = 0;
         bool is_aggregate = false;    ///< The factor is aggregate number `aggregate` instead.
         std::uint32_t aggregate = 0;
     };
@@ -68,13 +69,14 @@ struct StepProblem {
         KernelPointer kernel;
         std::vector<PlaneRef> fields;       ///< Of the kernel's field slots.
         std::vector<const std::uint8_t*> masks;
-        std::vector<float> uniforms;
+        std::vector<double> uniforms;       ///< Rounded where the precision is less.
         std::vector<ChangingUniform> changing;
         std::vector<Result> results;
     };
 
     Grid grid;
     std::int64_t cells_inside = 0;          ///< Over so many means are taken; 0: over all.
+    Precision precision = Precision::single;
     std::vector<Pass> passes;               ///< In order. At least one.
     /// The planes of all species at one moment are a register: 0 is the old step, 1 becomes the new
     /// one, further ones are scratch.

@@ -32,14 +32,15 @@ Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int mos
     CHECK(problem.species_needs_halo.size() == species.size(), "a flag for every species");
     copies_[0] = std::move(species);
     for (Field& field : copies_[0]) {
-        CHECK(field.layout() == layout_, "species lie as the grid says");
+        CHECK(field.layout() == layout_ && field.precision() == problem.precision,
+              "species lie as the grid says, in the precision of their problem");
         const auto number = static_cast<std::size_t>(&field - copies_[0].data());
-        fill_halo(field.origin(), layout_, problem.sides_of(number));
-        copies_[1].emplace_back(layout_);
-        copies_[2].emplace_back(layout_);
+        fill_halo(field, problem.sides_of(number));
+        copies_[1].emplace_back(layout_, problem.precision);
+        copies_[2].emplace_back(layout_, problem.precision);
     }
     for (std::size_t copy = 0; copy < 3; ++copy) {
-        for (Field& field : copies_[copy]) cells_[copy].push_back(field.origin());
+        for (Field& field : copies_[copy]) cells_[copy].push_back(field.address());
     }
     add_scratch();
     use_threads(team_.size());
@@ -49,9 +50,9 @@ Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int mos
 void Stepper::add_scratch() {
     while (scratch_.size() + first_scratch < problem_->registers) {
         std::vector<Field>& planes = scratch_.emplace_back();
-        std::vector<float*>& cells = scratch_cells_.emplace_back();
+        std::vector<void*>& cells = scratch_cells_.emplace_back();
         for (std::size_t s = 0; s < copies_[0].size(); ++s) {
-            cells.push_back(planes.emplace_back(layout_).origin());
+            cells.push_back(planes.emplace_back(layout_, problem_->precision).address());
         }
     }
 }
@@ -153,7 +154,7 @@ void Stepper::step(Worker& worker, CopyRoles roles, std::int64_t complete) {
     worker.registers.clear();  // The old step, the new one, then scratch.
     worker.registers.emplace_back(cells_[static_cast<std::size_t>(roles.current)]);
     worker.registers.emplace_back(cells_[static_cast<std::size_t>(roles.target())]);
-    for (const std::vector<float*>& cells : scratch_cells_) worker.registers.emplace_back(cells);
+    for (const std::vector<void*>& cells : scratch_cells_) worker.registers.emplace_back(cells);
     runner_->run(worker.passes, team_, worker.registers,
                  {complete, clock_.at(complete), clock_.step},
                  knows_first_rates_ ? problem_->first_rate_passes : 0);

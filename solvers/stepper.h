@@ -80,7 +80,7 @@ public:
 private:
     struct Worker {
         PassRunner::Worker passes;
-        std::vector<std::span<float* const>> registers;
+        std::vector<std::span<void* const>> registers;
         bool finite = true;
     };
     /// Sums of squares by row.
@@ -104,9 +104,9 @@ private:
     PlaneLayout layout_;
     StageClock clock_;
     std::array<std::vector<Field>, 3> copies_;
-    std::array<std::vector<float*>, 3> cells_;   ///< Species of a copy.
+    std::array<std::vector<void*>, 3> cells_;   ///< Species of a copy.
     std::vector<std::vector<Field>> scratch_;    ///< Registers from 2 on.
-    std::vector<std::vector<float*>> scratch_cells_;
+    std::vector<std::vector<void*>> scratch_cells_;
     CopyRoles roles_;
     bool knows_first_rates_ = false;  ///< The register of first rates holds those of the current copy.
     std::vector<Squares> squares_;    ///< By species.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 namespace cascade {
@@ -55,7 +56,7 @@ std::string place_of(const Grid& grid, std::int64_t i, std::int64_t j) {
 }  // namespace
 
 Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid& grid,
-                                      std::optional<double> unit) {
+                                      std::optional<double> unit, Precision precision) {
     std::vector<MetricTensor> tensors;
     tensors.reserve(static_cast<std::size_t>(grid.cell_count()));
     double whole = 0;
@@ -75,7 +76,7 @@ Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid
     const PlaneLayout layout(grid);
     for (Field* field : {&metric.inverse_11, &metric.inverse_12, &metric.inverse_22, &metric.area,
                          &metric.flow_11, &metric.flow_12, &metric.flow_22}) {
-        *field = Field(layout);
+        *field = Field(layout, precision);
     }
     metric.unit = unit.value_or(std::sqrt(mean));
     for (std::int64_t j = 0; j < grid.height; ++j) {
@@ -94,7 +95,10 @@ Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid
             const double cell = area / (metric.unit * metric.unit);
             const double shear = tensor.m12 / (metric.unit * metric.unit);
             const auto set = [&](Field& field, double value) {
-                field.at(i, j) = static_cast<float>(value);
+                field.visit([&](auto& plane) {
+                    using Number = std::remove_reference_t<decltype(plane.at(i, j))>;
+                    plane.at(i, j) = static_cast<Number>(value);
+                });
             };
             set(metric.inverse_11, 1 / row_length);
             set(metric.inverse_12, -shear / (row_length * cell));

@@ -36,9 +36,10 @@ struct SurfaceMetric {
 };
 
 /// Measures the surface at the centre of every cell; derivatives are central differences in
-/// binary64. `unit`, above 0: the length of one unit. Fails, naming the place, where the surface is
+/// binary64, and the fields are rounded to `precision`. `unit`, above 0: the length of one unit. Fails, naming the place, where the surface is
 /// not finite or where it has no area: its two directions are parallel or one has no length.
 Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid& grid,
-                                      std::optional<double> unit);
+                                      std::optional<double> unit,
+                                      Precision precision = Precision::single);
 
 }  // namespace cascade

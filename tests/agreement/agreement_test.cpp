@@ -65,19 +65,21 @@ void expect_same(const Outcome& expected, const Outcome& found, const std::strin
 SimulationOptions interpreted() { return {BackendKind::interpreter, 0, 1}; }
 SimulationOptions compiled(int lanes, int threads) { return {BackendKind::jit, lanes, threads}; }
 
-TEST(Agreement, RandomScripts) {
+void compare_random_scripts(Precision precision, int scripts) {
     OperationCounts counts;
     int failed = 0;
-    constexpr int scripts = 1500;
+    Overrides overrides;
+    overrides.precision = precision;
     for (int seed = 0; seed < scripts; ++seed) {
         const std::string text = random_script(static_cast<std::uint64_t>(seed));
-        const Outcome expected = run_script("random", text, {}, interpreted());
+        const Outcome expected = run_script("random", text, overrides, interpreted());
         const int lanes = 4 << (seed % 3);
-        expect_same(expected, run_script("random", text, {}, compiled(lanes, 1 + seed % 3)), text);
+        expect_same(expected, run_script("random", text, overrides, compiled(lanes, 1 + seed % 3)),
+                    text);
         failed += expected.failure.empty() ? 0 : 1;
         if (::testing::Test::HasFailure()) return;
 
-        Script script = load_script("random", text, ".");
+        Script script = load_script("random", text, ".", overrides);
         for (std::uint32_t k = 0; k < script.program->stages.size(); ++k) {
             for (const Pass& pass : plan_step(*script.program, k).passes) {
                 EXPECT_EQ(verify(pass.bound.kernel), "") << text;
@@ -91,6 +93,9 @@ TEST(Agreement, RandomScripts) {
                 counts.report().c_str(), failed, scripts);
     EXPECT_EQ(counts.missing(), "");
 }
+
+TEST(Agreement, RandomScripts) { compare_random_scripts(Precision::single, 1500); }
+TEST(Agreement, RandomScriptsInDouble) { compare_random_scripts(Precision::binary64, 600); }
 
 /// What operators need at neighbours may be computed there again or read from a plane.
 TEST(Agreement, HoweverOperandsComeToNeighbours) {
@@ -149,6 +154,10 @@ TEST(Agreement, EveryExampleOnEveryNumberOfLanesAndThreads) {
             expect_same(expected, run_script(name, text, few_steps, compiled(lanes, threads)),
                         name + ", lanes " + std::to_string(lanes));
         }
+        few_steps.precision = Precision::binary64;
+        few_steps.steps = 40;
+        expect_same(run_script(name, text, few_steps, interpreted()),
+                    run_script(name, text, few_steps, compiled(8, 3)), name + ", in double");
     }
 }
 

@@ -60,9 +60,11 @@ std::vector<double> TestRun::values(std::uint32_t stage, const std::string& name
         }
         std::vector<double> values;
         const Field& field = state.field(item);
-        for (std::int64_t j = 0; j < field.layout().height; ++j) {
-            values.insert(values.end(), field.row(j), field.row(j) + field.layout().width);
-        }
+        field.visit([&](const auto& plane) {
+            for (std::int64_t j = 0; j < plane.layout().height; ++j) {
+                values.insert(values.end(), plane.row(j), plane.row(j) + plane.layout().width);
+            }
+        });
         return values;
     }
     ADD_FAILURE() << system.name << " has no " << name;

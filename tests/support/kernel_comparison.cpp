@@ -7,33 +7,60 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
 namespace cascade::testing {
 namespace {
 
 /// What results hold before a kernel writes them: a NaN with bits that no arithmetic makes.
-constexpr std::uint32_t untouched = 0x7fabcdef;
+template <typename Number>
+constexpr WordOf<Number> untouched = 0x7fabcdef;
+template <>
+constexpr std::uint64_t untouched<double> = 0x7ffabcdef0123456;
 
-void fill_with(Field& field, std::uint32_t word) {
-    float* all = field.origin() - field.layout().offset(0, 0);
-    for (std::int64_t k = 0; k < field.layout().size(); ++k) all[k] = to_number(word);
+template <typename Number>
+Plane<Number> untouched_plane(const PlaneLayout& layout) {
+    Plane<Number> plane(layout);
+    Number* all = plane.origin() - layout.offset(0, 0);
+    std::fill_n(all, layout.size(), std::bit_cast<Number>(untouched<Number>));
+    return plane;
 }
 
-bool is_nan(std::uint32_t word) { return (word & 0x7fffffff) > 0x7f800000; }
+template <typename Number>
+Number hostile_number(RandomStream& stream) {
+    if constexpr (std::is_same_v<Number, double>) {
+        return std::bit_cast<double>(hostile_long_word(stream));
+    } else {
+        return to_number(hostile_word(stream));
+    }
+}
 
+/// In [−1, 1), with digits to the last.
+template <typename Number>
+Number ordinary_number(RandomStream& stream) {
+    const float rough = stream.symmetric();
+    if constexpr (std::is_same_v<Number, float>) return rough;
+    return rough + static_cast<Number>(stream.symmetric()) * Number{0x1p-23};
+}
+
+template <typename Number>
 Field hostile_field(RandomStream& stream, const Grid& grid) {
-    Field field{PlaneLayout(grid)};
-    fill_with(field, untouched);
+    Plane<Number> field = untouched_plane<Number>(PlaneLayout(grid));
     // A field of trouble alone would make every laplacian NaN.
     const int trouble_percent = stream.chance(50) ? 5 : 40;
     for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
         for (std::int64_t i = 0; i < grid.width; ++i) {
             const bool is_trouble = stream.chance(trouble_percent);
             field.row(row)[i] =
-                is_trouble ? to_number(hostile_word(stream)) : stream.symmetric() * 8.0f;
+                is_trouble ? hostile_number<Number>(stream) : ordinary_number<Number>(stream) * 8;
         }
     }
     fill_halo(field.origin(), field.layout(), grid.boundary);
-    return field;
+    return Field(std::move(field));
 }
 
 Mask random_mask(RandomStream& stream, const Grid& grid) {
@@ -47,17 +74,23 @@ Mask random_mask(RandomStream& stream, const Grid& grid) {
 }  // namespace
 
 HostileInputs::HostileInputs(const CellKernel& kernel, const Grid& grid, std::uint64_t seed)
-    : grid_(grid), result_count_(kernel.results.size()) {
+    : grid_(grid), precision_(kernel.precision), result_count_(kernel.results.size()) {
     RandomStream stream(seed);
+    with_number(precision_, [&](auto zero) { fill<decltype(zero)>(kernel, stream); });
+}
+
+template <typename Number>
+void HostileInputs::fill(const CellKernel& kernel, RandomStream& stream) {
     for (std::size_t k = 0; k < kernel.field_names.size(); ++k) {
-        fields_.push_back(hostile_field(stream, grid));
+        fields_.push_back(hostile_field<Number>(stream, grid_));
     }
     for (std::size_t k = 0; k < kernel.mask_names.size(); ++k) {
-        masks_.push_back(random_mask(stream, grid));
+        masks_.push_back(random_mask(stream, grid_));
     }
     for (std::size_t k = 0; k < kernel.uniform_names.size(); ++k) {
-        uniforms_.push_back(stream.chance(30) ? to_number(hostile_word(stream))
-                                              : stream.symmetric() * 4.0f);
+        const Number number = stream.chance(30) ? hostile_number<Number>(stream)
+                                                : ordinary_number<Number>(stream) * 4;
+        uniforms_.push_back(std::bit_cast<WordOf<Number>>(number));
     }
 }
 
@@ -66,19 +99,28 @@ std::vector<Field> HostileInputs::run(const Kernel& kernel) const {
 }
 
 std::vector<Field> HostileInputs::run(const Kernel& kernel, RowRange rows) const {
-    std::vector<const float*> fields;
-    for (const Field& field : fields_) fields.push_back(field.origin());
+    return with_number(precision_,
+                       [&](auto zero) { return run_as<decltype(zero)>(kernel, rows); });
+}
+
+template <typename Number>
+std::vector<Field> HostileInputs::run_as(const Kernel& kernel, RowRange rows) const {
+    std::vector<const Number*> fields;
+    for (const Field& field : fields_) fields.push_back(field.origin<Number>());
     std::vector<const std::uint8_t*> masks;
     for (const Mask& mask : masks_) masks.push_back(mask.origin());
     std::vector<Field> results;
-    std::vector<float*> targets;
+    std::vector<Number*> targets;
     for (std::size_t k = 0; k < result_count_; ++k) {
-        results.emplace_back(PlaneLayout(grid_));
-        fill_with(results.back(), untouched);
-        targets.push_back(results.back().origin());
+        results.emplace_back(untouched_plane<Number>(PlaneLayout(grid_)));
+        targets.push_back(results.back().origin<Number>());
+    }
+    std::vector<Number> uniforms;
+    for (const std::uint64_t word : uniforms_) {
+        uniforms.push_back(std::bit_cast<Number>(static_cast<WordOf<Number>>(word)));
     }
     const FlushDenormals environment;
-    kernel.run({fields, masks, uniforms_, targets, PlaneLayout(grid_)}, rows);
+    kernel.run({fields, masks, uniforms, targets, PlaneLayout(grid_)}, rows);
     return results;
 }
 
@@ -89,23 +131,51 @@ std::vector<Field> run_kernel(Backend& backend, const CellKernel& kernel, const 
     return HostileInputs(kernel, grid, seed).run(**compiled);
 }
 
+namespace {
+
+template <typename Number>
+std::string difference(const Plane<Number>& a, const Plane<Number>& b) {
+    const auto same = [](Number x, Number y) {
+        using Word = WordOf<Number>;
+        return std::bit_cast<Word>(x) == std::bit_cast<Word>(y) || (std::isnan(x) && std::isnan(y));
+    };
+    for (std::int64_t j = 0; j < a.layout().row_count(); ++j) {
+        for (std::int64_t i = 0; i < a.layout().width; ++i) {
+            const Number x = a.row(j)[i], y = b.row(j)[i];
+            if (same(x, y)) continue;
+            return fmt::format("column {}, row {}: {:a} ({}) and {:a} ({})", i, j, x, x, y, y);
+        }
+    }
+    return "";
+}
+
+}  // namespace
+
 std::string same_bits(const std::vector<Field>& a, const std::vector<Field>& b) {
     if (a.size() != b.size()) return fmt::format("{} and {} results", a.size(), b.size());
     for (std::size_t k = 0; k < a.size(); ++k) {
         const PlaneLayout& layout = a[k].layout();
         if (!(layout == b[k].layout())) return fmt::format("result {}: other layout", k);
-        for (std::int64_t j = 0; j < layout.row_count(); ++j) {
-            for (std::int64_t i = 0; i < layout.width; ++i) {
-                const std::uint32_t x = to_bits(a[k].row(j)[i]);
-                const std::uint32_t y = to_bits(b[k].row(j)[i]);
-                if (x == y || (is_nan(x) && is_nan(y))) continue;
-                return fmt::format("result {}, column {}, row {}: 0x{:08x} ({}) and 0x{:08x} ({})",
-                                   k, i, j, x, to_number(x), y, to_number(y));
-            }
-        }
+        if (a[k].precision() != b[k].precision()) return fmt::format("result {}: precisions", k);
+        const std::string place = with_number(a[k].precision(), [&](auto zero) {
+            return difference(a[k].plane<decltype(zero)>(), b[k].plane<decltype(zero)>());
+        });
+        if (!place.empty()) return fmt::format("result {}, {}", k, place);
     }
     return "";
 }
+
+namespace {
+
+bool is_untouched(const Field& field, std::int64_t i, std::int64_t j, std::int64_t slice) {
+    return field.visit([&](const auto& plane) {
+        const auto number = plane.at(i, j, slice);
+        using Number = std::remove_const_t<decltype(number)>;
+        return std::bit_cast<WordOf<Number>>(number) == untouched<Number>;
+    });
+}
+
+}  // namespace
 
 std::string stray_writes(const std::vector<Field>& results, RowRange rows) {
     for (std::size_t k = 0; k < results.size(); ++k) {
@@ -123,7 +193,7 @@ std::string stray_writes(const std::vector<Field>& results, RowRange rows) {
                 0 <= j && j < layout.height && rows.begin <= number && number < rows.end;
             for (std::int64_t i = -pad; i < layout.stride - pad; ++i) {
                 if (is_computed && 0 <= i && i < end) continue;
-                if (to_bits(results[k].at(i, j, slice)) == untouched) continue;
+                if (is_untouched(results[k], i, j, slice)) continue;
                 return fmt::format("result {}: column {}, row {}, slice {} was written", k, i, j,
                                    slice);
             }

@@ -3,6 +3,7 @@
 
 #include "core/plane.h"
 #include "ir/backend.h"
+#include "tests/support/random_stream.h"
 
 #include <cstdint>
 #include <string>
@@ -22,11 +23,17 @@ public:
     std::vector<Field> run(const Kernel& kernel, RowRange rows) const;
 
 private:
+    template <typename Number>
+    void fill(const CellKernel& kernel, RandomStream& stream);
+    template <typename Number>
+    std::vector<Field> run_as(const Kernel& kernel, RowRange rows) const;
+
     Grid grid_;
+    Precision precision_;
     std::size_t result_count_;
     std::vector<Field> fields_;
     std::vector<Mask> masks_;
-    std::vector<float> uniforms_;
+    std::vector<std::uint64_t> uniforms_;  ///< Words.
 };
 
 /// Compiles `kernel` with `backend` and runs it on the inputs that belong to `seed`.

@@ -25,6 +25,21 @@ constexpr std::uint32_t special_words[] = {
     0x3e000000, 0x41400000, 0x42b17218, 0xc2aeac50,  // 1/8, 12, where exp overflows, underflows
 };
 
+constexpr std::uint64_t special_long_words[] = {
+    0x0000000000000000, 0x8000000000000000,                      // zeros
+    0x0000000000000001, 0x8000000000000001, 0x000fffffffffffff,  // denormals
+    0x800fffffffffffff, 0x0008000000000000, 0x8000000000400000,  //
+    0x0010000000000000, 0x8010000000000000, 0x0010000000000001,  // the smallest normal numbers
+    0x7fefffffffffffff, 0xffefffffffffffff,                      // the largest
+    0x7ff0000000000000, 0xfff0000000000000,                      // infinities
+    0x7ff8000000000000, 0xfff8000000000000, 0x7ff0000000000001,  // NaN
+    0xffffffffffffffff, 0x3ff0000000000000, 0xbff0000000000000,  // NaN; 1, −1
+    0x4000000000000000, 0x3fe0000000000000, 0x3fefffffffffffff,  // 2, 1/2; beside 1
+    0x3ff0000000000001, 0x4330000000000000, 0x4340000000000000,  // 2^52, 2^53
+    0x3fc0000000000000, 0x4028000000000000,                      // 1/8, 12
+    0x40862e42fefa39ef, 0xc086232bdd7abcd2,                      // where exp overflows, underflows
+};
+
 struct Value {
     ValueId id = 0;
     bool is_exact = false;  ///< Its bits are determined, even if they read as NaN.
@@ -33,7 +48,7 @@ struct Value {
 class Generator {
 public:
     Generator(std::uint64_t seed, const RandomKernelOptions& options)
-        : stream_(seed), options_(options) {}
+        : stream_(seed), options_(options), builder_(options.precision) {}
 
     CellKernel generate() && {
         for (int k = 0; k < options_.operations; ++k) step();
@@ -92,19 +107,28 @@ private:
             case Op::cell_column: return keep(builder_.cell_column(), true);
             case Op::cell_row: return keep(builder_.cell_row(), true);
             case Op::cell_slice: return keep(builder_.cell_slice(), true);
-            default: return keep(builder_.word(hostile_word(stream_)), true);
+            default: return keep(trouble(), true);
         }
+    }
+
+    std::uint64_t word_bits() const {
+        return static_cast<std::uint64_t>(format_of(options_.precision).bits);
     }
 
     ValueId field(std::uint32_t which) {
         return builder_.field(builder_.field_slot(fmt::format("f{}", which)));
     }
 
+    ValueId trouble() {
+        return builder_.word(options_.precision == Precision::single ? hostile_word(stream_)
+                                                                     : hostile_long_word(stream_));
+    }
+
     void word_operation(Op op) {
         const ValueId a = exact_operand();
         if (op == Op::bits_to_number) return keep(builder_.apply(op, a), true);
         const bool is_shift = op == Op::bits_shift_left || op == Op::bits_shift_right;
-        const ValueId b = is_shift ? builder_.word(stream_.below(32)) : exact_operand();
+        const ValueId b = is_shift ? builder_.word(stream_.below(word_bits())) : exact_operand();
         keep(builder_.apply(op, a, b), true);
     }
 
@@ -147,7 +171,7 @@ private:
 
     Value operand() {
         if (values_.empty() || stream_.chance(15)) {
-            return {builder_.word(hostile_word(stream_)), true};
+            return {trouble(), true};
         }
         if (stream_.chance(15)) return {field(stream_.below(3)), false};
         const bool is_recent = stream_.chance(60) && values_.size() > 8;
@@ -180,6 +204,23 @@ std::uint32_t hostile_word(RandomStream& stream) {
         case 4: return static_cast<std::uint32_t>(stream.next());
         case 5: return to_bits(stream.symmetric() * 100.0f);
         default: return to_bits(stream.symmetric() * 2.0f);
+    }
+}
+
+std::uint64_t hostile_long_word(RandomStream& stream) {
+    switch (stream.below(9)) {
+        case 0:
+        case 1:
+        case 2: return stream.pick<std::uint64_t>(special_long_words);
+        case 3: return stream.below(64);
+        case 4: return stream.next();
+        case 5: return std::bit_cast<std::uint64_t>(static_cast<double>(stream.symmetric()) * 100);
+        case 6: return stream.next() >> 32;
+        default: {
+            const double rough = stream.symmetric();  // Of fewer digits than there are.
+            const double fine = rough + static_cast<double>(stream.symmetric()) * 0x1p-24;
+            return std::bit_cast<std::uint64_t>(fine * 2);
+        }
     }
 }
 

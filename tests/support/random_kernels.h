@@ -12,6 +12,7 @@ namespace cascade::testing {
 struct RandomKernelOptions {
     int operations = 40;         ///< About how many instructions are asked for.
     int results = 4;
+    Precision precision = Precision::single;
     bool laplacians = true;      ///< And neighbours.
     int composed_percent = 5;    ///< Share of elementary functions, clamps, random numbers.
 };

@@ -36,5 +36,7 @@ private:
 /// A word that is likely to be trouble: zeros of both signs, denormals, infinities, NaN, numbers at
 /// the ends of the range, small integers, ordinary numbers, or any word at all.
 std::uint32_t hostile_word(RandomStream& stream);
+/// The same of 64 bits.
+std::uint64_t hostile_long_word(RandomStream& stream);
 
 }  // namespace cascade::testing

@@ -237,7 +237,7 @@ TEST(Elementary, ConstantsFoldToTheSameBits) {
             KernelBuilder builder;
             const ValueId folded = (builder.*function.expand)(builder.word(to_bits(x)));
             ASSERT_TRUE(builder.is_constant(folded));
-            const float value = to_number(builder[folded].payload);
+            const auto value = static_cast<float>(builder.constant(folded));
             const float run = value_of(function, x);
             ASSERT_TRUE(to_bits(value) == to_bits(run) || (std::isnan(value) && std::isnan(run)))
                 << function.name << "(" << x << "): " << value << " and " << run;

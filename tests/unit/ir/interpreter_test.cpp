@@ -52,7 +52,7 @@ private:
         std::uint32_t word(const KernelArguments& arguments, std::int64_t i, std::int64_t row,
                            const Instruction& instruction,
                            const std::vector<std::uint32_t>& words) const {
-            const std::uint32_t slot = instruction.payload;
+            const std::uint32_t slot = instruction.slot();
             const PlaneLayout& layout = arguments.layout;
             const std::int64_t at = layout.row_start(row) + i;
             switch (instruction.op) {
@@ -346,7 +346,7 @@ TEST(Interpreter, FoldingIsRunning) {
         running.result("r", expand(running, first, second));
         none.at(0, 0) = a;
         const std::vector<Field> results = run_on(std::move(running).finish(), none, grid);
-        ASSERT_TRUE(testing::same_word(folding[folded].payload, to_bits(results[0].at(0, 0))))
+        ASSERT_TRUE(testing::same_word(folding[folded].slot(), to_bits(results[0].at(0, 0))))
             << a;
     }
 }

@@ -13,22 +13,22 @@
 
 namespace cascade::testing {
 
-/// `expand(builder, x, y)` gives the value of the function.
-template <typename Expand>
-std::vector<float> apply_to_all(const Expand& expand, const std::vector<float>& x,
-                                const std::vector<float>& y) {
-    KernelBuilder builder;
+/// `expand(builder, x, y)` gives the value of the function, in the precision of the arguments.
+template <typename Expand, typename Number>
+std::vector<Number> apply_to_all(const Expand& expand, const std::vector<Number>& x,
+                                 const std::vector<Number>& y) {
+    KernelBuilder builder(precision_of<Number>);
     const ValueId first = builder.field(builder.field_slot("x"));
     const ValueId second = builder.field(builder.field_slot("y"));
     builder.result("r", expand(builder, first, second));
     const CellKernel kernel = std::move(builder).finish();
     const Grid grid{static_cast<std::int64_t>(x.size()), 1, Boundary::periodic};
     const PlaneLayout layout(grid);
-    Field a(layout), b(layout), out(layout);
+    Plane<Number> a(layout), b(layout), out(layout);
     std::copy(x.begin(), x.end(), a.origin());
     std::copy(y.begin(), y.end(), b.origin());
-    const float* fields[] = {a.origin(), b.origin()};
-    float* results[] = {out.origin()};
+    const Number* fields[] = {a.origin(), b.origin()};
+    Number* results[] = {out.origin()};
     const FlushDenormals environment;
     const KernelPointer compiled = *make_interpreter()->compile(kernel, Stencil::row);
     compiled->run({fields, {}, {}, results, layout}, {0, 1});
@@ -48,6 +48,20 @@ inline double error_in_ulp(float value, double exact) {
         return std::fabs(value) >= 0x1.fffffep127f ? 0 : wrong;
     if (std::isinf(value)) return std::fabs(exact) > 0x1.fffffep127 ? 0 : wrong;
     return std::fabs(value - exact) / std::ldexp(1.0, std::max(std::ilogb(exact), -126) - 23);
+}
+
+/// The same of binary64 numbers.
+inline double error_in_ulp(double value, long double exact) {
+    constexpr double wrong = std::numeric_limits<double>::infinity();
+    constexpr long double largest = std::numeric_limits<double>::max();
+    if (std::isnan(exact) || std::isnan(value))
+        return std::isnan(exact) && std::isnan(value) ? 0 : wrong;
+    if (std::signbit(exact) != std::signbit(value)) return wrong;
+    if (std::fabs(exact) < 0x1p-1022L) return std::fabs(value) <= 0x1p-1022 ? 0 : wrong;
+    if (std::isinf(static_cast<double>(exact))) return std::fabs(value) >= largest ? 0 : wrong;
+    if (std::isinf(value)) return std::fabs(exact) > largest ? 0 : wrong;
+    const int place = std::max(std::ilogb(exact), -1022) - 52;
+    return static_cast<double>(std::fabs(value - exact) / std::ldexp(1.0L, place));
 }
 
 }  // namespace cascade::testing

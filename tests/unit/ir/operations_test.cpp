@@ -79,7 +79,7 @@ TEST(Operations, FoldingIsWhatTheTableSays) {
                                                : builder.select(a, b, c);
             ASSERT_TRUE(builder.is_constant(value)) << say(op, words);
             const std::uint32_t expected = oracle(op, words.a, words.b, words.c);
-            ASSERT_TRUE(same_word(builder[value].payload, expected)) << say(op, words);
+            ASSERT_TRUE(same_word(builder[value].slot(), expected)) << say(op, words);
         }
     }
 }

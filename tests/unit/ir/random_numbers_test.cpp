@@ -19,19 +19,60 @@ constexpr std::uint64_t some_key = 0x0123456789abcdefULL;
 
 using Expand = ValueId (KernelBuilder::*)(ValueId, std::uint64_t);
 
-Field random_field(const Grid& grid, std::uint64_t key, float draw,
-                   Expand expand = &KernelBuilder::random_symmetric) {
-    KernelBuilder builder;
-    const ValueId step = builder.uniform(builder.uniform_slot("step"));
+template <typename Number>
+Plane<Number> random_plane(const Grid& grid, std::uint64_t key, Number draw,
+                           Expand expand = &KernelBuilder::random_symmetric) {
+    KernelBuilder builder(precision_of<Number>);
+    const ValueId step = builder.draw_word(builder.uniform(builder.uniform_slot("step")));
     builder.result("r", (builder.*expand)(step, key));
     const CellKernel kernel = std::move(builder).finish();
-    Field out{PlaneLayout(grid)};
-    float* results[] = {out.origin()};
-    const float uniforms[] = {draw};
+    Plane<Number> out{PlaneLayout(grid)};
+    Number* results[] = {out.origin()};
+    const Number uniforms[] = {draw};
     const FlushDenormals environment;
     const KernelPointer compiled = *make_interpreter()->compile(kernel, grid.stencil());
     compiled->run({{}, {}, uniforms, results, out.layout()}, {0, grid.height});
     return out;
+}
+
+Field random_field(const Grid& grid, std::uint64_t key, float draw,
+                   Expand expand = &KernelBuilder::random_symmetric) {
+    return Field(random_plane(grid, key, draw, expand));
+}
+
+// The same numbers, with 52 digits.
+TEST(RandomNumbers, HaveMoreDigitsInBinary64) {
+    const Grid grid{300, 40, Boundary::periodic};
+    for (const double draw : {0.0, 1.0, 27999.0, 1048575.0}) {
+        const Plane<double> plane = random_plane(grid, some_key, draw);
+        const Plane<float> rough = random_plane(grid, some_key, static_cast<float>(draw));
+        const Plane<double> normal =
+            random_plane(grid, some_key, draw, &KernelBuilder::random_normal);
+        const Plane<float> rough_normal = random_plane(grid, some_key, static_cast<float>(draw),
+                                                       &KernelBuilder::random_normal);
+        for (std::int64_t j = 0; j < grid.height; ++j) {
+            for (std::int64_t i = 0; i < grid.width; ++i) {
+                const std::uint32_t step = to_bits(static_cast<float>(draw));
+                const auto hash = pcg4d({static_cast<std::uint32_t>(i),
+                                         static_cast<std::uint32_t>(j), step ^ 0x01234567u,
+                                         0x89abcdefu});
+                const std::uint64_t digits = std::uint64_t{hash[0]} << 20 | hash[1] >> 12;
+                const auto exact = static_cast<double>(
+                    (static_cast<long double>(digits) + 0.5L) * 0x1p-51L - 1);
+                ASSERT_EQ(plane.at(i, j), exact) << i << ", " << j;
+                ASSERT_NEAR(plane.at(i, j), rough.at(i, j), 0x1p-23);
+                ASSERT_NEAR(normal.at(i, j), rough_normal.at(i, j), 2e-5);
+            }
+        }
+    }
+}
+
+// Beyond 2^24, where binary32 numbers are 2 and more apart, steps still differ.
+TEST(RandomNumbers, OfLateStepsDifferInBinary64) {
+    const Grid grid{16, 1, Boundary::periodic};
+    const Plane<double> one = random_plane(grid, some_key, 0x1p24 + 2);
+    const Plane<double> next = random_plane(grid, some_key, 0x1p24 + 3);
+    EXPECT_NE(one.at(3, 0), next.at(3, 0));
 }
 
 TEST(RandomNumbers, AreTheHashOfCellDrawAndKey) {

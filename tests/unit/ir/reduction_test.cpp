@@ -16,7 +16,7 @@ float reduced(ReductionKind kind, const std::vector<float>& cells, std::int64_t 
     for (std::size_t at = 0; at < cells.size(); at += static_cast<std::size_t>(width)) {
         rows.push_back(reduce_row(kind, cells.data() + at, width));
     }
-    return reduce_rows(kind, rows, static_cast<std::int64_t>(cells.size()));
+    return static_cast<float>(reduce_rows(kind, rows, static_cast<std::int64_t>(cells.size())));
 }
 
 TEST(Reduction, OfWholeNumbersIsExactForEveryShape) {

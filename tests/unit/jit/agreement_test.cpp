@@ -46,12 +46,12 @@ struct Backends {
 };
 
 // Each kernel is compiled twice, in two widths; all combinations come round.
-TEST(JitAgreement, RandomKernels) {
-    constexpr std::uint64_t count = 2400;
+void compare_random_kernels(Precision precision, std::uint64_t count) {
     Backends backends;
     OperationCounts hit;
     for (std::uint64_t seed = 1; seed <= count; ++seed) {
         RandomKernelOptions options;
+        options.precision = precision;
         options.operations = 6 + static_cast<int>(seed % 20);
         options.results = 1 + static_cast<int>(seed % 3);
         options.composed_percent = seed % 8 == 0 ? 8 : 0;
@@ -68,10 +68,14 @@ TEST(JitAgreement, RandomKernels) {
     std::printf("operations in %d kernels:\n%s", static_cast<int>(count), hit.report().c_str());
 }
 
+TEST(JitAgreement, RandomKernels) { compare_random_kernels(Precision::single, 2400); }
+TEST(JitAgreement, RandomKernelsOfBinary64) { compare_random_kernels(Precision::binary64, 2400); }
+
 TEST(JitAgreement, LargeKernels) {
     Backends backends;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
         RandomKernelOptions options;
+        options.precision = seed % 2 == 0 ? Precision::single : Precision::binary64;
         options.operations = 300;
         options.composed_percent = 2;
         const CellKernel kernel = random_kernel(seed + 100000, options);

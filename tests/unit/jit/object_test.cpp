@@ -101,6 +101,7 @@ TEST(JitObject, HoldsTheFunctionAndNeedsNothing) {
 }
 
 /// An object file's function as a kernel.
+template <typename Number = float>
 class ObjectKernel final : public Kernel {
 public:
     ObjectKernel(NativeSession& session, const std::vector<std::uint8_t>& object,
@@ -111,11 +112,13 @@ public:
         if (loaded) function_ = std::move(*loaded);
     }
 
-    void run(const KernelArguments& arguments, RowRange rows) const override {
+    using Kernel::run;
+    void run(const KernelArgumentsOf<Number>& arguments, RowRange rows) const override {
         if (!function_) return;
-        function_->address(arguments.fields.data(), arguments.masks.data(),
-                           arguments.uniforms.data(), arguments.results.data(),
-                           arguments.layout.width, arguments.layout.stride, rows.begin, rows.end);
+        function_->template as<GridFunction<Number>>()(
+            arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
+            arguments.results.data(), arguments.layout.width, arguments.layout.stride, rows.begin,
+            rows.end);
     }
 
 private:

@@ -38,10 +38,10 @@ std::string bytes_of(std::initializer_list<T> values) {
     return bytes;
 }
 
-std::vector<float> values_of(const std::string& file) {
+std::vector<double> values_of(const std::string& file) {
     const Result<NpyArray> array = parse_npy(file);
     EXPECT_TRUE(array) << (array ? "" : array.error().message);
-    return array ? array->values : std::vector<float>{};
+    return array ? array->values : std::vector<double>{};
 }
 
 std::string fault_of(const std::string& file) {

@@ -42,7 +42,7 @@ public:
         return simulation_->state(stage).field(item(name, stage));
     }
     float number(const std::string& name, std::uint32_t stage = 0) const {
-        return simulation_->state(stage).numbers[item(name, stage)];
+        return static_cast<float>(simulation_->state(stage).numbers[item(name, stage)]);
     }
     bool is_uniform(const std::string& name) const {
         return script_.program->stages[0].uniform[item(name, 0)];

@@ -71,10 +71,13 @@ protected:
         return report ? "" : report.error().message + "\n" + report.error().hint;
     }
 
-    std::vector<float> array(const std::string& name) const {
-        const auto read = read_npy(path(name));
+    /// An array of numbers of a precision.
+    template <typename Number = float>
+    std::vector<Number> array(const std::string& name) const {
+        const auto read = read_npy(path(name), precision_of<Number>);
         EXPECT_TRUE(read) << name;
-        return read ? read->values : std::vector<float>{};
+        if (!read) return {};
+        return {read->values.begin(), read->values.end()};
     }
 
     std::string bytes(const std::string& name) const {

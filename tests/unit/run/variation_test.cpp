@@ -95,13 +95,13 @@ TEST(Variation, SeedsAreNoParameters) {
 TEST(Csv, QuotesWhatNeedsIt) {
     const std::vector<std::string> cells = {"a", "", "1,5", "say \"hi\"", "two\nlines"};
     EXPECT_EQ(csv_row(cells), "a,,\"1,5\",\"say \"\"hi\"\"\",\"two\nlines\"\n");
-    EXPECT_EQ(csv_number(0.1F), "0.1");
+    EXPECT_EQ(csv_number(0.1, Precision::single), "0.1");
     EXPECT_EQ(csv_number(static_cast<double>(0.1F)), "0.100000001");
     EXPECT_EQ(csv_number(3.0), "3");
     EXPECT_EQ(csv_number(std::numeric_limits<double>::quiet_NaN()), "");
     // Nine digits are enough for every binary32.
     for (const float value : {1.0F / 3, 16777217.0F, 1e-38F, 3.4e38F}) {
-        EXPECT_EQ(std::strtof(csv_number(value).c_str(), nullptr), value);
+        EXPECT_EQ(std::strtof(csv_number(value, Precision::single).c_str(), nullptr), value);
     }
 }
 
