@@ -61,7 +61,8 @@ TEST(RandomNumbers, HaveMoreDigitsInBinary64) {
                     (static_cast<long double>(digits) + 0.5L) * 0x1p-51L - 1);
                 ASSERT_EQ(plane.at(i, j), exact) << i << ", " << j;
                 ASSERT_NEAR(plane.at(i, j), rough.at(i, j), 0x1p-23);
-                ASSERT_NEAR(normal.at(i, j), rough_normal.at(i, j), 2e-5);
+                // Where log(a) is nearly 0 single has few digits of it.
+                ASSERT_NEAR(normal.at(i, j), rough_normal.at(i, j), 1e-3);
             }
         }
     }

@@ -147,7 +147,7 @@ TEST(TwoNumbers, ModulusHasTheSignOfTheDivisor) {
 float smooth(float low, float high, float x) {
     return apply_to_all([&](KernelBuilder& builder, ValueId a, ValueId b) {
         return builder.smooth_step(a, b, builder.number(x));
-    }, {low}, {high})[0];
+    }, std::vector{low}, std::vector{high})[0];
 }
 
 TEST(TwoNumbers, SmoothStepRisesBetweenItsEnds) {

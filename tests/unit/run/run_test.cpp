@@ -136,7 +136,7 @@ TEST_F(RunTest, ReadsAPictureAsStartingValue) {
     const Result<NpyArray> array = read_npy(path("one.u.npy"));
     ASSERT_TRUE(array);
     const std::vector<float> row{4, 4, 4, 3, 1, 0, 0, 0};
-    for (std::size_t k = 0; k < 48; ++k) EXPECT_FLOAT_EQ(array->values[k], row[k % 8]) << k;
+    for (std::size_t k = 0; k < 48; ++k) EXPECT_EQ(array->values[k], static_cast<double>(row[k % 8])) << k;
 }
 
 TEST_F(RunTest, APictureThatCannotBeReadIsAnErrorAtItsPath) {
