@@ -10,7 +10,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr const char* decay = "system decay { u: 1; k: 2; u' = -k * u }\n";
+constexpr const char* decay = "system decay { u: 1; k: 2; u' = lap(u) - k * u }\n";
 
 /// A stage of a small system; its sentences are on line 2, from column 18.
 std::unique_ptr<Checked> stage(const std::string& sentences) {
@@ -108,10 +108,10 @@ TEST(CheckTime, WrongSolvers) {
                 ElementsAre("2:26: there is no solver 'eular' | did you mean 'euler'?"));
     EXPECT_THAT(faults("solver: leapfrog"),
                 ElementsAre("2:26: there is no solver 'leapfrog' | solvers are euler, symplectic, "
-                            "rk2, rk4, rk23, rk45, rkl1, rkl2"));
+                            "rk2, rk4, rk23, rk45, rkl1, rkl2, imex, imex2, gauss"));
     EXPECT_THAT(faults("solver: 4"),
                 ElementsAre("2:26: a solver is one word | solvers are euler, symplectic, rk2, rk4, "
-                            "rk23, rk45, rkl1, rkl2"));
+                            "rk23, rk45, rkl1, rkl2, imex, imex2, gauss"));
     EXPECT_THAT(faults("solver: rk4, rk2"), ElementsAre("2:31: 'solver' takes one value"));
     EXPECT_THAT(faults("solver: rk4; solver: rk2"),
                 ElementsAre("2:31: 'solver' is given a value twice"));
@@ -145,8 +145,22 @@ TEST(CheckTime, WrongConditions) {
                             "as in steady(0.01)"));
     EXPECT_THAT(faults("until: steady(0)"),
                 ElementsAre("2:32: steady must be from 1e-06 to 0.9"));
-    EXPECT_THAT(faults("start: coarse(4)"),
-                ElementsAre("2:18: 'start' is not in this version of the language"));
+}
+
+TEST(CheckTime, CoarseStarts) {
+    EXPECT_EQ(time_of("").coarse, 1);
+    EXPECT_EQ(time_of("start: coarse(4)").coarse, 4);
+    EXPECT_EQ(time_of("start: coarse(2 * 32)").coarse, 64);
+    for (const char* wrong : {"1", "3", "128", "0.5", "-2"}) {
+        EXPECT_THAT(faults(std::string("start: coarse(") + wrong + ")"),
+                    ElementsAre("2:32: coarse takes 2, 4, 8, … 64 | each grid has cells half as wide "
+                                "as the one before it"));
+    }
+    EXPECT_THAT(faults("start: coarse()"),
+                ElementsAre("2:25: coarse takes one value: how many times as wide cells are | as in "
+                            "start: coarse(4)"));
+    EXPECT_THAT(faults("start: t"), ElementsAre("2:25: a stage starts as its values say, or on coarser "
+                                                "grids first | as in start: coarse(4)"));
 }
 
 TEST(CheckTime, SettingsThatDoNotGoTogether) {
