@@ -47,7 +47,9 @@ TEST(AutomaticSpeed, StagesAreTakenWhereTheyPay) {
 }
 
 TEST(AutomaticSpeed, ThresholdsAreMetByShorterSteps) {
-    EXPECT_DOUBLE_EQ(choose_step(Solver::rkl1, {300, 1, true}, 1e4).step, 0.1);
+    EXPECT_DOUBLE_EQ(choose_step(Solver::rkl1, {10, 1, true}, 1e4).step, 0.1);
+    // Five stages of a step of 0.09 do more than seven of one of 0.1.
+    EXPECT_DOUBLE_EQ(choose_step(Solver::rkl1, {300, 1, true}, 1e4).step, 0.09);
     EXPECT_DOUBLE_EQ(choose_step(Solver::euler, {300, 1, true}, 1e4).step, 0.9 * 2 / 300);
 }
 
