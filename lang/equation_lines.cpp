@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <optional>
 
 namespace cascade {
 
@@ -51,6 +52,36 @@ std::vector<std::string_view> terms_of(std::string_view formula) {
     return terms;
 }
 
+/// Where the group ends whose `{` is at a place.
+std::size_t end_of_group(std::string_view formula, std::size_t at) {
+    int depth = 0;
+    for (; at < formula.size(); ++at) {
+        if (formula[at] == '\\') {
+            at += command_at(formula, at).size() - 1;
+        } else if (formula[at] == '{') {
+            ++depth;
+        } else if (formula[at] == '}' && --depth == 0) {
+            return at;
+        }
+    }
+    return at;
+}
+
+struct Fraction {
+    std::string_view above, below;
+};
+
+/// A formula that is one fraction and nothing else.
+std::optional<Fraction> whole_fraction(std::string_view formula) {
+    constexpr std::string_view command = "\\frac";
+    if (!formula.starts_with("\\frac{")) return std::nullopt;
+    const std::size_t middle = end_of_group(formula, command.size());
+    if (middle + 2 >= formula.size()) return std::nullopt;
+    if (end_of_group(formula, middle + 1) + 1 != formula.size()) return std::nullopt;
+    return Fraction{formula.substr(command.size() + 1, middle - command.size() - 1),
+                    formula.substr(middle + 2, formula.size() - middle - 3)};
+}
+
 }  // namespace
 
 int width_in_signs(std::string_view formula) {
@@ -72,6 +103,13 @@ int width_in_signs(std::string_view formula) {
 }
 
 std::vector<std::string> broken_sum(std::string_view formula) {
+    if (const auto fraction = whole_fraction(formula);
+        fraction && width_in_signs(fraction->above) > signs_of_a_line) {
+        std::vector<std::string> lines = broken_sum(fraction->above);
+        lines.front().insert(0, "\\frac{1}{" + std::string(fraction->below) + "} \\Bigl( ");
+        lines.back().append(" \\Bigr)");
+        return lines;
+    }
     std::vector<std::string> lines;
     for (const std::string_view term : terms_of(formula)) {
         const bool fits = !lines.empty() && width_in_signs(lines.back()) + width_in_signs(term) <=
