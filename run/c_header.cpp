@@ -119,7 +119,8 @@ private:
         text += table("planes", "PLANE", compiled_.planes);
         text += table("masks", "MASK", compiled_.masks);
         if (!compiled_.sides.empty()) {
-            text += filled(" *   sides[species][$_left ... $_back]  rules at the sides, which may change\n");
+            text += filled(" *   sides[species][$_left ... $_back]  rules at the sides, which may "
+                           "change\n");
         }
         text += fmt::format(
             " *   steps  complete steps since the start\n"
@@ -147,8 +148,9 @@ private:
     }
 
     std::string constants() const {
-        const std::size_t plane_bytes = static_cast<std::size_t>(layout_.size()) * sizeof(float);
-        const std::size_t mask_bytes = compiled_.masks.size() * static_cast<std::size_t>(layout_.size());
+        const auto cells = static_cast<std::size_t>(layout_.size());  // Padding and halo included.
+        const std::size_t plane_bytes = cells * sizeof(float);
+        const std::size_t mask_bytes = cells * compiled_.masks.size();
         const std::size_t row_bytes =
             compiled_.reduces ? static_cast<std::size_t>(layout_.row_count()) * sizeof(double) : 0;
         const auto define = [&](std::string_view what, const std::string& value) {
@@ -159,6 +161,8 @@ private:
         text += define("WIDTH", number(layout_.width));
         text += define("HEIGHT", number(layout_.height));
         text += define("DEPTH", number(layout_.depth));
+        text += define("ROWS", number(layout_.row_count()));
+        text += define("CELLS", number(program_.domain.grid.cell_count()));
         text += define("SPACING", c_number(static_cast<float>(program_.domain.grid.spacing)));
         text += define("STRIDE", number(layout_.stride));
         text += define("SLICE_STRIDE", number(layout_.slice_stride));
@@ -252,7 +256,8 @@ private:
     }
 
     std::string initialisation() const {
-        std::string text = filled(R"(/* Lays out the struct in $$_BYTES bytes of memory and sets its numbers. */
+        std::string text = filled(R"(
+/* Lays out the struct in $$_BYTES bytes of memory and sets its numbers. */
 static inline void $_init(struct $ *s, void *memory) {
     char *place = (char *)(((uintptr_t)memory + 63) / 64 * 64);
     int k;
@@ -270,8 +275,8 @@ static inline void $_init(struct $ *s, void *memory) {
         }
         if (compiled_.reduces) {
             text += fmt::format("    s->rows = (double *)(void *)place;\n"
-                                "    place += {}_HEIGHT * {}_DEPTH * sizeof(double);\n",
-                                big_, big_);
+                                "    place += {}_ROWS * sizeof(double);\n",
+                                big_);
         }
         text += "    (void)place;\n";
         for (std::size_t k = 0; k < compiled_.numbers.size(); ++k) {
@@ -334,7 +339,8 @@ static inline void $_step(struct $ *s) {
         if (needs_time && compiled_.speed) text += filled(c_text::clock);
         if (compiled_.frozen) {
             text += fmt::format("    if (s->numbers[{}] != 0) {{ /* Everything is frozen. */\n"
-                                "        ++s->steps;\n        {}_set_control(before);\n        return;\n    }}\n",
+                                "        ++s->steps;\n        {}_set_control(before);\n"
+                                "        return;\n    }}\n",
                                 *compiled_.frozen, compiled_.name);
         }
         text += compiled_.step;

@@ -171,10 +171,10 @@ static inline void $_compute($_kernel *kernel, const float *const *fields,
         $_set_control(before);
     }
 }
-
 )";
 
-inline constexpr std::string_view masks = R"(/* 1 where a plane is not 0. */
+inline constexpr std::string_view masks = R"(
+/* 1 where a plane is not 0. */
 static inline void $_make_mask(const float *plane, unsigned char *mask) {
     int64_t i, j, k;
     for (k = 0; k < $$_DEPTH; ++k) {
@@ -183,10 +183,10 @@ static inline void $_make_mask(const float *plane, unsigned char *mask) {
         }
     }
 }
-
 )";
 
-inline constexpr std::string_view reductions = R"(/* Aggregates over the domain: each row in eight partial results, these in pairs; then rows in
+inline constexpr std::string_view reductions = R"(
+/* Aggregates over the domain: each row in eight partial results, these in pairs; then rows in
  * pairs, pairs in pairs. The tree depends on the grid alone. */
 enum { $_sum, $_mean, $_least, $_largest };
 
@@ -211,7 +211,7 @@ static inline float $_reduce(struct $ *s, int kind, const float *plane) {
     const int64_t lanes = $$_WIDTH < 8 ? $$_WIDTH : 8;
     int64_t row;
     double all;
-    for (row = 0; row < $$_HEIGHT * $$_DEPTH; ++row) {
+    for (row = 0; row < $$_ROWS; ++row) {
         const float *cells = plane + $_at(0, row % $$_HEIGHT, row / $$_HEIGHT);
         double partial[8];
         int64_t i;
@@ -219,29 +219,28 @@ static inline float $_reduce(struct $ *s, int kind, const float *plane) {
         for (; i < $$_WIDTH; ++i) partial[i % 8] = $_together(kind, partial[i % 8], (double)cells[i]);
         s->rows[row] = $_fold(kind, partial, lanes);
     }
-    all = $_fold(kind, s->rows, $$_HEIGHT * $$_DEPTH);
-    return (float)(kind == $_mean ? all / (double)($$_WIDTH * $$_HEIGHT * $$_DEPTH) : all);
+    all = $_fold(kind, s->rows, $$_ROWS);
+    return (float)(kind == $_mean ? all / (double)$$_CELLS : all);
 }
-
 )";
 
-inline constexpr std::string_view allocation = R"(/* The next plane of the memory: the address of its cell (0, 0, 0). */
+inline constexpr std::string_view allocation = R"(
+/* The next plane of the memory: the address of its cell (0, 0, 0). */
 static inline float *$_plane(char **memory) {
     float *const origin = (float *)(void *)*memory + $$_ORIGIN;
     *memory += $$_PLANE_SIZE * sizeof(float);
     return origin;
 }
-
 )";
 
-inline constexpr std::string_view data = R"(static inline void $_copy(float *plane, const float *data) {
+inline constexpr std::string_view data = R"(
+static inline void $_copy(float *plane, const float *data) {
     int64_t row;
-    for (row = 0; row < $$_HEIGHT * $$_DEPTH; ++row) {
+    for (row = 0; row < $$_ROWS; ++row) {
         memcpy(plane + $_at(0, row % $$_HEIGHT, row / $$_HEIGHT), data + row * $$_WIDTH,
                $$_WIDTH * sizeof(float));
     }
 }
-
 )";
 
 inline constexpr std::string_view clock = R"(    if (length != s->length) {

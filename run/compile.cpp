@@ -62,8 +62,8 @@ Result<void> make_per_cell(Program& program, std::uint32_t k,
 std::string c_identifier(const std::string& text) {
     std::string name;
     for (const char c : text) {
-        const bool plain = std::isalnum(static_cast<unsigned char>(c)) && static_cast<unsigned char>(c) < 128;
-        name += plain ? c : '_';
+        const auto letter = static_cast<unsigned char>(c);
+        name += letter < 128 && std::isalnum(letter) != 0 ? c : '_';
     }
     if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front()))) name.insert(0, "_");
     return name;
