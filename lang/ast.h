@@ -84,6 +84,7 @@ struct Sentence {
     SentenceKind kind = SentenceKind::value;
     Word name;
     Word index;                      ///< i of `u[i]: e`: a name or a number; empty without one.
+    Word side;                       ///< left of `u.left: e`; empty without one.
     std::vector<Expression> values;  ///< At least one.
     std::optional<Range> range;      ///< Of a value only.
     Span span;                       ///< From the name to the end of the last value.
@@ -106,7 +107,7 @@ struct Block {
     /// from, empty where it is derived from none.
     Word base;
     std::vector<Sentence> sentences;
-    std::vector<Sentence> sides;  ///< `u.left: …`; their names hold the dot.
+    std::vector<Sentence> sides;  ///< `u.left: …`, `u[1].left: …`.
     std::string doc;  ///< The text of its doc comments, joined to one line.
     /// Something of it could not be read and is not in these lists; it has its message.
     bool is_damaged = false;

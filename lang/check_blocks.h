@@ -50,6 +50,10 @@ void check_domain_side(Workspace& work, const ast::Script& script, const ast::Se
 /// The sides of all stages, when systems, stages and the domain are known.
 void check_stage_sides(Workspace& work, const ast::Script& script);
 
+/// What changes from outside say of sides, by stage, in their order.
+using SideOverrides = std::vector<std::vector<ast::Sentence>>;
+SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& script);
+
 /// left, right, top, bottom, front, back or sides.
 bool is_side_word(std::string_view word);
 

@@ -169,7 +169,7 @@ void check_precision(Workspace& work, const ast::Script& script, const ast::Sent
 /// Of one species, in a block that knows none.
 void report_sides(Workspace& work, const ast::Block& block) {
     for (const ast::Sentence& sentence : block.sides) {
-        work.diagnostics.error(sentence.name.span,
+        work.diagnostics.error(join(sentence.name.span, sentence.side.span),
                                "the sides of one species belong in its system or in a stage",
                                "left: … in the domain is for all species");
     }

@@ -96,7 +96,7 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
         report(work, span, fmt::format("a mask cannot depend on '{}'", name), "it stays as it is");
         return std::nullopt;
     }
-    if (scope.place == Place::value && !varies_by_cell(name)) {
+    if (scope.place == Place::value && !varies_by_cell(name) && !scope.knows_time) {
         report(work, span, fmt::format("'{}' has no value when a stage starts", name),
                "it can be read in rates, definitions and pictures");
         return std::nullopt;

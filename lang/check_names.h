@@ -83,6 +83,7 @@ struct Scope {
     std::optional<std::uint32_t> stage;  ///< Empty inside a system.
     std::uint32_t last_stage = 0;        ///< In pictures: the last stage that can be read.
     std::string_view subject;            ///< In constants: what is to be one number.
+    bool knows_time = false;             ///< Values of sides may depend on t and step.
     std::optional<IndexValue> index = std::nullopt;  ///< Of the sentence, if it is of a family.
 };
 

@@ -3,6 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace cascade::checking {
 
 const ast::Sentence* value_sentence(const ast::Sentence& sentence) {
@@ -35,6 +40,13 @@ void report_unknown_override(Workspace& work, const ast::Word& name) {
                            did_you_mean(work, name.text, names));
 }
 
+void report_unknown_stage(Workspace& work, const ast::Word& name) {
+    std::vector<std::string> names;
+    for (const Stage& stage : work.program.stages) names.push_back(stage.name);
+    work.diagnostics.error(name.span, fmt::format("there is no stage '{}'", name.text),
+                           did_you_mean(work, name.text, names));
+}
+
 /// `--set gray_scott.feed=…` where no stage is called so: it holds in every stage of that system.
 bool set_in_stages_of_system(const Workspace& work, std::string_view system,
                              const ast::Sentence* sentence, StageOverrides& result) {
@@ -48,13 +60,96 @@ bool set_in_stages_of_system(const Workspace& work, std::string_view system,
     return used;
 }
 
+bool is_system(const Workspace& work, std::string_view name) {
+    return std::any_of(work.program.systems.begin(), work.program.systems.end(),
+                       [&](const System& system) { return system.name == name; });
+}
+
+/// Has the stage a species, or a family of such, of the sentence's name?
+bool has_species(const Workspace& work, const Stage& stage, const ast::Sentence& sentence) {
+    if (stage.system == unknown_system) return false;
+    const System& system = work.program.systems[stage.system];
+    const std::string name = sentence.index.empty() ? std::string(sentence.name.text)
+                                                    : fmt::format("{}[", sentence.name.text);
+    return std::any_of(system.quantities.begin(), system.quantities.end(),
+                       [&](const Quantity& quantity) {
+        if (!quantity.is_species) return false;
+        return sentence.index.empty() ? quantity.name == name : quantity.name.starts_with(name);
+    });
+}
+
+/// A change of a side: `stage` is empty where it is for all stages with the species.
+struct SideChange {
+    ast::Word stage;
+    ast::Sentence sentence;
+};
+
+/// Is this about a side? u.left is one if no stage and no system is called u.
+std::optional<SideChange> as_side(const Workspace& work, const ast::Override& change) {
+    if (!change.sentence.side.empty()) return SideChange{change.stage, change.sentence};
+    const bool may_be = !change.stage.empty() && change.sentence.index.empty() &&
+                        is_side_word(change.sentence.name.text) &&
+                        !work.stages.contains(std::string(change.stage.text)) &&
+                        !is_system(work, change.stage.text);
+    if (!may_be) return std::nullopt;
+    SideChange side{{}, change.sentence};
+    side.sentence.side = side.sentence.name;
+    side.sentence.name = change.stage;
+    const bool is_species = std::any_of(
+        work.program.stages.begin(), work.program.stages.end(),
+        [&](const Stage& stage) { return has_species(work, stage, side.sentence); });
+    return is_species ? std::optional(std::move(side)) : std::nullopt;
+}
+
+void report_no_side(Workspace& work, const ast::Word& word) {
+    std::vector<std::string> names(side_names.begin(), side_names.end());
+    names.emplace_back("sides");
+    work.diagnostics.error(word.span, fmt::format("'{}' is no side of the grid", word.text),
+                           did_you_mean(work, word.text, names));
+}
+
 }  // namespace
+
+SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& script) {
+    SideOverrides result(work.program.stages.size());
+    for (const ast::Override& change : script.overrides) {
+        if (value_sentence(change.sentence) == nullptr) continue;
+        const auto side = as_side(work, change);
+        if (!side) continue;
+        const ast::Sentence& sentence = side->sentence;
+        if (!is_side_word(sentence.side.text)) {
+            report_no_side(work, sentence.side);
+            continue;
+        }
+        bool is_stage = false, is_used = false;
+        for (std::size_t k = 0; k < result.size(); ++k) {
+            const Stage& stage = work.program.stages[k];
+            const bool is_its_system =
+                stage.system != unknown_system && !work.stages.contains(std::string(side->stage.text)) &&
+                work.program.systems[stage.system].name == side->stage.text;
+            const bool is_named = stage.name == side->stage.text || is_its_system;
+            is_stage |= is_named;
+            // That a stage which is named lacks the species is said there.
+            if (side->stage.empty() ? !has_species(work, stage, sentence) : !is_named) continue;
+            result[k].push_back(sentence);
+            is_used = true;
+        }
+        if (is_used) continue;
+        if (!side->stage.empty() && !is_stage) {
+            report_unknown_stage(work, side->stage);
+        } else {
+            work.diagnostics.error(sentence.name.span, fmt::format("no stage has a species '{}'",
+                                                                   sentence.name.text));
+        }
+    }
+    return result;
+}
 
 StageOverrides distribute_overrides(Workspace& work, const ast::Script& script) {
     StageOverrides result(work.program.stages.size());
     for (const ast::Override& change : script.overrides) {
         const ast::Sentence* sentence = value_sentence(change.sentence);
-        if (sentence == nullptr) continue;
+        if (sentence == nullptr || as_side(work, change)) continue;
         if (!change.stage.empty()) {
             const auto found = work.stages.find(std::string(change.stage.text));
             if (found != work.stages.end()) {
@@ -62,11 +157,7 @@ StageOverrides distribute_overrides(Workspace& work, const ast::Script& script) 
                 continue;
             }
             if (set_in_stages_of_system(work, change.stage.text, sentence, result)) continue;
-            std::vector<std::string> names;
-            for (const Stage& stage : work.program.stages) names.push_back(stage.name);
-            work.diagnostics.error(change.stage.span,
-                                   fmt::format("there is no stage '{}'", change.stage.text),
-                                   did_you_mean(work, change.stage.text, names));
+            report_unknown_stage(work, change.stage);
             continue;
         }
         bool used = false;

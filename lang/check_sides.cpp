@@ -1,11 +1,13 @@
 // Sides: what a species is at the sides of the grid. `u.left: fixed(1)` in a system or a stage,
 // `left: fixed(0)` of all species in the domain.
 #include "lang/check_blocks.h"
+#include "lang/statements.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -72,13 +74,42 @@ std::vector<Side> sides_of_word(std::string_view word) {
 }
 
 /// The sentences with those of `sides` first, since one side alone says more than all.
-std::vector<const ast::Sentence*> in_order(const std::vector<ast::Sentence>& sentences) {
+std::vector<const ast::Sentence*> in_order(std::span<const ast::Sentence> sentences) {
     std::vector<const ast::Sentence*> ordered;
     for (const ast::Sentence& sentence : sentences) ordered.push_back(&sentence);
     std::stable_partition(ordered.begin(), ordered.end(), [](const ast::Sentence* sentence) {
-        return sentence->name.text.ends_with(".sides") || sentence->name.text == "sides";
+        return sentence->side.text == "sides";
     });
     return ordered;
+}
+
+/// What a sentence sets, in messages: `u.left`.
+Span head_of(const ast::Sentence& sentence) { return join(sentence.name.span, sentence.side.span); }
+
+/// t and step reach a side as numbers: what takes the values of many cells, or knows the place of
+/// one, is computed when the stage starts.
+bool is_known_along_side(Workspace& work, const Formula& value) {
+    std::vector<bool> changes;
+    for (const Node& node : value.nodes) {
+        bool is_changing = node.kind == NodeKind::builtin &&
+                           (node.index == static_cast<std::uint32_t>(Builtin::t) ||
+                            node.index == static_cast<std::uint32_t>(Builtin::step));
+        if (node.kind == NodeKind::call) {
+            for (std::size_t k = 0; k < operand_count(node); ++k) {
+                if (changes[node.operands[k]]) is_changing = true;
+            }
+            const FunctionInfo& function = info(node.function);
+            if (is_changing && (varies_by_cell(node.function) || function.is_aggregate)) {
+                work.diagnostics.error(
+                    node.span,
+                    fmt::format("at a side {} cannot depend on t or step", function.spelling),
+                    "put t and step outside: it is computed once, when the stage starts");
+                return false;
+            }
+        }
+        changes.push_back(is_changing);
+    }
+    return true;
 }
 
 std::vector<std::string> species_names(const System& system) {
@@ -89,48 +120,99 @@ std::vector<std::string> species_names(const System& system) {
     return names;
 }
 
-/// The rules of a block, in an order in which later ones replace earlier ones.
-std::vector<SpeciesSide> check_rules(Workspace& work, const ast::Script& script,
-                                     const ast::Block& block, const Scope& scope) {
-    std::vector<SpeciesSide> rules;
-    const System& system = work.program.systems[scope.system];
-    std::unordered_map<std::string, Span> seen;
-    for (const ast::Sentence* sentence : in_order(block.sides)) {
-        const std::string_view text = sentence->name.text;
-        const std::size_t dot = text.rfind('.');
-        const std::string_view name = text.substr(0, dot);
-        const auto [first, is_new] = seen.try_emplace(std::string(text), sentence->name.span);
+/// The rules that sentences give, in an order in which later ones replace earlier ones.
+class RuleChecker {
+public:
+    RuleChecker(Workspace& work, const ast::Script& script, const Scope& scope)
+        : work_(work), script_(script), scope_(scope), system_(work.program.systems[scope.system]) {
+        scope_.knows_time = true;
+    }
+
+    std::vector<SpeciesSide> check(std::span<const ast::Sentence> sentences) {
+        for (const ast::Sentence* sentence : in_order(sentences)) {
+            for (const Statement& each : stage_statements(work_, system_, script_, *sentence)) {
+                if (!is_replaced(each)) check(each);
+            }
+        }
+        // u[2].left says more than u[i].left.
+        std::stable_partition(rules_.begin(), rules_.end(),
+                              [](const Rule& rule) { return rule.is_of_family; });
+        std::vector<SpeciesSide> sides;
+        for (const bool of_all : {true, false}) {
+            for (Rule& rule : rules_) {
+                if (rule.is_of_all == of_all) sides.push_back(std::move(rule.side));
+            }
+        }
+        return sides;
+    }
+
+private:
+    struct Rule {
+        SpeciesSide side;
+        bool is_of_family = false;  ///< Of u[i], not of u[2].
+        bool is_of_all = false;     ///< `sides`, not one of them.
+    };
+
+    /// A second sentence about the same is a fault.
+    bool is_replaced(const Statement& statement) {
+        const std::string side(statement.sentence->side.text);
+        const std::string what = statement.name + "." + side;
+        const Span span = head_of(*statement.sentence);
+        const auto [first, is_new] =
+            seen_.try_emplace(what + (statement.index ? "*" : ""), span);
         if (!is_new) {
-            report_twice(work, sentence->name.span, first->second,
-                         fmt::format("'{}' is given twice", text));
-            continue;
+            report_twice(work_, span, first->second, fmt::format("'{}' is given twice", what));
         }
-        const Meaning* meaning = find(work.names[scope.system], name);
-        if (meaning != nullptr && meaning->is_faulty) continue;
-        if (meaning == nullptr || meaning->is_definition || !system.is_species(meaning->index)) {
-            if (is_incomplete(work, scope.system)) continue;
-            work.diagnostics.error(sentence->name.span,
-                                   fmt::format("'{}' is not a species of {}", name, system.name),
-                                   is_hopeless(work)
-                                       ? ""
-                                       : did_you_mean(work, name, species_names(system)));
-            continue;
+        return !is_new;
+    }
+
+    void check(const Statement& statement) {
+        const ast::Sentence& sentence = *statement.sentence;
+        const Meaning* meaning = find(work_.names[scope_.system], statement.name);
+        if (meaning != nullptr && meaning->is_faulty) return;
+        if (meaning == nullptr || meaning->is_definition || !system_.is_species(meaning->index)) {
+            if (is_incomplete(work_, scope_.system)) return;
+            return report_no_species(statement);
         }
-        const auto written = read_side(work, script, *sentence);
-        if (!written) continue;
-        SideSetting setting{written->kind, {}, sentence->span};
+        const auto written = read_side(work_, script_, sentence);
+        if (!written) return;
+        SideSetting setting{written->kind, {}, sentence.span};
         if (written->value) {
-            auto checked = check_number(work, script, *written->value, scope);
-            if (!checked) continue;
+            Scope scope = scope_;
+            scope.index = statement.index;
+            auto checked = check_number(work_, script_, *written->value, scope);
+            if (!checked || !is_known_along_side(work_, checked->formula)) return;
             setting.value = std::move(checked->formula);
-            mark_reads(work, setting.value, scope.system);
+            mark_reads(work_, setting.value, scope_.system);
         }
-        for (const Side side : sides_of_word(text.substr(dot + 1))) {
-            rules.push_back({meaning->index, side, setting});
+        for (const Side side : sides_of_word(sentence.side.text)) {
+            rules_.push_back({{meaning->index, side, setting}, statement.index.has_value(),
+                              sentence.side.text == "sides"});
         }
     }
-    return rules;
-}
+
+    void report_no_species(const Statement& statement) {
+        std::string hint;
+        if (!is_hopeless(work_)) {
+            if (auto family = explain_family(work_, system_, statement.name)) {
+                work_.diagnostics.error(head_of(*statement.sentence), std::move(family->message),
+                                        std::move(family->hint));
+                return;
+            }
+            hint = did_you_mean(work_, statement.name, species_names(system_));
+        }
+        work_.diagnostics.error(
+            head_of(*statement.sentence),
+            fmt::format("'{}' is not a species of {}", statement.name, system_.name), hint);
+    }
+
+    Workspace& work_;
+    const ast::Script& script_;
+    Scope scope_;
+    const System& system_;
+    std::vector<Rule> rules_;
+    std::unordered_map<std::string, Span> seen_;
+};
 
 using AllSides = std::array<SideSetting, side_count>;
 
@@ -235,7 +317,7 @@ void check_system_sides(Workspace& work, const ast::Script& script, const ast::B
             system.sides.push_back(std::move(side));
         }
     }
-    for (SpeciesSide& rule : check_rules(work, script, block, scope)) {
+    for (SpeciesSide& rule : RuleChecker(work, script, scope).check(block.sides)) {
         system.sides.push_back(std::move(rule));
     }
 }
@@ -262,6 +344,7 @@ void check_domain_side(Workspace& work, const ast::Script& script, const ast::Se
 void check_stage_sides(Workspace& work, const ast::Script& script) {
     AllSides domain = sides_of_domain(work.program.domain);
     if (!are_pairs(work, domain)) return;
+    const SideOverrides overrides = distribute_side_overrides(work, script);
     std::uint32_t index = 0;
     for (const ast::Block& block : script.blocks) {
         const bool is_stage =
@@ -273,7 +356,15 @@ void check_stage_sides(Workspace& work, const ast::Script& script) {
         scope.stage = scope.last_stage = index;
         ++index;
         if (stage.system == unknown_system) continue;
-        resolve(work, stage, check_rules(work, script, block, scope));
+        std::vector<SpeciesSide> rules = RuleChecker(work, script, scope).check(block.sides);
+        // What comes from outside has the last word, and of that the last.
+        for (const ast::Sentence& change : overrides[index - 1]) {
+            for (SpeciesSide& rule :
+                 RuleChecker(work, script, scope).check(std::span(&change, 1))) {
+                rules.push_back(std::move(rule));
+            }
+        }
+        resolve(work, stage, rules);
     }
 }
 

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace cascade::lowering {
 
@@ -17,6 +19,15 @@ std::string plural(std::size_t count, std::string_view what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : what.ends_with("s") ? "es" : "s");
 }
 
+/// Parts that nobody has written: those of a tensor, and of operators on a surface.
+std::string describe_made(const PartGraph& graph, const Part& part) {
+    const bool is_round = part.calls(Function::sin) || part.calls(Function::cos);
+    if (is_round && graph[part.operands[0]].formula != nullptr) {
+        return fmt::format("the {} of a direction", part.calls(Function::sin) ? "sine" : "cosine");
+    }
+    return "an entry of a tensor";
+}
+
 /// How a part is written, or what it is called.
 std::string name_of(const PartGraph& graph, PartId id) {
     const std::string& name = graph.name(id);
@@ -25,7 +36,7 @@ std::string name_of(const PartGraph& graph, PartId id) {
     if (part.calls(Function::if_) && graph[part.operands[0]].node.kind == NodeKind::inside) {
         return name_of(graph, part.operands[1]) + " inside the mask";
     }
-    if (part.formula == nullptr) return "an entry of the tensor";
+    if (part.formula == nullptr) return describe_made(graph, part);
     if (part.position > most_parts_shown) return "a long expression";
     Formula formula;
     const auto& nodes = part.formula->nodes;
@@ -40,6 +51,10 @@ std::string describe_brought(const PartGraph& graph, const PassPlanner::Brought&
         return fmt::format("{} is written to a plane: {} takes all its cells", operand, reader);
     }
     const std::string neighbours = plural(brought.places, "neighbour");
+    if (brought.is_open) {
+        return fmt::format("{} is computed again at {} for {}: beyond a side it is made of what "
+                           "stands there", operand, neighbours, reader);
+    }
     if (!brought.is_written) {
         return fmt::format("{} is computed again at {} for {}", operand, neighbours, reader);
     }
@@ -50,12 +65,20 @@ std::string describe_brought(const PartGraph& graph, const PassPlanner::Brought&
                            : "computing it again would take longer than reading it");
 }
 
+std::string describe_lasting(const PartGraph& graph, PartId id) {
+    const std::string name = name_of(graph, id);
+    if (graph[id].is_uniform) return fmt::format("{} is computed once: no step changes it", name);
+    return fmt::format("{} is computed once and kept in a plane: no step changes it, and computing it "
+                       "again would take longer than reading it", name);
+}
+
 }  // namespace
 
 std::string describe(const PartGraph& graph, const PassPlanner& planner, const StepPlan& plan) {
     std::string text = plural(plan.passes.size(), "pass");
     if (plan.temporaries > 0) text += ", " + plural(plan.temporaries, "temporary plane");
     if (plan.aggregates > 0) text += ", " + plural(plan.aggregates, "aggregate");
+    if (plan.lasting > 0) text += ", " + plural(plan.lasting, "lasting part");
     for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
         const std::vector<std::string>& results = plan.passes[pass].bound.kernel.result_names;
         if (results.empty()) continue;
@@ -66,6 +89,16 @@ std::string describe(const PartGraph& graph, const PassPlanner& planner, const S
         }
         text += ": ";
         for (std::size_t k = 0; k < results.size(); ++k) text += (k > 0 ? ", " : "") + results[k];
+    }
+    std::vector<std::pair<std::string, std::size_t>> lasting;  // And how many parts of one name.
+    for (PartId id = 0; id < graph.size(); ++id) {
+        if (!planner.is_needed(id) || !planner.is_lasting(id)) continue;
+        std::string words = describe_lasting(graph, id);
+        if (lasting.empty() || lasting.back().first != words) lasting.emplace_back(words, 0);
+        ++lasting.back().second;
+    }
+    for (const auto& [words, count] : lasting) {
+        text += "\n  " + words + (count > 1 ? fmt::format(" ({} times)", count) : "");
     }
     for (const PassPlanner::Brought& brought : planner.brought()) {
         text += "\n  " + describe_brought(graph, brought);

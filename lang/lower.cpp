@@ -3,6 +3,7 @@
 
 #include "core/check.h"
 #include "lang/check_circles.h"
+#include "lang/lasting_parts.h"
 #include "lang/lower_formula.h"
 #include "lang/plan_builder.h"
 
@@ -83,25 +84,47 @@ StepPlan plan_items(const Program& program, std::uint32_t stage, const PlanOptio
     return plan;
 }
 
-/// Adds definitions and rates in an order in which each can be computed. Those that nothing needs
-/// stay out of the kernels. Returns the part of each item's rate.
-std::vector<PartId> add_rates(PartGraph& graph, const System& system) {
-    const auto definition_count = static_cast<std::uint32_t>(system.definitions.size());
-    std::vector<PartId> rates(system.quantities.size());
-    for (const std::uint32_t value : topological_order(step_dependencies(system)).order) {
-        if (value < definition_count) {
-            const Definition& definition = system.definitions[value];
-            graph.set_definition(value, graph.add(definition.formula, {definition.name, true}));
-            continue;
+/// All formulas of a stage's step: every plan of it numbers their parts alike.
+struct StepGraph {
+    PartGraph graph;
+    std::vector<PartId> rates;    ///< By item.
+    std::vector<PartId> bounds;   ///< By invariant.
+    std::vector<PartId> lasting;  ///< What is computed once.
+
+    StepGraph(const Program& program, std::uint32_t stage, const PlanOptions& options)
+        : graph(program, stage) {
+        const System& system = program.system_of(stage);
+        add_rates(system);
+        for (const Invariant& invariant : system.invariants) {
+            bounds.push_back(graph.add(invariant.bound, {}));
         }
-        const std::uint32_t item = value - definition_count;
-        if (!system.is_species(item)) continue;
-        rates[item] =
-            graph.add(system.rates[item], {system.quantities[item].name + "'", true});
-        graph.set_rate(item, rates[item]);
+        if (!options.keeps_lasting) return;
+        std::vector<PartId> all = bounds;
+        for (const std::uint32_t item : system.rate_order) all.push_back(rates[item]);
+        lasting = lasting_parts(graph, all);
     }
-    return rates;
-}
+
+private:
+    /// Adds definitions and rates in an order in which each can be computed. Those that nothing
+    /// needs stay out of the kernels.
+    void add_rates(const System& system) {
+        const auto definition_count = static_cast<std::uint32_t>(system.definitions.size());
+        rates.resize(system.quantities.size());
+        for (const std::uint32_t value : topological_order(step_dependencies(system)).order) {
+            if (value < definition_count) {
+                const Definition& definition = system.definitions[value];
+                graph.set_definition(value,
+                                     graph.add(definition.formula, {definition.name, true}));
+                continue;
+            }
+            const std::uint32_t item = value - definition_count;
+            if (!system.is_species(item)) continue;
+            rates[item] =
+                graph.add(system.rates[item], {system.quantities[item].name + "'", true});
+            graph.set_rate(item, rates[item]);
+        }
+    }
+};
 
 /// The results of a sweep: what its form says of the rates and inputs of every species.
 class SweepEmitter {
@@ -117,20 +140,20 @@ public:
     }
 
     StepPlan plan(const PlanOptions& options) {
-        PartGraph graph(program_, stage_);
-        rates_ = add_rates(graph, system_);
+        const StepGraph step(program_, stage_, options);
+        rates_ = step.rates;
         std::vector<PartId> wanted;
         for (const std::uint32_t item : system_.rate_order) {
             if (std::find(species_.begin(), species_.end(), item) == species_.end()) continue;
             if (form_.uses_rates()) wanted.push_back(rates_[item]);
         }
-        for (const Invariant& invariant : system_.invariants) {
-            if (!is_clamped(invariant)) continue;
-            bounds_.push_back(graph.add(invariant.bound, {}));
+        for (std::size_t k = 0; k < system_.invariants.size(); ++k) {
+            if (!is_clamped(system_.invariants[k])) continue;
+            bounds_.push_back(step.bounds[k]);
             wanted.push_back(bounds_.back());
         }
         const std::vector<std::uint32_t> slots = species_items(system_);
-        StepPlan plan = build_plan({graph, wanted, options, true, slots},
+        StepPlan plan = build_plan({step.graph, wanted, options, true, slots, step.lasting},
                                    [&](KernelAssembly& assembly, const PassLowering& values) {
             for (std::size_t o = 0; o < form_.outputs.size(); ++o) emit(assembly, values, o);
         });
@@ -258,20 +281,59 @@ StepPlan plan_step(const Program& program, std::uint32_t stage, const PlanOption
 
 StepPlan plan_rates(const Program& program, std::uint32_t stage, const PlanOptions& options) {
     const System& system = program.system_of(stage);
-    PartGraph graph(program, stage);
-    const std::vector<PartId> rates = add_rates(graph, system);
+    const StepGraph step(program, stage, options);
     const std::vector<std::uint32_t> species = species_items(system);
     std::vector<PartId> wanted;
-    for (const std::uint32_t item : system.rate_order) wanted.push_back(rates[item]);
-    StepPlan plan = build_plan({graph, wanted, options, true, species},
+    for (const std::uint32_t item : system.rate_order) wanted.push_back(step.rates[item]);
+    StepPlan plan = build_plan({step.graph, wanted, options, true, species, step.lasting},
                                [&](KernelAssembly& assembly, const PassLowering& values) {
         for (const std::uint32_t item : species) {
             assembly.result(system.quantities[item].name,
-                            within_mask(assembly, values.value(rates[item])[0], 0));
+                            within_mask(assembly, values.value(step.rates[item])[0], 0));
         }
     });
     plan.results = species;
     return plan;
+}
+
+StepPlan plan_lasting(const Program& program, std::uint32_t stage, const PlanOptions& options) {
+    const StepGraph step(program, stage, options);
+    StepPlan plan = build_plan({step.graph, step.lasting, options, true},
+                               [&](KernelAssembly& assembly, const PassLowering& values) {
+        for (std::size_t k = 0; k < step.lasting.size(); ++k) {
+            const std::string& name = step.graph.name(step.lasting[k]);
+            assembly.result(name.empty() ? fmt::format("(lasting {})", k) : name,
+                            values.value(step.lasting[k])[0]);
+        }
+    });
+    for (PassTarget& target : plan.passes.back().targets) {
+        if (target.kind != PassTarget::Kind::result) continue;
+        const PartId part = step.lasting[target.index];
+        target.is_uniform = step.graph[part].is_uniform;
+        target.boundary = step.graph.boundary(part);
+    }
+    return plan;
+}
+
+SidePlans plan_side(const Program& program, const SideSetting& setting, Side side,
+                    std::uint32_t stage) {
+    SidePlans plans;
+    PartGraph graph(program, stage, Lasting::state);
+    PartId part = graph.add(setting.value, {});
+    if (setting.kind == SideKind::flux) part = graph.across_side(part, side);
+    const std::array wanted{part};
+    std::vector<PartId> lasting;
+    plans.changes = !graph[part].is_lasting;
+    if (plans.changes) lasting = largest_lasting_parts(graph, wanted);
+    plans.once = build_plan({graph, lasting, {}},
+                            [&](KernelAssembly& assembly, const PassLowering& values) {
+        for (const PartId each : lasting) assembly.result("lasting", values.value(each)[0]);
+    });
+    plans.each = build_plan({graph, wanted, {}, false, {}, lasting},
+                            [&](KernelAssembly& assembly, const PassLowering& values) {
+        assembly.result("value", values.value(part)[0]);
+    });
+    return plans;
 }
 
 StepPlan plan_view(const Program& program, std::span<const Formula* const> formulas,
@@ -296,7 +358,7 @@ StepPlan plan_view(const Program& program, std::span<const Formula* const> formu
 
 StepPlan plan_mask(const Program& program) {
     CHECK(program.domain.mask, "lowering: the domain has a mask");
-    PartGraph graph(program, 0, Extent::grid);
+    PartGraph graph(program, 0, Lasting::parameters, Extent::grid);
     const PartId part = graph.add(program.domain.mask->formula, {"mask", false, "domain"});
     return build_plan({graph, std::span(&part, 1), {}},
                       [&](KernelAssembly& assembly, const PassLowering& values) {
@@ -310,12 +372,15 @@ StepPlan plan_view(const Program& program, const Formula& formula, std::uint32_t
 }
 
 std::string describe_plans(const Program& program) {
-    const PlanOptions options{Bringing::cheaper, true};
+    const PlanOptions options{Bringing::cheaper, true, true};
     std::string text;
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
         const std::string& name = program.stages[k].name;
         text += fmt::format("stage '{}', starting values: {}\n", name,
                             plan_start(program, k, options).words);
+        if (const StepPlan once = plan_lasting(program, k, options); once.result_count > 0) {
+            text += fmt::format("stage '{}', once before the first step: {}\n", name, once.words);
+        }
         text += fmt::format("stage '{}', one step: {}\n", name,
                             plan_step(program, k, options).words);
     }

@@ -14,19 +14,19 @@ ValueId PassLowering::scaled(ValueId value, double factor) {
 
 /// The operation `laplacian` reads a plane as it is.
 bool PassLowering::can_read_as_plane(PartId id) const {
-    const Part& part = graph_[id];
-    if (part.is_uniform) return false;
-    if (planner_.is_plane_in(id, pass_)) return true;
-    if (part.node.kind == NodeKind::earlier) return true;
-    if (part.node.kind == NodeKind::call) return reads_file(part.node.function);
-    const System& system = graph_.program().system_of(graph_.stage());
-    return part.node.kind == NodeKind::own && part.node.index != system.frozen_item();
+    if (graph_[id].is_uniform) return false;
+    return planner_.is_lasting(id) || graph_.is_plane(id) ||
+           (planner_.is_plane_in(id, pass_) && !graph_[id].is_open());
+}
+
+/// Of a part that a pass has written, this one or that of the lasting parts.
+std::uint32_t PassLowering::slot_of_own_plane(PartId id) {
+    return planner_.is_lasting(id) ? assembly_.lasting_slot(storage_.lasting[id])
+                                   : assembly_.temporary_slot(storage_.temporary[id]);
 }
 
 std::uint32_t PassLowering::slot_of_plane(PartId id) {
-    if (planner_.is_plane_in(id, pass_)) {
-        return assembly_.temporary_slot(storage_.temporary[id]);
-    }
+    if (planner_.is_lasting(id) || planner_.is_plane_in(id, pass_)) return slot_of_own_plane(id);
     return assembly_.plane_slot(graph_, id);
 }
 

@@ -51,7 +51,10 @@ void PassLowering::compute(std::span<const PartId> wanted) {
         if (needs_[id] == 0) continue;
         // What is the same in all cells is computed once.
         if (graph_[id].is_uniform && !is_vector(graph_[id])) needs_[id] = own_cell;
-        if (!is_source(id)) need_operands(id);
+        // An open part may be read from its plane in the own cell and computed beside it.
+        const bool is_read = is_source(id, own_cell) && !is_vector(graph_[id]);
+        const std::uint32_t computed = is_read ? needs_[id] & ~own_cell : needs_[id];
+        if (computed != 0 && !is_source(id, needs_[id])) need_operands(id, computed);
     }
     make_room();
     for (PartId id = 0; id < graph_.size(); ++id) {
@@ -59,18 +62,23 @@ void PassLowering::compute(std::span<const PartId> wanted) {
     }
 }
 
-/// Written parts are read from their planes, aggregates from their numbers.
-bool PassLowering::is_source(PartId id) const {
+/// Has an earlier pass written the part? The planes of open parts have no halo.
+bool PassLowering::is_plane_at(PartId id, Offsets where) const {
+    return planner_.is_plane_in(id, pass_) && (where == own_cell || !graph_[id].is_open());
+}
+
+/// Written and lasting parts are read from their planes, aggregates from their numbers.
+bool PassLowering::is_source(PartId id, Offsets where) const {
     const Part& part = graph_[id];
     const bool is_aggregate =
         part.node.kind == NodeKind::call && info(part.node.function).is_aggregate;
-    return is_aggregate || planner_.is_plane_in(id, pass_);
+    return is_aggregate || planner_.is_lasting(id) || is_plane_at(id, where);
 }
 
-void PassLowering::need_operands(PartId id) {
+void PassLowering::need_operands(PartId id, std::uint32_t where) {
     const Part& part = graph_[id];
     if (part.node.kind != NodeKind::call) return;
-    if (is_vector(part)) return need_of_vector(part, needs_[id]);
+    if (is_vector(part)) return need_of_vector(part, where);
     if (part.calls(Function::div)) {
         for (const int axis : planner_.axes().present) {
             for (const int side : {0, 1}) {
@@ -80,7 +88,7 @@ void PassLowering::need_operands(PartId id) {
         return;
     }
     if (is_stencil(part.node.function)) return need_of_stencil(part);
-    for (std::uint32_t k = 0; k < part.operand_count; ++k) need(part.operands[k], needs_[id]);
+    for (std::uint32_t k = 0; k < part.operand_count; ++k) need(part.operands[k], where);
 }
 
 void PassLowering::need_of_stencil(const Part& part) {
@@ -179,7 +187,7 @@ void PassLowering::compute_part(PartId id) {
     for_each_offset(needs_[id], [&](Offset offset) {
         assembly_.look_at(offset);
         Value value{};
-        if (is_source(id)) {
+        if (is_source(id, only(offset))) {
             value = {source(id)};
         } else if (part.calls(Function::div)) {
             value = {divergence(part)};
@@ -194,9 +202,10 @@ void PassLowering::compute_part(PartId id) {
 }
 
 ValueId PassLowering::source(PartId id) {
-    if (planner_.is_plane_in(id, pass_)) {
-        return assembly_.beside(assembly_.temporary_slot(storage_.temporary[id]));
-    }
+    const bool is_lasting = planner_.is_lasting(id);
+    if (is_lasting && graph_[id].is_uniform) return assembly_.lasting_number(storage_.lasting[id]);
+    const bool is_written = planner_.is_plane_in(id, pass_);
+    if (is_lasting || is_written) return assembly_.beside(slot_of_own_plane(id));
     return assembly_.aggregate(storage_.aggregate[id]);
 }
 

@@ -20,6 +20,7 @@ namespace cascade::lowering {
 struct Storage {
     std::vector<std::uint32_t> temporary;  ///< By part, where it is written.
     std::vector<std::uint32_t> aggregate;  ///< By part, where it is an aggregate.
+    std::vector<std::uint32_t> lasting;    ///< By part, where it is known before the first pass.
 };
 
 class PassLowering {
@@ -33,9 +34,10 @@ public:
     const Value& value(PartId id) const { return at(id, Offset{}); }
 
 private:
-    bool is_source(PartId id) const;
+    bool is_plane_at(PartId id, Offsets where) const;
+    bool is_source(PartId id, Offsets where) const;
     void need(PartId id, std::uint32_t where) { needs_[id] |= where; }
-    void need_operands(PartId id);
+    void need_operands(PartId id, std::uint32_t where);
     void need_of_stencil(const Part& part);
     void need_of_vector(const Part& part, std::uint32_t faces);
     void need_at_faces(PartId operand, std::uint32_t faces);
@@ -67,6 +69,7 @@ private:
     ValueId scaled(ValueId value, double factor);
     bool can_read_as_plane(PartId id) const;
     std::uint32_t slot_of_plane(PartId id);
+    std::uint32_t slot_of_own_plane(PartId id);
 
     // Vectors (lower_vectors.cpp).
     ValueId vector_at(PartId id, Face face);

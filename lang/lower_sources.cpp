@@ -90,6 +90,19 @@ std::uint32_t KernelAssembly::temporary_slot(std::uint32_t temporary) {
     return slot;
 }
 
+std::uint32_t KernelAssembly::lasting_slot(std::uint32_t number) {
+    const std::uint32_t slot = builder_.field_slot(fmt::format("(lasting {})", number));
+    if (slot == bound_.fields.size()) {
+        bound_.fields.push_back({SlotSource::Kind::lasting, stage_, number});
+    }
+    return slot;
+}
+
+ValueId KernelAssembly::lasting_number(std::uint32_t number) {
+    return uniform(fmt::format("(lasting {})", number),
+                   {SlotSource::Kind::lasting, stage_, number});
+}
+
 ValueId KernelAssembly::aggregate(std::uint32_t index) {
     return uniform(fmt::format("(aggregate {})", index),
                    {SlotSource::Kind::aggregate, 0, index});

@@ -96,24 +96,36 @@ std::optional<ast::Expression> ScriptParser::parse_lone_expression() {
     return expression;
 }
 
+/// The word behind a '.', if there is one; false, with a message, if it is missing.
+bool ScriptParser::parse_word_behind_dot(ast::Word& word, const std::string& form) {
+    if (!cursor_.take_if(TokenKind::dot)) return true;
+    if (!cursor_.at(TokenKind::name)) {
+        cursor_.error(cursor_.previous().span, "a name is missing after '.'", form);
+        return false;
+    }
+    word = cursor_.word(cursor_.take());
+    return true;
+}
+
+/// name=value, stage.name=value, and the sides u.left=…, stage.u.left=…, each u also u[1]. Whether
+/// a.left is a side or the parameter of a stage is for the checker to say.
 void ScriptParser::parse_override() {
     const std::string form = "write name=value or stage.name=value";
     ast::Override change;
+    ast::Sentence& sentence = change.sentence;
     cursor_.skip_newlines();
     if (!cursor_.at(TokenKind::name)) {
         if (cursor_.at(TokenKind::garbage)) return;
         return cursor_.error(cursor_.peek().span, "the name of what to set is missing", form);
     }
-    change.sentence.name = cursor_.word(cursor_.take());
-    if (cursor_.take_if(TokenKind::dot)) {
-        change.stage = change.sentence.name;
-        if (!cursor_.at(TokenKind::name)) {
-            return cursor_.error(cursor_.previous().span, "a name is missing after '.'", form);
-        }
-        change.sentence.name = cursor_.word(cursor_.take());
+    sentence.name = cursor_.word(cursor_.take());
+    if (!parse_index(sentence)) return;
+    if (sentence.index.empty() && cursor_.at(TokenKind::dot)) {
+        change.stage = sentence.name;
+        if (!parse_word_behind_dot(sentence.name, form) || !parse_index(sentence)) return;
     }
-    const ast::Word& name = change.sentence.name;
-    if (!parse_index(change.sentence)) return;
+    if (!parse_word_behind_dot(sentence.side, form)) return;
+    const ast::Word& name = sentence.name;
     if (!cursor_.take_if(TokenKind::assign) && !cursor_.take_if(TokenKind::colon)) {
         if (cursor_.at(TokenKind::garbage)) return;
         return cursor_.error(

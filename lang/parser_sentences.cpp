@@ -22,8 +22,8 @@ std::optional<ast::Sentence> ScriptParser::parse_sentence() {
     ast::Sentence sentence;
     sentence.doc = docs_before();
     sentence.name = cursor_.word(cursor_.take());
-    parse_side(sentence);
     if (!parse_index(sentence)) return std::nullopt;
+    parse_side(sentence);
     if (!parse_relation(sentence)) return std::nullopt;
     parse_values(sentence);
     sentence.span = join(sentence.name.span, cursor_.previous().span);
@@ -31,11 +31,11 @@ std::optional<ast::Sentence> ScriptParser::parse_sentence() {
     return sentence;
 }
 
-/// The `.left` of `u.left: e`, if there is one: it becomes part of the name.
+/// The `.left` of `u.left: e` or `u[1].left: e`, if there is one.
 void ScriptParser::parse_side(ast::Sentence& sentence) {
     const bool is_dotted = cursor_.at(TokenKind::dot) && cursor_.kind(1) == TokenKind::name &&
                            cursor_.kind(2) == TokenKind::colon &&
-                           cursor_.peek().span.begin == sentence.name.span.end &&
+                           cursor_.peek().span.begin == cursor_.previous().span.end &&
                            cursor_.peek(1).span.begin == cursor_.peek().span.end;
     if (!is_dotted) return;
     const std::string_view word = cursor_.text(cursor_.peek(1));
@@ -43,14 +43,12 @@ void ScriptParser::parse_side(ast::Sentence& sentence) {
                          std::find(side_names.begin(), side_names.end(), word) != side_names.end();
     if (!is_side) return;
     cursor_.take();
-    const Span whole = join(sentence.name.span, cursor_.take().span);
-    sentence.name = {whole, cursor_.text(whole)};
+    sentence.side = cursor_.word(cursor_.take());
 }
 
 /// Sentences about sides go to a place of their own.
 void ScriptParser::add_sentence(ast::Block& block, ast::Sentence sentence) {
-    const bool is_side = sentence.name.text.find('.') != std::string_view::npos;
-    (is_side ? block.sides : block.sentences).push_back(std::move(sentence));
+    (!sentence.side.empty() ? block.sides : block.sentences).push_back(std::move(sentence));
 }
 
 std::string ScriptParser::docs_before() {

@@ -67,6 +67,45 @@ bool PartGraph::is_uniform(const Part& part) const {
     return !differs_by_cell(part.node, operand_differs, program_, stage_);
 }
 
+/// Parameters keep the values that they have when the stage starts, and earlier stages are over.
+bool PartGraph::is_lasting(const Part& part) const {
+    switch (part.node.kind) {
+        case NodeKind::own:
+            return lasting_ == Lasting::state ||
+                   !program_.system_of(stage_).is_species(part.node.index);
+        case NodeKind::builtin: {
+            const auto builtin = static_cast<Builtin>(part.node.index);
+            return builtin != Builtin::t && builtin != Builtin::step;
+        }
+        case NodeKind::definition:
+        case NodeKind::rate: return false;
+        case NodeKind::number:
+        case NodeKind::text:
+        case NodeKind::earlier:
+        case NodeKind::metric:
+        case NodeKind::inside: return true;
+        case NodeKind::call: break;
+    }
+    if (is_random(part.node.function) && lasting_ != Lasting::state) return false;
+    for (std::uint32_t k = 0; k < part.operand_count; ++k) {
+        if (!parts_[part.operands[k]].is_lasting) return false;
+    }
+    return true;
+}
+
+bool PartGraph::is_plane(PartId id) const {
+    const Part& part = parts_[id];
+    if (part.is_uniform) return false;
+    switch (part.node.kind) {
+        case NodeKind::own:
+            return part.node.index != program_.system_of(stage_).frozen_item();
+        case NodeKind::earlier:
+        case NodeKind::metric: return true;
+        case NodeKind::call: return reads_file(part.node.function);
+        default: return false;
+    }
+}
+
 /// What an aggregate over the domain takes of the grid: outside of the mask what changes nothing.
 PartId PartGraph::inside_mask(PartId of, Function aggregate) {
     const bool adds = aggregate == Function::domain_sum || aggregate == Function::domain_mean;
@@ -98,6 +137,8 @@ PartId PartGraph::intern(Part part) {
     const auto id = static_cast<PartId>(parts_.size());
     parts_.push_back(part);
     parts_.back().is_uniform = is_uniform(part);
+    parts_.back().is_lasting = is_lasting(part);
+    parts_.back().beyond = beyond(parts_.back());
     if (!is_own) known_.emplace(hash, id);
     return id;
 }

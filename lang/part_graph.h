@@ -27,6 +27,14 @@ struct Noise {
 /// Number of a part in its graph.
 using PartId = std::uint32_t;
 
+/// What stands beyond the two sides of an axis where a part is read at neighbours.
+enum class Beyond : std::uint8_t {
+    anything,  ///< The part is the same everywhere, or the axis has one cell.
+    periodic,  ///< What it is in the opposite cells.
+    mirrored,  ///< What it is in the cells at the sides.
+    itself,    ///< Of a species what its sides say; of a function of such what it makes of them.
+};
+
 struct Part {
     Node node;                         ///< Its operands are positions in a formula: see below.
     std::array<PartId, most_operands> operands{};
@@ -36,6 +44,16 @@ struct Part {
     const Noise* noise = nullptr;      ///< Of parts that draw random numbers.
     std::size_t draw = 0;              ///< Which draw of its formula, from 1.
     bool is_uniform = false;           ///< The same in all cells.
+    bool is_lasting = false;           ///< The same in all steps of the stage.
+
+    std::array<Beyond, 3> beyond{};    ///< By axis.
+
+    /// Is it beyond some side neither what it is in the opposite cell nor what it is in the cell
+    /// at the side? Then its plane has no halo, and it is computed there.
+    bool is_open() const {
+        return beyond[0] == Beyond::itself || beyond[1] == Beyond::itself ||
+               beyond[2] == Beyond::itself;
+    }
 
     bool calls(Function function) const {
         return node.kind == NodeKind::call && node.function == function;
@@ -53,11 +71,16 @@ bool reads_file(Function function);
 /// Is it an operator that reads its last operand at neighbours? (`div` reads at faces instead.)
 bool is_stencil(Function function);
 
+/// What counts as lasting: what no step changes, or all but t and step.
+enum class Lasting : std::uint8_t { parameters, state };
+
 class PartGraph {
 public:
-    PartGraph(const Program& program, std::uint32_t stage, Extent extent = Extent::domain)
+    PartGraph(const Program& program, std::uint32_t stage,
+              Lasting lasting = Lasting::parameters, Extent extent = Extent::domain)
         : program_(program),
           stage_(stage),
+          lasting_(lasting),
           has_metric_(program.domain.surface && program.domain.surface->has_metric),
           has_mask_(program.domain.mask && extent == Extent::domain) {}
 
@@ -68,6 +91,9 @@ public:
     void set_own(std::uint32_t item, PartId part) { own_[item] = part; }
     void set_definition(std::uint32_t index, PartId part);
     void set_rate(std::uint32_t item, PartId part);
+    /// The difference across a side, for a derivative `value` along its outward unit normal: on a
+    /// surface cells have lengths. Of surfaces whose rows and columns meet at right angles there.
+    PartId across_side(PartId value, Side side);
     /// The part that reads an item of this stage from its plane or number.
     PartId item(std::uint32_t item);
     /// The definition or rate that a part is the value of, as a user calls it; "" for others.
@@ -79,6 +105,10 @@ public:
     bool has_mask() const { return has_mask_; }
     std::size_t size() const { return parts_.size(); }
     const Part& operator[](PartId id) const { return parts_[id]; }
+    /// Species, parameters that vary, files and the metric lie in planes from the start.
+    bool is_plane(PartId id) const;
+    /// How the halo of a part's plane is filled. Of one that is not open.
+    Boundaries boundary(PartId id) const;
 
 private:
     PartId intern(Part part);
@@ -101,9 +131,12 @@ private:
     PartId across_row(PartId of);
 
     bool is_uniform(const Part& part) const;
+    bool is_lasting(const Part& part) const;
+    std::array<Beyond, 3> beyond(const Part& part) const;
 
     const Program& program_;
     std::uint32_t stage_;
+    Lasting lasting_;
     std::vector<Part> parts_;
     std::deque<Noise> noises_;
     std::unordered_multimap<std::uint64_t, PartId> known_;

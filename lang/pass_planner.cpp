@@ -8,13 +8,8 @@ namespace cascade::lowering {
 
 namespace {
 
-/// An operand is recomputed at neighbours where that takes at most so many operations for a cell.
-/// Writing a plane, filling its halo and reading it again moves some twelve bytes a cell through
-/// memory, in which time a core computes about as many.
-constexpr double most_recomputed_operations = 40;
-
 /// About how many operations of a kernel a function takes.
-double cost_of(Function function) {
+int cost_of(Function function) {
     switch (function) {
         case Function::add:
         case Function::subtract:
@@ -44,6 +39,10 @@ double cost_of(Function function) {
 bool is_number(const Part& part) { return part.node.type == ValueType::number; }
 
 }  // namespace
+
+int operations_of(const Part& part) {
+    return part.node.kind == NodeKind::call ? cost_of(part.node.function) : 4;
+}
 
 Axes::Axes(const Grid& grid) {
     const Stencil stencil = grid.stencil();
@@ -108,21 +107,21 @@ Offsets stencil_offsets(const Part& stencil, const Axes& axes) {
     }
 }
 
-PassPlanner::PassPlanner(const PartGraph& graph, std::span<const PartId> roots, Bringing bringing)
+PassPlanner::PassPlanner(const PartGraph& graph, std::span<const PartId> roots, Bringing bringing,
+                         std::span<const PartId> lasting)
     : graph_(graph),
       axes_(graph.program().domain.grid),
       bringing_(bringing),
       needed_(graph.size(), false),
       written_(graph.size(), false),
+      lasting_(graph.size(), false),
       stays_(graph.size(), false),
       pass_(graph.size(), 0),
       beside_(graph.size(), 0) {
-    // A plane's halo mirrors, and what a species is beyond a side with a value it does not know.
-    const Stage& stage = graph.program().stages[graph.stage()];
-    if (!stage.sides.empty()) bringing_ = Bringing::recomputing;
+    for (const PartId id : lasting) lasting_[id] = true;
     mark_needed(roots);
     for (PartId id = 0; id < graph.size(); ++id) {
-        if (needed_[id]) decide(id);
+        if (needed_[id] && !lasting_[id]) decide(id);
     }
     for (const PartId root : roots) pass_count_ = std::max(pass_count_, pass_[root] + 1);
 }
@@ -130,30 +129,16 @@ PassPlanner::PassPlanner(const PartGraph& graph, std::span<const PartId> roots, 
 void PassPlanner::mark_needed(std::span<const PartId> roots) {
     for (const PartId root : roots) needed_[root] = true;
     for (PartId id = static_cast<PartId>(graph_.size()); id-- > 0;) {
-        if (!needed_[id]) continue;
+        if (!needed_[id] || lasting_[id]) continue;
         const Part& part = graph_[id];
         for (std::uint32_t k = 0; k < part.operand_count; ++k) needed_[part.operands[k]] = true;
-    }
-}
-
-/// Species, parameters that vary and files lie in planes from the start.
-bool PassPlanner::is_plane(PartId id) const {
-    const Part& part = graph_[id];
-    if (part.is_uniform) return false;
-    const System& system = graph_.program().system_of(graph_.stage());
-    switch (part.node.kind) {
-        case NodeKind::own: return part.node.index != system.frozen_item();
-        case NodeKind::earlier:
-        case NodeKind::metric: return true;
-        case NodeKind::call: return reads_file(part.node.function);
-        default: return false;
     }
 }
 
 /// Would computing the part at so many places take more than it is worth? Looks at no more parts
 /// than that.
 bool PassPlanner::is_dear(PartId id, std::uint32_t places) const {
-    double cost = 0;
+    std::uint32_t cost = 0;
     std::vector<PartId> seen, open{id};
     while (!open.empty()) {
         const PartId next = open.back();
@@ -162,8 +147,8 @@ bool PassPlanner::is_dear(PartId id, std::uint32_t places) const {
         if (std::find(seen.begin(), seen.end(), next) != seen.end()) continue;
         seen.push_back(next);
         const Part& part = graph_[next];
-        cost += part.node.kind == NodeKind::call ? cost_of(part.node.function) : 4;
-        if (cost * places > most_recomputed_operations) return true;
+        cost += static_cast<std::uint32_t>(operations_of(part));
+        if (cost * places > std::uint32_t{operations_of_writing}) return true;
         for (std::uint32_t k = 0; k < part.operand_count; ++k) open.push_back(part.operands[k]);
     }
     return false;
@@ -183,7 +168,7 @@ void PassPlanner::decide(PartId id) {
     if (info(function).is_aggregate) {
         const bool written = !is_plane(last);
         if (written && !written_[last]) {
-            brought_.push_back({last, id, 0, true, true});
+            brought_.push_back({last, id, 0, true, true, false});
             written_[last] = true;
         }
         pass_[id] = beside_[id] = written ? pass_[last] + 1 : 0;
@@ -222,7 +207,10 @@ void PassPlanner::decide_own(PartId id) {
         const PartId operand = part.operands[k];
         const bool is_moved = reads_beside && (is_vector || k + 1 == part.operand_count);
         pass_[id] = std::max(pass_[id], pass_[operand]);
-        beside_[id] = std::max(beside_[id], pass_beside(operand));
+        // Those of open parts are looked for where they are read: more may be written until then.
+        if (!part.is_open() && !graph_[operand].is_open()) {
+            beside_[id] = std::max(beside_[id], pass_beside(operand));
+        }
         const bool operand_stays = stays_[operand] && !written_[operand];
         stays_[id] = stays_[id] || (operand_stays && !part.is_uniform);
         if (is_moved) pass_[id] = std::max(pass_[id], pass_beside(operand));
@@ -230,28 +218,60 @@ void PassPlanner::decide_own(PartId id) {
     if (is_vector) beside_[id] = pass_[id];
 }
 
+/// Calls visit(part) for the parts, not open, that an open one is made of at neighbours.
+template <typename Visit>
+void PassPlanner::for_each_closed(PartId open, const Visit& visit) const {
+    std::vector<bool> seen(graph_.size(), false);
+    std::vector<PartId> left{open};
+    while (!left.empty()) {
+        const PartId next = left.back();
+        left.pop_back();
+        if (seen[next] || graph_[next].is_uniform || is_plane(next)) continue;
+        seen[next] = true;
+        const Part& part = graph_[next];
+        if (!part.is_open()) {
+            visit(next);
+            continue;
+        }
+        for (std::uint32_t k = 0; k < part.operand_count; ++k) left.push_back(part.operands[k]);
+    }
+}
+
 /// When the values of an operand are known that neighbours have.
 std::uint32_t PassPlanner::pass_beside(PartId operand) const {
-    if (written_[operand]) return pass_[operand] + 1;
     const Part& part = graph_[operand];
-    if (part.node.type != ValueType::tensor) return beside_[operand];
-    std::uint32_t pass = 0;  // Its entries may have been written for another reader.
-    for (const PartId entry : std::span(part.operands).first(part.operand_count)) {
-        pass = std::max(pass, written_[entry] ? pass_[entry] + 1 : beside_[entry]);
+    std::uint32_t pass = 0;
+    if (part.node.type == ValueType::tensor) {  // Its entries may have been written for another reader.
+        for (const PartId entry : std::span(part.operands).first(part.operand_count)) {
+            pass = std::max(pass, pass_beside(entry));
+        }
+        return pass;
     }
-    return pass;
+    if (part.is_open() && !is_plane(operand)) {
+        for_each_closed(operand, [&](PartId id) { pass = std::max(pass, pass_beside(id)); });
+        return pass;
+    }
+    return written_[operand] ? pass_[operand] + 1 : beside_[operand];
 }
 
 /// Makes an operand known at neighbours: by a plane, or by computing it there.
 void PassPlanner::bring(PartId operand, Offsets offsets, PartId reader) {
     const auto places = static_cast<std::uint32_t>(std::popcount(offsets));
     if (places == 0 || graph_[operand].is_uniform || is_plane(operand)) return;
-    Brought brought{operand, reader, places, false, stays_[operand]};
+    if (graph_[operand].is_open()) return bring_open(operand, offsets, reader);
+    Brought brought{operand, reader, places, false, stays_[operand], false};
     const bool wants = bringing_ == Bringing::writing ||
                        (bringing_ == Bringing::cheaper && is_dear(operand, places));
     brought.is_written = written_[operand] || stays_[operand] || wants;
     written_[operand] = brought.is_written;
     brought_.push_back(brought);
+}
+
+/// Computes an operand at neighbours from the parts that have planes, or can have them.
+void PassPlanner::bring_open(PartId operand, Offsets offsets, PartId reader) {
+    const auto places = static_cast<std::uint32_t>(std::popcount(offsets));
+    for_each_closed(operand, [&](PartId id) { bring(id, offsets, reader); });
+    brought_.push_back({operand, reader, places, false, false, true});
 }
 
 }  // namespace cascade::lowering

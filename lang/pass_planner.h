@@ -76,14 +76,27 @@ struct Axes {
 /// The offsets at which a stencil reads its last operand; the own cell is among them.
 Offsets stencil_offsets(const Part& stencil, const Axes& axes);
 
+/// About how many operations of a kernel a part takes, its operands being known.
+int operations_of(const Part& part);
+
+/// In the time in which a plane is read, filled and read again (some twelve bytes a cell), a core
+/// computes about as many operations for a cell.
+inline constexpr int operations_of_writing = 40;
+/// Reading a plane alone is a third of that traffic.
+inline constexpr int operations_of_reading = operations_of_writing / 3;
+
 /// The decisions about the parts of a graph.
 class PassPlanner {
 public:
-    /// `roots` are needed in the own cell, in the last pass.
-    PassPlanner(const PartGraph& graph, std::span<const PartId> roots, Bringing bringing);
+    /// `roots` are needed in the own cell, in the last pass. `lasting` parts are known before the
+    /// first: those that vary lie in planes.
+    PassPlanner(const PartGraph& graph, std::span<const PartId> roots, Bringing bringing,
+                std::span<const PartId> lasting = {});
 
     std::uint32_t pass_count() const { return pass_count_; }
     bool is_needed(PartId part) const { return needed_[part]; }
+    /// Is it one of those that are known before the first pass?
+    bool is_lasting(PartId part) const { return lasting_[part]; }
     /// Is the part written to a temporary plane?
     bool is_written(PartId part) const { return written_[part]; }
     /// The pass in which it can first be computed in the own cell; a written part is computed then.
@@ -98,6 +111,7 @@ public:
         std::uint32_t places = 0;   ///< At how many neighbours at most.
         bool is_written = false;    ///< To a plane; else it is recomputed there.
         bool is_forced = false;     ///< It cannot be recomputed.
+        bool is_open = false;       ///< It has to be: see Part::is_open.
     };
     /// Of all operands that are no planes and vary, in order of their readers.
     const std::vector<Brought>& brought() const { return brought_; }
@@ -113,14 +127,17 @@ private:
     void decide_own(PartId id);
     std::uint32_t pass_beside(PartId operand) const;
     void bring(PartId operand, Offsets offsets, PartId reader);
-    bool is_plane(PartId id) const;
+    void bring_open(PartId operand, Offsets offsets, PartId reader);
+    template <typename Visit>
+    void for_each_closed(PartId open, const Visit& visit) const;
+    bool is_plane(PartId id) const { return lasting_[id] || graph_.is_plane(id); }
     bool is_dear(PartId id, std::uint32_t places) const;
 
     const PartGraph& graph_;
     Axes axes_;
     Bringing bringing_;
     std::uint32_t pass_count_ = 1;
-    std::vector<bool> needed_, written_;
+    std::vector<bool> needed_, written_, lasting_;
     std::vector<bool> stays_;             ///< Cannot be computed for a neighbour.
     std::vector<std::uint32_t> pass_;     ///< The first in which the own cell's value is known …
     std::vector<std::uint32_t> beside_;   ///< … and the values of neighbours, planes being read.

@@ -26,7 +26,7 @@ public:
         : request_(request),
           graph_(request.graph),
           emit_(emit),
-          planner_(graph_, request.wanted, request.options.bringing) {}
+          planner_(graph_, request.wanted, request.options.bringing, request.lasting) {}
 
     StepPlan build() {
         plan_.passes.resize(planner_.pass_count());
@@ -49,8 +49,11 @@ private:
     void number_parts() {
         storage_.temporary.assign(graph_.size(), 0);
         storage_.aggregate.assign(graph_.size(), 0);
+        storage_.lasting.assign(graph_.size(), 0);
+        plan_.lasting = static_cast<std::uint32_t>(request_.lasting.size());
+        for (std::uint32_t k = 0; k < plan_.lasting; ++k) storage_.lasting[request_.lasting[k]] = k;
         for (PartId id = 0; id < graph_.size(); ++id) {
-            if (!planner_.is_needed(id)) continue;
+            if (!planner_.is_needed(id) || planner_.is_lasting(id)) continue;
             if (planner_.is_written(id)) {
                 storage_.temporary[id] = plan_.temporaries++;
                 written_[planner_.pass_of(id)].push_back(id);
@@ -82,14 +85,15 @@ private:
             const std::uint32_t number = storage_.temporary[id];
             assembly.result(name.empty() ? fmt::format("(temporary {})", number) : name,
                             lowering.value(id)[0]);
-            result.targets.push_back({PassTarget::Kind::temporary, number});
+            result.targets.push_back(
+                {PassTarget::Kind::temporary, number, false, graph_.boundary(id)});
         }
         if (is_last) emit_(assembly, lowering);
         result.bound = std::move(assembly).finish({});
         if (is_last) {
             for (std::uint32_t k = 0; result.targets.size() < result.bound.kernel.results.size();
                  ++k) {
-                result.targets.push_back({PassTarget::Kind::result, k});
+                result.targets.push_back({PassTarget::Kind::result, k, false, {}});
             }
         }
         add_reductions(pass);
@@ -107,6 +111,9 @@ private:
 
     SlotSource source_of(PartId id) const {
         const Part& part = graph_[id];
+        if (planner_.is_lasting(id)) {
+            return {SlotSource::Kind::lasting, graph_.stage(), storage_.lasting[id]};
+        }
         if (planner_.is_written(id)) {
             return {SlotSource::Kind::temporary, 0, storage_.temporary[id]};
         }

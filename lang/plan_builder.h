@@ -20,6 +20,8 @@ struct PlanRequest {
     bool frozen_is_mask = false;
     /// Species that take the first field slots of the last pass.
     std::span<const std::uint32_t> first_slots = {};
+    /// Parts that are known before the first pass, in the order of their numbers.
+    std::span<const PartId> lasting = {};
 };
 
 /// Plans, lowers every pass, and gives temporaries that live at different times one plane.

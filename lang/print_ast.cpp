@@ -101,6 +101,7 @@ std::string print_sentence(const ast::Sentence& sentence, ExpressionPrinter& pri
                                                                   " >=", " <=", ":"};
     std::string result(sentence.name.text);
     if (!sentence.index.empty()) result += fmt::format("[{}]", sentence.index.text);
+    if (!sentence.side.empty()) result += fmt::format(".{}", sentence.side.text);
     result += relations[static_cast<std::size_t>(sentence.kind)];
     const char* between = sentence.kind == ast::SentenceKind::index ? " .. " : ", ";
     for (const ast::Expression& value : sentence.values) {

@@ -21,6 +21,7 @@ public:
     void parse_script();
     /// `[stage.]name=expression`, the whole text.
     void parse_override();
+    bool parse_word_behind_dot(ast::Word& word, const std::string& form);
     /// The expression that is the whole text.
     std::optional<ast::Expression> parse_lone_expression();
 

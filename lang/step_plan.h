@@ -24,6 +24,7 @@ struct SlotSource {
         image,      ///< The picture named Program::texts[item], as a field slot.
         metric,     ///< MetricPlane `item` of the surface, as a field slot.
         neighbourhood,  ///< Which cells around are inside the mask, as a field slot of words.
+        lasting,    ///< Lasting part `item` of stage `stage`: a field slot, or a uniform.
         step,       ///< Uniform: complete steps of the stage when the step begins.
         time,       ///< Uniform: the stage's t when the rates are evaluated.
         time_step,  ///< Uniform: the length of the step that is taken.
@@ -51,6 +52,8 @@ struct PassTarget {
     enum class Kind { result, temporary };
     Kind kind = Kind::result;
     std::uint32_t index = 0;  ///< Of the plan's results or temporaries.
+    bool is_uniform = false;  ///< The same in all cells.
+    Boundaries boundary = {}; ///< How the halo of a temporary or a lasting part is filled.
 };
 
 /// An aggregate over the domain, computed from a plane.
@@ -72,6 +75,7 @@ struct StepPlan {
     std::uint32_t result_count = 0;
     std::uint32_t temporaries = 0;      ///< Planes that passes write for later ones.
     std::uint32_t aggregates = 0;
+    std::uint32_t lasting = 0;          ///< Lasting parts (plan_lasting) that may be read.
     bool is_uniform = false;            ///< Every result is the same in all cells.
     std::string words;                  ///< What the passes do and why, where it was asked for.
 };
@@ -85,7 +89,10 @@ enum class Bringing : std::uint8_t {
 
 struct PlanOptions {
     Bringing bringing = Bringing::cheaper;
-    bool describe = false;  ///< Fill in StepPlan::words.
+    bool describe = false;       ///< Fill in StepPlan::words.
+    /// Parts of rates that no step changes are read, where that pays, from what plan_lasting()
+    /// computes once. The bits are those of computing them anew in each step.
+    bool keeps_lasting = false;
 };
 
 }  // namespace cascade

@@ -119,6 +119,19 @@ PartId PartGraph::across_row(PartId of) {
                            metric(MetricPlane::inverse_22), call(Function::dy, {of}));
 }
 
+/// The derivative over √g, g being the entry of Ṽ⁻¹Ṽ⁻ᵀ on the diagonal: that of the cell, since
+/// coefficients of flows are mirrored as well, and so what flows is the derivative times the length
+/// of the face.
+PartId PartGraph::across_side(PartId value, Side side) {
+    if (!has_metric_) return value;
+    const PartId p = metric(MetricPlane::inverse_11), q = metric(MetricPlane::inverse_12);
+    const PartId r = metric(MetricPlane::inverse_22);
+    const bool is_column = side == Side::left || side == Side::right;
+    const PartId diagonal = is_column ? sum_of_products(p, p, q, q)
+                                      : call(Function::multiply, {r, r});
+    return call(Function::divide, {value, call(Function::sqrt, {diagonal})});
+}
+
 PartId PartGraph::on_surface(const Part& part) {
     const PartId first = part.operands[0];
     const PartId area = metric(MetricPlane::area);

@@ -12,15 +12,18 @@
 
 namespace cascade {
 
-namespace {
-
 const Field& plane_of(const SlotSource& source, const BindingContext& context) {
     if (source.kind == SlotSource::Kind::image) return context.files.image(source.item);
     if (source.kind == SlotSource::Kind::file) return context.files.plane(source.item);
     if (source.kind == SlotSource::Kind::metric) return context.metric[source.item];
     if (source.kind == SlotSource::Kind::neighbourhood) return context.mask->neighbourhood;
+    if (source.kind == SlotSource::Kind::lasting) {
+        return context.states[source.stage].lasting[source.item];
+    }
     return context.states[source.stage].field(source.item);
 }
+
+namespace {
 
 /// The halo is no part of a field's value: whoever reads neighbours fills it.
 void fill_halo_of(const Field& field, const SideRules& sides) {
@@ -31,10 +34,18 @@ void fill_halo_of(const Field& field, const SideRules& sides) {
 class Binder {
 public:
     Binder(const StepPlan& plan, const BindingContext& context, const System* system,
-           std::uint32_t stage, const SweepForm* form = nullptr, const Sweep* sweep = nullptr)
-        : plan_(plan), context_(context), system_(system), stage_(stage), form_(form), sweep_(sweep) {
+           std::uint32_t stage, const SweepForm* form = nullptr, const Sweep* sweep = nullptr,
+           std::vector<double> read_at = {})
+        : plan_(plan),
+          context_(context),
+          system_(system),
+          stage_(stage),
+          form_(form),
+          sweep_(sweep),
+          read_at_(std::move(read_at)) {
         if (system_ != nullptr) {
             problem_.sides = context_.states[stage_].sides;
+            problem_.changing_sides = context_.states[stage_].changing_sides;
             problem_.species_needs_halo.assign(context_.states[stage_].species.size(), false);
         }
         temporary_needs_halo_.assign(plan_.temporaries, false);
@@ -97,6 +108,9 @@ private:
 
     /// Of a plane that is read at neighbours and does not change.
     SideRules sides_of(const SlotSource& source) const {
+        if (source.kind == SlotSource::Kind::lasting) {
+            return context_.states[source.stage].lasting_boundaries[source.item];
+        }
         if (source.kind == SlotSource::Kind::item) {
             const StageState& state = context_.states[source.stage];
             const int species = state.species_of_item[source.item];
@@ -149,6 +163,9 @@ private:
             case SlotSource::Kind::item:
                 value = context_.states[source.stage].numbers[source.item];
                 break;
+            case SlotSource::Kind::lasting:
+                value = context_.states[source.stage].lasting_numbers[source.item];
+                break;
             case SlotSource::Kind::step: bound.changing.push_back({Kind::step, slot, 0, 0, false}); break;
             case SlotSource::Kind::aggregate:
                 bound.changing.push_back({Kind::aggregate, slot, source.item, 0, false});
@@ -177,6 +194,7 @@ private:
         if (target.kind == PassTarget::Kind::temporary) {
             result.plane.kind = PlaneRef::Kind::temporary;
             result.needs_halo = temporary_needs_halo_[target.index];
+            result.boundary = target.boundary;
             return result;
         }
         result.plane.kind = PlaneRef::Kind::species;
@@ -186,6 +204,7 @@ private:
             const std::size_t written =
                 form_->species.empty() ? problem_.species_needs_halo.size() : form_->species.size();
             result.plane.in_register = sweep_->outputs[target.index / written];
+            result.read_at = read_at_[target.index / written];
             const auto position = static_cast<std::uint32_t>(target.index % written);
             result.plane.number = form_->species.empty() ? position : form_->species[position];
             result.needs_halo = problem_.species_needs_halo[result.plane.number] &&
@@ -202,6 +221,7 @@ private:
     std::uint32_t stage_;
     const SweepForm* form_;   ///< Of a sweep; none for a plan that is no part of a scheme.
     const Sweep* sweep_;
+    std::vector<double> read_at_;  ///< When rates read each output of the sweep.
     StepProblem problem_;
     std::vector<bool> temporary_needs_halo_;
     std::vector<bool> halo_registers_;
@@ -232,6 +252,26 @@ bool rates_go_on(const StepPlan& plan) {
 
 }  // namespace
 
+namespace {
+
+/// When rates read what a sweep writes at neighbours: at the moment of the next sweep of which it
+/// is the input. The new step is read when the next step begins.
+std::vector<double> moments_of_outputs(const Scheme& scheme, std::size_t number) {
+    std::vector<double> moments;
+    for (const std::uint32_t output : scheme.sweeps[number].outputs) {
+        double moment = StepProblem::Result::next_step;
+        for (std::size_t later = number + 1; later < scheme.sweeps.size(); ++later) {
+            if (output == new_register || scheme.sweeps[later].inputs[0] != output) continue;
+            moment = scheme.sweeps[later].time;
+            break;
+        }
+        moments.push_back(moment);
+    }
+    return moments;
+}
+
+}  // namespace
+
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context,
                       const System& system, std::uint32_t stage) {
     return Binder(plan, context, &system, stage).bind(compile);
@@ -248,18 +288,22 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     whole.registers = scheme.registers;
     whole.error_register = scheme.error_register;
     whole.sides = context.states[stage].sides;
+    whole.changing_sides = context.states[stage].changing_sides;
     whole.species_needs_halo.assign(context.states[stage].species.size(), false);
     std::vector<const Sweep*> sweeps;
-    const auto add = [&](const StepPlan& plan, const SweepForm* form, const Sweep* sweep) {
-        Binder& binder = binders.emplace_back(plan, context, &system, stage, form, sweep);
+    const auto add = [&](const StepPlan& plan, const SweepForm* form, const Sweep* sweep,
+                         std::vector<double> read_at) {
+        Binder& binder = binders.emplace_back(plan, context, &system, stage, form, sweep,
+                                              std::move(read_at));
         sweeps.push_back(sweep);
         for (std::size_t k = 0; k < whole.species_needs_halo.size(); ++k) {
             if (binder.species_needs_halo()[k]) whole.species_needs_halo[k] = true;
         }
     };
-    if (!before.passes.empty()) add(before, nullptr, nullptr);
-    for (const Sweep& sweep : scheme.sweeps) {
-        add(plans[sweep.form], &scheme.forms[sweep.form], &sweep);
+    if (!before.passes.empty()) add(before, nullptr, nullptr, {});
+    for (std::size_t n = 0; n < scheme.sweeps.size(); ++n) {
+        const Sweep& sweep = scheme.sweeps[n];
+        add(plans[sweep.form], &scheme.forms[sweep.form], &sweep, moments_of_outputs(scheme, n));
     }
     const std::vector<bool> with_halo = halo_registers(scheme);
     for (std::size_t n = 0; n < binders.size(); ++n) {
@@ -294,7 +338,7 @@ std::vector<Field> run_plan(const StepPlan& plan, const Compile& compile,
         cells.push_back(results.emplace_back(layout, context.precision).address());
     }
     const std::array<std::span<void* const>, 2> registers{std::span<void* const>(), cells};
-    run_once(problem, team, registers, {context.steps, context.t, 0});
+    run_once(problem, team, registers, {context.steps, context.t, 0, context.t});
     return results;
 }
 

@@ -30,6 +30,9 @@ struct BindingContext {
     const DomainMask* mask = nullptr;    ///< None where all cells belong to the domain.
 };
 
+/// The plane of a slot that lies in one and is no temporary.
+const Field& plane_of(const SlotSource& source, const BindingContext& context);
+
 /// Makes a kernel runnable.
 using Compile = std::function<KernelPointer(const CellKernel&)>;
 

@@ -20,6 +20,9 @@ namespace {
 constexpr std::array<std::string_view, 9> kinds = {"tokens", "ast", "equations", "tex", "program",
                                                    "plan", "ir", "llvm", "asm"};
 
+/// Steps are shown as they are taken.
+constexpr PlanOptions as_run{Bringing::cheaper, false, true};
+
 std::string dump_tokens(const Script& script) {
     Diagnostics already_reported;
     return print_tokens(lex(0, script.sources, already_reported), script.sources);
@@ -44,7 +47,8 @@ std::string dump_ir(const Program& program) {
         const Stage& stage = program.stages[k];
         section(stage, "values that are the same everywhere", plan_uniform_start(program, k));
         section(stage, "values that vary", plan_start(program, k));
-        section(stage, "one step", plan_step(program, k));
+        section(stage, "what no step changes", plan_lasting(program, k, as_run));
+        section(stage, "one step", plan_step(program, k, as_run));
     }
     return text;
 }
@@ -75,7 +79,7 @@ Result<std::string> dump_code([[maybe_unused]] const Program& program,
 #if CASCADE_HAS_JIT
     std::string text;
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
-        const StepPlan plan = plan_step(program, k);
+        const StepPlan plan = plan_step(program, k, as_run);
         const Stencil stencil = program.domain.grid.stencil();
         for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
             const CellKernel& kernel = plan.passes[pass].bound.kernel;

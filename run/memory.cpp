@@ -45,6 +45,9 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
     for (const SweepForm& form : scheme.forms) {
         temporaries = std::max(temporaries, plans.sweep(k, form).temporaries);
     }
+    // What no step changes is kept beside them, and computed with temporaries of its own.
+    const StepPlan& lasting = plans.lasting(k);
+    temporaries = std::max(temporaries, lasting.temporaries) + lasting.result_count;
     std::uint64_t planes = temporaries + std::uint64_t{scheme.registers - 2} * species;
     if (!is_semi_implicit(stage.time.solver)) return planes;
     // Factors of diffusion that change are written to planes.
@@ -85,7 +88,7 @@ std::uint64_t planes_to_choose(const Program& program, std::uint32_t stage) {
 }  // namespace
 
 double memory_of(const Program& program) {
-    StagePlans plans(program);
+    StagePlans plans(program, {Bringing::cheaper, false, true});
     return memory_of(program, plans);
 }
 

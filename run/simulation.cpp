@@ -4,6 +4,7 @@
 #include "core/floating_point.h"
 #include "core/parallel.h"
 #include "ir/interpreter.h"
+#include "run/bind_side.h"
 #include "run/bound_diffusion.h"
 #include "run/bound_kernel.h"
 #include "run/coarse_start.h"
@@ -79,7 +80,8 @@ struct Simulation::Implementation {
     InputFiles files;
     std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
     std::optional<DomainMask> mask;
-    std::vector<StageState> states;
+    /// Values of sides follow the time of their stage whenever they are looked at.
+    mutable std::vector<StageState> states;
     std::optional<Program> own_program;  ///< Of a coarser grid.
     std::string progress_note;           ///< Behind the stage's name in reports of progress.
 
@@ -89,7 +91,19 @@ struct Simulation::Implementation {
     Precision precision() const { return program->domain.precision; }
 
     BindingContext context(std::uint32_t stage) const {
-        return {states, files, states[stage].steps, grid, precision(), states[stage].t, metric, inside()};
+        for (StageState& state : states) set_sides_of_now(state);
+        return {states, files, states[stage].steps, grid, precision(), states[stage].t, metric,
+                inside()};
+    }
+
+    void set_sides_of_now(StageState& state) const {
+        if (state.changing_sides.empty()) return;
+        const FlushDenormals environment;
+        const PlaneLayout layout(grid);
+        for (std::size_t species = 0; species < state.sides.size(); ++species) {
+            set_side_values(state.changing_sides, species, {state.steps, state.t}, layout,
+                            {0, layout.row_count()}, state.sides[species]);
+        }
     }
 
     /// Starting values need no compiling and pictures neither: both are interpreted.
@@ -133,7 +147,44 @@ struct Simulation::Implementation {
         }
     }
 
-    void find_sides(std::uint32_t k);
+    Result<void> find_sides(std::uint32_t k);
+
+    /// Do rows and columns meet at other angles than right ones beside a side with a flux?
+    bool is_sheared_at(Side side, SideKind kind) const {
+        if (metric.empty() || kind != SideKind::flux) return false;
+        const auto at = [&](MetricPlane plane, std::int64_t offset) {
+            return metric[static_cast<std::size_t>(plane)].visit(
+                [&](const auto& cells) { return double{cells.origin()[offset]}; });
+        };
+        const PlaneLayout layout(grid);
+        const SideCells cells = SideCells::of_rows(layout, side, {0, layout.row_count()});
+        for (std::int64_t k = 0; k < cells.count; ++k) {
+            const std::int64_t offset = SideCells::offset(layout, side, k);
+            const double across = std::abs(at(MetricPlane::inverse_12, offset));
+            if (across > 1e-3 * std::abs(at(MetricPlane::inverse_22, offset))) return true;
+        }
+        return false;
+    }
+
+    /// What no step changes is computed before the first that is taken, and given back behind the
+    /// last.
+    void find_lasting_parts(std::uint32_t k) {
+        const StepPlan& once = plans->lasting(k);
+        StageState& state = states[k];
+        state.lasting.clear();
+        state.lasting_numbers.assign(once.result_count, 0);
+        state.lasting_boundaries.resize(once.result_count);
+        if (once.result_count == 0) return;
+        state.lasting = evaluate(once, k);
+        for (const PassTarget& target : once.passes.back().targets) {
+            if (target.kind != PassTarget::Kind::result) continue;
+            state.lasting_boundaries[target.index] = target.boundary;
+            if (!target.is_uniform) continue;
+            Field& plane = state.lasting[target.index];
+            state.lasting_numbers[target.index] = plane.number_at(0, 0);
+            plane = {};
+        }
+    }
 
     Result<void> check_speed(std::uint32_t k) const {
         const System& system = program->system_of(k);
@@ -223,7 +274,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     self.grid = self.program->domain.grid;
     self.threads = options.threads > 0 ? options.threads : hardware_threads();
 
-    self.plans = std::make_unique<StagePlans>(*self.program);
+    self.plans = std::make_unique<StagePlans>(*self.program, options.planning);
     self.memory = memory_of(*self.program, *self.plans);
     if (auto enough = check_memory(self.grid, self.memory, options.memory_limit); !enough) {
         return tl::unexpected(enough.error());
@@ -255,7 +306,7 @@ Result<void> Simulation::start_stage(std::uint32_t k) {
     state = empty_state(system);
     self.start_uniform_items(k);
     self.start_varying_items(k);
-    self.find_sides(k);
+    if (auto sides = self.find_sides(k); !sides) return sides;
     state.started = true;
     return self.check_speed(k);
 }
@@ -280,6 +331,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
         auto grown = self.run_on_coarser_grids(k, control);
         if (!grown || *grown == StageEnd::cancelled) return grown;
     }
+    self.find_lasting_parts(k);
     Progress progress;
     progress.stage = stage.name + self.progress_note;
     progress.stage_number = static_cast<int>(k) + 1;
@@ -295,6 +347,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
                                              if (observe) observe();
                                              return true;
                                          });
+    state.lasting.clear();
     state.steps = outcome.steps;
     state.t = outcome.t;
     state.time = outcome.time;
@@ -473,29 +526,51 @@ Result<void> Simulation::Implementation::find_mask() {
     return failure("the domain has no cells");
 }
 
-/// Values of sides are found once, by formulas that may read whatever the stage starts with. One
-/// that is the same everywhere is kept as a number. As long as they are looked for, the boundary of
-/// the domain holds.
-void Simulation::Implementation::find_sides(std::uint32_t k) {
+/// Values of sides are found by formulas that may read whatever the stage starts with. One that is
+/// the same everywhere is kept as a number. As long as they are looked for, the boundary of the
+/// domain holds.
+Result<void> Simulation::Implementation::find_sides(std::uint32_t k) {
     StageState& state = states[k];
     std::vector<SideRules> found;
+    std::vector<ChangingSide> changing_sides;
     for (const auto& settings : stage(k).sides) {
+        const auto species = static_cast<std::uint32_t>(found.size());
         SideRules rules;
         rules.spacing = grid.spacing;
+        for (std::size_t side = 0; side < side_count; ++side) rules.at[side].kind = settings[side].kind;
         for (std::size_t side = 0; side < side_count; ++side) {
             SideRule& rule = rules.at[side];
-            rule.kind = settings[side].kind;
             if (!rule.has_value()) continue;
-            Field values = std::move(
-                evaluate(plan_view(*program, settings[side].value, k), k)[0]);
+            const SidePlans plans = plan_side(*program, settings[side], static_cast<Side>(side), k);
+            if (is_sheared_at(static_cast<Side>(side), rule.kind)) {
+                return failure(
+                    fmt::format("stage '{}': {} has a flux at the side {}, where the surface is sheared",
+                                stage(k).name, species_name(program->system_of(k), species),
+                                side_names[side]),
+                    "a flux needs rows and columns that meet at right angles; fixed(…) does not");
+            }
+            if (plans.changes) {
+                ChangingSide changing = bind_side(plans, species, static_cast<Side>(side),
+                                                  interpreted(grid), context(k), *team);
+                if (!plans.each.is_uniform) {
+                    changing.values =
+                        state.side_values.emplace_back(PlaneLayout(grid), precision()).address();
+                    rule.values = changing.values;
+                }
+                changing_sides.push_back(std::move(changing));
+                continue;
+            }
+            Field values = std::move(evaluate(plans.each, k)[0]);
             rule.value = values.number_at(0, 0);
             if (is_same_everywhere(values)) continue;
-            fill_halo(values, grid.boundary);
+            fill_halo(values, boundary_of(rules));
             rule.values = state.side_values.emplace_back(std::move(values)).address();
         }
         found.push_back(rules);
     }
     state.sides = std::move(found);
+    state.changing_sides = std::move(changing_sides);
+    return {};
 }
 
 Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::uint32_t k) {

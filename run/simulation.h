@@ -9,6 +9,7 @@
 #include "run/domain_mask.h"
 #include "run/script.h"
 #include "solvers/advance.h"
+#include "solvers/changing_side.h"
 #include "solvers/steady.h"
 
 #include <cstdint>
@@ -42,8 +43,13 @@ struct StageState {
     std::vector<Field> species;         ///< In order of the species' items.
     std::vector<int> species_of_item;   ///< Per item; −1 for parameters.
     Mask frozen;                        ///< Only where `frozen` varies.
+    /// What no step changes, while steps are taken (plan_lasting): planes where it varies …
+    std::vector<Field> lasting;
+    std::vector<double> lasting_numbers; ///< … and numbers where it does not.
+    std::vector<Boundaries> lasting_boundaries;  ///< How the halo of each plane is filled.
     std::vector<SideRules> sides;       ///< By species; empty where the boundary holds for all.
     std::vector<Field> side_values;     ///< What the rules of sides point to.
+    std::vector<ChangingSide> changing_sides;  ///< Those with values that change with time.
 
     /// The plane of an item that varies (a species or a varying parameter).
     const Field& field(std::uint32_t item) const {
@@ -67,6 +73,8 @@ struct SimulationOptions {
     /// simulation has one of its own. Its compile() must allow several threads.
     std::shared_ptr<Backend> stepper = nullptr;
     std::uint64_t memory_limit = 0;   ///< Bytes that all fields may take; 0: what is free.
+    /// How steps are put together. No result depends on it.
+    PlanOptions planning = {Bringing::cheaper, false, true};
 };
 
 /// What `options` ask for, to be shared by simulations. Fails where this build has no native code.

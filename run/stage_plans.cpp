@@ -8,11 +8,17 @@ const StepPlan& StagePlans::start(std::uint32_t stage) {
     return *plan;
 }
 
+const StepPlan& StagePlans::lasting(std::uint32_t stage) {
+    std::optional<StepPlan>& plan = lasting_[stage];
+    if (!plan) plan = plan_lasting(program_, stage, options_);
+    return *plan;
+}
+
 const StepPlan& StagePlans::sweep(std::uint32_t stage, const SweepForm& form) {
     for (const auto& [known, plan] : sweeps_[stage]) {
         if (known == form) return plan;
     }
-    return sweeps_[stage].emplace_back(form, plan_sweep(program_, stage, form)).second;
+    return sweeps_[stage].emplace_back(form, plan_sweep(program_, stage, form, options_)).second;
 }
 
 }  // namespace cascade

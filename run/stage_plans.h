@@ -14,17 +14,24 @@ namespace cascade {
 class StagePlans {
 public:
     /// `program` must outlive the plans.
-    explicit StagePlans(const Program& program)
-        : program_(program), starts_(program.stages.size()), sweeps_(program.stages.size()) {}
+    StagePlans(const Program& program, const PlanOptions& options)
+        : program_(program),
+          options_(options),
+          starts_(program.stages.size()),
+          lasting_(program.stages.size()),
+          sweeps_(program.stages.size()) {}
 
     /// Of the starting values.
     const StepPlan& start(std::uint32_t stage);
+    /// Of what no step changes.
+    const StepPlan& lasting(std::uint32_t stage);
     /// Of a sweep of the rates.
     const StepPlan& sweep(std::uint32_t stage, const SweepForm& form);
 
 private:
     const Program& program_;
-    std::vector<std::optional<StepPlan>> starts_;
+    PlanOptions options_;
+    std::vector<std::optional<StepPlan>> starts_, lasting_;
     std::vector<std::deque<std::pair<SweepForm, StepPlan>>> sweeps_;  ///< By stage.
 };
 

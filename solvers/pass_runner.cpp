@@ -80,7 +80,7 @@ void PassRunner::run_as(Worker& worker, Arguments<Number>& arguments, Team& team
         if (!pass.reductions.empty()) reduce(worker, arguments, pass, team, registers, number);
         if (pass.filter) filter(worker, arguments, *pass.filter, team, registers, moment);
         set_uniforms(arguments.uniforms[number], pass, moment);
-        run_kernel(worker.rows, arguments, pass, number, registers);
+        run_kernel(worker.rows, arguments, pass, number, registers, moment);
     }
 }
 
@@ -157,11 +157,24 @@ void PassRunner::set_uniforms(std::vector<Number>& uniforms, const StepProblem::
     }
 }
 
+/// What holds at the sides of a result when it is read at neighbours.
+SideRules PassRunner::sides_at(const StepProblem::Result& result, const StepMoment& moment,
+                               RowRange rows) const {
+    SideRules rules = problem_.sides_of(result);
+    const bool is_species = result.plane.kind == StepProblem::PlaneRef::Kind::species;
+    if (!is_species || problem_.changing_sides.empty()) return rules;
+    const bool is_next = result.read_at == StepProblem::Result::next_step;
+    const SideMoment when{is_next ? moment.complete + 1 : moment.complete,
+                          is_next ? moment.next_t : moment.t + result.read_at * moment.length};
+    set_side_values(problem_.changing_sides, result.plane.number, when, layout_, rows, rules);
+    return rules;
+}
+
 template <typename Number>
 void PassRunner::run_kernel(RowRange rows, Arguments<Number>& arguments,
                             const StepProblem::Pass& pass, std::size_t number,
-                            Registers registers) {
-    auto& [uniforms, fields, results] = arguments;
+                            Registers registers, const StepMoment& moment) {
+    auto& [uniforms, aggregates, fields, results] = arguments;
     fields.clear();
     for (const StepProblem::PlaneRef& ref : pass.fields) {
         fields.push_back(plane<Number>(ref, registers));
@@ -178,7 +191,7 @@ void PassRunner::run_kernel(RowRange rows, Arguments<Number>& arguments,
         pass.kernel->run(given, part);
         for (std::size_t k = 0; k < results.size(); ++k) {
             if (!pass.results[k].needs_halo) continue;
-            fill_halo_from_rows(results[k], layout_, problem_.sides_of(pass.results[k].plane),
+            fill_halo_from_rows(results[k], layout_, sides_at(pass.results[k], moment, part),
                                 part.begin, part.end);
         }
     }

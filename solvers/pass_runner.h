@@ -22,6 +22,7 @@ struct StepMoment {
     std::int64_t complete = 0;  ///< Steps taken before it.
     double t = 0;               ///< The stage's time as it begins.
     double length = 0;          ///< The time step.
+    double next_t = 0;          ///< The stage's time when the next step begins.
 };
 
 /// The planes of every register, of each species the address of cell (0, 0, 0): numbers of the
@@ -76,7 +77,9 @@ private:
                       const StepMoment& moment) const;
     template <typename Number>
     void run_kernel(RowRange rows, Arguments<Number>& arguments, const StepProblem::Pass& pass,
-                    std::size_t number, Registers registers);
+                    std::size_t number, Registers registers, const StepMoment& moment);
+    SideRules sides_at(const StepProblem::Result& result, const StepMoment& moment,
+                       RowRange rows) const;
 
     const StepProblem& problem_;
     PlaneLayout layout_;

@@ -163,7 +163,7 @@ private:
         }
         const std::array<std::span<void* const>, 2> registers{moved_cells_, rate_cells_};
         // Noise needs some length of a step; it cancels from differences.
-        team_.run([&](int) { runner_.run(worker_, team_, registers, {0, 0, 1}); });
+        team_.run([&](int) { runner_.run(worker_, team_, registers, {0, 0, 1, 1}); });
     }
 
     const StepProblem& rates_;

@@ -7,10 +7,12 @@
 #include "ir/diffusion.h"
 #include "ir/reduction.h"
 #include "ir/sweep_form.h"
+#include "solvers/changing_side.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -54,6 +56,10 @@ struct StepProblem {
     struct Result {
         PlaneRef plane;
         bool needs_halo = false;  ///< Something reads it at neighbours.
+        Boundaries boundary = {};  ///< At the sides of a temporary.
+        /// Of a species: the part of the step at which it is read at neighbours, or next_step.
+        double read_at = next_step;
+        static constexpr double next_step = -1;
     };
 
     /// A factor of a species' diffusion.
@@ -91,14 +97,15 @@ struct StepProblem {
     std::uint32_t aggregates = 0;
     std::vector<DiffusionTerms<DiffusionFactor>> diffusion;  ///< Per species, for filters.
     std::vector<SideRules> sides;           ///< Per species; none: the grid's boundary for all.
+    std::span<const ChangingSide> changing_sides;  ///< Those of them that change with time.
     std::vector<bool> species_needs_halo;   ///< Per species: the old step is read at neighbours.
 
     /// How many cells a mean is taken over.
     std::int64_t counted_cells() const { return cells_inside > 0 ? cells_inside : grid.cell_count(); }
-    /// What holds at the sides of a plane that a pass writes. What is no species is mirrored.
-    SideRules sides_of(const PlaneRef& plane) const {
-        const bool is_species = plane.kind == PlaneRef::Kind::species;
-        return is_species && !sides.empty() ? sides[plane.number] : SideRules(grid.boundary);
+    /// What holds at the sides of a plane that a pass writes.
+    SideRules sides_of(const Result& result) const {
+        const bool is_species = result.plane.kind == PlaneRef::Kind::species;
+        return is_species ? sides_of(result.plane.number) : SideRules(result.boundary);
     }
     SideRules sides_of(std::size_t species) const {
         return sides.empty() ? SideRules(grid.boundary) : sides[species];

@@ -156,7 +156,7 @@ void Stepper::step(Worker& worker, CopyRoles roles, std::int64_t complete) {
     worker.registers.emplace_back(cells_[static_cast<std::size_t>(roles.target())]);
     for (const std::vector<void*>& cells : scratch_cells_) worker.registers.emplace_back(cells);
     runner_->run(worker.passes, team_, worker.registers,
-                 {complete, clock_.at(complete), clock_.step},
+                 {complete, clock_.at(complete), clock_.step, clock_.at(complete + 1)},
                  knows_first_rates_ ? problem_->first_rate_passes : 0);
 }
 

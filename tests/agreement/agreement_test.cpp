@@ -130,6 +130,27 @@ TEST(Agreement, HoweverOperandsComeToNeighbours) {
     EXPECT_GT(passes_differ, 50);
 }
 
+/// What no step changes may be computed in each of them or once.
+TEST(Agreement, HoweverStepsArePlanned) {
+    std::size_t kept = 0;
+    for (int seed = 0; seed < 500; ++seed) {
+        const std::string text = random_script(static_cast<std::uint64_t>(seed));
+        SimulationOptions options = interpreted();
+        options.planning = {Bringing::writing, false, false};
+        const Outcome expected = run_script("random", text, {}, options);
+        options.planning = {Bringing::recomputing, false, true};
+        expect_same(expected, run_script("random", text, {}, options), text);
+        options.planning = {Bringing::cheaper, false, true};
+        expect_same(expected, run_script("random", text, {}, options), text);
+        if (::testing::Test::HasFailure()) return;
+        const Script script = load_script("random", text, ".");
+        for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+            kept += plan_lasting(*script.program, k, options.planning).result_count > 0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(kept, 100u);
+}
+
 std::vector<std::filesystem::path> examples() {
     std::vector<std::filesystem::path> paths;
     const auto folder = std::filesystem::path(CASCADE_SOURCE_DIR) / "examples";

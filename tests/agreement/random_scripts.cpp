@@ -65,7 +65,8 @@ private:
         static constexpr std::array<std::string_view, 5> masks = {
             "random(0, 1) > -0.3 or sx + sy < 0.76", "disc(0.4, 0.1, 0.3) or sx + sy < 0.76",
             "noise(0.3) > 0 or sx + sy < 0.76", "1", "not ring(0.3, 0.2, 0.2, 0.1) or sx < 0.26"};
-        if (!mask_stream_.chance(33)) return "";
+        has_mask_ = mask_stream_.chance(33);
+        if (!has_mask_) return "";
         return fmt::format("; mask: {}", mask_stream_.pick<std::string_view>(masks));
     }
 
@@ -290,13 +291,25 @@ private:
             text_ += fmt::format("  {}: {}\n", name, expression(Place::value, 3));
             readable_.push_back("[" + name + "]");
         }
+        if (stream_.chance(30) && !has_mask_) write_sides();
         text_ += "}\n";
         previous_ = names.species;
         previous_.insert(previous_.end(), names.parameters.begin(), names.parameters.end());
         if (k == 0) previous_.push_back("g0.u0");
     }
 
+    /// Of species u0, which every system has.
+    void write_sides() {
+        static constexpr std::array<std::string_view, 2> all = {"noflux", "periodic"};
+        text_ += fmt::format("  u0.sides: {}\n", stream_.chance(50) ? "fixed(0.5)"
+                                                                    : stream_.pick<std::string_view>(all));
+        if (!stream_.chance(50)) return;
+        text_ += fmt::format("  u0.left: fixed({})\n  u0.right: flux(0.01)\n",
+                             expression(Place::value, 2));
+    }
+
     RandomStream stream_, mask_stream_;
+    bool has_mask_ = false;  ///< Then species have the sides of the domain.
     std::string text_;
     std::vector<std::string> readable_, species_, previous_;
     std::vector<SystemNames> systems_;

@@ -103,6 +103,75 @@ TEST(Plan, AggregatesStandBetweenPasses) {
     EXPECT_EQ(step_of("u: x; u' = max(u - mean(u over domain) over domain) - u").passes.size(), 2u);
 }
 
+/// The number of lasting parts of a step of these sentences.
+std::uint32_t lasting(const std::string& sentences) {
+    return step_of(sentences, {Bringing::cheaper, false, true}).lasting;
+}
+
+TEST(Plan, WhatNoStepChangesIsKept) {
+    // A parameter lies in a plane; one operation more is not worth another.
+    EXPECT_EQ(lasting("u: x; k: x * y; u' = 2 * k * u"), 0u);
+    EXPECT_EQ(lasting("u: x; k: x * y; u' = exp(k) * u"), 1u);
+    EXPECT_EQ(lasting("u: x; u' = exp(u) * sin(t) + random(0, 1)"), 0u) << "all of it changes";
+    EXPECT_EQ(lasting("u: x; k: 2; u' = exp(k) * u"), 0u) << "one number for all cells";
+    EXPECT_EQ(lasting("u: x; k: x * y; u' = lap(k) * u"), 1u);
+    EXPECT_EQ(lasting("u: x; u' = div((1 + x * y) * grad(u))"), 1u) << "needed at five cells";
+    EXPECT_EQ(lasting("u: x; u' = (1 + x * y) * u"), 0u) << "needed at one";
+    EXPECT_EQ(lasting("u: x; k: x * y; u' = u * mean(k^2 over domain)"), 1u);
+    EXPECT_EQ(step_of("u: x; k: x * y; u' = u * mean(k^2 over domain)",
+                      {Bringing::cheaper, false, true}).passes.size(), 1u);
+    EXPECT_EQ(step_of("u: x; k: x; u' = exp(k) * u").lasting, 0u) << "only where it is asked for";
+}
+
+// Of four entries of two tensors that share a direction, the direction's sine and cosine are kept.
+TEST(Plan, FewestOperationsAndPlanesTogether) {
+    EXPECT_EQ(lasting("u: x; k: x * y; u' = diffuse(u, 1, 2, k)"), 2u);
+    EXPECT_EQ(lasting("u: x; v: y; k: x * y\n"
+                      "u' = diffuse(u, 1, 2, k); v' = diffuse(v, 3, 1, k)"), 2u);
+    EXPECT_EQ(lasting("u: x; k: x * y; u' = exp(exp(k)) * u"), 1u);
+    EXPECT_EQ(lasting("u: x; k: x * y; u' = exp(exp(k)) * u + exp(k)"), 2u);
+    EXPECT_EQ(lasting("u: x; k: x * y; a = exp(k); u' = (a + 1) * u + (a - 1) * (a + 2) * u^2"), 1u);
+    EXPECT_THAT(step_of("u: x; k: x * y; u' = exp(k) * u", {Bringing::cheaper, true, true}).words,
+                HasSubstr("exp(k) is computed once and kept in a plane"));
+}
+
+// What does not cost more than reading is computed, and a network of any size is cut quickly.
+TEST(Plan, ManyLastingPartsArePlannedQuickly) {
+    std::string deep = "k", wide = "u";
+    for (int n = 0; n < 2000; ++n) deep = "(" + deep + " * k + 1)";
+    EXPECT_EQ(lasting("u: x; k: x * y; u' = u * " + deep), 1u);
+    for (int n = 0; n < 500; ++n) wide += fmt::format(" + u^{} * (exp(k) + {} * k)", n % 5, n);
+    EXPECT_EQ(lasting("u: x; k: x * y; u' = " + wide), 1u);
+}
+
+/// The plan of a step of a system with sides.
+StepPlan sided(const std::string& sentences, const std::string& domain, PlanOptions options) {
+    const auto checked = check_text("system s {\n" + sentences + "\n}\ndomain { grid: 8, 8; " +
+                                    domain + " }\nstage only: s {}\n");
+    EXPECT_TRUE(checked->program) << sentences;
+    return checked->program ? plan_step(*checked->program, 0, options) : StepPlan{};
+}
+
+TEST(Plan, WhatIsOpenAtSidesIsComputedThere) {
+    const std::string open = "boundary: noflux; left: fixed(1)";
+    const PlanOptions writing{Bringing::writing, true};
+    EXPECT_EQ(sided("u: x; u' = lap(exp(u))", open, writing).passes.size(), 1u);
+    EXPECT_EQ(sided("u: x; u' = lap(exp(u))", "boundary: noflux", writing).passes.size(), 2u);
+    // The inner operator is written, and what is made of it and of u computed around.
+    const StepPlan plan = sided("u: x; mu = exp(u) - lap(u); u' = lap(mu)", open, writing);
+    EXPECT_EQ(plan.passes.size(), 2u);
+    EXPECT_EQ(plan.temporaries, 1u);
+    EXPECT_THAT(plan.words, HasSubstr("mu is computed again at 4 neighbours for u': beyond a side "
+                                      "it is made of what stands there"));
+    EXPECT_EQ(plan.passes[0].targets[0].boundary, Boundaries(Boundary::no_flux));
+    // An aggregate of it takes its plane, a neighbour does not.
+    EXPECT_EQ(sided("u: x; u' = lap(exp(u)) - mean(exp(u) over domain)", open, writing).temporaries,
+              1u);
+    // A species that is not periodic in a periodic domain.
+    const StepPlan shut = sided("u: x; u.sides: noflux; u' = lap(lap(u))", "seed: 1", writing);
+    EXPECT_EQ(shut.passes[0].targets[0].boundary, Boundaries(Boundary::no_flux));
+}
+
 TEST(Plan, UnusedDefinitionsTakeNoPass) {
     EXPECT_EQ(step_of("u: x; waste = lap(lap(u)); u' = lap(u)").passes.size(), 1u);
 }

@@ -1,0 +1,57 @@
+// Sides whose values change with time, as in u.left: fixed(sin(t)).
+//
+// Whoever fills a halo first finds the values for the moment at which the halo will be read. The
+// cells beside a side are numbered along it, so that one small kernel computes what a few rows need.
+#pragma once
+
+#include "core/parallel.h"
+#include "core/plane.h"
+#include "core/precision.h"
+#include "core/side.h"
+#include "ir/backend.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace cascade {
+
+/// When the values of sides hold.
+struct SideMoment {
+    std::int64_t step = 0;  ///< Complete steps.
+    double t = 0;           ///< The stage's time.
+};
+
+/// Where the cells beside a side lie: those from rows [begin, end) are [first, first + count), in
+/// order of rows and columns.
+struct SideCells {
+    std::int64_t first = 0, count = 0;
+
+    static SideCells of_rows(const PlaneLayout& layout, Side side, RowRange rows);
+    /// Elements from cell (0, 0, 0) to a cell beside the side.
+    static std::int64_t offset(const PlaneLayout& layout, Side side, std::int64_t number);
+};
+
+struct ChangingSide {
+    std::uint32_t species = 0;
+    Side side = Side::left;
+    KernelPointer kernel;                     ///< One result; reads no neighbours and no places.
+    Precision precision = Precision::single;  ///< The kernel's.
+    std::vector<std::vector<double>> strips;  ///< Of its field slots: values along the side.
+    std::vector<double> uniforms;
+    std::optional<std::uint32_t> time_slot, step_slot;  ///< Uniforms that a moment sets.
+    /// Cell (0, 0, 0) of the plane that the side's rule points to; none where one number holds for
+    /// all cells.
+    void* values = nullptr;
+};
+
+/// Makes the rules of a species those of a moment, for halo that comes from some rows. Inside a
+/// FlushDenormals. Threads may do so at once for different rows.
+void set_side_values(std::span<const ChangingSide> sides, std::size_t species, SideMoment moment,
+                     const PlaneLayout& layout, RowRange rows, SideRules& rules);
+
+/// How the values of a side go on beyond its ends: as the species does.
+Boundaries boundary_of(const SideRules& rules);
+
+}  // namespace cascade
