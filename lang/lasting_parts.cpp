@@ -75,7 +75,10 @@ public:
     }
 
 private:
-    void need(PartId id, std::uint32_t places) { places_[id] = std::max(places_[id], places); }
+    /// An operator along an axis of one cell reads nothing, but its operand is a part all the same.
+    void need(PartId id, std::uint32_t places) {
+        places_[id] = std::max({places_[id], places, std::uint32_t{1}});
+    }
 
     /// A part that is computed in every step needs its operands in the own cell, or around it.
     void need_operands(PartId id) {
