@@ -52,8 +52,9 @@ std::string left_text(const Progress& progress) {
 }
 
 std::string stage_text(const Progress& progress) {
-    if (progress.stage_count == 1) return fmt::format("'{}'", progress.stage);
-    return fmt::format("{}/{} '{}'", progress.stage_number, progress.stage_count, progress.stage);
+    const std::string name = fmt::format("'{}'{}", progress.stage, progress.note);
+    if (progress.stage_count == 1) return name;
+    return fmt::format("{}/{} {}", progress.stage_number, progress.stage_count, name);
 }
 
 }  // namespace

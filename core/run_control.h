@@ -11,6 +11,7 @@ namespace cascade {
 /// How far a stage is. Sent now and then (some ten times a second), and at a stage's end.
 struct Progress {
     std::string stage;           ///< The stage's name.
+    std::string note;            ///< What is to be said behind it; mostly nothing.
     int stage_number = 1;        ///< From 1.
     int stage_count = 1;
     std::int64_t step = 0;       ///< Complete steps of this stage.

@@ -123,6 +123,16 @@ Result<CompiledStep> compile_step(Script& script, const CompileRequest& request)
         return failure("a stage in double precision is not compiled to an object file",
                        "'cascade run' compiles it in memory; --precision single is compiled");
     }
+    for (const auto& sides : program.stages[*stage].sides) {
+        for (std::size_t side = 0; side < side_count; ++side) {
+            if (!takes_value(sides[side].kind)) continue;
+            if (!plan_side(program, sides[side], static_cast<Side>(side), *stage).changes) continue;
+            return failure(fmt::format("stage '{}' has a side whose value changes with time, which is "
+                                       "not compiled to an object file",
+                                       program.stages[*stage].name),
+                           "'cascade run' compiles it in memory");
+        }
+    }
     if (program.domain.mask) {
         return failure("a domain with a mask is not compiled to an object file",
                        "'cascade run' compiles it in memory");

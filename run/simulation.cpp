@@ -333,7 +333,8 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     }
     self.find_lasting_parts(k);
     Progress progress;
-    progress.stage = stage.name + self.progress_note;
+    progress.stage = stage.name;
+    progress.note = self.progress_note;
     progress.stage_number = static_cast<int>(k) + 1;
     progress.stage_count = static_cast<int>(self.script->stage_count());
     progress.steps = stage.iterations;

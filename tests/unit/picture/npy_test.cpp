@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <bit>
 #include <filesystem>
@@ -256,7 +257,7 @@ TEST(EncodeNpy, EveryValueKeepsItsBitsAndEveryNanIsOne) {
 
 TEST(NpyFile, WrittenAndReadAgain) {
     const std::filesystem::path folder =
-        std::filesystem::path(::testing::TempDir()) / "cascade_npy_test";
+        std::filesystem::path(::testing::TempDir()) / ("cascade_npy_test_" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
     const std::filesystem::path path = folder / "large.b.npy";
     ASSERT_TRUE(write_npy(path, three_by_two()));

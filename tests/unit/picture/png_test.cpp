@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -280,7 +281,7 @@ class PngFile : public ::testing::Test {
 protected:
     void SetUp() override {
         const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-        folder_ = std::filesystem::path(::testing::TempDir()) / ("cascade_png_" + name);
+        folder_ = std::filesystem::path(::testing::TempDir()) / ("cascade_png_" + name + "_" + std::to_string(getpid()));
         std::filesystem::remove_all(folder_);
         std::filesystem::create_directories(folder_);
     }

@@ -6,6 +6,7 @@
 #include "run/run.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <string>
@@ -33,7 +34,7 @@ protected:
     void SetUp() override {
         const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
         folder_ = std::filesystem::path(::testing::TempDir()) /
-                  (std::string("cascade_") + info->name());
+                  (std::string("cascade_") + info->name() + "_" + std::to_string(getpid()));
         std::filesystem::remove_all(folder_);
         std::filesystem::create_directories(folder_);
     }

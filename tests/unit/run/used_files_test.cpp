@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -21,7 +22,8 @@ class UsedFilesTest : public testing::Test {
 protected:
     void SetUp() override {
         const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        root_ = fs::path(testing::TempDir()) / (std::string("used_files_") + info->name());
+        root_ = fs::path(testing::TempDir()) /
+                (std::string("used_files_") + info->name() + "_" + std::to_string(getpid()));
         fs::remove_all(root_);
         fs::create_directories(root_ / "project" / "lib");
     }
