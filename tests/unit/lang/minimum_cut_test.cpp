@@ -10,6 +10,8 @@
 namespace cascade::testing {
 namespace {
 
+using lowering::MinimumCut;
+
 struct Network {
     std::vector<std::int64_t> reading, operations;
     std::vector<std::vector<std::uint32_t>> operands;
