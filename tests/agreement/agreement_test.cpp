@@ -95,7 +95,7 @@ void compare_random_scripts(Precision precision, int scripts) {
 }
 
 TEST(Agreement, RandomScripts) { compare_random_scripts(Precision::single, 1500); }
-TEST(Agreement, RandomScriptsInDouble) { compare_random_scripts(Precision::binary64, 600); }
+TEST(Agreement, RandomScriptsInDouble) { compare_random_scripts(Precision::binary64, 250); }
 
 /// What operators need at neighbours may be computed there again or read from a plane.
 TEST(Agreement, HoweverOperandsComeToNeighbours) {
