@@ -127,9 +127,11 @@ float expected_beyond(const Field& cells, const Grid& grid, const SideRules& sid
         inside[axis] = beyond(is_periodic ? Boundary::periodic : Boundary::no_flux, at[axis],
                               counts[axis]);
         const float cell = expected_beyond(cells, grid, sides, values, inside);
-        const float value = rule.values ? values.at(inside[0], inside[1], inside[2]) : rule.value;
+        const float value = rule.values ? values.at(inside[0], inside[1], inside[2])
+                                        : static_cast<float>(rule.value);
         if (rule.kind == SideKind::fixed) return 2 * value - cell;
-        return rule.kind == SideKind::flux ? cell + sides.spacing * value : cell;
+        return rule.kind == SideKind::flux ? cell + static_cast<float>(sides.spacing) * value
+                                            : cell;
     }
     return cells.at(at[0], at[1], at[2]);
 }
