@@ -287,10 +287,13 @@ void ExpressionChecker::fold_constants(const Node& node) {
     const bool was_finite = std::all_of(values.begin(), values.begin() + node.operand_count,
                                         [](double each) { return std::isfinite(each); });
     if (was_finite && !std::isfinite(*value)) {
-        return fault(node.span,
-                     fmt::format("{} has no finite value here", info(node.function).spelling),
-                     std::isnan(*value) ? "it is not defined for these numbers"
-                                        : "it is infinite for these numbers");
+        Diagnostic diagnostic{Severity::warning, node.span,
+                              fmt::format("{} has no finite value here", info(node.function).spelling),
+                              std::isnan(*value) ? "it is not defined for these numbers"
+                                                 : "it is infinite for these numbers",
+                              {}};
+        add_call(work_, diagnostic);
+        work_.diagnostics.add(std::move(diagnostic));
     }
     parts_.back() = {false, true, *value};
 }
