@@ -1,6 +1,7 @@
 #include "run/compile.h"
 
 #include "core/near_name.h"
+#include "lang/lower.h"
 #include "run/c_header.h"
 #include "run/c_stage.h"
 #include "run/metric_planes.h"

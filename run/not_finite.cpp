@@ -38,11 +38,14 @@ bool explains(double largest, double speed) { return std::isnan(speed) || larges
 double largest_magnitude(const std::vector<Field>& species) {
     double largest = 0;
     for (const Field& field : species) {
-        for (std::int64_t row = 0; row < field.layout().row_count(); ++row) {
-            for (std::int64_t column = 0; column < field.layout().width; ++column) {
-                largest = std::max(largest, std::abs(static_cast<double>(field.row(row)[column])));
+        field.visit([&](const auto& plane) {
+            for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+                for (std::int64_t column = 0; column < plane.layout().width; ++column) {
+                    const double value = plane.row(row)[column];
+                    largest = std::max(largest, std::abs(value));
+                }
             }
-        }
+        });
     }
     return largest;
 }

@@ -542,7 +542,7 @@ Result<void> Simulation::Implementation::find_sides(std::uint32_t k) {
         for (std::size_t side = 0; side < side_count; ++side) {
             SideRule& rule = rules.at[side];
             if (!rule.has_value()) continue;
-            const SidePlans plans = plan_side(*program, settings[side], static_cast<Side>(side), k);
+            const SidePlans value = plan_side(*program, settings[side], static_cast<Side>(side), k);
             if (is_sheared_at(static_cast<Side>(side), rule.kind)) {
                 return failure(
                     fmt::format("stage '{}': {} has a flux at the side {}, where the surface is sheared",
@@ -550,10 +550,10 @@ Result<void> Simulation::Implementation::find_sides(std::uint32_t k) {
                                 side_names[side]),
                     "a flux needs rows and columns that meet at right angles; fixed(…) does not");
             }
-            if (plans.changes) {
-                ChangingSide changing = bind_side(plans, species, static_cast<Side>(side),
+            if (value.changes) {
+                ChangingSide changing = bind_side(value, species, static_cast<Side>(side),
                                                   interpreted(grid), context(k), *team);
-                if (!plans.each.is_uniform) {
+                if (!value.each.is_uniform) {
                     changing.values =
                         state.side_values.emplace_back(PlaneLayout(grid), precision()).address();
                     rule.values = changing.values;
@@ -561,7 +561,7 @@ Result<void> Simulation::Implementation::find_sides(std::uint32_t k) {
                 changing_sides.push_back(std::move(changing));
                 continue;
             }
-            Field values = std::move(evaluate(plans.each, k)[0]);
+            Field values = std::move(evaluate(value.each, k)[0]);
             rule.value = values.number_at(0, 0);
             if (is_same_everywhere(values)) continue;
             fill_halo(values, boundary_of(rules));
