@@ -1,7 +1,7 @@
 // What is drawn: triangles with smooth normals.
 #pragma once
 
-#include "render/vector3.h"
+#include "core/vector3.h"
 
 #include <array>
 #include <cstdint>

@@ -1,0 +1,51 @@
+// Points and directions in space.
+#pragma once
+
+#include <cmath>
+
+namespace cascade {
+
+template <typename Number>
+struct BasicVector3 {
+    Number x = 0, y = 0, z = 0;
+    friend bool operator==(const BasicVector3&, const BasicVector3&) = default;
+
+    friend BasicVector3 operator+(BasicVector3 a, BasicVector3 b) {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+    friend BasicVector3 operator-(BasicVector3 a, BasicVector3 b) {
+        return {a.x - b.x, a.y - b.y, a.z - b.z};
+    }
+    friend BasicVector3 operator-(BasicVector3 a) { return {-a.x, -a.y, -a.z}; }
+    friend BasicVector3 operator*(BasicVector3 a, Number s) { return {a.x * s, a.y * s, a.z * s}; }
+
+    friend Number dot(BasicVector3 a, BasicVector3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+    friend BasicVector3 cross(BasicVector3 a, BasicVector3 b) {
+        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    }
+    friend Number length(BasicVector3 a) { return std::sqrt(dot(a, a)); }
+
+    /// Of length 1; the zero vector stays zero.
+    friend BasicVector3 unit(BasicVector3 a) {
+        const Number size = length(a);
+        return size > 0 ? a * (1 / size) : a;
+    }
+};
+
+using Vector3 = BasicVector3<float>;    ///< Of pictures.
+using Vector3d = BasicVector3<double>;  ///< Of geometry that is measured.
+
+/// Two directions that make a right-handed frame with `normal` (of length 1): T. Duff et al.,
+/// "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+struct Frame {
+    Vector3 tangent, bitangent;
+};
+inline Frame frame_of(Vector3 normal) {
+    const float sign = std::copysign(1.0F, normal.z);
+    const float a = -1 / (sign + normal.z);
+    const float b = normal.x * normal.y * a;
+    return {{1 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x},
+            {b, sign + normal.y * normal.y * a, -normal.y}};
+}
+
+}  // namespace cascade

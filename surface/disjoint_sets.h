@@ -1,0 +1,32 @@
+// Sets of numbers that are joined step by step.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace cascade {
+
+/// The numbers 0 … count − 1, each a set of its own at first; R. Tarjan's union-find with path
+/// halving. A set is called by its smallest number.
+class DisjointSets {
+public:
+    explicit DisjointSets(std::size_t count) : above_(count) {
+        std::iota(above_.begin(), above_.end(), std::uint32_t{0});
+    }
+    std::uint32_t find(std::uint32_t a) {
+        while (above_[a] != a) a = above_[a] = above_[above_[a]];
+        return a;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        above_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::uint32_t> above_;
+};
+
+}  // namespace cascade

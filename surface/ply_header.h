@@ -1,0 +1,46 @@
+// The head of a PLY file: which elements with which properties follow, and how numbers are written
+// (G. Turk, "The PLY Polygon File Format", 1994).
+#pragma once
+
+#include "core/result.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade {
+
+enum class PlyNumber : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+/// Bytes of a number in a binary file.
+std::size_t size_of(PlyNumber type);
+
+struct PlyProperty {
+    std::string name;
+    PlyNumber type = PlyNumber::float32;
+    bool is_list = false;
+    PlyNumber count_type = PlyNumber::uint8;  ///< Of a list's length.
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<PlyProperty> properties;
+
+    /// The fewest bytes that one of them takes in the file.
+    std::size_t least_bytes(bool is_text) const;
+};
+
+struct PlyHeader {
+    enum class Format : std::uint8_t { text, little_endian, big_endian };
+    Format format = Format::text;
+    std::vector<PlyElement> elements;
+    std::size_t size = 0;  ///< Bytes of the head; the elements follow.
+};
+
+/// Fails, naming the line, on what is no head of a PLY file, and on elements of which the file is
+/// too short to hold as many as it says.
+Result<PlyHeader> read_ply_header(std::string_view bytes);
+
+}  // namespace cascade

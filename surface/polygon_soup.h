@@ -1,0 +1,41 @@
+// What a model's file holds: polygons over points, as they were written. Nothing is checked but
+// that every corner is one of the points; `surface/mesh.h` is what is made of it.
+#pragma once
+
+#include "core/vector3.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// A number at every point that a file gives a name: `red`, `quality`, `temperature`.
+struct PointAttribute {
+    std::string name;
+    std::vector<float> values;  ///< One per point.
+};
+
+/// A place in a texture, (0, 0) its lower left and (1, 1) its upper right.
+using TexturePlace = std::array<float, 2>;
+
+struct PolygonSoup {
+    std::vector<Vector3d> points;
+    std::vector<std::uint32_t> corners;  ///< Numbers of points, polygon after polygon.
+    std::vector<std::size_t> ends;       ///< Polygon p ends before corner ends[p].
+    std::vector<TexturePlace> texture;   ///< One per corner; empty where the file has none.
+    std::vector<PointAttribute> attributes;
+
+    std::size_t polygon_count() const { return ends.size(); }
+    std::size_t first_corner(std::size_t polygon) const {
+        return polygon == 0 ? 0 : ends[polygon - 1];
+    }
+    std::span<const std::uint32_t> polygon(std::size_t number) const {
+        const std::size_t first = first_corner(number);
+        return {corners.data() + first, ends[number] - first};
+    }
+};
+
+}  // namespace cascade
