@@ -14,6 +14,7 @@ int compile_command(const Options& options, Console& console);
 int systems_command(const Options& options, Console& console);
 int new_command(const Options& options, Console& console);
 int format_command(const Options& options, Console& console);
+int mesh_command(const Options& options, Console& console);
 
 /// A bar in a terminal, lines in a pipe, nothing where the user wants quiet.
 ProgressDisplay make_progress_display(const Console& console, bool quiet);

@@ -86,6 +86,12 @@ const std::string_view format_examples = R"(Examples:
   cascade fmt - < draft.cascade                      to standard output
 Comments stay, and so does what an author has lined up. A script that cannot be read is left alone.)";
 
+const std::string_view mesh = "Looks at 3-D models: what they are, and what has to be repaired.";
+const std::string_view mesh_examples = R"(Examples:
+  cascade mesh horse.ply
+  cascade mesh *.obj --cells 4000                    with cells spread over each
+PLY, OBJ, OFF, STL, glTF and GLB are read.)";
+
 const std::string_view repl = "The language line by line, with pictures in the terminal.";
 const std::string_view repl_examples = R"(Example:
   cascade repl leopard.cascade

@@ -24,6 +24,7 @@ int run_chosen(const cascade::Options& options, cascade::Console& console) {
         case cascade::Command::systems: return systems_command(options, console);
         case cascade::Command::new_script: return new_command(options, console);
         case cascade::Command::format: return format_command(options, console);
+        case cascade::Command::mesh: return mesh_command(options, console);
         case cascade::Command::repl: return repl_command(options, console);
     }
     return cascade::exit_status::bug;

@@ -181,6 +181,25 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
         ->group(group);
 }
 
+void add_mesh(CLI::App& app, Options& options) {
+    app.add_option("MODELS", options.models, "Files: .ply, .obj, .off, .stl, .gltf, .glb")
+        ->type_name("");
+    add_value(app, "--cells", "N", "Spread cells over the surface and say how they turn out",
+              whole_number(2, 1'000'000'000),
+              [&](auto count) {
+                  if (!options.cells) options.cells.emplace();
+                  options.cells->count = count;
+              })
+        ->group("Cells");
+    add_value(app, "--seed", "N", "Other random places of the cells (with --cells)",
+              whole_number(0, 4294967295),
+              [&](auto seed) {
+                  if (!options.cells) options.cells.emplace();
+                  options.cells->seed = static_cast<std::uint32_t>(seed);
+              })
+        ->group("Cells");
+}
+
 void add_stop(CLI::App& app, Options& options) {
     add_value(app, "--stop-at", "STAGE:STEP", "Stop there as Ctrl-C would", parse_stop_at,
               [&](auto stop) { options.run.stop_at = stop; })

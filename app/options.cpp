@@ -49,6 +49,7 @@ struct Parser {
     CLI::App* systems = nullptr;
     CLI::App* new_script = nullptr;
     CLI::App* format = nullptr;
+    CLI::App* mesh = nullptr;
     CLI::App* repl = nullptr;
     Options options;
     bool show_version = false;
@@ -160,13 +161,16 @@ void Parser::add_all() {
     format->add_flag("--check", options.check_only,
                      "Write nothing; name the scripts that would change, with status 1");
 
+    mesh = command("mesh", help::mesh, help::mesh_examples);
+    groups::add_mesh(*mesh, options);
+
     repl = command("repl", help::repl, help::repl_examples);
     groups::add_script(*repl, options, "A script to begin with (may be left out)");
     groups::add_simulation(*repl, options, "Threads; without it all cores");
     groups::add_stop(*repl, options);
     groups::add_quiet(*repl, options);
 
-    for (CLI::App* sub : {run, sweep, check, compile, systems, new_script, format, repl}) {
+    for (CLI::App* sub : {run, sweep, check, compile, systems, new_script, format, mesh, repl}) {
         sub->set_help_flag("-h,--help", "This text")->group("More");
     }
 }
@@ -235,6 +239,7 @@ std::string missing_argument(const Options& options) {
         options.command == Command::compile || options.command == Command::format ||
         (options.command == Command::run && options.run.resume.empty());
     if (needs_script && options.scripts.empty()) return "a script is missing";
+    if (options.command == Command::mesh && options.models.empty()) return "a model is missing";
     if (options.command == Command::new_script && options.words.empty()) {
         return "the name of a system is missing ('cascade systems' lists them)";
     }
@@ -278,6 +283,7 @@ std::variant<Options, Leave> parse_options(const std::string& program,
     if (sub == parser.systems) options.command = Command::systems;
     if (sub == parser.new_script) options.command = Command::new_script;
     if (sub == parser.format) options.command = Command::format;
+    if (sub == parser.mesh) options.command = Command::mesh;
     if (sub == parser.repl) options.command = Command::repl;
     if (const std::string missing = missing_argument(options); !missing.empty()) {
         return parser.leave(program, fmt::format("{}: {}", parser.called(program), missing));

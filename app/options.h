@@ -3,6 +3,7 @@
 #pragma once
 
 #include "run/compile.h"
+#include "run/describe_model.h"
 #include "run/picture_request.h"
 #include "run/run.h"
 #include "run/script.h"
@@ -17,7 +18,7 @@
 
 namespace cascade {
 
-enum class Command { run, sweep, check, compile, systems, new_script, format, repl };
+enum class Command { run, sweep, check, compile, systems, new_script, format, mesh, repl };
 
 /// The options about pictures that were given. A picture that is run again brings options of its
 /// own, so what was not given must be told from what is the default.
@@ -48,6 +49,8 @@ struct Options {
     std::vector<std::string> words;    ///< What `systems` looks for; the system of `new`.
     std::filesystem::path new_script;  ///< `new -o`
     bool check_only = false;           ///< `fmt --check`
+    std::vector<std::string> models;   ///< Of `mesh`.
+    std::optional<CellRequest> cells;  ///< `mesh --cells`, with `mesh --seed`.
     CompileRequest compile;
     std::filesystem::path object;      ///< `compile -o`
     std::filesystem::path header;      ///< `compile --header`

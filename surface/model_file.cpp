@@ -22,6 +22,7 @@ std::string ending_of(const std::filesystem::path& path) {
 Result<PolygonSoup> read_bytes(std::string_view bytes, const std::string& ending,
                                const std::filesystem::path& folder) {
     if (ending == "ply") return read_ply(bytes);
+    if (ending == "off") return read_off(bytes);
     if (ending == "gltf" || ending == "glb") return read_gltf(bytes, folder);
     return read_by_openmesh(bytes, ending);
 }

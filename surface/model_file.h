@@ -21,7 +21,9 @@ Result<PolygonSoup> read_model(const std::filesystem::path& path);
 
 /// PLY, text or binary of either order, with polygons or triangle strips (surface/ply_file.cpp).
 Result<PolygonSoup> read_ply(std::string_view bytes);
-/// OBJ, OFF and STL by OpenMesh (surface/openmesh_file.cpp). `ending` is one of these in lower case.
+/// OFF of text, with colours (surface/off_file.cpp).
+Result<PolygonSoup> read_off(std::string_view bytes);
+/// OBJ and STL by OpenMesh (surface/openmesh_file.cpp). `ending` is one of these in lower case.
 Result<PolygonSoup> read_by_openmesh(std::string_view bytes, std::string_view ending);
 /// glTF as text or binary by tinygltf (surface/gltf_file.cpp); all meshes of the scene, placed by
 /// its nodes. `folder` is where buffers in files of their own lie.

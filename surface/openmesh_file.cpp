@@ -1,4 +1,4 @@
-// OBJ, OFF and STL files, read by OpenMesh. Only its readers are used, not its meshes: those
+// OBJ and STL files, read by OpenMesh. Only its readers are used, not its meshes: those
 // silently double points where faces do not fit together, while a reader hands over what it finds
 // to any importer.
 #include "surface/model_file.h"
@@ -6,7 +6,6 @@
 #include <OpenMesh/Core/IO/IOManager.hh>
 #include <OpenMesh/Core/IO/importer/BaseImporter.hh>
 #include <OpenMesh/Core/IO/reader/OBJReader.hh>
-#include <OpenMesh/Core/IO/reader/OFFReader.hh>
 #include <OpenMesh/Core/IO/reader/STLReader.hh>
 #include <fmt/format.h>
 
@@ -178,14 +177,11 @@ Result<PolygonSoup> read_by_openmesh(std::string_view bytes, std::string_view en
     if (ending == "obj") {
         std::istringstream text(without_materials(bytes));
         is_read = OBJReader().read(text, importer, options);
-    } else if (ending == "off") {
-        std::istringstream text{std::string(bytes)};
-        is_read = OFFReader().read(text, importer, options);
     } else {
         std::istringstream text{std::string(bytes)};
         is_read = STLReader().read(text, importer, options);
     }
-    const std::string format = ending == "obj" ? "OBJ" : ending == "off" ? "OFF" : "STL";
+    const std::string format = ending == "obj" ? "OBJ" : "STL";
     if (!is_read) return failure(fmt::format("this is no {} file that can be read", format));
     return std::move(importer).finished(format);
 }

@@ -136,10 +136,20 @@ TEST(ModelFile, AnObjFile) {
 }
 
 TEST(ModelFile, AnOffFileAndAnStlFile) {
-    const auto off = read_by_openmesh("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n", "off");
+    const auto off = read_off("COFF\n# a square\n4 2 0\n0 0 0 255 0 0\n1 0 0 0 0 0\n1 1 0 0 0 0\n\n"
+                              "0 1 0 0 51 0\n3 0 1 2\n3 0 2 3 1 0 0\n");
     ASSERT_TRUE(off) << fault_of(off);
     EXPECT_EQ(off->points.size(), 4u);
     EXPECT_THAT(off->polygon(1), ElementsAre(0, 2, 3));
+    ASSERT_EQ(off->attributes.size(), 3u);
+    EXPECT_THAT(off->attributes[1].values, ElementsAre(0, 0, 0, 0.2F));
+    EXPECT_TRUE(read_off("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2"));
+    EXPECT_EQ(fault_of(read_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n")),
+              "line 5 of the OFF file is not the place of a point");
+    EXPECT_EQ(fault_of(read_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n")),
+              "line 6 of the OFF file is not a face of these points");
+    EXPECT_THAT(fault_of(read_off("OFF\n4000000000 1 0\n0 0 0\n")), HasSubstr("too short for"));
+    EXPECT_EQ(fault_of(read_off("solid")), "this is no OFF file of text");
 
     const auto stl = read_by_openmesh("solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
                                       "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n",

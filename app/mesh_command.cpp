@@ -1,0 +1,34 @@
+// `cascade mesh`: what 3-D models are made of.
+#include "app/commands.h"
+#include "app/exit_status.h"
+#include "app/interrupt.h"
+#include "run/describe_model.h"
+
+#include <atomic>
+
+namespace cascade {
+
+int mesh_command(const Options& options, Console& console) {
+    if (options.cells && options.cells->count == 0) {
+        console.fail({"--seed means nothing without --cells", ""});
+        return exit_status::wrong_use;
+    }
+    std::atomic<bool> cancel = false;
+    const InterruptGuard interrupt(cancel);
+    Team team(hardware_threads());
+    int status = exit_status::success;
+    for (const std::string& model : options.models) {
+        const auto lines = describe_model(model, options.cells, team, cancel);
+        if (cancel) return exit_status::signal_base + interrupt.signal();
+        if (!lines) {
+            console.fail(lines.error());
+            status = exit_status::failed_run;
+            continue;
+        }
+        console.print(model + "\n");
+        for (const std::string& line : *lines) console.print("  " + line + "\n");
+    }
+    return status;
+}
+
+}  // namespace cascade

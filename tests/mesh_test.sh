@@ -1,0 +1,76 @@
+#!/bin/bash
+# `cascade mesh`: models of every kind and what is said of them.
+set -u
+about=mesh
+. "$SOURCE/tests/support/program_runs.bash"
+
+cat > cube.obj <<'END'
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+END
+run 0 mesh cube.obj
+says out "8 points, 12 triangles, 1 piece"
+says out "closed like a sphere, Euler characteristic 2"
+says out "size 1 × 1 × 1, area 6"
+[ "$(wc -l < out)" = 4 ] || fail "a cube has nothing else to say"
+
+# Cells: their areas are the cube's, and a seed is a seed.
+run 0 mesh cube.obj --cells 600
+says out "600 cells of mean area 0.01,"
+cp out first
+run 0 mesh cube.obj --cells 600 --seed 1
+cmp -s out first || fail "seed 1 is the default"
+run 0 mesh cube.obj --cells 600 --seed 2
+cmp -s out first && fail "another seed gives the same cells"
+run 64 mesh cube.obj --seed 2
+says err "--seed means nothing without --cells"
+
+# Several models; a broken one does not hide the others.
+head -n 12 cube.obj > open.obj
+printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n' > broken.obj
+run 3 mesh open.obj broken.obj cube.obj
+says out "1 boundary, Euler characteristic 1"
+says out "closed like a sphere"
+says err "'broken.obj': face 1 of the OBJ file names a point that is not there"
+
+: > empty.ply
+for name in empty.ply nothing.ply picture.png; do run 3 mesh $name; done
+run 3 mesh empty.ply
+says err "'empty.ply': this is no PLY file"
+run 3 mesh picture.png
+says err "is no model"
+run 64 mesh
+says err "a model is missing"
+
+# Whatever the files hold, there is an answer.
+for seed in 1 2 3; do
+    for model in cube.obj open.obj; do
+        for ending in obj off stl ply gltf glb; do
+            python3 - "$model" "mangled.$ending" "$seed" <<'END'
+import random, sys
+data = bytearray(open(sys.argv[1], "rb").read())
+chance = random.Random(sys.argv[2] + sys.argv[3])
+for _ in range(chance.randint(1, 12)):
+    at = chance.randrange(len(data))
+    data[at:at + chance.randint(0, 3)] = bytes(chance.choice(b"0123456789 -/\nvfe.") for _ in range(chance.randint(0, 3)))
+open(sys.argv[2], "wb").write(data)
+END
+            timeout 20 "$CASCADE" mesh "mangled.$ending" > out 2> err
+            got=$?
+            [ $got = 0 ] || [ $got = 3 ] || fail "a mangled $ending file gave $got"
+        done
+    done
+done
+exit 0
