@@ -113,7 +113,7 @@ TEST(Agreement, HoweverOperandsComeToNeighbours) {
         const auto compile = [&](const CellKernel& kernel) {
             return *backend->compile(kernel, grid.stencil());
         };
-        const BindingContext context{{&simulation->state(0), 1}, no_files, 3, grid, 0, {},
+        const BindingContext context{{&simulation->state(0), 1}, no_files, 3, grid, Precision::single, 0, {},
                                      simulation->mask()};
         std::vector<std::vector<Field>> found;
         std::size_t passes = 0;

@@ -51,10 +51,10 @@ TEST(Resample, SlopesAreKeptInside) {
     for (const auto& [width, height, depth] : sizes) {
         const Grid fine = grid_of(width, height, depth, Boundary::no_flux);
         const Grid half = coarser(fine, 2);
-        Field coarse = restricted(slope_on<float>(fine), fine, half);
-        const Field expected_coarse = slope_on<float>(half);
-        const Field again = refined(coarse, half, fine, half.boundary);
-        const Field expected = slope_on<float>(fine);
+        Plane<float> coarse = restricted(slope_on<float>(fine), fine, half);
+        const Plane<float> expected_coarse = slope_on<float>(half);
+        const Plane<float> again = refined(coarse, half, fine, half.boundary);
+        const Plane<float> expected = slope_on<float>(fine);
         const auto inside = [](std::int64_t cell, std::int64_t cells) {
             return cells == 1 || (cell > 0 && cell + 1 < cells);
         };
@@ -74,9 +74,9 @@ TEST(Resample, SlopesAreKeptInside) {
 TEST(Resample, PeriodicSidesAreNeighboursAndMeansAreKept) {
     const Grid fine = grid_of(8, 2, 1, Boundary::periodic);
     const Grid half = coarser(grid_of(8, 2, 1, Boundary::periodic), 2);
-    Field coarse{PlaneLayout(half)};
+    Plane<float> coarse{PlaneLayout(half)};
     for (std::int64_t i = 0; i < 4; ++i) coarse.at(i, 0) = static_cast<float>(i * i);
-    const Field found = refined(coarse, half, fine, half.boundary);
+    const Plane<float> found = refined(coarse, half, fine, half.boundary);
     EXPECT_FLOAT_EQ(found.at(0, 0), 9.0f / 4);              // 0 and, beyond the side, 9.
     EXPECT_FLOAT_EQ(found.at(7, 1), 9 - 9.0f / 4);
     double sum = 0;
@@ -87,12 +87,12 @@ TEST(Resample, PeriodicSidesAreNeighboursAndMeansAreKept) {
 TEST(Resample, ValuesHeldAtASideAreSeen) {
     const Grid fine = grid_of(8, 1, 1, Boundary::no_flux);
     const Grid half = coarser(fine, 2);
-    Field coarse{PlaneLayout(half)};
+    Plane<float> coarse{PlaneLayout(half)};
     for (std::int64_t i = 0; i < 4; ++i) coarse.at(i, 0) = static_cast<float>(2 * i + 1);
     SideRules sides(half.boundary);
     sides.at[0] = {SideKind::fixed, 0, nullptr};
     sides.at[1] = {SideKind::fixed, 8, nullptr};
-    const Field found = refined(coarse, half, fine, sides);
+    const Plane<float> found = refined(coarse, half, fine, sides);
     for (std::int64_t i = 0; i < 8; ++i) EXPECT_FLOAT_EQ(found.at(i, 0), static_cast<float>(i) + 0.5f);
 }
 

@@ -91,7 +91,7 @@ TEST_F(RunTest, ValuesOfTheDomainThatAreNotFiniteAreRefused) {
 
 #if CASCADE_HAS_JIT
 TEST_F(RunTest, AMaskIsNotCompiledToAnObjectFile) {
-    const Script script = load(disc);
+    Script script = load(disc);
     const auto compiled = compile_step(script, {});
     ASSERT_FALSE(compiled);
     EXPECT_THAT(compiled.error().message, ::testing::HasSubstr("a domain with a mask"));

@@ -30,7 +30,7 @@ struct Ran {
         ADD_FAILURE() << name;
         return simulation->state(stage).field(0);
     }
-    float number(const std::string& name, std::uint32_t stage = 0) const {
+    double number(const std::string& name, std::uint32_t stage = 0) const {
         const System& system = simulation->program().system_of(stage);
         for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
             if (system.quantities[item].name == name) return simulation->state(stage).numbers[item];
