@@ -255,17 +255,20 @@ bool rates_go_on(const StepPlan& plan) {
 namespace {
 
 /// When rates read what a sweep writes at neighbours: at the moment of the next sweep of which it
-/// is the input. The new step is read when the next step begins.
+/// is the input. What stays in the new step is read when the next step begins.
 std::vector<double> moments_of_outputs(const Scheme& scheme, std::size_t number) {
+    const std::span<const Sweep> later(scheme.sweeps.begin() + number + 1, scheme.sweeps.end());
     std::vector<double> moments;
     for (const std::uint32_t output : scheme.sweeps[number].outputs) {
-        double moment = StepProblem::Result::next_step;
-        for (std::size_t later = number + 1; later < scheme.sweeps.size(); ++later) {
-            if (output == new_register || scheme.sweeps[later].inputs[0] != output) continue;
-            moment = scheme.sweeps[later].time;
-            break;
-        }
-        moments.push_back(moment);
+        const auto reads = [&](const Sweep& sweep) { return sweep.inputs[0] == output; };
+        const auto writes = [&](const Sweep& sweep) {
+            return std::find(sweep.outputs.begin(), sweep.outputs.end(), output) !=
+                   sweep.outputs.end();
+        };
+        const bool stays = output == new_register && std::none_of(later.begin(), later.end(), writes);
+        const auto reader = std::find_if(later.begin(), later.end(), reads);
+        moments.push_back(stays || reader == later.end() ? StepProblem::Result::next_step
+                                                         : reader->time);
     }
     return moments;
 }

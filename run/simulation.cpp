@@ -371,6 +371,7 @@ std::unique_ptr<Simulation> Simulation::Implementation::on_coarser_grid(
     coarse.script = script;
     coarse.own_program = cascade::on_coarser_grid(*program, k, times);
     coarse.program = &*coarse.own_program;
+    coarse.plans = std::make_unique<StagePlans>(*coarse.program, plans->options());
     coarse.grid = coarse.program->domain.grid;
     coarse.threads = threads;
     coarse.interpreter = make_interpreter();

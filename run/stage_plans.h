@@ -21,6 +21,7 @@ public:
           lasting_(program.stages.size()),
           sweeps_(program.stages.size()) {}
 
+    const PlanOptions& options() const { return options_; }
     /// Of the starting values.
     const StepPlan& start(std::uint32_t stage);
     /// Of what no step changes.

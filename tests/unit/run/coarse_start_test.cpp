@@ -34,7 +34,7 @@ Ran run_text(const std::string& text, SimulationOptions options = {BackendKind::
     RunControl control;
     control.report = [&](const Progress& progress) {
         if (progress.stage_done) {
-            ran.reported.push_back(fmt::format("{}: {}", progress.stage, progress.step));
+            ran.reported.push_back(fmt::format("{}: {}", progress.stage + progress.note, progress.step));
         }
     };
     for (std::uint32_t k = 0; k < ran.script.stage_count() && ran.failure.empty(); ++k) {
