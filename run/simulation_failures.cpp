@@ -1,0 +1,61 @@
+// Why a run failed, and what looks as if it will.
+#include "run/not_finite.h"
+#include "run/simulation_implementation.h"
+
+namespace cascade {
+
+Failure Simulation::Implementation::explain(const StepTooShort& place, std::uint32_t k) const {
+    Failure failure;
+    failure.message = fmt::format(
+        "stage '{}' ({}): steps shrink to nothing: at t = {:.6g} one of {:.2g} is too long still, for "
+        "{} at column {}, row {}",
+        stage(k).name, program->system_of(k).name, place.t, place.step,
+        species_name(program->system_of(k), place.species), place.column, place.row);
+    failure.hint = "something jumps or grows without bound there; a larger tolerance or euler may pass it";
+    return failure;
+}
+
+Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::uint32_t k) {
+    NotFiniteReport report;
+    report.stage = stage(k).name;
+    const System& system = program->system_of(k);
+    report.system = system.name;
+    report.species = species_name(system, outcome.not_finite->species);
+    report.found = *outcome.not_finite;
+    report.speed = speed_number(k);
+    report.starting = outcome.last_checked.empty();
+    if (const Solver solver = stage(k).time.solver; is_semi_implicit(solver)) {
+        report.semi_implicit = name_of(solver);
+    }
+    if (report.starting || !report.semi_implicit.empty()) return describe(report);
+    report.estimate_before = stability(k, outcome.last_checked);
+    report.largest_before = largest_magnitude(states[k].species);
+    // A state on its way to infinity says little about the speed that would have been right: the
+    // start of the stage is asked as well.
+    std::vector<Field> last_finite = std::move(states[k].species);
+    states[k].species.clear();
+    states[k].species.resize(last_finite.size());
+    start_varying_items(k);
+    report.estimate_at_start = stability(k, states[k].species);
+    states[k].species = std::move(last_finite);
+    return describe(report);
+}
+
+void Simulation::Implementation::warn_of_chequerboard(std::uint32_t k,
+                                                      RunControl& control) const {
+    if (!control.warn || states[k].steps == 0) return;
+    const System& system = program->system_of(k);
+    for (std::size_t s = 0; s < states[k].species.size(); ++s) {
+        const Mask* counted = mask ? &mask->inside : nullptr;
+        if (chequerboard(states[k].species[s], counted) < chequerboard_threshold) continue;
+        // The limit of explicit steps is none of a solver that takes diffusion implicitly.
+        const StabilityEstimate limit = is_semi_implicit(stage(k).time.solver)
+                                            ? StabilityEstimate{}
+                                            : stability(k, states[k].species);
+        control.warn(describe_chequerboard(stage(k).name, species_name(system, s), limit,
+                                           speed_number(k)));
+        return;
+    }
+}
+
+}  // namespace cascade

@@ -1,0 +1,158 @@
+// What a simulation consists of (internal to run/simulation*.cpp).
+#pragma once
+
+#include "core/check.h"
+#include "core/floating_point.h"
+#include "core/parallel.h"
+#include "run/bound_kernel.h"
+#include "run/domain_mask.h"
+#include "run/input_files.h"
+#include "run/metric_planes.h"
+#include "run/simulation.h"
+#include "run/stage_plans.h"
+#include "run/stage_time.h"
+#include "solvers/stability.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace cascade {
+
+struct Simulation::Implementation {
+    Script* script = nullptr;
+    const Program* program = nullptr;
+    std::unique_ptr<StagePlans> plans;
+    double memory = 0;  ///< Bytes of all planes.
+    Grid grid;
+    int threads = 1;
+    std::unique_ptr<Backend> interpreter;
+    std::shared_ptr<Backend> stepper;
+    std::unique_ptr<Team> team;
+    InputFiles files;
+    std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
+    std::optional<DomainMask> mask;
+    /// Values of sides follow the time of their stage whenever they are looked at.
+    mutable std::vector<StageState> states;
+    std::optional<Program> own_program;  ///< Of a coarser grid.
+    std::string progress_note;           ///< Behind the stage's name in reports of progress.
+
+    const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
+    const DomainMask* inside() const { return mask ? &*mask : nullptr; }
+    Precision precision() const { return program->domain.precision; }
+
+    BindingContext context(std::uint32_t stage) const {
+        for (StageState& state : states) set_sides_of_now(state);
+        return {states, files, states[stage].steps, grid, precision(), states[stage].t, metric,
+                inside()};
+    }
+
+    void set_sides_of_now(StageState& state) const {
+        if (state.changing_sides.empty()) return;
+        const FlushDenormals environment;
+        const PlaneLayout layout(grid);
+        for (std::size_t species = 0; species < state.sides.size(); ++species) {
+            set_side_values(state.changing_sides, species, {state.steps, state.t}, layout,
+                            {0, layout.row_count()}, state.sides[species]);
+        }
+    }
+
+    /// Starting values need no compiling and pictures neither: both are interpreted.
+    std::vector<Field> evaluate(const StepPlan& plan, std::uint32_t stage) const {
+        return run_plan(plan, interpreted(grid), context(stage), grid, *team);
+    }
+
+    Compile interpreted(const Grid& on) const {
+        return [this, stencil = on.stencil()](const CellKernel& kernel) {
+            auto compiled = interpreter->compile(kernel, stencil);
+            CHECK(compiled, "the interpreter compiles every kernel");
+            return *compiled;
+        };
+    }
+
+    // What a run and its stages start with (simulation_start.cpp).
+
+    /// Which cells belong to the domain: evaluated once, before any stage.
+    Result<void> find_mask();
+    /// Items that are the same in all cells, on a grid of one cell.
+    void start_uniform_items(std::uint32_t k);
+    void start_varying_items(std::uint32_t k);
+    /// Values of sides are found by formulas that may read whatever the stage starts with. One that
+    /// is the same everywhere is kept as a number. As long as they are looked for, the boundary of
+    /// the domain holds.
+    Result<void> find_sides(std::uint32_t k);
+    /// Do rows and columns meet at other angles than right ones beside a side with a flux?
+    bool is_sheared_at(Side side, SideKind kind) const;
+    Result<void> check_speed(std::uint32_t k) const;
+    /// What no step changes is computed before the first that is taken, and given back behind the
+    /// last.
+    void find_lasting_parts(std::uint32_t k);
+
+    // Coarser grids (simulation_coarse.cpp).
+
+    /// The simulation of stage `k` on a grid whose cells are `times` as wide, ready to be started.
+    std::unique_ptr<Simulation> on_coarser_grid(std::uint32_t k, std::int64_t times) const;
+    /// Runs stage `k` on its coarser grids, each from what the one before it left, and takes the
+    /// species from the last.
+    Result<StageEnd> run_on_coarser_grids(std::uint32_t k, RunControl& control);
+
+    StepProblem problem(const StepPlan& plan, const Compile& compile, std::uint32_t k) const {
+        return bind_plan(plan, compile, context(k), program->system_of(k), k);
+    }
+
+    bool frozen_everywhere(std::uint32_t k) const {
+        const std::uint32_t item = program->system_of(k).frozen_item();
+        return stage(k).uniform[item] && states[k].numbers[item] != 0;
+    }
+
+    /// Steps are compiled.
+    Compile compiled(RunControl& control, const std::string& name) const {
+        return [this, &control, &name](const CellKernel& kernel) {
+            auto made = stepper->compile(kernel, grid.stencil());
+            if (made) return *made;
+            if (control.warn) {
+                control.warn(fmt::format("stage '{}' is interpreted, which is slow: {}", name,
+                                         made.error().message));
+            }
+            return *interpreter->compile(kernel, grid.stencil());
+        };
+    }
+
+    /// What is computed every few steps is compiled where there are many cells.
+    Compile often() const {
+        if (is_small()) return interpreted(grid);
+        return [this, interpret = interpreted(grid)](const CellKernel& kernel) {
+            auto made = stepper->compile(kernel, grid.stencil());
+            return made ? *made : interpret(kernel);
+        };
+    }
+    /// Evaluating a small grid is over before code is made for it or a second thread has woken up.
+    bool is_small() const { return grid.cell_count() < 65536; }
+
+    /// What the time of a stage needs to know of it.
+    StageTools tools(std::uint32_t k, RunControl& control) const;
+
+    // Why a run failed (simulation_failures.cpp).
+
+    Failure explain(const StageOutcome& outcome, std::uint32_t k);
+    Failure explain(const StepTooShort& place, std::uint32_t k) const;
+    void warn_of_chequerboard(std::uint32_t k, RunControl& control) const;
+    StabilityEstimate stability(std::uint32_t k, std::span<const Field> species) const {
+        return stability(k, species, interpreted(grid));
+    }
+    StabilityEstimate stability(std::uint32_t k, std::span<const Field> species,
+                                const Compile& compile) const {
+        // Rates know nothing of frozen cells, but those cannot blow up.
+        const Mask* frozen = states[k].frozen.empty() ? nullptr : &states[k].frozen;
+        const Mask still = mask ? still_cells(*mask, frozen) : Mask();
+        if (mask) frozen = &still;
+        return estimate_stability(problem(plan_rates(*program, k), compile, k), species, frozen);
+    }
+    double speed_number(std::uint32_t k) const {
+        const std::uint32_t item = program->system_of(k).speed_item();
+        if (states[k].time.clock.step > 0) return states[k].time.clock.step;
+        return stage(k).uniform[item] ? states[k].numbers[item] : NAN;
+    }
+};
+
+}  // namespace cascade
