@@ -46,6 +46,11 @@ Field as_shown(const Field& field, const DomainMask* mask, const PictureRequest&
 
 }  // namespace
 
+bool PictureRequest::is_turned() const {
+    const View usual;
+    return view.azimuth != usual.azimuth || view.elevation != usual.elevation;
+}
+
 std::string to_json(const PictureRequest& request) {
     nlohmann::json json = {{"palette", request.palette},
                            {"scale", request.scale},
@@ -53,11 +58,8 @@ std::string to_json(const PictureRequest& request) {
                            {"space_time", request.space_time}};
     // What only surfaces have is left out where it is not asked for: pictures of planes stay the
     // same bytes.
-    const View usual;
-    const bool is_turned = request.view.azimuth != usual.azimuth ||
-                           request.view.elevation != usual.elevation;
     if (request.flat) json["flat"] = true;
-    if (is_turned) json["view"] = {request.view.azimuth, request.view.elevation};
+    if (request.is_turned()) json["view"] = {request.view.azimuth, request.view.elevation};
     if (!request.show.empty()) json["show"] = request.show;
     if (request.slice != Slice{}) {
         json["slice"] = {std::string(1, axis_letters[static_cast<std::size_t>(request.slice.axis)]),

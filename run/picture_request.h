@@ -24,6 +24,9 @@ struct PictureRequest {
     Slice slice;                       ///< 3-D grids: what a picture shows of them.
     bool flat = false;                 ///< Of a surface: the texture alone.
     View view;                         ///< Of a surface: from where it is seen.
+
+    /// Is the surface seen from another place than usual?
+    bool is_turned() const;
 };
 
 std::string to_json(const PictureRequest& request);

@@ -100,6 +100,22 @@ void check_stop_at(Script& script, const StopAt& stop_at) {
     script.diagnostics.error(span, fmt::format("stage '{}' has {} steps", stop_at.stage, iterations));
 }
 
+/// Options of pictures that mean nothing for the domain.
+void check_picture(Script& script, const PictureRequest& picture) {
+    const DomainSettings& domain = script.program->domain;
+    const auto refuse = [&](std::string_view option, std::string_view message, std::string_view hint) {
+        script.diagnostics.error(option_span(script.sources, std::string(option), std::string(option)),
+                                 std::string(message), std::string(hint));
+    };
+    if (picture.slice != Slice{} && domain.grid.depth == 1) {
+        refuse("--slice", "a plane has no slices", "grid: W, H, D makes a volume");
+    }
+    if (domain.surface) return;
+    constexpr std::string_view hint = "surface: x, y, z in the domain makes one";
+    if (picture.flat) refuse("--flat", "the domain is no surface", hint);
+    if (picture.is_turned()) refuse("--view", "the domain is no surface", hint);
+}
+
 /// What is asked for must fit the script; where it does not, the script's diagnostics say so.
 Result<void> check_request(Script& script, const RunRequest& request) {
     const std::int64_t rows = script.program->domain.grid.height * script.program->domain.grid.depth;
@@ -109,6 +125,7 @@ Result<void> check_request(Script& script, const RunRequest& request) {
             fmt::format("a space-time picture is drawn of a grid of one row, not of {}", rows),
             "for a plane, --frames writes a picture each interval");
     }
+    check_picture(script, request.picture);
     if (request.stop_at) check_stop_at(script, *request.stop_at);
     if (script.diagnostics.has_errors()) return failure("the request does not fit the script");
     return {};

@@ -53,4 +53,13 @@ start = sum(1 for k in range(8) for j in range(10) for i in range(12)
             if (i + 0.5 - 6) ** 2 + (j + 0.5 - 6) ** 2 < 3.6 ** 2 and k + 0.5 < 6)
 assert abs(total - start) < 1e-3 * start, (total, start)
 END
+
+# Options that mean nothing for a plane.
+echo 'system_name: turing_spots' > plane.cascade
+for option in '--slice z=0.2' --flat '--view 10,20'; do
+    # shellcheck disable=SC2086
+    "$CASCADE" run -q plane.cascade $option 2>err && fail "$option is taken for a plane"
+    grep -qE "a plane has no slices|the domain is no surface" err || fail "$option: $(cat err)"
+    [ ! -e plane.png ] || fail "$option left a picture"
+done
 exit 0
