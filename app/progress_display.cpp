@@ -59,16 +59,6 @@ std::string stage_text(const Progress& progress) {
 
 }  // namespace
 
-std::string with_commas(std::int64_t number) {
-    std::string digits = fmt::format("{}", number);
-    const std::size_t first = digits[0] == '-' ? 1 : 0;
-    for (std::size_t k = digits.size(); k > first + 3;) {
-        k -= 3;
-        digits.insert(k, 1, ',');
-    }
-    return digits;
-}
-
 std::string clock_time(double seconds) {
     // More than a thousand hours are no longer counted down.
     const auto whole = static_cast<std::int64_t>(std::ceil(std::clamp(seconds, 0.0, 3.6e6)));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/run_control.h"
+#include "core/with_commas.h"
 #include "run/sweep.h"
 
 #include <chrono>
@@ -11,9 +12,6 @@
 #include <string_view>
 
 namespace cascade {
-
-/// "1,234,567".
-std::string with_commas(std::int64_t number);
 
 /// "0:07", "12:34", "3:02:01".
 std::string clock_time(double seconds);

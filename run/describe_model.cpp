@@ -1,5 +1,6 @@
 #include "run/describe_model.h"
 
+#include "core/with_commas.h"
 #include "surface/make_mesh.h"
 #include "surface/model_file.h"
 #include "surface/scatter.h"
@@ -16,17 +17,8 @@ namespace {
 
 constexpr int rounds = 40;
 
-/// 96966 as 96,966.
-std::string grouped(std::int64_t number) {
-    std::string digits = std::to_string(number);
-    for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > (number < 0); at -= 3) {
-        digits.insert(static_cast<std::size_t>(at), ",");
-    }
-    return digits;
-}
-
 std::string counted(std::size_t count, std::string_view noun) {
-    return fmt::format("{} {}{}", grouped(static_cast<std::int64_t>(count)), noun,
+    return fmt::format("{} {}{}", with_commas(static_cast<std::int64_t>(count)), noun,
                        count == 1 ? "" : "s");
 }
 

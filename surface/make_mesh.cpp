@@ -35,7 +35,7 @@ public:
         pair_and_orient();
         split_fans();
         exchange_long_edges();
-        if (total_area() <= 0) return failure("the model's faces have no area");
+        if (mesh().total_area() <= 0) return failure("the model's faces have no area");
         return std::move(made_);
     }
 
@@ -261,12 +261,6 @@ private:
         if (done.remaining > 0) {
             say(counted(done.remaining, "triangle", "triangles") + " without area stayed");
         }
-    }
-
-    double total_area() {
-        double area = 0;
-        for (std::size_t t = 0; t < mesh().triangles.size(); ++t) area += mesh().area(t);
-        return area;
     }
 
     PolygonSoup soup_;

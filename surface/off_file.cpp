@@ -1,6 +1,7 @@
 // OFF files of text. A reader of our own: OpenMesh's believes whatever counts a file begins with,
 // and does not come back from false ones.
 #include "surface/model_file.h"
+#include "surface/text_words.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +29,7 @@ public:
             line = line.substr(0, line.find('#'));
             at_ = std::min(end + 1, text_.size());
             ++number_;
-            split(line);
+            words_ = words_of(line);
         }
         return words_;
     }
@@ -37,16 +38,6 @@ public:
     std::size_t number() const { return number_; }
 
 private:
-    void split(std::string_view line) {
-        constexpr std::string_view blank = " \t\r\v\f";
-        for (std::size_t at = line.find_first_not_of(blank); at != std::string_view::npos;
-             at = line.find_first_not_of(blank, at)) {
-            const std::size_t end = std::min(line.find_first_of(blank, at), line.size());
-            words_.push_back(line.substr(at, end - at));
-            at = end;
-        }
-    }
-
     std::string_view text_;
     std::size_t at_ = 0, number_ = 0;
     std::vector<std::string_view> words_;

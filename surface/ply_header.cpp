@@ -1,5 +1,7 @@
 #include "surface/ply_header.h"
 
+#include "surface/text_words.h"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -31,18 +33,6 @@ std::optional<PlyNumber> type_called(std::string_view name) {
         if (row.name == name) return row.type;
     }
     return std::nullopt;
-}
-
-std::vector<std::string_view> words_of(std::string_view line) {
-    constexpr std::string_view blank = " \t\r";
-    std::vector<std::string_view> words;
-    for (std::size_t at = line.find_first_not_of(blank); at != std::string_view::npos;
-         at = line.find_first_not_of(blank, at)) {
-        const std::size_t end = std::min(line.find_first_of(blank, at), line.size());
-        words.push_back(line.substr(at, end - at));
-        at = end;
-    }
-    return words;
 }
 
 using Words = std::vector<std::string_view>;

@@ -95,7 +95,7 @@ std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, st
 void relax(const SurfaceMesh& mesh, std::vector<SurfacePlace>& places, int rounds, Team& team,
            const std::atomic<bool>& cancel) {
     if (places.empty()) return;
-    const double radius = repulsion_radius(areas_up_to(mesh).back(), places.size());
+    const double radius = repulsion_radius(mesh.total_area(), places.size());
     std::vector<Vector3d> positions(places.size());
     std::vector<SurfacePlace> moved(places.size());
     for (int round = 0; round < rounds && !cancel; ++round) {

@@ -4,6 +4,12 @@
 
 namespace cascade {
 
+double SurfaceMesh::total_area() const {
+    double sum = 0;
+    for (std::size_t t = 0; t < triangles.size(); ++t) sum += area(t);
+    return sum;
+}
+
 std::vector<std::uint32_t> pieces_of(const SurfaceMesh& mesh) {
     std::vector<std::uint32_t> pieces(mesh.triangles.size(), TriangleEdge::none);
     std::vector<std::uint32_t> waiting;
@@ -60,8 +66,8 @@ MeshFacts facts_of(const SurfaceMesh& mesh) {
     MeshFacts facts;
     facts.points = mesh.points.size();
     facts.triangles = mesh.triangles.size();
+    facts.area = mesh.total_area();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        facts.area += mesh.area(t);
         for (const TriangleEdge& other : mesh.across[t]) facts.boundary_edges += !other.exists();
     }
     facts.edges = (3 * facts.triangles + facts.boundary_edges) / 2;

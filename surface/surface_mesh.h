@@ -40,6 +40,8 @@ struct SurfaceMesh {
         return cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
     }
     double area(std::size_t triangle) const { return length(double_area_normal(triangle)) / 2; }
+    /// Of all triangles, added in their order.
+    double total_area() const;
 };
 
 /// What a mesh is, in numbers.

@@ -170,9 +170,7 @@ SurfaceCells voronoi_cells(const SurfaceMesh& mesh, std::vector<SurfacePlace> pl
     if (cells.places.empty()) return cells;
     std::vector<Vector3d> positions;
     for (const SurfacePlace& place : cells.places) positions.push_back(position_of(mesh, place));
-    double area = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area += mesh.area(t);
-    const double reach = 2 * repulsion_radius(area, cells.places.size());
+    const double reach = 2 * repulsion_radius(mesh.total_area(), cells.places.size());
     const PointIndex index(positions, reach);
     std::vector<Found> found(static_cast<std::size_t>(team.size()));
     team.run([&](int thread) {
