@@ -114,23 +114,19 @@ Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
                        takes_speed_by_cell(stage.time.solver), stages.value_or(3));
 }
 
-}  // namespace
-
-Result<CompiledStep> compile_step(Script& script, const CompileRequest& request) {
-    Program program = *script.program;
-    const auto stage = find_stage(program, request.stage);
-    if (!stage) return tl::unexpected(stage.error());
+/// What the header cannot describe is refused.
+Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
     if (program.domain.precision != Precision::single) {
         return failure("a stage in double precision is not compiled to an object file",
                        "'cascade run' compiles it in memory; --precision single is compiled");
     }
-    for (const auto& sides : program.stages[*stage].sides) {
+    for (const auto& sides : program.stages[stage].sides) {
         for (std::size_t side = 0; side < side_count; ++side) {
             if (!takes_value(sides[side].kind)) continue;
-            if (!plan_side(program, sides[side], static_cast<Side>(side), *stage).changes) continue;
+            if (!plan_side(program, sides[side], static_cast<Side>(side), stage).changes) continue;
             return failure(fmt::format("stage '{}' has a side whose value changes with time, which is "
                                        "not compiled to an object file",
-                                       program.stages[*stage].name),
+                                       program.stages[stage].name),
                            "'cascade run' compiles it in memory");
         }
     }
@@ -138,6 +134,16 @@ Result<CompiledStep> compile_step(Script& script, const CompileRequest& request)
         return failure("a domain with a mask is not compiled to an object file",
                        "'cascade run' compiles it in memory");
     }
+    return {};
+}
+
+}  // namespace
+
+Result<CompiledStep> compile_step(Script& script, const CompileRequest& request) {
+    Program program = *script.program;
+    const auto stage = find_stage(program, request.stage);
+    if (!stage) return tl::unexpected(stage.error());
+    if (auto fits = check_header_knows(program, *stage); !fits) return tl::unexpected(fits.error());
     const auto numbers = known_numbers(program, *stage);
     if (auto good = make_per_cell(program, *stage, request.per_cell); !good) {
         return tl::unexpected(good.error());

@@ -62,15 +62,6 @@ FieldMoments moments_of(const PlaneLayout& layout, const Mask* inside, ValueOfRo
     return result;
 }
 
-/// Calls `look` with the planes of two fields of one precision.
-template <typename Look>
-auto with_planes(const Field& a, const Field& b, const Look& look) {
-    return with_number(a.precision(), [&](auto zero) {
-        using Number = decltype(zero);
-        return look(a.plane<Number>(), b.plane<Number>());
-    });
-}
-
 }  // namespace
 
 FieldMoments moments(const Field& field, const Mask* inside) {
@@ -82,7 +73,9 @@ FieldMoments moments(const Field& field, const Mask* inside) {
 }
 
 FieldMoments moments_of_difference(const Field& a, const Field& b, const Mask* inside) {
-    return with_planes(a, b, [&](const auto& first, const auto& second) {
+    return with_number(a.precision(), [&](auto zero) {
+        using Number = decltype(zero);
+        const Plane<Number>&first = a.plane<Number>(), &second = b.plane<Number>();
         return moments_of(first.layout(), inside, [&](std::int64_t row) {
             return [p = first.row(row), q = second.row(row)](std::int64_t i) {
                 return double{p[i]} - q[i];
@@ -111,17 +104,6 @@ double root_mean_square(std::span<const double> sums_of_squares, std::int64_t ce
     double total = 0;
     for (const double each : sums_of_squares) total += each;
     return std::sqrt(total / static_cast<double>(cells));
-}
-
-double root_mean_square_of_difference(const Field& a, const Field& b, const Mask* inside) {
-    return with_planes(a, b, [&](const auto& first, const auto& second) {
-        return std::sqrt(mean_over_cells(first.layout(), inside, [&](std::int64_t row) {
-            return [p = first.row(row), q = second.row(row)](std::int64_t i) {
-                const double difference = double{p[i]} - q[i];
-                return difference * difference;
-            };
-        }));
-    });
 }
 
 }  // namespace cascade

@@ -31,8 +31,4 @@ double sum_of_squares(const Field& field, std::int64_t row);
 /// summed whole.
 double root_mean_square(std::span<const double> sums_of_squares, std::int64_t cells);
 
-/// The root mean square of a − b.
-double root_mean_square_of_difference(const Field& a, const Field& b,
-                                      const Mask* inside = nullptr);
-
 }  // namespace cascade

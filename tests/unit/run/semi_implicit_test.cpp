@@ -1,6 +1,6 @@
 // Solvers that take diffusion wave by wave, through the language: what each wave becomes in a step,
 // what is conserved, steps far beyond the explicit limit, and the same bits wherever it runs.
-#include "run_fixture.h"
+#include "resumed_run.h"
 
 #include "measure/spectrum.h"
 #include "run/simulation.h"
@@ -184,7 +184,7 @@ TEST(SemiImplicit, GrowsTheSameSpotsAsEuler) {
         EXPECT_LT(found.state().steps, 2500) << solver;
         const Field& a = euler.species(1);
         const Field& b = found.species(1);
-        const double difference = root_mean_square_of_difference(a, b) / moments(a).deviation;
+        const double difference = moments_of_difference(a, b).root_mean_square / moments(a).deviation;
         // The correlation of two fields of one mean and deviation is 1 − difference² / 2.
         const double correlation = std::string_view(solver) == "imex" ? 0.95 : 0.98;
         EXPECT_LT(difference, std::sqrt(2 * (1 - correlation))) << solver;
@@ -238,7 +238,7 @@ TEST(SemiImplicit, SameBitsOnEveryBackendAndThread) {
         for (const int lanes : {4, 16}) {
             const Ran found = run_text(everything(solver), {BackendKind::jit, lanes, 3});
             for (std::size_t k = 0; k < 3; ++k) {
-                EXPECT_EQ(root_mean_square_of_difference(found.species(k), expected.species(k)), 0)
+                EXPECT_EQ(moments_of_difference(found.species(k), expected.species(k)).root_mean_square, 0)
                     << solver;
             }
         }
@@ -246,27 +246,14 @@ TEST(SemiImplicit, SameBitsOnEveryBackendAndThread) {
     }
 }
 
-class SemiImplicitRun : public RunTest {};
+class SemiImplicitRun : public ResumedRunTest {};
 
 TEST_F(SemiImplicitRun, ResumesWithTheSameBits) {
     for (const char* settings : {"solver: imex; speed: 3; iterations: 30", "solver: imex2; speed: 2; iterations: 30",
                                  "solver: gauss; speed: auto; duration: 300"}) {
         const std::string text = fmt::format("stage one: turing_spots {{ {} }}\ndomain {{ grid: 30, 20 }}", settings);
-        Script whole = load(text);
-        RunRequest wanted = request();
-        wanted.save = path("whole");
-        run_well(whole, wanted);
-        Script part = load(text);
-        RunRequest first = request();
-        first.save = path("part");
-        first.stop_at = StopAt{"one", 7};
-        run_well(part, first);
-        auto rest = load_saved_script(path("part"), {});
-        ASSERT_TRUE(rest) << settings;
-        RunRequest second = request();
-        second.resume = path("part");
-        second.save = path("rest");
-        EXPECT_EQ(run_well(*rest, second).status, RunStatus::finished);
+        run_whole(text);
+        run_in_two_parts(text, "one", 7);
         for (const char* name : {"one.a.npy", "one.b.npy"}) {
             EXPECT_EQ(bytes(std::string("whole/") + name), bytes(std::string("rest/") + name)) << settings;
         }

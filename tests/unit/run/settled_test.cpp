@@ -1,5 +1,5 @@
 // `until: steady(e)` on real systems: the table of spec/time.md, on the planes that are quick.
-#include "run_fixture.h"
+#include "resumed_run.h"
 
 #include "run/simulation.h"
 #include "solvers/field_norms.h"
@@ -123,27 +123,14 @@ TEST(Settled, ASteadyStartIsRecognisedAtOnce) {
     EXPECT_EQ(rests_of(flat, 32)[0].steps, 100);
 }
 
-class SettledRun : public RunTest {};
+class SettledRun : public ResumedRunTest {};
 
 TEST_F(SettledRun, ResumesBetweenTwoLooksWithTheSameEnd) {
     const std::string text =
         "domain { grid: 32, 32 }\nstage s: turing_spots { until: steady(0.2); ka: 0.2/16 }\n";
-    Script whole = load(text);
-    RunRequest wanted = request();
-    wanted.save = path("whole");
-    run_well(whole, wanted);
+    run_whole(text);
     for (const std::int64_t stop : {50, 1250}) {
-        Script part = load(text);
-        RunRequest first = request();
-        first.save = path("part");
-        first.stop_at = StopAt{"s", stop};
-        run_well(part, first);
-        auto rest = load_saved_script(path("part"), {});
-        ASSERT_TRUE(rest);
-        RunRequest second = request();
-        second.resume = path("part");
-        second.save = path("rest");
-        EXPECT_EQ(run_well(*rest, second).status, RunStatus::finished);
+        run_in_two_parts(text, "s", stop);
         EXPECT_EQ(bytes("whole/s.b.npy"), bytes("rest/s.b.npy")) << stop;
         EXPECT_EQ(bytes("whole/run.json"), bytes("rest/run.json")) << stop;
     }

@@ -1,6 +1,6 @@
 // Solvers through the language: orders against solutions that are known, what they conserve, the
 // same bits on every backend and after a break, and how stages end.
-#include "run_fixture.h"
+#include "resumed_run.h"
 
 #include "run/simulation.h"
 #include "solvers/field_norms.h"
@@ -159,8 +159,10 @@ void expect_same_bits(const Ran& found, const Ran& expected, const std::string& 
     EXPECT_EQ(found.state().steps, expected.state().steps) << what;
     EXPECT_EQ(found.state().t, expected.state().t) << what;
     for (std::size_t k = 0; k < expected.state().species.size(); ++k) {
-        EXPECT_EQ(root_mean_square_of_difference(found.state().species[k],
-                                                 expected.state().species[k]), 0) << what;
+        EXPECT_EQ(moments_of_difference(found.state().species[k], expected.state().species[k])
+                      .root_mean_square,
+                  0)
+            << what;
     }
 }
 
@@ -226,7 +228,7 @@ TEST(Solvers, LegendreTakesNestedOperatorsInStages) {
         const Field& a = euler.state().species[0];
         const Field& b = legendre.state().species[0];
         EXPECT_NEAR(moments(b).mean, moments(a).mean, 1e-5) << solver;  // Nothing is lost.
-        const double difference = root_mean_square_of_difference(a, b) / moments(a).deviation;
+        const double difference = moments_of_difference(a, b).root_mean_square / moments(a).deviation;
         EXPECT_LT(difference, std::sqrt(2 * (1 - 0.95))) << solver;
     }
 }
@@ -261,26 +263,13 @@ TEST(Solvers, FrozenCellsStayAndInvariantsHold) {
     }
 }
 
-class SolversRun : public RunTest {};
+class SolversRun : public ResumedRunTest {};
 
 TEST_F(SolversRun, ResumeWithTheSameBits) {
     for (const std::string& settings : all_settings()) {
         const std::string text = frozen_script(settings);
-        Script whole = load(text);
-        RunRequest wanted = request();
-        wanted.save = path("whole");
-        run_well(whole, wanted);
-        Script part = load(text);
-        RunRequest first = request();
-        first.save = path("part");
-        first.stop_at = StopAt{"one", 7};
-        run_well(part, first);
-        auto rest = load_saved_script(path("part"), {});
-        ASSERT_TRUE(rest) << settings;
-        RunRequest second = request();
-        second.resume = path("part");
-        second.save = path("rest");
-        EXPECT_EQ(run_well(*rest, second).status, RunStatus::finished);
+        run_whole(text);
+        run_in_two_parts(text, "one", 7);
         for (const char* name : {"one.a.npy", "one.b.npy"}) {
             EXPECT_EQ(bytes(std::string("whole/") + name), bytes(std::string("rest/") + name))
                 << settings;
@@ -305,7 +294,7 @@ TEST(Solvers, LegendreGrowsTheSameSpotsAsEuler) {
         EXPECT_LT(legendre.state().steps, 1500);
         const Field& a = euler.state().species[1];
         const Field& b = legendre.state().species[1];
-        const double difference = root_mean_square_of_difference(a, b) / moments(a).deviation;
+        const double difference = moments_of_difference(a, b).root_mean_square / moments(a).deviation;
         // The correlation of two fields of one mean and deviation is 1 − difference² / 2.
         EXPECT_LT(difference, std::sqrt(2 * (1 - 0.99))) << solver;
     }

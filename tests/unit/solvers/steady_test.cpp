@@ -44,7 +44,7 @@ TEST(FieldNorms, AreThoseOfAWave) {
     EXPECT_NEAR(found.deviation, 1, 1e-6);
     EXPECT_NEAR(found.root_mean_square, std::sqrt(10.0), 1e-6);
     const Field other = make(50, [](double x, double y) { return 3 + 2.5 * wave(x, y); });
-    EXPECT_NEAR(root_mean_square_of_difference(field, other), 0.25, 1e-6);
+    EXPECT_NEAR(moments_of_difference(field, other).root_mean_square, 0.25, 1e-6);
 }
 
 TEST(FieldNorms, KnowWavesOfSmallAmplitudeOnLargeMeans) {
