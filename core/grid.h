@@ -33,13 +33,17 @@ struct Stencil {
     bool x = true;   ///< W and E, the columns before and behind.
     bool y = true;   ///< N and S, the rows above and below.
     bool z = false;  ///< U and D, the slices before and behind.
+    /// Others than those along axes: a list of links says which (core/links.h).
+    bool links = false;
 
     /// The usual ones by name.
-    static const Stencil row, column, plane, volume;
+    static const Stencil row, column, plane, volume, linked;
 
     constexpr int axes() const { return int{x} + int{y} + int{z}; }
-    /// A number for each stencil, 0 to 7.
-    constexpr unsigned number() const { return unsigned{x} + 2u * unsigned{y} + 4u * unsigned{z}; }
+    /// A number for each stencil, 0 to 8.
+    constexpr unsigned number() const {
+        return unsigned{x} + 2u * unsigned{y} + 4u * unsigned{z} + 8u * unsigned{links};
+    }
     friend constexpr bool operator==(const Stencil&, const Stencil&) = default;
 };
 
@@ -47,6 +51,7 @@ inline constexpr Stencil Stencil::row{true, false, false};
 inline constexpr Stencil Stencil::column{false, true, false};
 inline constexpr Stencil Stencil::plane{true, true, false};
 inline constexpr Stencil Stencil::volume{true, true, true};
+inline constexpr Stencil Stencil::linked{false, false, false, true};
 
 /// Cells along the axes.
 struct GridSize {
@@ -64,11 +69,14 @@ struct Grid {
     Boundaries boundary = {};
     std::int64_t depth = 1;
     double spacing = 1;  ///< In the user's unit of length; above 0.
+    /// Cells are no squares but those of a surface, row after row; the last row may be filled up.
+    bool linked = false;
 
     std::int64_t cell_count() const { return width * height * depth; }
     std::int64_t longest_side() const { return std::max({width, height, depth}); }
     /// A grid of one cell has the stencil of a row, whose two neighbours are the cell itself.
     Stencil stencil() const {
+        if (linked) return Stencil::linked;
         return {width > 1 || (height == 1 && depth == 1), height > 1, depth > 1};
     }
     friend bool operator==(const Grid&, const Grid&) = default;

@@ -6,6 +6,7 @@
 
 #include "core/grid.h"
 #include "core/check.h"
+#include "core/links.h"
 #include "core/parallel.h"
 #include "core/result.h"
 #include "ir/cell_kernel.h"
@@ -28,6 +29,7 @@ struct KernelArgumentsOf {
     std::span<const Number> uniforms;             ///< One per uniform slot.
     std::span<Number* const> results;             ///< One per result.
     PlaneLayout layout;
+    LinkTable<Number> links = {};                 ///< Of cells that lie on no grid.
 };
 using KernelArguments = KernelArgumentsOf<float>;
 

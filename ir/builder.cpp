@@ -71,6 +71,12 @@ ValueId KernelBuilder::neighbour(std::uint32_t slot, int dx, int dy, int dz) {
     return emit({Op::neighbour, {}, Neighbour{slot, dx, dy, dz}.payload()});
 }
 
+ValueId KernelBuilder::over_links(Op op, std::uint32_t slot) {
+    CHECK(is_link_sum(op) && op != Op::link_flow, "builder: it is a sum of differences of one field");
+    return emit({op, {}, slot});
+}
+
+ValueId KernelBuilder::link_flow(Flow flow) { return emit({Op::link_flow, {}, flow.payload()}); }
 ValueId KernelBuilder::mask(std::uint32_t slot) { return emit({Op::mask, {}, slot}); }
 ValueId KernelBuilder::uniform(std::uint32_t slot) { return emit({Op::uniform, {}, slot}); }
 ValueId KernelBuilder::cell_column() { return emit({Op::cell_column, {}, 0}); }

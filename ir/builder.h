@@ -37,6 +37,9 @@ public:
     ValueId laplacian(std::uint32_t slot);
     /// The value of a field in a cell around, each offset −1, 0 or 1; the cell's own where all are 0.
     ValueId neighbour(std::uint32_t slot, int dx, int dy, int dz = 0);
+    /// A sum over the links of a cell of differences of one field; of a kernel for a surface.
+    ValueId over_links(Op op, std::uint32_t slot);
+    ValueId link_flow(Flow flow);
     ValueId mask(std::uint32_t slot);
     ValueId uniform(std::uint32_t slot);
     ValueId cell_column();

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 namespace cascade {
@@ -45,6 +46,11 @@ std::string payload_text(const CellKernel& kernel, const Instruction& instructio
             return fmt::format("{} at ({}, {}, {})", slot_text(kernel.field_names, at.slot), at.dx,
                                at.dy, at.dz);
         }
+        case PayloadKind::flow: {
+            const Flow flow = Flow::with(instruction.payload);
+            return fmt::format("{} times{}", slot_text(kernel.field_names, flow.of),
+                               slot_text(kernel.field_names, flow.factor));
+        }
         case PayloadKind::mask: return slot_text(kernel.mask_names, payload);
         case PayloadKind::uniform: return slot_text(kernel.uniform_names, payload);
     }
@@ -54,6 +60,7 @@ std::string payload_text(const CellKernel& kernel, const Instruction& instructio
 std::size_t slot_count(const CellKernel& kernel, PayloadKind kind) {
     switch (kind) {
         case PayloadKind::field:
+        case PayloadKind::flow:
         case PayloadKind::neighbour: return kernel.field_names.size();
         case PayloadKind::mask: return kernel.mask_names.size();
         case PayloadKind::uniform: return kernel.uniform_names.size();
@@ -76,6 +83,10 @@ std::string verify_payload(const CellKernel& kernel, const Instruction& instruct
         if (offset > Neighbour::last_offset) return "reads farther than the next cell";
         if (offset == Neighbour::own_offset) return "reads the cell itself as a neighbour";
         slot = Neighbour::of(instruction.slot()).slot;
+    }
+    if (kind == PayloadKind::flow) {
+        const Flow flow = Flow::with(instruction.payload);
+        slot = std::max(flow.factor, flow.of);
     }
     const std::size_t slots = slot_count(kernel, kind);
     return slot < slots ? "" : fmt::format("names slot {} of {}", slot, slots);
@@ -115,9 +126,12 @@ const OpInfo& info(Op op) {
 
 bool CellKernel::reads_neighbours(std::uint32_t field_slot) const {
     for (const Instruction& instruction : code) {
-        if (instruction.op == Op::laplacian && instruction.payload == field_slot) return true;
-        if (instruction.op == Op::neighbour && Neighbour::of(instruction.slot()).slot == field_slot) {
-            return true;
+        if (instruction.op == Op::neighbour) {
+            if (Neighbour::of(instruction.slot()).slot == field_slot) return true;
+        } else if (is_link_sum(instruction.op)) {
+            if (instruction.slot() == field_slot) return true;
+            const bool is_flow = instruction.op == Op::link_flow;
+            if (is_flow && Flow::with(instruction.payload).factor == field_slot) return true;
         }
     }
     return false;

@@ -24,7 +24,7 @@ enum class Op : std::uint8_t {
 #undef CASCADE_OPERATION
 };
 
-enum class PayloadKind : std::uint8_t { none, bits, field, neighbour, mask, uniform };
+enum class PayloadKind : std::uint8_t { none, bits, field, neighbour, flow, mask, uniform };
 
 /// A row of the table.
 struct OpInfo {
@@ -84,6 +84,23 @@ struct Neighbour {
     }
 };
 
+/// What a `link_flow` reads: the field `of` whose differences flow, and the field `factor` by whose mean of
+/// two cells they are multiplied.
+struct Flow {
+    std::uint32_t factor = 0, of = 0;  ///< Field slots.
+
+    constexpr std::uint64_t payload() const { return std::uint64_t{factor} << 32 | of; }
+    static constexpr Flow with(std::uint64_t payload) {
+        return {static_cast<std::uint32_t>(payload >> 32), static_cast<std::uint32_t>(payload)};
+    }
+};
+
+/// Is it one of the sums over the links of a cell, on a surface?
+constexpr bool is_link_sum(Op op) {
+    return op == Op::laplacian || op == Op::link_flow || op == Op::link_squares ||
+           op == Op::gradient_x || op == Op::gradient_y || op == Op::gradient_z;
+}
+
 /// The program of one cell. `results[k]` is the value that is stored in output field k.
 /// The slot names serve dumps and messages; slot numbers are their positions.
 struct CellKernel {
@@ -95,7 +112,7 @@ struct CellKernel {
     std::vector<std::string> result_names;
     Precision precision = Precision::single;  ///< Of all words.
 
-    /// True if some instruction is a laplacian or a neighbour of this field slot (its halo must be
+    /// True if some instruction reads this field slot in other cells (on grids its halo must be
     /// filled).
     bool reads_neighbours(std::uint32_t field_slot) const;
 };

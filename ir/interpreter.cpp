@@ -44,7 +44,7 @@ struct ScalarStep {
 template <typename Number>
 struct BlockStep {
     Op op = Op::constant;
-    std::uint32_t payload = 0;  ///< A slot.
+    std::uint64_t payload = 0;  ///< A slot, or two.
     std::uint32_t target = 0;
     std::array<Place, 3> operands{};
     BlockLoop<Number> loop = nullptr;  ///< Of operations that are functions of their operands.
@@ -122,7 +122,7 @@ private:
         const Instruction& instruction = kernel_.code[id];
         BlockStep<Number> step;
         step.op = instruction.op;
-        step.payload = instruction.slot();
+        step.payload = instruction.payload;
         unsigned scalars = 0;
         for (std::size_t k = 0; k < arity(id); ++k) {
             step.operands[k] = places_[instruction.operands[k]];
@@ -231,7 +231,18 @@ private:
             return;
         }
         switch (step.op) {
-            case Op::laplacian: laplacian(out, arguments_.fields[step.payload] + offset_); break;
+            case Op::laplacian:
+                if (stencil_.links) {
+                    over_links(out, step);
+                } else {
+                    laplacian(out, arguments_.fields[step.payload] + offset_);
+                }
+                break;
+            case Op::link_flow:
+            case Op::link_squares:
+            case Op::gradient_x:
+            case Op::gradient_y:
+            case Op::gradient_z: over_links(out, step); break;
             case Op::mask: mask(out, arguments_.masks[step.payload] + offset_); break;
             case Op::cell_column:
                 for (std::int64_t i = 0; i < count_; ++i) {
@@ -273,6 +284,60 @@ private:
         if (stencil_.z) add_pair(c - slice, c + slice);
         const auto neighbours = static_cast<Number>(2 * stencil_.axes());
         for (std::int64_t i = 0; i < count; ++i) out[i] -= neighbours * c[i];
+    }
+
+    void over_links(Number* out, const BlockStep<Number>& step) const {
+        const LinkTable<Number>& links = arguments_.links;
+        const Flow flow = Flow::with(step.payload);
+        const Number* f = arguments_.fields[flow.of];
+        const auto gradient = [&](int axis) {
+            const Number* weights = links.gradients[static_cast<std::size_t>(axis)];
+            return [=](std::int64_t link, Number difference, std::int64_t, std::int64_t) {
+                return weights[link] * difference;
+            };
+        };
+        switch (step.op) {
+            case Op::laplacian:
+                return sum_over_links(out, f, [&](auto link, Number difference, auto, auto) {
+                    return links.weights[link] * difference;
+                });
+            case Op::link_squares:
+                return sum_over_links(out, f, [&](auto link, Number difference, auto, auto) {
+                    return links.weights[link] * (difference * difference);
+                });
+            case Op::link_flow: {
+                const Number* s = arguments_.fields[flow.factor];
+                return sum_over_links(out, f, [&](auto link, Number difference, auto i, auto j) {
+                    return links.weights[link] * ((s[j] + s[i]) * difference);
+                });
+            }
+            case Op::gradient_x: return sum_over_links(out, f, gradient(0));
+            case Op::gradient_y: return sum_over_links(out, f, gradient(1));
+            default: return sum_over_links(out, f, gradient(2));
+        }
+    }
+
+    /// `term(link, f_j − f_i, i, j)` is what the link from cell i to cell j adds.
+    template <typename Term>
+    void sum_over_links(Number* __restrict out, const Number* f, const Term& term) const {
+        constexpr std::int64_t slice_cells = LinkTable<Number>::slice_cells;
+        const LinkTable<Number>& links = arguments_.links;
+        const std::int64_t slices = (arguments_.layout.width + slice_cells - 1) / slice_cells;
+        for (std::int64_t first = 0; first < count_; first += slice_cells) {
+            const std::int64_t slice = row_ * slices + (column_ + first) / slice_cells;
+            const std::int64_t cells = std::min(slice_cells, count_ - first);
+            for (std::int64_t lane = 0; lane < cells; ++lane) {
+                const std::int64_t i = offset_ + first + lane;
+                Number sum = 0;
+                for (std::int64_t entry = links.starts[slice]; entry < links.starts[slice + 1];
+                     ++entry) {
+                    const std::int64_t link = entry * slice_cells + lane;
+                    const std::int64_t j = links.targets[link];
+                    sum += term(link, f[j] - f[i], i, j);
+                }
+                out[first + lane] = sum;
+            }
+        }
     }
 
     void mask(Number* __restrict out, const std::uint8_t* bytes) const {

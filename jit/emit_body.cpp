@@ -181,6 +181,11 @@ BodyScope::Forms BodyScope::emit(const Instruction& instruction) {
         case Op::field:
         case Op::laplacian:
         case Op::neighbour:
+        case Op::link_flow:
+        case Op::link_squares:
+        case Op::gradient_x:
+        case Op::gradient_y:
+        case Op::gradient_z:
         case Op::mask:
         case Op::uniform:
         case Op::cell_column:
@@ -232,6 +237,11 @@ BodyScope::Forms BodyScope::emit_source(const Instruction& instruction) {
             value.number = lane_.neighbour(Neighbour::of(instruction.slot()));
             value.may_be_denormal = true;
             break;
+        case Op::link_flow:
+        case Op::link_squares:
+        case Op::gradient_x:
+        case Op::gradient_y:
+        case Op::gradient_z: value.number = lane_.link_sum(instruction); break;
         case Op::mask:
             value.truth = lane_.mask(instruction.slot());
             value.is_boolean = value.is_choice = true;

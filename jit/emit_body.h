@@ -54,6 +54,7 @@ public:
     virtual llvm::Value* field(std::uint32_t slot);      ///< <N x float>
     virtual llvm::Value* laplacian(std::uint32_t slot);  ///< <N x float>
     virtual llvm::Value* neighbour(Neighbour at);        ///< <N x float>
+    virtual llvm::Value* link_sum(const Instruction& sum);  ///< <N x float>, but for a laplacian
     virtual llvm::Value* mask(std::uint32_t slot);       ///< <N x i1>
     virtual llvm::Value* cell_column();                  ///< <N x i32>
 };

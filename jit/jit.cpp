@@ -95,7 +95,7 @@ public:
 
     Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) override {
         const std::lock_guard lock(mutex_);
-        const std::uint64_t key = hash(kernel) * 8 + stencil.number();
+        const std::uint64_t key = hash(kernel) * 16 + stencil.number();
         const auto [first, last] = known_.equal_range(key);
         for (auto found = first; found != last; ++found) {
             if (found->second.is(kernel, stencil)) return found->second.compiled;

@@ -13,6 +13,11 @@ Level level_of_source(Op op) {
         case Op::field:
         case Op::laplacian:
         case Op::neighbour:
+        case Op::link_flow:
+        case Op::link_squares:
+        case Op::gradient_x:
+        case Op::gradient_y:
+        case Op::gradient_z:
         case Op::mask:
         case Op::cell_column: return Level::cell;
         case Op::cell_row:
@@ -35,6 +40,7 @@ llvm::Value* Lane::cell_slice() { return not_here(); }
 llvm::Value* Lane::field(std::uint32_t) { return not_here(); }
 llvm::Value* Lane::laplacian(std::uint32_t) { return not_here(); }
 llvm::Value* Lane::neighbour(Neighbour) { return not_here(); }
+llvm::Value* Lane::link_sum(const Instruction&) { return not_here(); }
 llvm::Value* Lane::mask(std::uint32_t) { return not_here(); }
 llvm::Value* Lane::cell_column() { return not_here(); }
 
