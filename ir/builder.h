@@ -16,6 +16,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 namespace cascade {
 
@@ -94,6 +95,12 @@ public:
     ValueId power(ValueId x, ValueId y);
 
     // Random numbers (ir/random_numbers.cpp).
+    /// Draws are those of this cell's number, a word, instead of its column and row.
+    void set_cell(ValueId number) { cell_ = number; }
+    /// What stands for the cell in draws: two words.
+    std::pair<ValueId, ValueId> cell_of_draws() {
+        return cell_ ? std::pair(*cell_, word(0)) : std::pair(cell_column(), cell_row());
+    }
     /// Uniform in (−1, 1), symmetric, 2^23 different values, in binary64 2^52 whose first digits are
     /// the same: a pure function of the cell, the `draw` word (which step, or 0) and the
     /// 64-bit `key` (seed, stage, parameter, occurrence).
@@ -123,6 +130,7 @@ private:
     ValueId fold(const Instruction& instruction);
 
     CellKernel kernel_;
+    std::optional<ValueId> cell_;  ///< Whose number draws take.
     std::unordered_map<std::uint64_t, ValueId>
         numbering_;  ///< By hash; the next is tried if taken.
     std::unordered_map<std::string, std::uint32_t> field_slots_, mask_slots_, uniform_slots_;

@@ -48,8 +48,8 @@ Hash hash_of(Words words) {
 
 /// The hash of the cell.
 Hash hash_of_cell(KernelBuilder& builder, ValueId draw, std::uint64_t key) {
-    const Expression column(builder, builder.cell_column());
-    const Expression row(builder, builder.cell_row());
+    const auto [first, second] = builder.cell_of_draws();
+    const Expression column(builder, first), row(builder, second);
     const Expression high = column.word(static_cast<std::uint32_t>(key >> 32));
     const Expression low = column.word(static_cast<std::uint32_t>(key));
     const Expression stream = Expression(builder, draw).binary(Op::bits_xor, high);

@@ -117,9 +117,9 @@ std::optional<ast::Expression> picture_expression(const ast::Script& script) {
 
 std::vector<std::string> known_names(const Program& program) {
     std::set<std::string> names{"system", "stage", "domain", "picture", "system_name", "grid",
-                                "boundary", "seed", "mask", "color", "periodic", "noflux",
+                                "boundary", "seed", "mask", "mesh", "cells", "laplacian", "color", "periodic", "noflux",
                                 "auto", "steady", "coarse",
-                                "x", "y", "z", "sx", "sy", "sz", "t", "step", "pi", "and", "or", "not"};
+                                "x", "y", "z", "sx", "sy", "sz", "nx", "ny", "nz", "curvature", "t", "step", "pi", "and", "or", "not"};
     names.insert(checking::setting_names().begin(), checking::setting_names().end());
     for (std::string& solver : solver_names()) names.insert(std::move(solver));
     for (std::size_t i = 0; i < function_count; ++i) {

@@ -60,6 +60,13 @@ bool is_side_word(std::string_view word);
 /// The `domain` block, if there is one.
 void check_domain(Workspace& work, const ast::Script& script);
 
+/// Settings of the domain that belong to a model. Does the block name one? Else the settings are
+/// faults.
+bool is_model_setting(std::string_view name);
+/// Does `surface:` name a shape, such as sphere, instead of giving three expressions?
+bool is_model_surface(const ast::Script& script, const ast::Sentence& surface);
+bool check_model(Workspace& work, const ast::Script& script, const ast::Block& domain);
+
 /// Settings of the domain that belong to a surface; looked at when the grid is known.
 bool is_surface_setting(std::string_view name);
 void check_surface(Workspace& work, const ast::Script& script, const ast::Block& domain);

@@ -194,17 +194,15 @@ void check_domain_sentence(Workspace& work, const ast::Script& script,
         check_mask(work, script, sentence);
     } else if (key == "precision") {
         check_precision(work, script, sentence);
-    } else if (is_surface_setting(key)) {
+    } else if (is_surface_setting(key) || is_model_setting(key)) {
         return;  // They come together, see below.
-    } else if (key == "mesh" || key == "cells") {
-        work.diagnostics.error(sentence.name.span,
-                               fmt::format("'{}' is not in this version of the language", key));
     } else {
         std::string hint = did_you_mean(work, key, {"grid", "spacing", "boundary", "seed", "mask",
                                                    "precision", "left", "right", "top", "bottom",
-                                                   "front", "back", "sides"});
+                                                   "front", "back", "sides", "mesh", "cells",
+                                                   "laplacian"});
         if (hint.empty()) {
-            hint = "a domain has grid, spacing, boundary, sides, mask, precision, seed and surface";
+            hint = "a domain has grid, spacing, boundary, sides, mask, precision, seed, surface and mesh";
         }
         work.diagnostics.error(sentence.name.span,
                                fmt::format("'{}' is not a setting of the domain", key),
@@ -255,7 +253,7 @@ void check_domain(Workspace& work, const ast::Script& script) {
         }
     }
     report_sides(work, *block);
-    check_surface(work, script, *block);
+    if (!check_model(work, script, *block)) check_surface(work, script, *block);
 }
 
 void check_picture(Workspace& work, const ast::Script& script) {

@@ -39,6 +39,10 @@ bool is_constant(const Scope& scope) {
            scope.place == Place::mask;
 }
 
+bool is_of_model(std::string_view builtin) {
+    return builtin == "nx" || builtin == "ny" || builtin == "nz" || builtin == "curvature";
+}
+
 bool varies_by_cell(std::string_view builtin) { return builtin != "t" && builtin != "step"; }
 
 void report_constant(Workspace& work, const Scope& scope, std::string_view name, Span span) {
@@ -70,6 +74,10 @@ Builtin builtin_of(std::string_view name) {
     if (name == "sz") return Builtin::sz;
     if (name == "sx") return Builtin::sx;
     if (name == "sy") return Builtin::sy;
+    if (name == "nx") return Builtin::nx;
+    if (name == "ny") return Builtin::ny;
+    if (name == "nz") return Builtin::nz;
+    if (name == "curvature") return Builtin::curvature;
     return name == "t" ? Builtin::t : Builtin::step;
 }
 
@@ -86,6 +94,10 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
     }
     if (scope.place == Place::bound) {
         report(work, span, "a bound is made of numbers and parameters only", "");
+        return std::nullopt;
+    }
+    if ((scope.place == Place::position || scope.place == Place::mask) && is_of_model(name)) {
+        report_constant(work, scope, name, span);
         return std::nullopt;
     }
     if (scope.place == Place::position && !varies_by_cell(name)) {
@@ -108,10 +120,6 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
 /// Words that belong to the language and are no values of a stage.
 bool report_reserved(Workspace& work, const Scope& scope, std::string_view name, Span span) {
     const Reserved kind = reserved(name);
-    if (kind == Reserved::later_builtin) {
-        report(work, span, fmt::format("'{}' is not in this version of the language", name), "");
-        return true;
-    }
     if (is_constant(scope)) {
         report_constant(work, scope, name, span);
         return true;
@@ -128,7 +136,7 @@ std::vector<std::string> readable_names(const System& system, const Scope& scope
     if (scope.place == Place::rate) {
         for (const Definition& definition : system.definitions) names.push_back(definition.name);
     }
-    for (const char* name : {"x", "y", "z", "sx", "sy", "sz", "pi", "frozen", "speed"}) names.push_back(name);
+    for (const char* name : {"x", "y", "z", "sx", "sy", "sz", "nx", "ny", "nz", "curvature", "pi", "frozen", "speed"}) names.push_back(name);
     return names;
 }
 

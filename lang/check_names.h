@@ -88,7 +88,7 @@ struct Scope {
 };
 
 /// Whether the language gives a word a meaning of its own, so that nobody can declare it.
-enum class Reserved : std::uint8_t { no, setting, builtin, later_builtin };
+enum class Reserved : std::uint8_t { no, setting, builtin };
 Reserved reserved(std::string_view name);
 
 /// The settings of a stage.

@@ -90,7 +90,7 @@ void SystemChecker::run() {
 bool SystemChecker::can_declare(const Statement& statement) {
     const std::string_view name = statement.sentence->name.text;
     const Reserved kind = reserved(name);
-    if (kind == Reserved::builtin || kind == Reserved::later_builtin) {
+    if (kind == Reserved::builtin) {
         work_.diagnostics.error(
             statement.span(), fmt::format("'{}' is built in and cannot be declared", name));
         return false;

@@ -28,13 +28,10 @@ bool among(const std::array<std::string_view, count>& words, std::string_view wo
 }  // namespace
 
 Reserved reserved(std::string_view name) {
-    static constexpr std::array<std::string_view, 9> builtins{"x",  "y",  "z", "sx",  "sy",
-                                                              "sz", "t", "step", "pi"};
-    static constexpr std::array<std::string_view, 4> later_builtins{"nx", "ny", "nz",
-                                                                    "curvature"};
+    static constexpr std::array<std::string_view, 13> builtins{
+        "x", "y", "z", "sx", "sy", "sz", "nx", "ny", "nz", "curvature", "t", "step", "pi"};
     if (among(settings, name)) return Reserved::setting;
     if (among(builtins, name)) return Reserved::builtin;
-    if (among(later_builtins, name)) return Reserved::later_builtin;
     return Reserved::no;
 }
 

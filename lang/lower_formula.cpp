@@ -14,6 +14,7 @@ Value KernelAssembly::part(const Cursor& cursor) {
         case NodeKind::earlier: return {item(node.stage, node.index)};
         case NodeKind::builtin: return {builtin(static_cast<Builtin>(node.index))};
         case NodeKind::metric: return {beside(metric_slot(node.index))};
+        case NodeKind::model: return {of_model(static_cast<ModelPlane>(node.index))};
         case NodeKind::inside: return {inside(at_)};
         case NodeKind::call: return call(node, cursor);
         case NodeKind::definition:

@@ -80,6 +80,9 @@ private:
     std::uint32_t input_slot(std::uint32_t input, std::uint32_t item);
     std::uint32_t file_slot(Function function, std::uint32_t text);
     std::uint32_t metric_slot(std::uint32_t plane);
+    std::uint32_t model_slot(ModelPlane plane);
+    ValueId of_model(ModelPlane plane);
+    ValueId cell_content();
     ValueId wrapped(ValueId cell, int by, std::int64_t count, Boundary boundary);
     ValueId column();
     ValueId row();

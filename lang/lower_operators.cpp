@@ -34,6 +34,7 @@ ValueId PassLowering::stencil(PartId id) {
     const Part& part = graph_[id];
     const PartId operand = part.operands[part.operand_count - 1];
     if (graph_[operand].is_uniform) return builder_.number(0);
+    if (graph_.is_linked()) return over_links(part);
     switch (part.node.function) {
         case Function::lap: return laplacian(operand);
         case Function::dx: return difference(operand, 0);
@@ -51,6 +52,23 @@ ValueId PassLowering::stencil(PartId id) {
         default: break;
     }
     CHECK(false, "lowering: every operator has its differences");
+}
+
+/// Sums over the links of a cell. |∇e|² is half of the Laplacian of e² less e times that of e.
+ValueId PassLowering::over_links(const Part& part) {
+    const PartId operand = part.operands[part.operand_count - 1];
+    const std::uint32_t slot = slot_of_plane(operand);
+    switch (part.node.function) {
+        case Function::lap:
+            if (part.operand_count == 1) return builder_.laplacian(slot);
+            return scaled(builder_.link_flow({slot_of_plane(part.operands[0]), slot}), 0.5);
+        case Function::grad2: return scaled(builder_.over_links(Op::link_squares, slot), 0.5);
+        case Function::dx: return builder_.over_links(Op::gradient_x, slot);
+        case Function::dy: return builder_.over_links(Op::gradient_y, slot);
+        case Function::dz: return builder_.over_links(Op::gradient_z, slot);
+        default: break;
+    }
+    CHECK(false, "lowering: operators without a meaning on a model are refused");
 }
 
 /// (((((N + S) + E) + W) + U) + D − 2n·c) / h² of n axes.

@@ -96,6 +96,7 @@ void PassLowering::need_of_stencil(const Part& part) {
     for (std::uint32_t k = 0; k < last; ++k) need(part.operands[k], own_cell);
     const PartId operand = part.operands[last];
     if (graph_[operand].is_uniform) return;
+    if (graph_.is_linked()) return need(operand, own_cell);
     const bool reads_plane =
         part.calls(Function::lap) && !graph_.has_mask() && can_read_as_plane(operand);
     need(operand,

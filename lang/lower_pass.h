@@ -59,6 +59,7 @@ private:
 
     // Operators (lower_operators.cpp).
     ValueId stencil(PartId id);
+    ValueId over_links(const Part& part);
     ValueId laplacian(PartId operand);
     ValueId difference(PartId operand, int axis);
     ValueId second_difference(PartId operand, int axis);

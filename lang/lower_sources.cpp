@@ -56,6 +56,20 @@ std::uint32_t KernelAssembly::metric_slot(std::uint32_t plane) {
     return slot;
 }
 
+std::uint32_t KernelAssembly::model_slot(ModelPlane plane) {
+    static constexpr std::array<const char*, model_plane_count> names{
+        "(number)", "(area)", "(x)", "(y)", "(z)", "(sx)", "(sy)", "(sz)",
+        "(nx)", "(ny)", "(nz)", "(curvature)"};
+    const auto number = static_cast<std::uint32_t>(plane);
+    const std::uint32_t slot = builder_.field_slot(names[number]);
+    if (slot == bound_.fields.size()) {
+        bound_.fields.push_back({SlotSource::Kind::model, 0, number});
+    }
+    return slot;
+}
+
+ValueId KernelAssembly::of_model(ModelPlane plane) { return beside(model_slot(plane)); }
+
 /// A bit for each of the cells around and for the cell itself, by the numbers of their offsets.
 ValueId KernelAssembly::inside(Offset offset) {
     const std::uint32_t slot = builder_.field_slot("(neighbourhood)");
@@ -132,6 +146,7 @@ std::uint32_t KernelAssembly::plane_slot(const PartGraph& graph, PartId id) {
     if (part.node.kind == NodeKind::own) return field_slot(stage_, part.node.index);
     if (part.node.kind == NodeKind::earlier) return field_slot(part.node.stage, part.node.index);
     if (part.node.kind == NodeKind::metric) return metric_slot(part.node.index);
+    if (part.node.kind == NodeKind::model) return model_slot(static_cast<ModelPlane>(part.node.index));
     CHECK(part.node.kind == NodeKind::call && reads_file(part.node.function),
           "lowering: a plane is an item or a file");
     return file_slot(part.node.function, graph[part.operands[0]].node.index);
@@ -208,6 +223,9 @@ ValueId KernelAssembly::builtin(Builtin builtin) {
 
 ValueId KernelAssembly::make_builtin(Builtin builtin) {
     const Grid& grid = program_.domain.grid;
+    if (program_.domain.model) {
+        if (const auto plane = model_plane_of(builtin)) return of_model(*plane);
+    }
     switch (builtin) {
         case Builtin::x: return coordinate(column(), grid.longest_side());
         case Builtin::y: return coordinate(row(), grid.longest_side());
@@ -217,6 +235,11 @@ ValueId KernelAssembly::make_builtin(Builtin builtin) {
         case Builtin::sz: return coordinate(slice(), grid.depth);
         case Builtin::t: return time();
         case Builtin::step: return step();
+        // A plane lies flat, and looks up.
+        case Builtin::nx:
+        case Builtin::ny:
+        case Builtin::curvature: return builder_.number(0);
+        case Builtin::nz: return builder_.number(1);
     }
     CHECK(false, "lowering: every built-in value has a meaning");
 }

@@ -22,6 +22,10 @@ std::vector<ValueId> values_of(std::span<const Value> values, std::size_t first,
 
 Space KernelAssembly::space() {
     const Grid& grid = program_.domain.grid;
+    if (program_.domain.model) {
+        const auto along = [&](ModelPlane plane) { return SpaceAxis{of_model(plane), 1, false, true}; };
+        return {along(ModelPlane::x), along(ModelPlane::y), along(ModelPlane::z)};
+    }
     const std::int64_t longest = grid.longest_side();
     const auto axis = [&](std::int64_t side, ValueId cell, Boundary boundary) {
         const double length = static_cast<double>(side) / static_cast<double>(longest);
@@ -36,6 +40,10 @@ Space KernelAssembly::space() {
 /// The draw of a cell, a word of 32 bits. Its hash knows columns and rows; slices other than the first
 /// change the draw.
 ValueId KernelAssembly::draw_of_cell(ValueId draw) {
+    if (program_.domain.model) {
+        builder_.set_cell(of_model(ModelPlane::number));
+        return draw;
+    }
     if (program_.domain.grid.depth == 1) return draw;
     const ValueId slice =
         builder_.apply(Op::bits_multiply, builder_.cell_slice(), builder_.word(0x9e3779b9));
@@ -99,14 +107,19 @@ ValueId KernelAssembly::random(const Node& node, const Cursor& cursor) {
     CHECK(false, "lowering: every random function has a meaning");
 }
 
+/// Its length, area or volume in units.
+ValueId KernelAssembly::cell_content() {
+    if (program_.domain.model) return of_model(ModelPlane::area);
+    const Grid& grid = program_.domain.grid;
+    const int axes = int{grid.width > 1} + int{grid.height > 1} + int{grid.depth > 1};
+    return builder_.number(std::pow(grid.spacing, axes));
+}
+
 /// White noise in space and time: of a step of length dt in cells of content h^d it has the variance
 /// strength² / (dt h^d), so that what it adds over a time and an area does not depend on either.
 ValueId KernelAssembly::white(ValueId strength, const Draw& draw) {
     const ValueId normal = builder_.random_normal(draw_of_cell(draw.word), draw.key);
-    const Grid& grid = program_.domain.grid;
-    const int axes = int{grid.width > 1} + int{grid.height > 1} + int{grid.depth > 1};
-    const double content = std::pow(grid.spacing, axes);
-    const ValueId share = builder_.multiply(time_step(), builder_.number(content));
+    const ValueId share = builder_.multiply(time_step(), cell_content());
     const ValueId spread = builder_.apply(Op::square_root, share);
     return builder_.divide(builder_.multiply(strength, normal), spread);
 }

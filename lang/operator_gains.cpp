@@ -3,9 +3,12 @@
 
 #include "core/check.h"
 
+#include <cmath>
+
 namespace cascade {
 
 bool SlopeRules::has_axis(std::size_t axis) const {
+    if (links_) return true;  // Gradients on a model have three components.
     const Stencil stencil = grid_.stencil();
     return axis == 0 ? stencil.x : axis == 1 ? stencil.y : stencil.z;
 }
@@ -20,6 +23,8 @@ PartId SlopeRules::metric(MetricPlane plane) {
 /// 2 / h: a difference across a face counts both cells. On a surface times what Ṽ⁻¹ makes of it; the
 /// second direction has parts of columns and of rows.
 PartId SlopeRules::gradient_gain(std::size_t axis) {
+    // A gradient and a divergence are a Laplacian, whose parts are those of three axes.
+    if (links_) return number(std::sqrt(2 * *links_ / 3));
     const PartId plane = number(2 / grid_.spacing);
     if (!has_metric_) return plane;
     const auto size = [&](MetricPlane entry) { return magnitude(metric(entry)); };
@@ -33,6 +38,8 @@ std::optional<PartId> SlopeRules::diffusion_gain(const Node& node) {
     const double along_axis = 4 / (grid_.spacing * grid_.spacing);
     switch (node.function) {
         case Function::lap: {
+            // Gershgorin: the cell counts as much as its neighbours together.
+            if (links_) return number(2 * *links_);
             if (!has_metric_) return number(along_axis * grid_.stencil().axes());
             const PartId trace =
                 sum(metric(MetricPlane::flow_11), metric(MetricPlane::flow_22));

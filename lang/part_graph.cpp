@@ -83,6 +83,7 @@ bool PartGraph::is_lasting(const Part& part) const {
         case NodeKind::text:
         case NodeKind::earlier:
         case NodeKind::metric:
+        case NodeKind::model:
         case NodeKind::inside: return true;
         case NodeKind::call: break;
     }
@@ -100,7 +101,8 @@ bool PartGraph::is_plane(PartId id) const {
         case NodeKind::own:
             return part.node.index != program_.system_of(stage_).frozen_item();
         case NodeKind::earlier:
-        case NodeKind::metric: return true;
+        case NodeKind::metric:
+        case NodeKind::model: return true;
         case NodeKind::call: return reads_file(part.node.function);
         default: return false;
     }
@@ -242,8 +244,12 @@ PartId PartGraph::add(const Formula& formula, const Noise& noise) {
             part.operands = {tensor(of), part.operands[0]};
             part.operand_count = part.node.operand_count = 2;
         }
-        const bool measures = has_metric_ && part.node.kind == NodeKind::call;
-        ids.push_back(measures ? on_surface(part) : intern(part));
+        const bool is_call = part.node.kind == NodeKind::call;
+        if (has_model_) {
+            ids.push_back(on_model(part));
+        } else {
+            ids.push_back(has_metric_ && is_call ? on_surface(part) : intern(part));
+        }
     }
     return ids.back();
 }

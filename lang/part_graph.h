@@ -68,6 +68,8 @@ enum class Extent : std::uint8_t {
 
 /// Does it read a file, which lies in a plane of its own?
 bool reads_file(Function function);
+/// The plane that has a built-in value on a model; nothing of t and step.
+std::optional<ModelPlane> model_plane_of(Builtin builtin);
 /// Is it an operator that reads its last operand at neighbours? (`div` reads at faces instead.)
 bool is_stencil(Function function);
 
@@ -82,7 +84,8 @@ public:
           stage_(stage),
           lasting_(lasting),
           has_metric_(program.domain.surface && program.domain.surface->has_metric),
-          has_mask_(program.domain.mask && extent == Extent::domain) {}
+          has_mask_(program.domain.mask && extent == Extent::domain),
+          has_model_(program.domain.model.has_value()) {}
 
     /// Adds a formula and returns the part that is its value. What it reads of `own` items,
     /// definitions and rates is taken from the parts set for them; own items without one are read
@@ -103,6 +106,9 @@ public:
     std::uint32_t stage() const { return stage_; }
     /// Are there cells of the grid that are no part of the domain?
     bool has_mask() const { return has_mask_; }
+    /// Do cells read neighbours over links? Then operators read planes alone, and `lap` of two operands
+    /// is div(first * grad(second)).
+    bool is_linked() const { return has_model_; }
     std::size_t size() const { return parts_.size(); }
     const Part& operator[](PartId id) const { return parts_[id]; }
     /// Species, parameters that vary, files and the metric lie in planes from the start.
@@ -130,6 +136,16 @@ private:
     PartId along_row(PartId of);
     PartId across_row(PartId of);
 
+    // On a model (model_parts.cpp).
+    PartId on_model(const Part& part);
+    PartId model(ModelPlane plane);
+    PartId number(double value);
+    /// A vector as a sum of gradients of numbers, each times a number.
+    using Gradients = std::vector<std::pair<PartId, PartId>>;  ///< Of, factor.
+    const Gradients& gradients_of(PartId vector) const { return gradients_.at(vector); }
+    Gradients sum_of_gradients(const Part& part);
+    PartId divergence_over_links(const Gradients& gradients);
+
     bool is_uniform(const Part& part) const;
     bool is_lasting(const Part& part) const;
     std::array<Beyond, 3> beyond(const Part& part) const;
@@ -142,7 +158,8 @@ private:
     std::unordered_multimap<std::uint64_t, PartId> known_;
     std::unordered_map<std::uint32_t, PartId> own_, definitions_, rates_;
     std::unordered_map<PartId, std::string> names_;
-    bool has_metric_ = false, has_mask_ = false;
+    bool has_metric_ = false, has_mask_ = false, has_model_ = false;
+    std::unordered_map<PartId, Gradients> gradients_;  ///< Of the vectors on a model.
     /// What the simplest flows on a surface are made of: a gradient, or two components.
     std::unordered_map<PartId, std::pair<PartId, std::optional<PartId>>> flows_;
 };

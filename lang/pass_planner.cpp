@@ -175,9 +175,12 @@ void PassPlanner::decide(PartId id) {
         return;
     }
     const bool differs = !part.is_uniform;
-    if (differs && is_stencil(function)) {
+    if (differs && is_stencil(function) && graph_.is_linked()) {
+        for (std::uint32_t k = 0; k < part.operand_count; ++k) bring_over_links(part.operands[k], id);
+    } else if (differs && is_stencil(function)) {
         bring(last, reach(stencil_offsets(part, axes_)) & ~own_cell, id);
-    } else if (differs && (part.node.type == ValueType::vector || function == Function::div)) {
+    } else if (differs && (part.node.type == ValueType::vector || function == Function::div) &&
+               !graph_.is_linked()) {
         // Vectors are known at faces, which takes what they are made of in the cells beside.
         for (std::uint32_t k = 0; k < part.operand_count; ++k) {
             const PartId operand = part.operands[k];
@@ -205,7 +208,8 @@ void PassPlanner::decide_own(PartId id) {
                    !reads_file(function)));
     for (std::uint32_t k = 0; k < part.operand_count; ++k) {
         const PartId operand = part.operands[k];
-        const bool is_moved = reads_beside && (is_vector || k + 1 == part.operand_count);
+        const bool is_moved = reads_beside && (is_vector || k + 1 == part.operand_count ||
+                                               graph_.is_linked());
         pass_[id] = std::max(pass_[id], pass_[operand]);
         // Those of open parts are looked for where they are read: more may be written until then.
         if (!part.is_open() && !graph_[operand].is_open()) {
@@ -265,6 +269,13 @@ void PassPlanner::bring(PartId operand, Offsets offsets, PartId reader) {
     brought.is_written = written_[operand] || stays_[operand] || wants;
     written_[operand] = brought.is_written;
     brought_.push_back(brought);
+}
+
+/// Sums over links read planes.
+void PassPlanner::bring_over_links(PartId operand, PartId reader) {
+    if (graph_[operand].is_uniform || is_plane(operand)) return;
+    written_[operand] = true;
+    brought_.push_back({operand, reader, 0, true, true, false});
 }
 
 /// Computes an operand at neighbours from the parts that have planes, or can have them.

@@ -127,6 +127,7 @@ private:
     void decide_own(PartId id);
     std::uint32_t pass_beside(PartId operand) const;
     void bring(PartId operand, Offsets offsets, PartId reader);
+    void bring_over_links(PartId operand, PartId reader);
     void bring_open(PartId operand, Offsets offsets, PartId reader);
     template <typename Visit>
     void for_each_closed(PartId open, const Visit& visit) const;

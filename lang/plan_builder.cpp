@@ -125,6 +125,7 @@ private:
         if (part.node.kind == NodeKind::metric) {
             return {SlotSource::Kind::metric, 0, part.node.index};
         }
+        if (part.node.kind == NodeKind::model) return {SlotSource::Kind::model, 0, part.node.index};
         const bool is_own = part.node.kind == NodeKind::own;
         return {SlotSource::Kind::item, is_own ? graph_.stage() : part.node.stage,
                 part.node.index};

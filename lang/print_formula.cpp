@@ -120,7 +120,8 @@ private:
 
     std::string leaf(const Node& node) const {
         static constexpr const char* builtins[] = {"x",  "y",  "z", "sx",
-                                                   "sy", "sz", "t", "step"};
+                                                   "sy", "sz", "t", "step",
+                                                   "nx", "ny", "nz", "curvature"};
         switch (node.kind) {
             case NodeKind::number: return fmt::format("{}", node.number);
             case NodeKind::text: return fmt::format("\"{}\"", program_.texts[node.index]);
@@ -134,6 +135,7 @@ private:
             case NodeKind::definition: return system_.definitions[node.index].name;
             case NodeKind::rate: return system_.quantities[node.index].name + "'";
             case NodeKind::metric:
+            case NodeKind::model:
             case NodeKind::inside:
             case NodeKind::call: break;
         }

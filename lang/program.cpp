@@ -95,6 +95,7 @@ bool differs_by_cell(const Node& node, bool operand_differs, const Program& prog
         case NodeKind::definition:
         case NodeKind::rate:
         case NodeKind::metric:
+        case NodeKind::model:
         case NodeKind::inside: return true;
         case NodeKind::call: break;
     }

@@ -73,8 +73,8 @@ bool varies_by_cell(Function function);
 bool differentiates(Function function);
 
 /// Values that every expression may read. `pi` is folded into a number.
-enum class Builtin : std::uint8_t { x, y, z, sx, sy, sz, t, step };
-inline constexpr std::size_t builtin_count = 8;
+enum class Builtin : std::uint8_t { x, y, z, sx, sy, sz, t, step, nx, ny, nz, curvature };
+inline constexpr std::size_t builtin_count = 12;
 
 /// What operators read of the surface, a plane each (surface/parameter_surface.h).
 enum class MetricPlane : std::uint8_t {
@@ -83,6 +83,17 @@ enum class MetricPlane : std::uint8_t {
     flow_11, flow_12, flow_22,           ///< s Ṽ⁻¹ Ṽ⁻ᵀ: times the differences, what flows.
 };
 inline constexpr std::size_t metric_plane_count = 7;
+
+/// What kernels read of the cells of a model, a plane each (run/model_cells.h).
+enum class ModelPlane : std::uint8_t {
+    number,      ///< The cell's own number, a word; draws of random numbers take it.
+    area,        ///< In square units; 0 in cells that only fill the last row.
+    x, y, z,     ///< Its place in the model's box, whose longest side is 1 …
+    sx, sy, sz,  ///< … and with every side 1.
+    nx, ny, nz,  ///< The outward normal, of length 1.
+    curvature,   ///< In 1 / unit.
+};
+inline constexpr std::size_t model_plane_count = 12;
 
 enum class NodeKind : std::uint8_t {
     number,      ///< `number`
@@ -94,6 +105,7 @@ enum class NodeKind : std::uint8_t {
     rate,        ///< rate of species item `index`
     call,        ///< `function` of `operands`
     metric,      ///< MetricPlane `index`; only lowering makes such nodes
+    model,       ///< ModelPlane `index`; only lowering makes such nodes
     inside,      ///< true where the cell is inside the mask; only lowering makes such nodes
 };
 
@@ -278,8 +290,41 @@ struct MaskSettings {
     Span span;        ///< Of the expression.
 };
 
+/// Where a surface comes from on which cells are spread.
+enum class ModelShape : std::uint8_t { file, sphere, torus, box, creature, implicit };
+
+/// What becomes a cell.
+enum class ModelCellKind : std::uint8_t {
+    spread,    ///< Points spread evenly, each with its Voronoi region (Turk).
+    faces,     ///< The triangles of the model.
+    vertices,  ///< Its points.
+};
+
+/// How differences of neighbours are weighted.
+enum class ModelLaplacian : std::uint8_t {
+    finite_volumes,  ///< Length of the wall over distance, over the cell's area.
+    turk,            ///< Lengths of walls, so scaled that their sum is 4.
+};
+
+/// A surface in space whose cells are the domain: the file of a model, or a shape.
+struct ModelSettings {
+    ModelShape shape = ModelShape::file;
+    std::string path;             ///< Of a file.
+    std::vector<double> sizes;    ///< Of a torus (its two radii) or a box (its three sides).
+    std::optional<Formula> implicit;  ///< The surface is where this is 0.
+    ModelCellKind cells = ModelCellKind::spread;
+    std::int64_t count = 16384;   ///< Of cells that are spread.
+    ModelLaplacian laplacian = ModelLaplacian::finite_volumes;
+    std::optional<double> unit;   ///< Length of one unit; empty: the mean cell has area 1.
+    Span span;                    ///< Of what names the model.
+    Span cells_span;              ///< Of the number of cells; empty where it is not written.
+    /// The largest sum of the weights of a cell's links: known when the cells are made.
+    double largest_weight = 12;
+};
+
 struct DomainSettings {
     Grid grid;                   ///< 64 × 64, periodic, unless said otherwise.
+    std::optional<ModelSettings> model;      ///< Then the grid is linked.
     std::optional<MaskSettings> mask;        ///< Without one all cells of the grid.
     std::optional<SurfaceSettings> surface;  ///< Without one the plane.
     std::uint32_t seed = 1;

@@ -37,6 +37,8 @@ SlopeRules::SlopeRules(FormulaBuilder& builder, const Program& program)
     : builder_(builder),
       grid_(program.domain.grid),
       has_metric_(program.domain.surface && program.domain.surface->has_metric),
+      links_(program.domain.model ? std::optional(program.domain.model->largest_weight)
+                                  : std::nullopt),
       zero_(builder.number(0)) {}
 
 bool SlopeRules::is_zero(const Slope& slope) const {

@@ -83,6 +83,7 @@ private:
     FormulaBuilder& builder_;
     const Grid& grid_;
     bool has_metric_;
+    std::optional<double> links_;  ///< The largest sum of weights of a cell's links, on a model.
     PartId zero_;
     std::unordered_map<PartId, std::array<PartId, 3>> components_;  ///< Of vectors seen so far.
 };

@@ -23,6 +23,7 @@ struct SlotSource {
         file,       ///< The array named Program::texts[item], as a field slot.
         image,      ///< The picture named Program::texts[item], as a field slot.
         metric,     ///< MetricPlane `item` of the surface, as a field slot.
+        model,      ///< ModelPlane `item` of the cells of a model, as a field slot.
         neighbourhood,  ///< Which cells around are inside the mask, as a field slot of words.
         lasting,    ///< Lasting part `item` of stage `stage`: a field slot, or a uniform.
         step,       ///< Uniform: complete steps of the stage when the step begins.

@@ -120,7 +120,7 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
 void FunctionTableMaker::check_name(UserFunction& function, std::string_view name, Span span) {
     if (function.parameters.contains(name)) return;
     const Reserved kind = reserved(name);
-    if (kind == Reserved::builtin || kind == Reserved::later_builtin) return;
+    if (kind == Reserved::builtin) return;
     std::vector<std::string> names;
     for (const ast::Word& each : function.definition->parameters) names.emplace_back(each.text);
     std::string hint = did_you_mean(work_, name, names);

@@ -1,0 +1,27 @@
+// Programs on models: what their domain is, and what of a program has no meaning there.
+#pragma once
+
+#include "core/diagnostics.h"
+#include "lang/program.h"
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace cascade {
+
+/// The rows in which so many cells lie, as a grid: see Grid::linked.
+Grid rows_of_cells(std::int64_t cells);
+
+/// Replaces the domain by a model: grid, mask, sides and the surface of parameters go, seed and precision
+/// stay.
+void set_model(Program& program, ModelSettings model);
+
+/// The shape of a surface that has a name, such as sphere; nothing for other words.
+std::optional<ModelShape> shape_named(std::string_view word);
+
+/// Adds an error for whatever of the program cannot be done on its model, and a warning for what is left
+/// aside (the sides of the plane). Of a program whose domain is a model.
+void check_on_model(Program& program, Diagnostics& diagnostics);
+
+}  // namespace cascade
