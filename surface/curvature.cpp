@@ -1,0 +1,276 @@
+#include "surface/curvature.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::size_t after(std::size_t k) { return k == 2 ? 0 : k + 1; }
+
+/// Triangles flatter than this part of their longest edge squared say nothing of curvature.
+constexpr double least_shape = 1e-8;
+
+/// The triangle's angle at its corner k, 0 … π.
+double angle_at(const SurfaceMesh& mesh, std::size_t triangle, std::size_t k) {
+    const Vector3d here = mesh.corner(triangle, k);
+    const Vector3d a = unit(mesh.corner(triangle, after(k)) - here);
+    const Vector3d b = unit(mesh.corner(triangle, after(after(k))) - here);
+    return std::atan2(length(cross(a, b)), dot(a, b));
+}
+
+/// The share of a triangle that belongs to each corner (Meyer et al., 2003, section 3.3).
+std::array<double, 3> corner_areas(const SurfaceMesh& mesh, std::size_t triangle) {
+    const double area = mesh.area(triangle);
+    std::array<double, 3> angles{}, squares{}, shares{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        angles[k] = angle_at(mesh, triangle, k);
+        const Vector3d opposite =
+            mesh.corner(triangle, after(after(k))) - mesh.corner(triangle, after(k));
+        squares[k] = dot(opposite, opposite);
+    }
+    const auto widest = static_cast<std::size_t>(
+        std::max_element(angles.begin(), angles.end()) - angles.begin());
+    if (angles[widest] >= std::numbers::pi / 2) {
+        shares.fill(area / 4);
+        shares[widest] = area / 2;
+        return shares;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        // Of the two edges at the corner, each with the cotangent of the angle opposite.
+        const std::size_t a = after(k), b = after(a);
+        shares[k] = (squares[a] / std::tan(angles[a]) + squares[b] / std::tan(angles[b])) / 8;
+    }
+    if (!std::isfinite(shares[0] + shares[1] + shares[2])) shares.fill(area / 3);
+    return shares;
+}
+
+/// A symmetric form on a tangent plane.
+struct Form {
+    double uu = 0, uv = 0, vv = 0;
+};
+
+/// Two directions at right angles to each other and to a normal, of length 1.
+struct Axes {
+    Vector3d u, v;
+};
+
+Axes axes_around(Vector3d normal) {
+    const Vector3d least = std::abs(normal.x) < 0.6   ? Vector3d{1, 0, 0}
+                           : std::abs(normal.y) < 0.6 ? Vector3d{0, 1, 0}
+                                                      : Vector3d{0, 0, 1};
+    const Vector3d u = unit(least - normal * dot(normal, least));
+    return {u, cross(normal, u)};
+}
+
+/// Axes of one plane turned into that of another by the shortest way.
+Axes turned(const Axes& axes, Vector3d from, Vector3d to) {
+    const double cosine = dot(from, to);
+    if (cosine <= -1 + 1e-12) return {-axes.u, -axes.v};
+    // v less what it has along the mean of the normals, twice: two reflections.
+    const Vector3d sum = from + to;
+    const auto turn = [&](Vector3d v) { return v - sum * (dot(v, to) / (1 + cosine)); };
+    return {turn(axes.u), turn(axes.v)};
+}
+
+/// The form of one triangle: form · e is how the normal changes along e, by least squares over its
+/// edges e, each of which gives two equations for uu, uv and vv.
+struct TriangleForm {
+    bool is_known = false;
+    Axes axes;
+    Vector3d normal;
+    Form form;
+};
+
+TriangleForm form_of(const SurfaceMesh& mesh, const std::vector<Vector3d>& normals,
+                     std::size_t triangle) {
+    TriangleForm result;
+    std::array<Vector3d, 3> edges;
+    double size = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        edges[k] = mesh.corner(triangle, after(k)) - mesh.corner(triangle, k);
+        size = std::max(size, length(edges[k]));
+    }
+    if (!(size > 0)) return result;
+    for (Vector3d& edge : edges) edge = edge * (1 / size);
+    const Vector3d twice_area = cross(edges[0], edges[1]);
+    if (!(length(twice_area) > least_shape)) return result;
+    result.normal = unit(twice_area);
+    result.axes = axes_around(result.normal);
+    const auto& [u, v] = result.axes;
+    // The normal equations: [a b 0; b a+c b; 0 b c] (uu, uv, vv) = (r, s, t).
+    double a = 0, b = 0, c = 0, r = 0, s = 0, t = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vector3d change =
+            normals[mesh.triangles[triangle][after(k)]] - normals[mesh.triangles[triangle][k]];
+        const double x = dot(edges[k], u), y = dot(edges[k], v);
+        const double dx = dot(change, u), dy = dot(change, v);
+        a += x * x;
+        b += x * y;
+        c += y * y;
+        r += x * dx;
+        s += x * dy + y * dx;
+        t += y * dy;
+    }
+    // Solved for uv first; a c − b² is the spread of the edges and above 0.
+    const double determinant = (a * c - b * b) * (a + c);
+    const double uv = (a * c * s - b * c * r - a * b * t) / determinant;
+    result.form = {(r - b * uv) / a / size, uv / size, (t - b * uv) / c / size};
+    result.is_known = std::isfinite(result.form.uu) && std::isfinite(result.form.uv) &&
+                      std::isfinite(result.form.vv);
+    return result;
+}
+
+/// A form on other axes of the same plane.
+Form on_axes(const TriangleForm& triangle, const Axes& axes) {
+    const auto apply = [&](Vector3d a, Vector3d b) {
+        const double ax = dot(a, triangle.axes.u), ay = dot(a, triangle.axes.v);
+        const double bx = dot(b, triangle.axes.u), by = dot(b, triangle.axes.v);
+        const Form& f = triangle.form;
+        return f.uu * ax * bx + f.uv * (ax * by + ay * bx) + f.vv * ay * by;
+    };
+    return {apply(axes.u, axes.u), apply(axes.u, axes.v), apply(axes.v, axes.v)};
+}
+
+/// Calls visit(p, q) once for each edge of the mesh.
+template <typename Visit>
+void for_each_edge(const SurfaceMesh& mesh, const Visit& visit) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const TriangleEdge other = mesh.across[t][k];
+            if (other.exists() && other.triangle < t) continue;
+            visit(mesh.triangles[t][k], mesh.triangles[t][after(k)]);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Vector3d> point_normals(const SurfaceMesh& mesh) {
+    std::vector<Vector3d> sums(mesh.points.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vector3d here = mesh.corner(t, k);
+            const Vector3d a = mesh.corner(t, after(k)) - here;
+            const Vector3d b = mesh.corner(t, after(after(k))) - here;
+            const double size = length(a) * length(b);
+            if (!(size > 0)) continue;
+            // a × b / (|a|² |b|²)
+            const Vector3d share = cross(unit(a), unit(b)) * (1 / size);
+            Vector3d& sum = sums[mesh.triangles[t][k]];
+            if (std::isfinite(dot(share, share))) sum = sum + share;
+        }
+    }
+    for (std::size_t p = 0; p < sums.size(); ++p) {
+        const double size = length(sums[p]);
+        sums[p] = size > 0 && std::isfinite(size) ? sums[p] * (1 / size) : Vector3d{};
+    }
+    // Where the triangles around a point face all ways, that of one of them.
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (const std::uint32_t point : mesh.triangles[t]) {
+            if (length(sums[point]) > 0.5) continue;
+            const Vector3d normal = unit(mesh.double_area_normal(t));
+            sums[point] = length(normal) > 0.5 ? normal : Vector3d{0, 0, 1};
+        }
+    }
+    return sums;
+}
+
+std::vector<double> point_areas(const SurfaceMesh& mesh) {
+    std::vector<double> areas(mesh.points.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::array<double, 3> shares = corner_areas(mesh, t);
+        for (std::size_t k = 0; k < 3; ++k) areas[mesh.triangles[t][k]] += shares[k];
+    }
+    return areas;
+}
+
+std::vector<double> angle_defects(const SurfaceMesh& mesh) {
+    std::vector<double> defects(mesh.points.size(), 2 * std::numbers::pi);
+    std::vector<bool> is_at_boundary(mesh.points.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (mesh.across[t][k].exists()) continue;
+            is_at_boundary[mesh.triangles[t][k]] = true;
+            is_at_boundary[mesh.triangles[t][after(k)]] = true;
+        }
+    }
+    for (std::size_t p = 0; p < defects.size(); ++p) {
+        if (is_at_boundary[p]) defects[p] = std::numbers::pi;
+    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) defects[mesh.triangles[t][k]] -= angle_at(mesh, t, k);
+    }
+    return defects;
+}
+
+PrincipalCurvatures principal_curvatures(const SurfaceMesh& mesh) {
+    const std::vector<Vector3d> normals = point_normals(mesh);
+    const std::size_t count = mesh.points.size();
+    std::vector<Axes> axes;
+    axes.reserve(count);
+    for (const Vector3d& normal : normals) axes.push_back(axes_around(normal));
+    std::vector<Form> sums(count);
+    std::vector<double> weights(count);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const TriangleForm triangle = form_of(mesh, normals, t);
+        if (!triangle.is_known) continue;
+        const std::array<double, 3> shares = corner_areas(mesh, t);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t p = mesh.triangles[t][k];
+            const Form form = on_axes(triangle, turned(axes[p], normals[p], triangle.normal));
+            sums[p].uu += form.uu * shares[k];
+            sums[p].uv += form.uv * shares[k];
+            sums[p].vv += form.vv * shares[k];
+            weights[p] += shares[k];
+        }
+    }
+    PrincipalCurvatures result;
+    for (std::size_t p = 0; p < count; ++p) {
+        const double scale = weights[p] > 0 ? 1 / weights[p] : 0;
+        const double mean = (sums[p].uu + sums[p].vv) / 2 * scale;
+        const double half = (sums[p].uu - sums[p].vv) / 2 * scale, mixed = sums[p].uv * scale;
+        const double apart = std::hypot(half, mixed);
+        const double angle = std::atan2(mixed, half) / 2;
+        const Vector3d high = axes[p].u * std::cos(angle) + axes[p].v * std::sin(angle);
+        result.high.push_back(mean + apart);
+        result.low.push_back(mean - apart);
+        result.high_direction.push_back(high);
+        result.low_direction.push_back(cross(normals[p], high));
+    }
+    return result;
+}
+
+std::vector<double> turk_radii(const SurfaceMesh& mesh, int rounds) {
+    const std::vector<Vector3d> normals = point_normals(mesh);
+    const MeshFacts facts = facts_of(mesh);
+    std::vector<double> radii(mesh.points.size(), length(facts.high - facts.low));
+    for_each_edge(mesh, [&](std::uint32_t p, std::uint32_t q) {
+        const Vector3d edge = mesh.points[q] - mesh.points[p];
+        const double size = length(edge);
+        for (const std::uint32_t end : {p, q}) {
+            // |tan θ| |P − Q| / 2, θ being the angle between the edge and the normal.
+            const double cosine = std::abs(dot(normals[end], unit(edge)));
+            const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+            if (sine * size / 2 < radii[end] * cosine) radii[end] = sine * size / 2 / cosine;
+        }
+    });
+    std::vector<double> sums;
+    std::vector<std::uint32_t> counts;
+    for (int round = 0; round < rounds; ++round) {
+        sums = radii;
+        counts.assign(radii.size(), 1);
+        for_each_edge(mesh, [&](std::uint32_t p, std::uint32_t q) {
+            sums[p] += radii[q];
+            sums[q] += radii[p];
+            ++counts[p];
+            ++counts[q];
+        });
+        for (std::size_t p = 0; p < radii.size(); ++p) radii[p] = sums[p] / counts[p];
+    }
+    return radii;
+}
+
+}  // namespace cascade
