@@ -3,10 +3,12 @@
 #include "app/add_value.h"
 #include "app/help.h"
 #include "core/palette.h"
+#include "lang/models.h"
 #include "lang/program.h"
 #include "run/dump.h"
 #include "run/simulation.h"
 
+#include <filesystem>
 #include <limits>
 #include <vector>
 
@@ -36,6 +38,17 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
     const std::string group = "Changes to the script, without editing it";
     add_value(app, "--grid", "WxH", "Columns and rows; '60' is a line of cells, '64x64x32'\nhas slices", parse_grid,
               [&](auto grid) { overrides.grid = grid; })
+        ->group(group);
+    add_value(app, "--mesh", "MODEL",
+              "On this model instead: a file (PLY, OBJ, OFF, STL,\nglTF, GLB), sphere, torus, box or creature",
+              any_text, [&](const std::string& model) {
+                  const bool is_shape = shape_named(model).has_value();
+                  overrides.model = is_shape ? model : std::filesystem::absolute(model).string();
+                  overrides.model_is_asked_for = true;
+              })
+        ->group(group);
+    add_value(app, "--cells", "N", "Cells on the model: a number, 'faces' or 'vertices'", any_text,
+              [&](const std::string& cells) { overrides.cells = cells; })
         ->group(group);
     add_value(app, "--seed", "N", "Other random numbers",
               whole_number(0, std::numeric_limits<std::uint32_t>::max()),

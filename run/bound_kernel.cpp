@@ -16,6 +16,7 @@ const Field& plane_of(const SlotSource& source, const BindingContext& context) {
     if (source.kind == SlotSource::Kind::image) return context.files.image(source.item);
     if (source.kind == SlotSource::Kind::file) return context.files.plane(source.item);
     if (source.kind == SlotSource::Kind::metric) return context.metric[source.item];
+    if (source.kind == SlotSource::Kind::model) return context.model->planes[source.item];
     if (source.kind == SlotSource::Kind::neighbourhood) return context.mask->neighbourhood;
     if (source.kind == SlotSource::Kind::lasting) {
         return context.states[source.stage].lasting[source.item];
@@ -61,6 +62,7 @@ public:
         problem_.grid = context_.grid;
         problem_.cells_inside = context_.mask ? context_.mask->cells : 0;
         problem_.precision = context_.precision;
+        if (context_.model != nullptr) problem_.links = &context_.model->links;
         problem_.temporaries = plan_.temporaries;
         problem_.aggregates = plan_.aggregates;
         for (const Pass& pass : plan_.passes) {
@@ -123,6 +125,7 @@ private:
 
     void find_halos(const Pass& pass) {
         for (std::size_t slot = 0; slot < pass.bound.fields.size(); ++slot) {
+            if (context_.model != nullptr) continue;  // Links need no halo.
             if (!pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) continue;
             const PlaneRef plane = bind_plane(pass.bound.fields[slot]);
             switch (plane.kind) {
@@ -288,6 +291,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     whole.grid = context.grid;
     whole.cells_inside = context.mask ? context.mask->cells : 0;
     whole.precision = context.precision;
+    if (context.model != nullptr) whole.links = &context.model->links;
     whole.registers = scheme.registers;
     whole.error_register = scheme.error_register;
     whole.sides = context.states[stage].sides;

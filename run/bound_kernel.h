@@ -7,6 +7,7 @@
 #include "lang/lower.h"
 #include "run/domain_mask.h"
 #include "run/input_files.h"
+#include "run/model_cells.h"
 #include "run/simulation.h"
 #include "solvers/advance.h"
 #include "solvers/scheme.h"
@@ -27,6 +28,7 @@ struct BindingContext {
     Precision precision = Precision::single;
     double t = 0;             ///< Its time.
     std::span<const Field> metric = {};  ///< By MetricPlane; empty without a surface.
+    const ModelCells* model = nullptr;   ///< None on grids.
     const DomainMask* mask = nullptr;    ///< None where all cells belong to the domain.
 };
 

@@ -52,6 +52,8 @@ std::string overrides_to_json(const Overrides& overrides) {
     if (!overrides.used.empty()) json["used"] = overrides.used;
     if (overrides.solver) json["solver"] = *overrides.solver;
     if (overrides.precision) json["precision"] = name_of(*overrides.precision);
+    if (overrides.model) json["mesh"] = *overrides.model;
+    if (overrides.cells) json["cells"] = *overrides.cells;
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -83,6 +85,8 @@ Result<Overrides> overrides_from_json(const std::string& text) {
             overrides.precision = precision_of_name(json.at("precision").get<std::string>());
             if (!overrides.precision) return failure(unreadable);
         }
+        if (json.contains("mesh")) overrides.model = json.at("mesh").get<std::string>();
+        if (json.contains("cells")) overrides.cells = json.at("cells").get<std::string>();
         return overrides;
     } catch (const std::exception&) {
         return failure(unreadable);
@@ -97,6 +101,15 @@ Overrides merge(Overrides base, const Overrides& changes) {
     if (changes.solver) base.solver = changes.solver;
     if (changes.precision) base.precision = changes.precision;
     if (changes.until_stage) base.until_stage = changes.until_stage;
+    if (changes.cells) base.cells = changes.cells;
+    if (changes.model) {
+        base.model = changes.model;
+        base.model_is_asked_for = changes.model_is_asked_for;
+        base.grid.reset();
+    } else if (changes.grid) {
+        base.model.reset();
+        base.cells.reset();
+    }
     base.reads = changes.reads;
     return base;
 }

@@ -3,6 +3,7 @@
 #include "core/file.h"
 #include "core/near_name.h"
 #include "lang/check.h"
+#include "lang/models.h"
 #include "lang/parse.h"
 #include "picture/image.h"
 #include "run/png_texts.h"
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <charconv>
 
 namespace cascade {
 
@@ -63,6 +65,8 @@ namespace {
 
 void apply_grid(Script& script) {
     if (!script.overrides.grid) return;
+    script.program->domain.model.reset();
+    script.program->domain.grid.linked = false;
     const auto [width, height, depth] = *script.overrides.grid;
     const std::string value = depth == 1 ? fmt::format("{}x{}", width, height)
                                          : fmt::format("{}x{}x{}", width, height, depth);
@@ -83,6 +87,58 @@ void apply_grid(Script& script) {
         grid.height = height;
         grid.depth = depth;
     }
+}
+
+/// A number of cells, or what becomes a cell.
+void set_cells(ModelSettings& model, const std::string& cells, Span span, Diagnostics& diagnostics) {
+    model.cells_span = span;
+    if (cells == "faces" || cells == "vertices") {
+        model.cells = cells == "faces" ? ModelCellKind::faces : ModelCellKind::vertices;
+        return;
+    }
+    constexpr std::int64_t most = std::int64_t{1} << 28;
+    std::int64_t count = 0;
+    const auto [end, fault] = std::from_chars(cells.data(), cells.data() + cells.size(), count);
+    if (fault != std::errc() || end != cells.data() + cells.size() || count < 1 || count > most) {
+        return diagnostics.error(span, "cells are a number from 1 to 268435456, faces or vertices",
+                                 "as in --cells 64000");
+    }
+    model.cells = ModelCellKind::spread;
+    model.count = count;
+}
+
+void apply_model(Script& script) {
+    DomainSettings& domain = script.program->domain;
+    const Overrides& overrides = script.overrides;
+    if (overrides.model) {
+        ModelSettings model = domain.model.value_or(ModelSettings{});
+        // The unit of a surface is a length of that surface, and stays with a script's model alone.
+        model.span = option_span(script.sources, "--mesh", *overrides.model);
+        model.implicit.reset();
+        model.sizes.clear();
+        if (const auto shape = shape_named(*overrides.model)) {
+            model.shape = *shape;
+        } else {
+            model.shape = ModelShape::file;
+            model.path = *overrides.model;
+        }
+        if (overrides.grid) {
+            script.diagnostics.error(model.span, "a run has a model or a grid, not both",
+                                     "--cells is the number of cells on a model");
+        }
+        set_model(*script.program, std::move(model));
+    }
+    if (overrides.cells) {
+        const Span span = option_span(script.sources, "--cells", *overrides.cells);
+        if (!domain.model) {
+            script.diagnostics.error(span, "only a run on a model spreads cells", "--mesh names one");
+            return;
+        }
+        ModelSettings model = *std::move(domain.model);
+        set_cells(model, *overrides.cells, span, script.diagnostics);
+        set_model(*script.program, std::move(model));
+    }
+    if (domain.model) check_on_model(*script.program, script.diagnostics);
 }
 
 void apply_solver(Script& script) {
@@ -149,6 +205,7 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
     domain.precision = script.overrides.precision.value_or(domain.precision);
     apply_grid(script);
     apply_solver(script);
+    apply_model(script);
     apply_steps(script);
     check_coarse_starts(*script.program, script.diagnostics);
     check_until_stage(script);

@@ -31,6 +31,10 @@ struct Overrides {
     ReadAccess reads;                                            ///< Travels nowhere.
     std::optional<std::string> solver;                           ///< Of every stage.
     std::optional<Precision> precision;
+    /// The domain becomes this model: the file of one, or the name of a shape.
+    std::optional<std::string> model;
+    bool model_is_asked_for = false;  ///< By the user: the file may lie anywhere. Travels nowhere.
+    std::optional<std::string> cells; ///< Of the model: a number, faces or vertices.
 
     friend bool operator==(const Overrides&, const Overrides&) = default;
 };

@@ -65,6 +65,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     self.program = &*script.program;
     self.grid = self.program->domain.grid;
     self.threads = options.threads > 0 ? options.threads : hardware_threads();
+    if (auto made = self.make_cells(options); !made) return tl::unexpected(made.error());
 
     self.plans = std::make_unique<StagePlans>(*self.program, options.planning);
     self.memory = memory_of(*self.program, *self.plans);
@@ -113,6 +114,10 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     CHECK(state.started, "a stage is started before it advances");
 
     StageTimer timer(*self.program, k, state, self.tools(k, control));
+    if (timer.substeps() > 1 && state.steps == 0 && control.warn) {
+        control.warn(fmt::format("stage '{}': each step is split into {}, so that it is stable in the "
+                                 "smallest cells of the model", stage.name, timer.substeps()));
+    }
     // Nothing moves where everything is frozen: its steps are complete as they begin.
     if (self.frozen_everywhere(k)) {
         state.steps = stage.time.has_duration() ? 0 : last_step;
@@ -191,6 +196,7 @@ std::vector<double> Simulation::evaluate_numbers(std::span<const Formula* const>
 
 const Program& Simulation::program() const { return *self_->program; }
 const Grid& Simulation::grid() const { return self_->grid; }
+std::shared_ptr<const ModelCells> Simulation::model() const { return self_->model; }
 const DomainMask* Simulation::mask() const { return self_->inside(); }
 double Simulation::memory() const { return self_->memory; }
 const StageState& Simulation::state(std::uint32_t stage) const { return self_->states[stage]; }

@@ -7,6 +7,7 @@
 #include "ir/backend.h"
 #include "lang/lower.h"
 #include "run/domain_mask.h"
+#include "run/model_cells.h"
 #include "run/script.h"
 #include "solvers/advance.h"
 #include "solvers/changing_side.h"
@@ -72,6 +73,8 @@ struct SimulationOptions {
     /// Takes the steps of several simulations, so that equal kernels are compiled once; none: each
     /// simulation has one of its own. Its compile() must allow several threads.
     std::shared_ptr<Backend> stepper = nullptr;
+    /// Hears how the cells of a model come about, and may stop it; none: nobody does.
+    RunControl* control = nullptr;
     std::uint64_t memory_limit = 0;   ///< Bytes that all fields may take; 0: what is free.
     /// How steps are put together. No result depends on it.
     PlanOptions planning = {Bringing::cheaper, false, true};
@@ -128,6 +131,8 @@ public:
     const Grid& grid() const;
     /// The cells that belong to the domain; nullptr where all do.
     const DomainMask* mask() const;
+    /// The cells of the model that is the domain; nullptr on grids.
+    std::shared_ptr<const ModelCells> model() const;
     /// Bytes of all planes that it keeps at one time.
     double memory() const;
     const StageState& state(std::uint32_t stage) const;

@@ -1,9 +1,36 @@
 // What a run and its stages start with: the mask of the domain, starting values, sides, and what no
 // step changes.
 #include "run/bind_side.h"
+#include "run/memory.h"
 #include "run/simulation_implementation.h"
 
 namespace cascade {
+
+Result<void> Simulation::Implementation::make_cells(const SimulationOptions& options) {
+    DomainSettings& domain = script->program->domain;
+    if (!domain.model) return {};
+    // Their number is known, or is not larger than that of the triangles.
+    const double bytes = memory_of(*program);
+    if (auto enough = check_memory(grid, bytes, options.memory_limit); !enough) return enough;
+    Team makers(threads);
+    RunControl nobody;
+    RunControl& control = options.control != nullptr ? *options.control : nobody;
+    const ModelAccess access{script->folder, script->overrides.reads,
+                             script->overrides.model_is_asked_for};
+    auto made = make_model_cells(*program, access, makers, control);
+    if (!made) {
+        script->diagnostics.error(domain.model->span, made.error().message, made.error().hint);
+        return failure("the model cannot be used");
+    }
+    if (!*made) return failure("stopped while the cells of the model were made");
+    model = std::move(*made);
+    if (control.warn) {
+        for (const std::string& repair : model->repairs) control.warn("the model was repaired: " + repair);
+    }
+    domain.grid = grid = model->grid;
+    domain.model->largest_weight = model->largest_weight;
+    return {};
+}
 
 Result<void> Simulation::Implementation::find_mask() {
     if (!program->domain.mask || states.empty()) return {};

@@ -57,6 +57,7 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     state_.time.control.step = speed_;
     state_.time.stages = is_stabilised(stage_.time.solver) ? 3 : 0;
     state_.t = state_.time.clock.at(state_.steps);
+    if (program.domain.model) state_.time.stages = substeps(program, stage);
     if (state_.steps == 0 && stage_.time.steady) state_.watch.begin(state_.species);
 }
 
@@ -66,12 +67,34 @@ bool StageTimer::chooses() const {
            (stage_.time.automatic_speed && !is_adaptive(stage_.time.solver));
 }
 
+/// Cells of a model have links of different weights, and the largest decide which steps are stable: a
+/// script that is stable on the plane has to be so there. Explicit Euler is stable up to 2 over the largest
+/// eigenvalue.
+std::uint32_t StageTimer::substeps(const Program& program, std::uint32_t stage) const {
+    constexpr double most = 10000, safety = 0.95;
+    const bool is_split = stage_.time.solver == Solver::euler && !stage_.time.automatic_speed &&
+                          uniform_speed_;
+    if (!is_split) return state_.time.stages;
+    double decay = 0;
+    if (const auto bound = jacobian_bound(program, stage)) {
+        const Formula* const formulas[] = {&bound->whole, &bound->reaction};
+        const std::vector<double> bounds = tools_.numbers(formulas)();
+        decay = bounds[0] - bounds[1];
+    }
+    if (!std::isfinite(decay)) return state_.time.stages;
+    const double parts = std::ceil(speed_ * decay / (2 * safety));
+    return parts > 1 && parts <= most ? static_cast<std::uint32_t>(parts) : 0;
+}
+
 const StepProblem& StageTimer::problem() { return problem_of(state_.time.stages); }
 
 const StepProblem& StageTimer::problem_of(std::uint32_t stages) {
     const auto known = problems_.find(stages);
     if (known != problems_.end()) return known->second;
-    const Scheme scheme = make_scheme(stage_.time.solver, species_, steps_by_item(stage_), stages);
+    const bool is_split = stage_.time.solver == Solver::euler && stages > 1;
+    const Scheme scheme = is_split ? make_substeps(stages)
+                                   : make_scheme(stage_.time.solver, species_,
+                                                 steps_by_item(stage_), stages);
     return problems_.emplace(stages, tools_.bind(scheme)).first->second;
 }
 

@@ -33,6 +33,8 @@ public:
     /// `state` is that of the stage; a stage that has not taken a step begins its time here.
     StageTimer(const Program& program, std::uint32_t stage, StageState& state, StageTools tools);
 
+    /// Into so many parts each step is split, so that it is stable on the cells of a model.
+    std::uint32_t substeps() const { return stage_.time.solver == Solver::euler ? state_.time.stages : 0; }
     /// The passes of the first step.
     const StepProblem& problem();
     /// All of a schedule but its threads. `interval` as in Schedule.
@@ -40,6 +42,7 @@ public:
 
 private:
     bool chooses() const;
+    std::uint32_t substeps(const Program& program, std::uint32_t stage) const;
     RateBounds bounds() const;
     StepChoice choose(std::int64_t step);
     const StepProblem& problem_of(std::uint32_t stages);

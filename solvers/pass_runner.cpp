@@ -183,14 +183,15 @@ void PassRunner::run_kernel(RowRange rows, Arguments<Number>& arguments,
     for (const StepProblem::Result& result : pass.results) {
         results.push_back(plane<Number>(result.plane, registers));
     }
-    const KernelArgumentsOf<Number> given{fields, pass.masks, uniforms[number], results, layout_};
+    KernelArgumentsOf<Number> given{fields, pass.masks, uniforms[number], results, layout_};
+    if (problem_.links != nullptr) given.links = problem_.links->table<Number>();
     const std::int64_t band =
         rows_of_a_band<Number>(layout_, std::max<std::size_t>(1, results.size()));
     for (std::int64_t row = rows.begin; row < rows.end; row += band) {
         const RowRange part{row, std::min(row + band, rows.end)};
         pass.kernel->run(given, part);
         for (std::size_t k = 0; k < results.size(); ++k) {
-            if (!pass.results[k].needs_halo) continue;
+            if (!pass.results[k].needs_halo || problem_.links != nullptr) continue;
             fill_halo_from_rows(results[k], layout_, sides_at(pass.results[k], moment, part),
                                 part.begin, part.end);
         }

@@ -187,4 +187,27 @@ Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint
     CHECK(false, "every solver has a scheme");
 }
 
+/// Registers: 0; two of parts in turn, the last part in 1.
+Scheme make_substeps(std::uint32_t count) {
+    CHECK(count >= 2, "a step has parts");
+    Scheme scheme = euler(false);
+    scheme.registers = 3;
+    scheme.forms.push_back(scheme.forms[0]);
+    scheme.forms[0].last = false;
+    const auto place = [&](std::uint32_t part) {
+        return part == 0 ? old_register : new_register + (count - part) % 2;
+    };
+    scheme.sweeps.clear();
+    for (std::uint32_t part = 0; part < count; ++part) {
+        Sweep sweep;
+        sweep.form = part + 1 < count ? 0 : 1;
+        sweep.time = static_cast<double>(part) / count;
+        sweep.coefficients = {{1.0 / count, true}};
+        sweep.inputs = {place(part)};
+        sweep.outputs = {place(part + 1)};
+        scheme.sweeps.push_back(std::move(sweep));
+    }
+    return scheme;
+}
+
 }  // namespace cascade

@@ -36,4 +36,7 @@ struct Scheme {
 /// stabilised solvers only: an odd number from least_stages() on.
 Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint32_t stages = 3);
 
+/// A step of explicit Euler as `count` equal parts of it, at least 2. Invariants are kept at its end.
+Scheme make_substeps(std::uint32_t count);
+
 }  // namespace cascade

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/grid.h"
+#include "core/links.h"
 #include "core/plane.h"
 #include "ir/backend.h"
 #include "ir/diffusion.h"
@@ -81,6 +82,7 @@ struct StepProblem {
     };
 
     Grid grid;
+    const Links* links = nullptr;           ///< Of a linked grid. Outlives the problem.
     std::int64_t cells_inside = 0;          ///< Over so many means are taken; 0: over all.
     Precision precision = Precision::single;
     std::vector<Pass> passes;               ///< In order. At least one.

@@ -1,0 +1,53 @@
+// The cells of a model, as a domain: where they lie, what is known of them, and their links.
+#pragma once
+
+#include "core/links.h"
+#include "core/plane.h"
+#include "core/result.h"
+#include "core/run_control.h"
+#include "lang/program.h"
+#include "run/read_access.h"
+#include "surface/surface_mesh.h"
+#include "surface/voronoi_cells.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+struct ModelCells {
+    SurfaceMesh mesh;
+    std::vector<std::string> repairs;  ///< What was done to the model, a sentence each.
+    /// In the order in which they lie in memory: cell k at column k mod W of row k / W.
+    SurfaceCells cells;
+    /// Their own numbers, which random numbers and files know.
+    std::vector<std::uint32_t> numbers;
+    Grid grid;
+    double unit = 1;                   ///< In lengths of the model.
+    double largest_weight = 0;         ///< The largest sum of the weights of a cell's links.
+    std::vector<Field> planes;         ///< By ModelPlane.
+    Links links;
+
+    std::size_t count() const { return cells.places.size(); }
+};
+
+/// Where the file of a model may lie.
+struct ModelAccess {
+    std::filesystem::path folder;  ///< Paths are relative to it.
+    ReadAccess reads;
+    bool is_asked_for = false;     ///< On the command line: the file may lie anywhere.
+};
+
+/// Reads or makes the model, spreads its cells and links them. Fails, in words, on a file that cannot be
+/// used, on more cells than memory and on fewer than pieces; the result is empty where it was cancelled.
+/// The same on any number of threads.
+Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& program,
+                                                           const ModelAccess& access, Team& team,
+                                                           RunControl& control);
+
+/// The values of a plane's cells in the order of their own numbers.
+std::vector<double> in_own_order(const Field& field, const ModelCells& model);
+
+}  // namespace cascade
