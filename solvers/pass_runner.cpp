@@ -22,6 +22,8 @@ std::int64_t rows_of_a_band(const PlaneLayout& layout, std::size_t results) {
 
 PassRunner::PassRunner(const StepProblem& problem) : problem_(problem), layout_(problem.grid) {
     CHECK(!problem.passes.empty(), "a step has a pass");
+    CHECK(!problem.links || (problem.grid.linked && problem.links->precision() == problem.precision),
+          "links are those of a linked grid, in the precision of its problem");
     for (std::uint32_t k = 0; k < problem.temporaries; ++k) {
         temporaries_.emplace_back(layout_, problem.precision);
         temporary_cells_.push_back(temporaries_.back().address());
@@ -183,15 +185,17 @@ void PassRunner::run_kernel(RowRange rows, Arguments<Number>& arguments,
     for (const StepProblem::Result& result : pass.results) {
         results.push_back(plane<Number>(result.plane, registers));
     }
-    KernelArgumentsOf<Number> given{fields, pass.masks, uniforms[number], results, layout_};
-    if (problem_.links != nullptr) given.links = problem_.links->table<Number>();
+    const LinkTable<Number> links =
+        problem_.links ? problem_.links->template table<Number>() : LinkTable<Number>{};
+    const KernelArgumentsOf<Number> given{fields,  pass.masks, uniforms[number],
+                                          results, layout_,    links};
     const std::int64_t band =
         rows_of_a_band<Number>(layout_, std::max<std::size_t>(1, results.size()));
     for (std::int64_t row = rows.begin; row < rows.end; row += band) {
         const RowRange part{row, std::min(row + band, rows.end)};
         pass.kernel->run(given, part);
         for (std::size_t k = 0; k < results.size(); ++k) {
-            if (!pass.results[k].needs_halo || problem_.links != nullptr) continue;
+            if (!pass.results[k].needs_halo || !problem_.has_halo()) continue;
             fill_halo_from_rows(results[k], layout_, sides_at(pass.results[k], moment, part),
                                 part.begin, part.end);
         }

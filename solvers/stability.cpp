@@ -159,7 +159,7 @@ private:
 
     void run_kernel() {
         for (std::size_t k = 0; k < moved_.size(); ++k) {
-            fill_halo(moved_[k], rates_.sides_of(k));
+            if (rates_.has_halo()) fill_halo(moved_[k], rates_.sides_of(k));
         }
         const std::array<std::span<void* const>, 2> registers{moved_cells_, rate_cells_};
         // Noise needs some length of a step; it cancels from differences.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/grid.h"
-#include "core/links.h"
 #include "core/plane.h"
 #include "ir/backend.h"
 #include "ir/diffusion.h"
@@ -82,7 +81,7 @@ struct StepProblem {
     };
 
     Grid grid;
-    const Links* links = nullptr;           ///< Of a linked grid. Outlives the problem.
+    const Links* links = nullptr;           ///< Where the grid is linked; in the problem's precision.
     std::int64_t cells_inside = 0;          ///< Over so many means are taken; 0: over all.
     Precision precision = Precision::single;
     std::vector<Pass> passes;               ///< In order. At least one.
@@ -102,6 +101,8 @@ struct StepProblem {
     std::span<const ChangingSide> changing_sides;  ///< Those of them that change with time.
     std::vector<bool> species_needs_halo;   ///< Per species: the old step is read at neighbours.
 
+    /// Do neighbours lie beyond sides, so that what is read there needs a halo?
+    bool has_halo() const { return !grid.linked; }
     /// How many cells a mean is taken over.
     std::int64_t counted_cells() const { return cells_inside > 0 ? cells_inside : grid.cell_count(); }
     /// What holds at the sides of a plane that a pass writes.

@@ -35,7 +35,7 @@ Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int mos
         CHECK(field.layout() == layout_ && field.precision() == problem.precision,
               "species lie as the grid says, in the precision of their problem");
         const auto number = static_cast<std::size_t>(&field - copies_[0].data());
-        fill_halo(field, problem.sides_of(number));
+        if (problem.has_halo()) fill_halo(field, problem.sides_of(number));
         copies_[1].emplace_back(layout_, problem.precision);
         copies_[2].emplace_back(layout_, problem.precision);
     }
