@@ -1,5 +1,6 @@
 // glTF and GLB files, read by tinygltf: the triangles of all meshes, placed in space by the nodes
 // of the scene.
+#include "core/file.h"
 #include "surface/model_file.h"
 
 #include <fmt/format.h>
@@ -20,6 +21,10 @@
 namespace cascade {
 
 namespace {
+
+constexpr int deepest_nesting = 128;
+/// A small file can place the same mesh any number of times.
+constexpr std::size_t most_points = std::size_t{1} << 27, most_corners = std::size_t{1} << 29;
 
 /// A placing in space: columns of a matrix of 4 × 4, as glTF writes them.
 using Matrix = std::array<double, 16>;
@@ -200,9 +205,11 @@ private:
 
     Result<void> add_mesh(const tinygltf::Mesh& mesh, const Matrix& matrix) {
         for (const tinygltf::Primitive& primitive : mesh.primitives) {
-            const bool is_triangles =
-                primitive.mode == TINYGLTF_MODE_TRIANGLES || primitive.mode == -1;
-            if (!is_triangles) continue;  // Points and lines are no surface.
+            const bool has_triangles = primitive.mode == TINYGLTF_MODE_TRIANGLES ||
+                                       primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+                                       primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN ||
+                                       primitive.mode == -1;
+            if (!has_triangles) continue;  // Points and lines are no surface.
             if (const auto added = add_triangles(primitive, matrix); !added) return added;
         }
         return {};
@@ -223,8 +230,8 @@ private:
             return failure("the glTF file has triangles without places or beyond its data");
         }
         const std::size_t first = soup_.points.size();
-        if (first + places->count() > std::numeric_limits<std::int32_t>::max()) {
-            return failure("the glTF file has too many points");
+        if (places->count() > most_points - first) {
+            return failure(fmt::format("the glTF file has more than {} points", most_points));
         }
         for (std::size_t k = 0; k < places->count(); ++k) {
             soup_.points.push_back(
@@ -241,16 +248,19 @@ private:
             indices = Numbers::of(model_, primitive.indices);
             if (!indices) return failure("the triangles of the glTF file lie beyond its data");
         }
-        const std::size_t corners = indices ? indices->count() : places->count();
-        for (std::size_t k = 0; k + 2 < corners; k += 3) {
-            for (std::size_t c = k; c < k + 3; ++c) {
-                const double point = indices ? indices->at(c, 0) : static_cast<double>(c);
-                if (!(point >= 0 && point < static_cast<double>(places->count()))) {
-                    return failure(fmt::format("a triangle of the glTF file names point {}, but "
-                                               "there are only {}",
-                                               point, places->count()));
-                }
-                const auto number = static_cast<std::size_t>(point);
+        const std::size_t count = indices ? indices->count() : places->count();
+        for (std::size_t k = 0; k < count && indices; ++k) {
+            const double point = indices->at(k, 0);
+            if (!(point >= 0 && point < static_cast<double>(places->count())) ||
+                point != std::floor(point)) {
+                return failure(fmt::format("a triangle of the glTF file names point {}, but there are "
+                                           "only {}",
+                                           point, places->count()));
+            }
+        }
+        const auto add_triangle = [&](std::initializer_list<std::size_t> corners) {
+            for (const std::size_t c : corners) {
+                const std::size_t number = indices ? static_cast<std::size_t>(indices->at(c, 0)) : c;
                 soup_.corners.push_back(static_cast<std::uint32_t>(first + number));
                 // glTF counts from the upper left.
                 soup_.texture.push_back(
@@ -259,6 +269,16 @@ private:
                                 : TexturePlace{});
             }
             soup_.ends.push_back(soup_.corners.size());
+        };
+        const bool is_strip = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
+        const bool is_fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+        if (count > (most_corners - soup_.corners.size()) / 3) {
+            return failure(fmt::format("the glTF file has more than {} corners", most_corners));
+        }
+        for (std::size_t k = 0; k + 2 < count; k += is_strip || is_fan ? 1 : 3) {
+            if (is_fan) add_triangle({0, k + 1, k + 2});
+            else if (is_strip && k % 2 == 1) add_triangle({k + 1, k, k + 2});
+            else add_triangle({k, k + 1, k + 2});
         }
         return {};
     }
@@ -283,29 +303,86 @@ private:
                                            PointAttribute{"blue", {}}};
 };
 
-}  // namespace
+/// Do lists and objects stand in each other at most `deepest_nesting` times? The library calls itself
+/// for each level.
+bool is_shallow(std::string_view json) {
+    int depth = 0;
+    bool is_in_text = false;
+    for (std::size_t k = 0; k < json.size(); ++k) {
+        const char c = json[k];
+        if (c == '"') is_in_text = !is_in_text;
+        if (is_in_text) k += c == '\\';
+        else if (c == '[' || c == '{') ++depth;
+        else if (c == ']' || c == '}') --depth;
+        if (depth > deepest_nesting) return false;
+    }
+    return true;
+}
 
-Result<PolygonSoup> read_gltf(std::string_view bytes, const std::filesystem::path& folder) {
+/// The text in a binary file: its length stands at byte 12, it begins at byte 20.
+std::string_view json_of(std::string_view bytes, bool is_binary) {
+    if (!is_binary || bytes.size() < 20) return bytes;
+    std::uint32_t length = 0;
+    for (std::size_t k = 4; k-- > 0;) length = length << 8 | static_cast<unsigned char>(bytes[12 + k]);
+    return bytes.substr(20, length);
+}
+
+/// How the library gets at buffers in files of their own. Its own way asks a shell what names mean.
+tinygltf::FsCallbacks plain_files() {
+    tinygltf::FsCallbacks files{};
+    files.FileExists = [](const std::string& path, void*) {
+        std::error_code error;
+        return std::filesystem::is_regular_file(path, error);
+    };
+    files.ExpandFilePath = [](const std::string& path, void*) { return path; };
+    files.ReadWholeFile = [](std::vector<unsigned char>* out, std::string* fault,
+                             const std::string& path, void*) {
+        const Result<std::string> bytes = read_file(path, largest_model_file);
+        if (!bytes) *fault = bytes.error().message;
+        else out->assign(bytes->begin(), bytes->end());
+        return bytes.has_value();
+    };
+    files.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                              void*) { return false; };
+    return files;
+}
+
+bool load(std::string_view bytes, bool is_binary, const std::filesystem::path& folder,
+          tinygltf::Model& model, std::string& fault) {
     tinygltf::TinyGLTF reader;
     reader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
                              const unsigned char*, int, void*) { return true; },
                           nullptr);
-    tinygltf::Model model;
-    std::string error, warning;
-    const bool is_binary = bytes.starts_with("glTF");
+    reader.SetFsCallbacks(plain_files());
+    std::string warning;
     const auto size = static_cast<unsigned>(bytes.size());
+    try {  // An empty buffer makes the library throw std::out_of_range.
+        return is_binary
+                   ? reader.LoadBinaryFromMemory(&model, &fault, &warning,
+                                                 reinterpret_cast<const unsigned char*>(bytes.data()),
+                                                 size, folder.string())
+                   : reader.LoadASCIIFromString(&model, &fault, &warning, bytes.data(), size,
+                                                folder.string());
+    } catch (const std::logic_error& error) {
+        fault = error.what();
+        return false;
+    }
+}
+
+}  // namespace
+
+Result<PolygonSoup> read_gltf(std::string_view bytes, const std::filesystem::path& folder) {
+    const bool is_binary = bytes.starts_with("glTF");
     if (bytes.size() > std::numeric_limits<unsigned>::max()) return failure("the glTF file is too large");
-    const bool is_read =
-        is_binary
-            ? reader.LoadBinaryFromMemory(&model, &error, &warning,
-                                          reinterpret_cast<const unsigned char*>(bytes.data()), size,
-                                          folder.string())
-            : reader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size,
-                                         folder.string());
-    if (!is_read) {
-        while (error.ends_with('\n')) error.pop_back();
-        std::replace(error.begin(), error.end(), '\n', ' ');
-        return failure("this is no glTF file that can be read", error);
+    if (!is_shallow(json_of(bytes, is_binary))) {
+        return failure(fmt::format("the glTF file nests more than {} lists", deepest_nesting));
+    }
+    tinygltf::Model model;
+    std::string fault;
+    if (!load(bytes, is_binary, folder, model, fault)) {
+        while (fault.ends_with('\n')) fault.pop_back();
+        std::replace(fault.begin(), fault.end(), '\n', ' ');
+        return failure("this is no glTF file that can be read", fault);
     }
     return SceneReader(model).read();
 }

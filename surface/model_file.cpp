@@ -19,15 +19,16 @@ std::string ending_of(const std::filesystem::path& path) {
     return ending;
 }
 
-Result<PolygonSoup> read_bytes(std::string_view bytes, const std::string& ending,
-                               const std::filesystem::path& folder) {
+}  // namespace
+
+Result<PolygonSoup> read_model_bytes(std::string_view bytes, std::string_view ending,
+                                     const std::filesystem::path& folder) {
     if (ending == "ply") return read_ply(bytes);
     if (ending == "off") return read_off(bytes);
     if (ending == "gltf" || ending == "glb") return read_gltf(bytes, folder);
-    return read_by_openmesh(bytes, ending);
+    if (ending == "stl") return read_stl(bytes);
+    return read_obj(bytes);
 }
-
-}  // namespace
 
 Result<PolygonSoup> read_model(const std::filesystem::path& path) {
     constexpr std::array<std::string_view, 6> endings = {"ply", "obj", "off", "stl", "gltf", "glb"};
@@ -37,9 +38,15 @@ Result<PolygonSoup> read_model(const std::filesystem::path& path) {
                                    ".stl, .gltf, .glb",
                                    path.string()));
     }
+    // A pipe that nobody writes to would be waited for without end, a device has no end.
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!error && std::filesystem::is_other(status)) {
+        return failure(fmt::format("cannot read '{}': it is a pipe or a device, not a file", path.string()));
+    }
     const Result<std::string> bytes = read_file(path, largest_model_file);
     if (!bytes) return tl::unexpected(bytes.error());
-    Result<PolygonSoup> soup = read_bytes(*bytes, ending, path.parent_path());
+    Result<PolygonSoup> soup = read_model_bytes(*bytes, ending, path.parent_path());
     if (!soup) {
         return failure(fmt::format("'{}': {}", path.string(), soup.error().message),
                        soup.error().hint);

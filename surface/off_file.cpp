@@ -1,11 +1,9 @@
-// OFF files of text. A reader of our own: OpenMesh's believes whatever counts a file begins with,
-// and does not come back from false ones.
+// OFF files of text.
 #include "surface/model_file.h"
 #include "surface/text_words.h"
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -14,43 +12,6 @@ namespace cascade {
 namespace {
 
 constexpr std::size_t least_point = 6, least_face = 2;  ///< Bytes, with the end of the line.
-
-/// The lines of a text that are neither empty nor comments, as numbers and words.
-class LineReader {
-public:
-    explicit LineReader(std::string_view text) : text_(text) {}
-
-    /// The words of the next line; none at the end.
-    const std::vector<std::string_view>& next() {
-        words_.clear();
-        while (words_.empty() && at_ < text_.size()) {
-            const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-            std::string_view line = text_.substr(at_, end - at_);
-            line = line.substr(0, line.find('#'));
-            at_ = std::min(end + 1, text_.size());
-            ++number_;
-            words_ = words_of(line);
-        }
-        return words_;
-    }
-    /// A line that is looked at again.
-    void drop_first_word() { words_.erase(words_.begin()); }
-    std::size_t number() const { return number_; }
-
-private:
-    std::string_view text_;
-    std::size_t at_ = 0, number_ = 0;
-    std::vector<std::string_view> words_;
-};
-
-template <typename Number>
-std::optional<Number> number_in(std::string_view word) {
-    if (word.starts_with('+')) word.remove_prefix(1);
-    Number value = 0;
-    const auto [stop, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (fault != std::errc() || stop != word.data() + word.size()) return std::nullopt;
-    return value;
-}
 
 /// What the first word says that points have beside their places.
 struct Extras {
@@ -106,19 +67,16 @@ private:
 
     /// The word OFF may be missing, and the counts may follow it on its line.
     bool read_head() {
-        const Words* words = &lines_.next();
-        if (words->empty()) return false;
-        if (const auto extras = extras_of(words->front())) {
+        Words words = lines_.next();
+        if (words.empty()) return false;
+        if (const auto extras = extras_of(words.front())) {
             extras_ = *extras;
-            if (words->size() > 1) {
-                lines_.drop_first_word();
-            } else {
-                words = &lines_.next();
-            }
+            words.erase(words.begin());
+            if (words.empty()) words = lines_.next();
         }
-        if (words->size() < 2) return false;
-        const auto points = number_in<std::uint32_t>((*words)[0]);
-        const auto faces = number_in<std::uint32_t>((*words)[1]);
+        if (words.size() < 2) return false;
+        const auto points = whole_number_in<std::uint32_t>(words[0]);
+        const auto faces = whole_number_in<std::uint32_t>(words[1]);
         if (!points || !faces) return false;
         points_ = *points;
         faces_ = *faces;
@@ -128,7 +86,7 @@ private:
     bool read_point(const Words& words) {
         numbers_.clear();
         for (const std::string_view word : words) {
-            const auto number = number_in<double>(word);
+            const auto number = number_in(word);
             if (!number) return false;
             numbers_.push_back(*number);
         }
@@ -149,10 +107,10 @@ private:
     /// Behind the corners may stand a colour.
     bool read_face(const Words& words) {
         if (words.empty()) return false;
-        const auto count = number_in<std::uint32_t>(words[0]);
+        const auto count = whole_number_in<std::uint32_t>(words[0]);
         if (!count || *count > words.size() - 1) return false;
         for (std::size_t k = 1; k <= *count; ++k) {
-            const auto corner = number_in<std::uint32_t>(words[k]);
+            const auto corner = whole_number_in<std::uint32_t>(words[k]);
             if (!corner || *corner >= soup_.points.size()) return false;
             soup_.corners.push_back(*corner);
         }

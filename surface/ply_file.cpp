@@ -1,13 +1,12 @@
-// PLY files. A reader of our own: files of triangle strips and of properties with any name are
-// common, and OpenMesh reads neither.
+// PLY files, with triangle strips and properties of any name.
 #include "surface/model_file.h"
 #include "surface/ply_header.h"
+#include "surface/text_words.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -37,17 +36,9 @@ public:
 private:
     std::optional<double> next_word() {
         while (at_ < bytes_.size() && is_blank(bytes_[at_])) ++at_;
-        const char* first = bytes_.data() + at_;
-        const char* end = bytes_.data() + bytes_.size();
-        if (first != end && *first == '+') ++first;
-        double value = 0;
-        const auto [stop, fault] = std::from_chars(first, end, value);
-        if (fault == std::errc::invalid_argument || (stop != end && !is_blank(*stop))) {
-            return std::nullopt;
-        }
-        if (fault == std::errc::result_out_of_range) value = 0;  // Too small, or no place at all.
-        at_ = static_cast<std::size_t>(stop - bytes_.data());
-        return value;
+        const std::size_t begin = at_;
+        while (at_ < bytes_.size() && !is_blank(bytes_[at_])) ++at_;
+        return number_in(bytes_.substr(begin, at_ - begin));
     }
 
     static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
@@ -114,6 +105,10 @@ public:
         : header_(header), numbers_(bytes, header) {}
 
     Result<PolygonSoup> read() {
+        if (std::count_if(header_.elements.begin(), header_.elements.end(),
+                          [](const PlyElement& e) { return e.name == "vertex"; }) > 1) {
+            return failure("the PLY file has several elements 'vertex'");
+        }
         for (const PlyElement& element : header_.elements) {
             for (std::uint64_t k = 0; k < element.count; ++k) {
                 if (k == 0) begin(element);
@@ -134,11 +129,8 @@ public:
                                            soup_.points.size()));
             }
         }
-        if (!has_point_texture_ && soup_.texture.size() != soup_.corners.size()) {
-            soup_.texture.clear();
-        }
+        if (has_point_texture_ || !corners_have_texture_) soup_.texture.clear();
         if (has_point_texture_) {
-            soup_.texture.clear();
             for (const std::uint32_t corner : soup_.corners) {
                 soup_.texture.push_back(point_texture_[corner]);
             }
@@ -203,6 +195,8 @@ private:
             }
             if (name == "texcoord") add_texture(lists_[k]);
         }
+        // Where a face has places for more or fewer corners than its own, those of others would slip.
+        corners_have_texture_ = corners_have_texture_ && soup_.texture.size() == soup_.corners.size();
         return {};
     }
 
@@ -268,6 +262,7 @@ private:
     PolygonSoup soup_;
     PointColumns columns_;
     bool has_point_texture_ = false;
+    bool corners_have_texture_ = true;
     std::vector<TexturePlace> point_texture_;
     std::vector<std::size_t> attribute_columns_;
     std::vector<double> row_;                 ///< Scalars of the element that is read.

@@ -1,6 +1,7 @@
 // Each format as programs write it, and files that are broken.
 #include "surface/model_file.h"
 
+#include "support/small_models.h"
 #include "unit/surface/soups.h"
 
 #include <gmock/gmock.h>
@@ -12,6 +13,8 @@
 namespace cascade {
 namespace {
 
+using test::bytes_of;
+using test::gltf_text;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -64,13 +67,6 @@ TEST(ModelFile, APlyFileOfText) {
     EXPECT_THAT(soup->attributes[1].values, ElementsAre(1, 2, 3, 4, 5));
 }
 
-std::string bytes_of(auto value, bool big) {
-    std::string bytes(sizeof value, '\0');
-    std::memcpy(bytes.data(), &value, sizeof value);
-    if (big) std::reverse(bytes.begin(), bytes.end());
-    return bytes;
-}
-
 TEST(ModelFile, PlyFilesOfBothByteOrders) {
     for (const bool big : {false, true}) {
         std::string file = "ply\nformat ";
@@ -80,7 +76,7 @@ TEST(ModelFile, PlyFilesOfBothByteOrders) {
                 "element face 1\nproperty list uint8 uint16 vertex_index\nend_header\n";
         for (int k = 0; k < 3; ++k) {
             file += bytes_of(static_cast<float>(k), big) + bytes_of(0.1 * k, big) +
-                    bytes_of(static_cast<std::int16_t>(-k), big) + bytes_of(0.25F * static_cast<float>(k), big) +
+                    bytes_of(static_cast<std::uint16_t>(-k), big) + bytes_of(0.25F * static_cast<float>(k), big) +
                     bytes_of(0.5F, big);
         }
         file += '\3';
@@ -117,11 +113,10 @@ TEST(ModelFile, BrokenPlyFiles) {
 }
 
 TEST(ModelFile, AnObjFile) {
-    const auto soup = read_by_openmesh("mtllib /dev/zero\n"
+    const auto soup = read_obj("mtllib /dev/zero\n"
                                        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                                        "vt 0.5 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
-                                       "g square\nf 1/1 2/2 3/3 4/4\nf -4/1 -3/2 -1/4\n",
-                                       "obj");
+                                       "g square\nf 1/1 2/2 3/3 4/4\nf -4/1 -3/2 -1/4\n");
     ASSERT_TRUE(soup) << fault_of(soup);
     EXPECT_EQ(soup->points.size(), 4u);
     ASSERT_EQ(soup->polygon_count(), 2u);
@@ -131,7 +126,7 @@ TEST(ModelFile, AnObjFile) {
     EXPECT_EQ(soup->texture[0], (TexturePlace{0.5F, 0}));
     EXPECT_EQ(soup->texture[6], (TexturePlace{0, 1}));
 
-    EXPECT_EQ(fault_of(read_by_openmesh("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n", "obj")),
+    EXPECT_EQ(fault_of(read_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n")),
               "face 2 of the OBJ file names a point that is not there");
 }
 
@@ -151,38 +146,10 @@ TEST(ModelFile, AnOffFileAndAnStlFile) {
     EXPECT_THAT(fault_of(read_off("OFF\n4000000000 1 0\n0 0 0\n")), HasSubstr("too short for"));
     EXPECT_EQ(fault_of(read_off("solid")), "this is no OFF file of text");
 
-    const auto stl = read_by_openmesh("solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
-                                      "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n",
-                                      "stl");
+    const auto stl = read_stl("solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                                      "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n");
     ASSERT_TRUE(stl) << fault_of(stl);
     EXPECT_EQ(stl->polygon_count(), 1u);
-}
-
-/// Two triangles of one mesh, moved by its node and scaled by the one above.
-std::string gltf_text(std::string_view indices_accessor = R"("indices":1,)") {
-    std::string data;
-    for (const float number : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) {
-        data += bytes_of(number, false);
-    }
-    for (const std::uint16_t corner : std::initializer_list<std::uint16_t>{0, 1, 2}) data += bytes_of(corner, false);
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string base64;
-    for (std::size_t k = 0; k + 2 < data.size(); k += 3) {
-        const unsigned word = static_cast<unsigned char>(data[k]) << 16 |
-                              static_cast<unsigned char>(data[k + 1]) << 8 |
-                              static_cast<unsigned char>(data[k + 2]);
-        for (const int shift : {18, 12, 6, 0}) base64 += digits[word >> shift & 63];
-    }
-    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
-           R"("nodes":[{"scale":[2,2,2],"children":[1]},{"translation":[1,0,0],"mesh":0}],)"
-           R"("meshes":[{"primitives":[{)" +
-           std::string(indices_accessor) + R"("attributes":{"POSITION":0}}]}],)"
-           R"("buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,)" +
-           base64 + R"("}],"bufferViews":[{"buffer":0,"byteLength":36},)"
-           R"({"buffer":0,"byteOffset":36,"byteLength":6}],"accessors":[)"
-           R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},)"
-           R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}]})";
 }
 
 TEST(ModelFile, AGltfFileIsPlacedByItsNodes) {

@@ -1,0 +1,33 @@
+// Small valid files of models in every format: what readers are tried on, whole and broken.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade::test {
+
+/// The bytes of a number as files hold them.
+std::string bytes_of(float value, bool big_endian = false);
+std::string bytes_of(double value, bool big_endian = false);
+std::string bytes_of(std::uint16_t value, bool big_endian = false);
+std::string bytes_of(std::uint32_t value, bool big_endian = false);
+
+/// One triangle, moved by its node and scaled by the one above. What is said of the indices can be
+/// exchanged.
+std::string gltf_text(std::string_view indices_accessor = R"("indices":1,)");
+
+/// The parts of a GLB file put together.
+std::string glb_file(std::string_view json, std::string_view data);
+
+struct SmallModel {
+    std::string_view name;
+    std::string_view ending;  ///< Of its format, in lower case.
+    std::string bytes;
+};
+
+/// A tetrahedron, or less, in all formats that are read.
+std::vector<SmallModel> small_models();
+
+}  // namespace cascade::test
