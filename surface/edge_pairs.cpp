@@ -198,6 +198,15 @@ EdgePairs pair_edges(std::span<const Vector3d> points,
     return EdgePairer(points, triangles).pair();
 }
 
+SurfaceMesh mesh_of(std::vector<Vector3d> points,
+                    std::vector<std::array<std::uint32_t, 3>> triangles) {
+    SurfaceMesh mesh;
+    mesh.across = pair_edges(points, triangles).across;
+    mesh.points = std::move(points);
+    mesh.triangles = std::move(triangles);
+    return mesh;
+}
+
 Orientation orient(std::span<const Vector3d> points,
                    std::span<const std::array<std::uint32_t, 3>> triangles,
                    std::vector<std::array<TriangleEdge, 3>>& across) {

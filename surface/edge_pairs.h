@@ -21,6 +21,10 @@ struct EdgePairs {
 EdgePairs pair_edges(std::span<const Vector3d> points,
                      std::span<const std::array<std::uint32_t, 3>> triangles);
 
+/// A mesh of triangles that fit together and turn the same way already: links are all that is added.
+SurfaceMesh mesh_of(std::vector<Vector3d> points,
+                    std::vector<std::array<std::uint32_t, 3>> triangles);
+
 struct Orientation {
     std::vector<bool> is_turned;    ///< Per triangle: its corners are to be taken the other way.
     std::size_t turned = 0;         ///< How many.

@@ -13,6 +13,7 @@ using test::append;
 using test::cube;
 using test::expect_manifold;
 using test::soup_of;
+using test::volume_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -23,14 +24,6 @@ MadeMesh made(PolygonSoup soup) {
     if (!result) return {};
     expect_manifold(result->mesh);
     return *std::move(result);
-}
-
-double volume(const SurfaceMesh& mesh) {
-    double sum = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        sum += dot(mesh.corner(t, 0), cross(mesh.corner(t, 1), mesh.corner(t, 2))) / 6;
-    }
-    return sum;
 }
 
 TEST(MakeMesh, ACubeIsAClosedSurface) {
@@ -44,7 +37,7 @@ TEST(MakeMesh, ACubeIsAClosedSurface) {
     EXPECT_EQ(facts.boundaries, 0u);
     EXPECT_EQ(facts.euler_characteristic, 2);
     EXPECT_DOUBLE_EQ(facts.area, 6);
-    EXPECT_DOUBLE_EQ(volume(box.mesh), 1);
+    EXPECT_DOUBLE_EQ(volume_of(box.mesh), 1);
     EXPECT_EQ(facts.high, (Vector3d{1, 1, 1}));
 }
 
@@ -134,14 +127,14 @@ TEST(MakeMesh, FacesAreTurnedToAgree) {
     std::swap(mixed.corners[5], mixed.corners[7]);
     const MadeMesh agreed = made(mixed);
     EXPECT_THAT(agreed.repairs, ElementsAre("2 faces were turned to agree with the others"));
-    EXPECT_DOUBLE_EQ(volume(agreed.mesh), 1);
+    EXPECT_DOUBLE_EQ(volume_of(agreed.mesh), 1);
 
     PolygonSoup inside_out = cube();
     for (std::size_t p = 0; p < 6; ++p) std::swap(inside_out.corners[4 * p], inside_out.corners[4 * p + 2]);
     const MadeMesh turned = made(inside_out);
     EXPECT_THAT(turned.repairs, ElementsAre("12 faces were turned to agree with the others",
                                             "1 piece was turned inside out"));
-    EXPECT_DOUBLE_EQ(volume(turned.mesh), 1);
+    EXPECT_DOUBLE_EQ(volume_of(turned.mesh), 1);
 }
 
 TEST(MakeMesh, AMoebiusStripIsCutOnce) {

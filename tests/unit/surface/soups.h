@@ -54,4 +54,13 @@ inline void expect_manifold(const SurfaceMesh& mesh) {
     for (std::size_t k = 0; k < is_used.size(); ++k) EXPECT_TRUE(is_used[k]) << "point " << k;
 }
 
+/// Inside a closed surface.
+inline double volume_of(const SurfaceMesh& mesh) {
+    double sum = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        sum += dot(mesh.corner(t, 0), cross(mesh.corner(t, 1), mesh.corner(t, 2))) / 6;
+    }
+    return sum;
+}
+
 }  // namespace cascade::test
