@@ -3,13 +3,12 @@
 // makes a surface that does not fit together. Built with clang, libFuzzer and sanitizers; the
 // commands are in README.md here.
 #include "core/check.h"
-#include "surface/make_mesh.h"
 #include "surface/model_file.h"
+#include "tests/support/model_faults.h"
 #include "tests/support/small_models.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -28,38 +27,6 @@ void write_seeds(const std::filesystem::path& folder) {
         std::ofstream(folder / model.name, std::ios::binary)
             << static_cast<char>(format - endings.begin()) << model.bytes;
     }
-}
-
-void check_soup(const PolygonSoup& soup) {
-    for (const std::uint32_t corner : soup.corners) {
-        CHECK(corner < soup.points.size(), "every corner is a point");
-    }
-    CHECK(soup.ends.empty() ? soup.corners.empty() : soup.ends.back() == soup.corners.size(),
-          "polygons have all corners");
-    CHECK(soup.texture.empty() || soup.texture.size() == soup.corners.size(),
-          "every corner has a place in the texture, or none has");
-    for (const PointAttribute& attribute : soup.attributes) {
-        CHECK(attribute.values.size() == soup.points.size(), "attributes are of every point");
-    }
-}
-
-void check_mesh(const SurfaceMesh& mesh) {
-    CHECK(mesh.across.size() == mesh.triangles.size(), "every triangle has neighbours");
-    CHECK(mesh.texture.empty() || mesh.texture.size() == mesh.triangles.size(),
-          "every triangle has a place in the texture, or none has");
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            CHECK(mesh.triangles[t][k] < mesh.points.size(), "every corner is a point");
-            const TriangleEdge other = mesh.across[t][k];
-            if (!other.exists()) continue;
-            CHECK((mesh.across[other.triangle][other.edge] == TriangleEdge{t, k}),
-                  "links lead back");
-            CHECK(mesh.triangles[other.triangle][other.edge] == mesh.triangles[t][(k + 1) % 3],
-                  "neighbours turn the same way round");
-        }
-    }
-    const MeshFacts facts = facts_of(mesh);
-    CHECK(std::isfinite(facts.area) && facts.area > 0, "a surface has an area");
 }
 
 }  // namespace
@@ -85,8 +52,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         CHECK(!soup.error().message.empty(), "a file that is refused has a message");
         return 0;
     }
-    cascade::check_soup(*soup);
+    CHECK(!cascade::test::fault_of_soup(*soup), "what is read fits together");
     const auto made = cascade::make_mesh(*std::move(soup));
-    if (made) cascade::check_mesh(made->mesh);
+    CHECK(made || !made.error().message.empty(), "a model that is refused has a message");
+    if (made) CHECK(!cascade::test::fault_of_mesh(made->mesh), "what is made fits together");
     return 0;
 }
