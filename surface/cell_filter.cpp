@@ -1,0 +1,274 @@
+#include "surface/cell_filter.h"
+
+#include "surface/point_index.h"
+#include "surface/scatter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cascade {
+
+namespace {
+
+/// A sum of weights below this is no average: the place is at the very rim of what it sees.
+constexpr float least_sum = 1e-5F;
+
+Vector3 single(Vector3d v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// Of the square of d / s.
+float weight_of(float square) {
+    return std::max(0.0F, 1 + square * (2 * std::sqrt(square) - 3));
+}
+
+/// Of the points the nearest one to each of some others, in space.
+std::vector<std::uint32_t> nearest_points(std::span<const Vector3d> points,
+                                          std::span<const Vector3d> others, double reach) {
+    std::vector<std::uint32_t> nearest(others.size(), TriangleEdge::none);
+    for (std::size_t left = others.size(); left > 0; reach *= 2) {
+        const PointIndex index(points, reach);
+        for (std::size_t k = 0; k < others.size(); ++k) {
+            if (nearest[k] != TriangleEdge::none) continue;
+            double least = 0;
+            index.near(others[k], [&](std::uint32_t point) {
+                const Vector3d apart = points[point] - others[k];
+                const double square = dot(apart, apart);
+                const bool is_first = nearest[k] == TriangleEdge::none;
+                if (!is_first && (square > least || (square == least && point > nearest[k]))) return;
+                least = square;
+                nearest[k] = point;
+            });
+            if (nearest[k] != TriangleEdge::none) --left;
+        }
+    }
+    return nearest;
+}
+
+}  // namespace
+
+CellFilter::CellFilter(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team)
+    : radius_(repulsion_radius(mesh.total_area(), cells.places.size())) {
+    lay_out(mesh);
+    fill_boxes(cell_images(mesh, cells.places, radius_, team));
+    find_substitutes(mesh, cells);
+}
+
+void CellFilter::lay_out(const SurfaceMesh& mesh) {
+    patches_.resize(mesh.triangles.size());
+    std::size_t boxes = 0;
+    for (std::uint32_t t = 0; t < patches_.size(); ++t) {
+        Patch& patch = patches_[t];
+        const std::uint32_t first = longest_edge(mesh, t), second = (first + 1) % 3;
+        const FlatTriangle flat = longest_edge_frame(mesh, t);
+        const Vector2d third = flat[(first + 2) % 3];
+        const Vector3d along = unit(mesh.corner(t, second) - mesh.corner(t, first));
+        patch.x_axis = single(along);
+        patch.y_axis = single(cross(unit(mesh.double_area_normal(t)), along));
+        patch.second_x = static_cast<float>(flat[second].x);
+        patch.third_x = static_cast<float>(third.x);
+        patch.third_y = static_cast<float>(third.y);
+        patch.first_corner = first;
+        const auto boxes_along = [&](double size) {
+            return static_cast<std::uint32_t>(std::clamp(std::ceil(size / radius_), 1.0, 65536.0));
+        };
+        patch.columns = boxes_along(flat[second].x);
+        patch.rows = boxes_along(third.y);
+        patch.first_box = boxes;
+        boxes += std::size_t{patch.columns} * patch.rows;
+    }
+    box_ends_.assign(boxes, 0);
+}
+
+CellFilter::FlatPlace CellFilter::flat_place(const Patch& patch, const SurfacePlace& place) {
+    const auto second = static_cast<float>(place.weights[(patch.first_corner + 1) % 3]);
+    const auto third = static_cast<float>(place.weights[(patch.first_corner + 2) % 3]);
+    return {second * patch.second_x + third * patch.third_x, third * patch.third_y};
+}
+
+std::size_t CellFilter::box_of(const Patch& patch, FlatPlace place) const {
+    const auto side = static_cast<float>(radius_);
+    const auto number = [&](float at, std::uint32_t count) {
+        return static_cast<std::size_t>(
+            std::clamp(at / side, 0.0F, static_cast<float>(count - 1)));
+    };
+    return patch.first_box + number(place.y, patch.rows) * patch.columns +
+           number(place.x, patch.columns);
+}
+
+std::span<const CellFilter::Sighting> CellFilter::sightings_of(std::size_t first_box,
+                                                               std::size_t boxes) const {
+    const std::size_t first = first_box == 0 ? 0 : box_ends_[first_box - 1];
+    return {sightings_.data() + first, box_ends_[first_box + boxes - 1] - first};
+}
+
+/// Calls `visit(box)` for those of its triangle's boxes from which an image is within the radius.
+template <typename Visit>
+void CellFilter::visit_boxes(const CellImage& image, const Visit& visit) const {
+    const Patch& patch = patches_[image.triangle];
+    // A little more: where a place falls between boxes is rounded.
+    const double reach = 1 + 1e-4;
+    const double x = static_cast<double>(image.x) / radius_, y = static_cast<double>(image.y) / radius_;
+    const auto number = [](double at, std::uint32_t count) {
+        return static_cast<std::uint32_t>(std::clamp(std::floor(at), 0.0, count - 1.0));
+    };
+    /// From a number to an interval of length 1; the last one goes on.
+    const auto beyond = [](double at, std::uint32_t interval, std::uint32_t count) {
+        if (at < interval) return interval - at;
+        return interval + 1 == count ? 0 : std::max(0.0, at - interval - 1);
+    };
+    const std::uint32_t last_row = number(y + reach, patch.rows);
+    const std::uint32_t last_column = number(x + reach, patch.columns);
+    for (std::uint32_t row = number(y - reach, patch.rows); row <= last_row; ++row) {
+        for (std::uint32_t column = number(x - reach, patch.columns); column <= last_column;
+             ++column) {
+            const double dx = beyond(x, column, patch.columns), dy = beyond(y, row, patch.rows);
+            if (dx * dx + dy * dy > reach * reach) continue;
+            visit(patch.first_box + std::size_t{row} * patch.columns + column);
+        }
+    }
+}
+
+void CellFilter::fill_boxes(std::span<const CellImage> images) {
+    for (const CellImage& image : images) {
+        visit_boxes(image, [&](std::size_t box) { ++box_ends_[box]; });
+    }
+    std::size_t sum = 0;
+    for (std::size_t& end : box_ends_) {
+        const std::size_t count = end;
+        end = sum;  // Its first one; filling moves it to its end.
+        sum += count;
+    }
+    sightings_.resize(sum);
+    for (const CellImage& image : images) {
+        visit_boxes(image, [&](std::size_t box) {
+            sightings_[box_ends_[box]++] = {image.cell, image.x, image.y};
+        });
+    }
+}
+
+/// For triangles from which no cell is seen: that of the triangle on the way to the next cell, or,
+/// on pieces without any, that nearest in space to the piece's first triangle.
+void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& cells) {
+    std::vector<std::uint32_t> waiting;
+    std::vector<bool> is_found(patches_.size());
+    for (std::uint32_t t = 0; t < patches_.size(); ++t) {
+        Patch& patch = patches_[t];
+        if (sightings_of(patch.first_box, std::size_t{patch.columns} * patch.rows).empty()) continue;
+        patch.otherwise = nearest_cell(patch, flat_place(patch, {t, {1.0 / 3, 1.0 / 3, 1.0 / 3}}));
+        is_found[t] = true;
+        waiting.push_back(t);
+    }
+    if (waiting.size() == patches_.size()) return;
+    const auto spread = [&] {
+        for (std::size_t k = 0; k < waiting.size(); ++k) {
+            for (const TriangleEdge& other : mesh.across[waiting[k]]) {
+                if (!other.exists() || is_found[other.triangle]) continue;
+                patches_[other.triangle].otherwise = patches_[waiting[k]].otherwise;
+                is_found[other.triangle] = true;
+                waiting.push_back(other.triangle);
+            }
+        }
+        waiting.clear();
+    };
+    spread();
+    const std::vector<std::uint32_t> pieces = pieces_of(mesh);
+    std::vector<std::uint32_t> bare;  // The first triangles of pieces.
+    std::vector<Vector3d> positions, bare_positions;
+    std::uint32_t seen = 0;
+    for (std::uint32_t t = 0; t < patches_.size(); ++t) {
+        const bool is_first = pieces[t] == seen;
+        seen += is_first;
+        if (!is_first || is_found[t]) continue;
+        bare.push_back(t);
+        bare_positions.push_back(position_of(mesh, {t, {1.0 / 3, 1.0 / 3, 1.0 / 3}}));
+    }
+    for (const SurfacePlace& place : cells.places) positions.push_back(position_of(mesh, place));
+    const std::vector<std::uint32_t> nearest = nearest_points(positions, bare_positions, radius_);
+    for (std::size_t k = 0; k < bare.size(); ++k) {
+        patches_[bare[k]].otherwise = nearest[k];
+        is_found[bare[k]] = true;
+        waiting.push_back(bare[k]);
+    }
+    spread();
+}
+
+/// Of all that are seen from the triangle, however far.
+std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPlace place) const {
+    std::uint32_t nearest = patch.otherwise;
+    float least = INFINITY;
+    for (const Sighting& sighting :
+         sightings_of(patch.first_box, std::size_t{patch.columns} * patch.rows)) {
+        const float x = place.x - sighting.x, y = place.y - sighting.y;
+        const float square = x * x + y * y;
+        if (square > least || (square == least && sighting.cell > nearest)) continue;
+        least = square;
+        nearest = sighting.cell;
+    }
+    return nearest;
+}
+
+/// Calls `visit(near)` once for each cell nearer than the radius.
+template <typename Visit>
+void CellFilter::visit_near(const Patch& patch, FlatPlace place, const Visit& visit) const {
+    const auto scale = static_cast<float>(1 / (radius_ * radius_));
+    Near near{0, INFINITY, 0, 0};
+    for (const Sighting& sighting : sightings_of(box_of(patch, place), 1)) {
+        const float x = place.x - sighting.x, y = place.y - sighting.y;
+        const float square = (x * x + y * y) * scale;
+        if (sighting.cell != near.cell) {
+            if (near.square < 1) visit(near);
+            near = {sighting.cell, square, x, y};
+        } else if (square < near.square) {
+            near = {sighting.cell, square, x, y};
+        }
+    }
+    if (near.square < 1) visit(near);
+}
+
+void CellFilter::shares(const SurfacePlace& place, std::vector<CellShare>& out) const {
+    const Patch& patch = patches_[place.triangle];
+    const FlatPlace at = flat_place(patch, place);
+    out.clear();
+    float sum = 0;
+    visit_near(patch, at, [&](const Near& near) {
+        const float weight = weight_of(near.square);
+        out.push_back({near.cell, weight});
+        sum += weight;
+    });
+    if (sum < least_sum) {
+        out.assign(1, {nearest_cell(patch, at), 1});
+        return;
+    }
+    const float scale = 1 / sum;
+    for (CellShare& share : out) share.weight *= scale;
+}
+
+void CellFilter::sloped_shares(const SurfacePlace& place, std::vector<SlopedShare>& out) const {
+    const Patch& patch = patches_[place.triangle];
+    const FlatPlace at = flat_place(patch, place);
+    out.clear();
+    float sum = 0;
+    Vector3 slope;
+    const auto per_square = static_cast<float>(2 / (radius_ * radius_));
+    visit_near(patch, at, [&](const Near& near) {
+        const float weight = weight_of(near.square);
+        // The derivative by d²/s², which is a multiple of it, times that of d²/s².
+        const float steep = 3 * (std::sqrt(near.square) - 1) * per_square;
+        out.push_back({near.cell, weight,
+                       patch.x_axis * (steep * near.x) + patch.y_axis * (steep * near.y)});
+        sum += weight;
+        slope = slope + out.back().slope;
+    });
+    if (sum < least_sum) {
+        out.assign(1, {nearest_cell(patch, at), 1, {}});
+        return;
+    }
+    const float scale = 1 / sum;
+    for (SlopedShare& share : out) {
+        share.weight *= scale;
+        share.slope = (share.slope - slope * share.weight) * scale;
+    }
+}
+
+}  // namespace cascade
