@@ -31,6 +31,15 @@ struct Extent {
         low = std::max(low, -offset + half * backward);
         high = std::max(high, offset + half * backward);
     }
+    /// All points of a circle: offset and backward are those of its middle plus the sine of an angle times
+    /// these.
+    void add_circle(float offset, float backward, float offset_sine, float backward_sine,
+                    float half) {
+        low = std::max(low, -offset + half * backward +
+                                std::abs(half * backward_sine - offset_sine));
+        high = std::max(high, offset + half * backward +
+                                  std::abs(half * backward_sine + offset_sine));
+    }
     /// Eye's offset and distance at which both edges touch.
     float offset() const { return (high - low) / 2; }
     float distance(float half) const { return (low + high) / (2 * half); }
@@ -58,12 +67,29 @@ Camera::Camera(const TriangleMesh& mesh, const View& view, std::int64_t width,
     const float half_x = half_field * pixels_wide / smaller / margin;
     const float half_y = half_field * pixels_high / smaller / margin;
     Extent x, y;
-    for (const Vector3& p : mesh.positions) {
-        x.add(dot(p, right_), dot(p, backward_), half_x);
-        y.add(dot(p, up_), dot(p, backward_), half_y);
+    Vector3 middle;
+    if (view.is_turning) {
+        middle = bounds(mesh).centre();
+        for (const Vector3& p : mesh.positions) {
+            // Turning, a point of the mesh draws a circle around the axis.
+            const float rise = dot(p - middle, view.up);
+            const float radius = length(p - middle - view.up * rise);
+            const float back = rise * above.sine;
+            // To the sides, cosine and sine of the angle together.
+            const float swing = radius * std::hypot(1.0F, half_x * above.cosine);
+            x.add(swing, back, half_x);
+            x.add(-swing, back, half_x);
+            y.add_circle(rise * above.cosine, back, -radius * above.sine, radius * above.cosine,
+                         half_y);
+        }
+    } else {
+        for (const Vector3& p : mesh.positions) {
+            x.add(dot(p, right_), dot(p, backward_), half_x);
+            y.add(dot(p, up_), dot(p, backward_), half_y);
+        }
     }
     const float distance = std::max(x.distance(half_x), y.distance(half_y));
-    eye_ = right_ * x.offset() + up_ * y.offset() + backward_ * distance;
+    eye_ = middle + right_ * x.offset() + up_ * y.offset() + backward_ * distance;
     pixel_ = 2 * half_field / smaller;
     centre_x_ = pixels_wide / 2;
     centre_y_ = pixels_high / 2;

@@ -12,6 +12,9 @@ struct View {
     float azimuth = 30;    ///< Degrees around the axis that points up, from the front to the right.
     float elevation = 25;  ///< Degrees above the horizon, −89 … 89.
     Vector3 up{0, 0, 1};   ///< One of the axes x, y, z.
+    /// Frame the mesh for all azimuths at once, turning around the middle of its box, so that in a row of
+    /// pictures from around it stands still and keeps its size.
+    bool is_turning = false;
 };
 
 struct Ray {
@@ -27,13 +30,16 @@ public:
     /// Through a point of the picture, in pixels from its upper left corner.
     Ray ray(float x, float y) const;
 
+    /// Side of a pixel at distance 1.
+    float pixel() const { return pixel_; }
+    Vector3 eye() const { return eye_; }
     Vector3 right() const { return right_; }
     Vector3 up() const { return up_; }
     Vector3 backward() const { return backward_; }
 
 private:
     Vector3 right_, up_, backward_, eye_;
-    float pixel_ = 0;  ///< Side of a pixel at distance 1.
+    float pixel_ = 0;
     float centre_x_ = 0, centre_y_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include "render/draw.h"
 
 #include "core/hash.h"
+#include "render/srgb.h"
 
 #include <algorithm>
 #include <array>
@@ -22,21 +23,6 @@ constexpr float sun_radius = 0.12F;     ///< Tangent of the sun's half width.
 constexpr float ground_shade = 0.55F;   ///< How much of the light the ground's shadow takes away.
 constexpr float shine = 0.06F;
 constexpr Colour background{1, 1, 1};
-
-// The library's functions differ in their last bit from processor to processor. Those of binary64,
-// rounded to binary32, do not.
-float power(float base, double exponent) {
-    return static_cast<float>(std::pow(static_cast<double>(base), exponent));
-}
-
-/// sRGB to amounts of light and back (IEC 61966-2-1).
-float to_light(float stored) {
-    return stored <= 0.04045F ? stored / 12.92F : power((stored + 0.055F) / 1.055F, 2.4);
-}
-float to_stored(float light) {
-    const float clamped = std::clamp(light, 0.0F, 1.0F);
-    return clamped <= 0.0031308F ? clamped * 12.92F : 1.055F * power(clamped, 1 / 2.4) - 0.055F;
-}
 
 float to_fraction(std::uint32_t word) {
     return static_cast<float>(word >> 8) * 0x1p-24F;  // 0 … 1, 1 excluded.
@@ -68,10 +54,10 @@ struct Light {
 
 class Tracer {
 public:
-    Tracer(const TriangleMesh& mesh, const SurfaceColour& colour, const DrawOptions& options,
+    Tracer(const TriangleMesh& mesh, const SurfaceLook& look, const DrawOptions& options,
            const RayCaster& caster)
         : mesh_(mesh),
-          colour_(colour),
+          look_(look),
           options_(options),
           caster_(caster),
           camera_(mesh, options.view, options.width, options.height),
@@ -97,7 +83,7 @@ public:
             const Colour light = trace(camera_.ray(left + place.x, top + place.y), dice);
             for (std::size_t c = 0; c < 3; ++c) sum[c] += light[c];
         }
-        for (float& channel : sum) channel = to_stored(channel / static_cast<float>(side * side));
+        for (float& channel : sum) channel = stored_of(channel / static_cast<float>(side * side));
         return sum;
     }
 
@@ -119,19 +105,41 @@ private:
                               mesh_.normals[c] * hit.v);
         Vector3 facet = unit(cross(mesh_.positions[b] - mesh_.positions[a],
                                    mesh_.positions[c] - mesh_.positions[a]));
+        const float width = camera_.pixel() * hit.distance / static_cast<float>(options_.samples);
+        const Look look = look_({hit, ray.direction, width});
         // Both sides are drawn: the one that is seen faces the viewer.
         if (dot(facet, ray.direction) > 0) facet = -facet;
-        if (dot(normal, facet) < 0) normal = -normal;
-        const Vector3 place = ray.origin + ray.direction * hit.distance + facet * (size_ * 1e-4F);
+        const float side = dot(normal, facet) < 0 ? -1.0F : 1.0F;
+        if (look.tilt != Vector3{}) normal = unit(normal + look.tilt);
+        if (side < 0) normal = -normal;
+        Vector3 place = ray.origin + ray.direction * hit.distance + facet * (size_ * 1e-4F);
+        if (options_.round_shadows) place = place + rounding(hit, side);
         const Light light = light_at(place, normal, dice);
         const Vector3 half = unit(sun_ - ray.direction);
         const float gleam =
-            light.sun * shine * power(std::max(0.0F, dot(normal, half)), 40);
+            light.sun * shine * steady_power(std::max(0.0F, dot(normal, half)), 40);
         const float bright = sun_light * light.sun * std::max(0.0F, dot(normal, sun_)) +
                              sky_light * light.sky;
-        Colour result = colour_(hit);
-        for (float& channel : result) channel = to_light(channel) * bright + gleam;
+        Colour result = look.light;
+        for (float& channel : result) channel = channel * bright + gleam;
         return result;
+    }
+
+    /// From a place on a facet to the round surface that its corners' normals stand on: J. Hanika, "Hacking
+    /// the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4.
+    Vector3 rounding(const Hit& hit, float side) const {
+        const auto& corners = mesh_.triangles[hit.triangle];
+        const std::array<float, 3> weights = {1 - hit.u - hit.v, hit.u, hit.v};
+        Vector3 place, offset;
+        for (std::size_t k = 0; k < 3; ++k) {
+            place = place + mesh_.positions[corners[k]] * weights[k];
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vector3 normal = mesh_.normals[corners[k]] * side;
+            const float below = std::min(0.0F, dot(place - mesh_.positions[corners[k]], normal));
+            offset = offset - normal * (weights[k] * below);
+        }
+        return offset;
     }
 
     /// The background, darker where the surface keeps light from it.
@@ -171,7 +179,7 @@ private:
     }
 
     const TriangleMesh& mesh_;
-    const SurfaceColour& colour_;
+    const SurfaceLook& look_;
     const DrawOptions& options_;
     const RayCaster& caster_;
     Camera camera_;
@@ -183,10 +191,9 @@ private:
 
 }  // namespace
 
-Image draw(const TriangleMesh& mesh, const SurfaceColour& colour, const DrawOptions& options,
-           Team& team) {
-    const RayCaster caster(mesh);
-    const Tracer tracer(mesh, colour, options, caster);
+Image draw(const TriangleMesh& mesh, const RayCaster& caster, const SurfaceLook& look,
+           const DrawOptions& options, Team& team) {
+    const Tracer tracer(mesh, look, options, caster);
     Image image(options.width, options.height);
     team.run([&](int index) {
         for (std::int64_t y = index; y < options.height; y += team.size()) {
@@ -194,6 +201,17 @@ Image draw(const TriangleMesh& mesh, const SurfaceColour& colour, const DrawOpti
         }
     });
     return image;
+}
+
+Image draw(const TriangleMesh& mesh, const SurfaceColour& colour, const DrawOptions& options,
+           Team& team) {
+    const RayCaster caster(mesh);
+    const auto look = [&](const Sight& sight) {
+        Look result{colour(sight.hit), {}};
+        for (float& channel : result.light) channel = light_of(channel);
+        return result;
+    };
+    return draw(mesh, caster, look, options, team);
 }
 
 }  // namespace cascade
