@@ -17,7 +17,7 @@ Vector3 single(Vector3d v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Of the square of d / s.
+/// Of the square of a distance.
 float weight_of(float square) {
     return std::max(0.0F, 1 + square * (2 * std::sqrt(square) - 3));
 }
@@ -65,15 +65,16 @@ void CellFilter::lay_out(const SurfaceMesh& mesh) {
         const Vector3d along = unit(mesh.corner(t, second) - mesh.corner(t, first));
         patch.x_axis = single(along);
         patch.y_axis = single(cross(unit(mesh.double_area_normal(t)), along));
-        patch.second_x = static_cast<float>(flat[second].x);
-        patch.third_x = static_cast<float>(third.x);
-        patch.third_y = static_cast<float>(third.y);
+        const double scale = 1 / radius_;
+        patch.second_x = static_cast<float>(flat[second].x * scale);
+        patch.third_x = static_cast<float>(third.x * scale);
+        patch.third_y = static_cast<float>(third.y * scale);
         patch.first_corner = first;
-        const auto boxes_along = [&](double size) {
-            return static_cast<std::uint32_t>(std::clamp(std::ceil(size / radius_), 1.0, 65536.0));
+        const auto boxes_along = [](float size) {
+            return static_cast<std::uint32_t>(std::clamp(std::ceil(size), 1.0F, 65536.0F));
         };
-        patch.columns = boxes_along(flat[second].x);
-        patch.rows = boxes_along(third.y);
+        patch.columns = boxes_along(patch.second_x);
+        patch.rows = boxes_along(patch.third_y);
         patch.first_box = boxes;
         boxes += std::size_t{patch.columns} * patch.rows;
     }
@@ -86,11 +87,9 @@ CellFilter::FlatPlace CellFilter::flat_place(const Patch& patch, const SurfacePl
     return {second * patch.second_x + third * patch.third_x, third * patch.third_y};
 }
 
-std::size_t CellFilter::box_of(const Patch& patch, FlatPlace place) const {
-    const auto side = static_cast<float>(radius_);
-    const auto number = [&](float at, std::uint32_t count) {
-        return static_cast<std::size_t>(
-            std::clamp(at / side, 0.0F, static_cast<float>(count - 1)));
+std::size_t CellFilter::box_of(const Patch& patch, FlatPlace place) {
+    const auto number = [](float at, std::uint32_t count) {
+        return static_cast<std::size_t>(std::clamp(at, 0.0F, static_cast<float>(count - 1)));
     };
     return patch.first_box + number(place.y, patch.rows) * patch.columns +
            number(place.x, patch.columns);
@@ -108,7 +107,7 @@ void CellFilter::visit_boxes(const CellImage& image, const Visit& visit) const {
     const Patch& patch = patches_[image.triangle];
     // A little more: where a place falls between boxes is rounded.
     const double reach = 1 + 1e-4;
-    const double x = static_cast<double>(image.x) / radius_, y = static_cast<double>(image.y) / radius_;
+    const auto x = static_cast<double>(image.x), y = static_cast<double>(image.y);
     const auto number = [](double at, std::uint32_t count) {
         return static_cast<std::uint32_t>(std::clamp(std::floor(at), 0.0, count - 1.0));
     };
@@ -211,11 +210,10 @@ std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPlace place) cons
 /// Calls `visit(near)` once for each cell nearer than the radius.
 template <typename Visit>
 void CellFilter::visit_near(const Patch& patch, FlatPlace place, const Visit& visit) const {
-    const auto scale = static_cast<float>(1 / (radius_ * radius_));
     Near near{0, INFINITY, 0, 0};
     for (const Sighting& sighting : sightings_of(box_of(patch, place), 1)) {
         const float x = place.x - sighting.x, y = place.y - sighting.y;
-        const float square = (x * x + y * y) * scale;
+        const float square = x * x + y * y;
         if (sighting.cell != near.cell) {
             if (near.square < 1) visit(near);
             near = {sighting.cell, square, x, y};
@@ -250,11 +248,10 @@ void CellFilter::sloped_shares(const SurfacePlace& place, std::vector<SlopedShar
     out.clear();
     float sum = 0;
     Vector3 slope;
-    const auto per_square = static_cast<float>(2 / (radius_ * radius_));
     visit_near(patch, at, [&](const Near& near) {
         const float weight = weight_of(near.square);
-        // The derivative by d²/s², which is a multiple of it, times that of d²/s².
-        const float steep = 3 * (std::sqrt(near.square) - 1) * per_square;
+        // The derivative by d², times that of d².
+        const float steep = 6 * (std::sqrt(near.square) - 1);
         out.push_back({near.cell, weight,
                        patch.x_axis * (steep * near.x) + patch.y_axis * (steep * near.y)});
         sum += weight;

@@ -27,7 +27,7 @@ struct CellShare {
     float weight = 0;
 };
 
-/// The same, with its change along the surface: per unit of length, in the plane of the triangle.
+/// The same, with its change along the surface, in the plane of the triangle, per radius of the filter.
 struct SlopedShare {
     std::uint32_t cell = 0;
     float weight = 0;
@@ -53,8 +53,8 @@ public:
     double radius() const { return radius_; }
 
 private:
-    /// A triangle laid flat, its longest edge along the x axis from the origin, and its boxes of
-    /// the radius' size.
+    /// A triangle laid flat, its longest edge along the x axis from the origin. Lengths are in units of
+    /// the radius, boxes are one wide and high.
     struct Patch {
         Vector3 x_axis, y_axis;            ///< In space, of length 1.
         float second_x = 0, third_x = 0, third_y = 0;  ///< Of the corners.
@@ -71,7 +71,7 @@ private:
     /// The nearest sighting of a cell.
     struct Near {
         std::uint32_t cell = 0;
-        float square = 0;                  ///< Of its distance, in squares of the radius.
+        float square = 0;                  ///< Of its distance.
         float x = 0, y = 0;                ///< From it to the place.
     };
     struct FlatPlace {
@@ -79,7 +79,7 @@ private:
     };
 
     static FlatPlace flat_place(const Patch& patch, const SurfacePlace& place);
-    std::size_t box_of(const Patch& patch, FlatPlace place) const;
+    static std::size_t box_of(const Patch& patch, FlatPlace place);
     std::span<const Sighting> sightings_of(std::size_t first_box, std::size_t boxes) const;
     template <typename Visit>
     void visit_near(const Patch& patch, FlatPlace place, const Visit& visit) const;

@@ -56,7 +56,8 @@ Part seen_part(Vector2d eye, Vector2d left, Vector2d right, Vector2d a, Vector2d
 class ImageFinder {
 public:
     ImageFinder(const SurfaceMesh& mesh, std::span<const FlatTriangle> frames, double radius)
-        : mesh_(mesh), frames_(frames), square_radius_(radius * radius), heads_(frames.size()) {}
+        : mesh_(mesh), frames_(frames), radius_(radius), square_radius_(radius * radius),
+          heads_(frames.size()) {}
 
     void find(std::uint32_t cell, const SurfacePlace& place, std::vector<CellImage>& found) {
         cell_ = cell;
@@ -66,8 +67,9 @@ public:
         drain(fronts_);
         drain(hidden_);
         for (const Image& image : images_) {
-            found.push_back({cell, image.triangle, static_cast<float>(image.source.x),
-                             static_cast<float>(image.source.y)});
+            const Vector2d at = image.source * (1 / radius_);
+            found.push_back({cell, image.triangle, static_cast<float>(at.x),
+                             static_cast<float>(at.y)});
         }
     }
 
@@ -169,7 +171,7 @@ private:
 
     const SurfaceMesh& mesh_;
     std::span<const FlatTriangle> frames_;
-    double square_radius_;
+    double radius_, square_radius_;
     std::uint32_t cell_ = 0;
     std::vector<Head> heads_;     ///< Per triangle.
     std::vector<Image> images_;   ///< Of this cell.

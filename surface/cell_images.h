@@ -17,7 +17,7 @@ std::uint32_t longest_edge(const SurfaceMesh& mesh, std::uint32_t triangle);
 FlatTriangle longest_edge_frame(const SurfaceMesh& mesh, std::uint32_t triangle);
 
 /// A place as it lies in the plane of a triangle (longest_edge_frame) into which what is between
-/// them is unfolded.
+/// them is unfolded, in units of the radius.
 struct CellImage {
     std::uint32_t cell = 0;
     std::uint32_t triangle = 0;
