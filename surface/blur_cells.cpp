@@ -12,7 +12,7 @@ namespace {
 /// nearly coincide.
 constexpr double most_flow = 4;
 constexpr double least_area = 0.2;  ///< Of the average.
-constexpr double steps = 2;         ///< Two rough steps make a smoother Gaussian than one.
+constexpr double precision = 1e-4;  ///< Sum of what is left away of the series.
 
 /// What flows between cells, in units of the average area.
 struct Flows {
@@ -39,51 +39,77 @@ Flows flows_of(const SurfaceCells& cells) {
     return flows;
 }
 
-/// The stages of one step of length `time`.
-class Step {
-public:
-    Step(const SurfaceCells& cells, const Flows& flows, int channels, double time)
-        : cells_(cells), flows_(flows), channels_(static_cast<std::size_t>(channels)) {
-        const double ratio = time * flows.fastest;
-        stages_ = 1;
-        while (static_cast<double>(stages_) * (stages_ + 1) < ratio) ++stages_;
-        scale_ = 2 * time / (static_cast<double>(stages_) * (stages_ + 1));
+/// The coefficients of exp(z (x − 1)) in Chebyshev polynomials of x, −1 … 1: exp(−z) times the modified
+/// Bessel functions I₀(z), 2 I₁(z), 2 I₂(z), … (M. Abramowitz and I. Stegun, "Handbook of Mathematical
+/// Functions", 9.6.34), as many as are needed, scaled to the sum 1. They are found from the last one
+/// to the first by I_{k−1} = I_{k+1} + (2 k / z) I_k (J. Miller's way).
+std::vector<float> coefficients(double z) {
+    const auto last = static_cast<std::size_t>(std::sqrt(40 * z)) + 10;
+    std::vector<double> found(last + 2);
+    found[last] = 1;
+    double sum = 2;
+    for (std::size_t k = last; k > 0; --k) {
+        found[k - 1] = found[k + 1] + 2 * static_cast<double>(k) / z * found[k];
+        sum += (k == 1 ? 1 : 2) * found[k - 1];
+        if (sum < 1e200) continue;
+        for (std::size_t j = k - 1; j <= last; ++j) found[j] *= 1e-200;
+        sum *= 1e-200;
     }
+    std::size_t degree = 0;
+    double left = sum - found[0];
+    while (left > precision * sum && degree < last) left -= 2 * found[++degree];
+    std::vector<float> result;
+    for (std::size_t k = 0; k <= degree; ++k) {
+        result.push_back(static_cast<float>((k == 0 ? 1 : 2) * found[k] / (sum - left)));
+    }
+    return result;
+}
 
-    void run(std::vector<float>& values, Team& team) {
-        std::vector<float> before = values, next(values.size());
-        sweep(1, 0, values, before, next, team);
-        values.swap(next);
-        for (int j = 2; j <= stages_; ++j) {
-            sweep((2.0 * j - 1) / j, (1.0 - j) / j, values, before, next, team);
-            before.swap(values);
-            values.swap(next);
+/// Applies the exponential of a time times the flows. With B = 1 + 2 flows / fastest, whose waves are
+/// multiplied by −1 … 1, it is exp(z (B − 1)), z = time × fastest / 2: a sum of T_k(B) times the values,
+/// where T_{k+1} = 2 B T_k − T_{k−1}.
+class Diffusion {
+public:
+    Diffusion(const SurfaceCells& cells, const Flows& flows, int channels)
+        : cells_(cells), flows_(flows), channels_(static_cast<std::size_t>(channels)) {}
+
+    void run(double time, std::vector<float>& values, Team& team) {
+        const std::vector<float> terms = coefficients(time * flows_.fastest / 2);
+        std::vector<float> current = values, before = values, next(values.size());
+        for (float& value : values) value *= terms[0];
+        for (std::size_t k = 1; k < terms.size(); ++k) {
+            // T₁ = B T₀; all others are twice B of the last one less the one before.
+            sweep(k == 1 ? 1 : 2, k == 1 ? 0 : -1, terms[k], current, before, next, values, team);
+            before.swap(current);
+            current.swap(next);
         }
     }
 
 private:
-    /// next = mu values + nu before + mu scale (what flows into values).
-    void sweep(double mu, double nu, const std::vector<float>& values,
-               const std::vector<float>& before, std::vector<float>& next, Team& team) const {
-        const auto a = static_cast<float>(mu), b = static_cast<float>(nu);
-        const auto c = static_cast<float>(mu * scale_);
+    /// next = a B current + b before; sum += term next.
+    void sweep(float a, float b, float term, const std::vector<float>& current,
+               const std::vector<float>& before, std::vector<float>& next,
+               std::vector<float>& sum, Team& team) const {
+        const auto scale = static_cast<float>(2 / flows_.fastest);
         team.run([&](int thread) {
             const RowRange part =
                 split_rows(static_cast<std::int64_t>(cells_.ends.size()), thread, team.size());
             for (auto cell = static_cast<std::size_t>(part.begin);
                  cell < static_cast<std::size_t>(part.end); ++cell) {
-                const float* own = &values[cell * channels_];
-                float* sums = &next[cell * channels_];
-                std::fill(sums, sums + channels_, 0.0F);
+                const std::size_t at = cell * channels_;
+                const float* own = &current[at];
+                float* gained = &next[at];
+                std::fill(gained, gained + channels_, 0.0F);
                 const std::size_t first = cell == 0 ? 0 : cells_.ends[cell - 1];
                 for (std::size_t wall = first; wall < cells_.ends[cell]; ++wall) {
-                    const float* other = &values[cells_.walls[wall].neighbour * channels_];
+                    const float* other = &current[cells_.walls[wall].neighbour * channels_];
                     const float flow = flows_.walls[wall];
-                    for (std::size_t k = 0; k < channels_; ++k) sums[k] += flow * (other[k] - own[k]);
+                    for (std::size_t k = 0; k < channels_; ++k) gained[k] += flow * (other[k] - own[k]);
                 }
-                const float rate = c * flows_.inverse_areas[cell];
+                const float rate = scale * flows_.inverse_areas[cell];
                 for (std::size_t k = 0; k < channels_; ++k) {
-                    sums[k] = a * own[k] + b * before[cell * channels_ + k] + rate * sums[k];
+                    gained[k] = a * (own[k] + rate * gained[k]) + b * before[at + k];
+                    sum[at + k] += term * gained[k];
                 }
             }
         });
@@ -92,8 +118,6 @@ private:
     const SurfaceCells& cells_;
     const Flows& flows_;
     std::size_t channels_;
-    int stages_ = 1;
-    double scale_ = 0;
 };
 
 }  // namespace
@@ -108,8 +132,9 @@ void blur_cells(const SurfaceCells& cells, double sigma, int channels, std::vect
     if (values.empty() || !(sigma > 0)) return;
     const Flows flows = flows_of(cells);
     if (!(flows.fastest > 0)) return;
-    Step step(cells, flows, channels, sigma * sigma / 2 / steps);
-    for (int k = 0; k < steps; ++k) step.run(values, team);
+    const double time = sigma * sigma / 2;
+    if (time * flows.fastest < precision) return;
+    Diffusion(cells, flows, channels).run(time, values, team);
 }
 
 }  // namespace cascade
