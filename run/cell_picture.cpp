@@ -50,12 +50,11 @@ float level_of(float side) {
     return side > 1 ? static_cast<float>(std::log2(static_cast<double>(side))) : 0.0F;
 }
 
-Levels make_levels(const SurfaceCells& cells, std::vector<float> states, float highest,
-                   Team& team) {
+/// Adds all levels up to the highest one to level 0.
+void add_levels(const SurfaceCells& cells, float highest, Levels& levels, Team& team) {
     // A blur as wide as the surface is enough: √cells spacings.
     const double widest = std::log2(static_cast<double>(cells.places.size())) / 2;
     const double count = std::ceil(std::min<double>(highest, widest));
-    Levels levels(1, std::move(states));
     double variance = 0;
     for (int k = 1; k <= count; ++k) {
         const double wanted = std::exp2(2 * k) / 4 - filter_variance;
@@ -63,7 +62,6 @@ Levels make_levels(const SurfaceCells& cells, std::vector<float> states, float h
         blur_cells(cells, std::sqrt(wanted - variance), CellState::size, levels.back(), team);
         variance = wanted;
     }
-    return levels;
 }
 
 /// What one picture needs.
@@ -72,6 +70,13 @@ public:
     Shader(const CellLook& look, const CellFilter& filter, const TriangleMesh& mesh,
            const Levels& levels, float spacing)
         : look_(look), filter_(filter), mesh_(mesh), levels_(levels), spacing_(spacing) {}
+
+    /// What the colour of a cell is: that of the filtered values, as it is seen from near.
+    Colour light_of_cell(const SurfacePlace& place) const {
+        std::vector<CellShare> shares;
+        filter_.shares(place, shares);
+        return own_light(shares, place);
+    }
 
     Look operator()(const Sight& sight) const {
         const SurfacePlace place = {
@@ -173,21 +178,27 @@ Image CellScene::draw(const CellLook& look, DrawOptions options, Team& team) con
     CHECK(look.heights.empty() || look.heights.size() == count, "each cell has a height");
     options.round_shadows = true;
     const float highest = level_of(widest_side(drawn_.mesh, options) / spacing_);
-    std::vector<float> states;
-    if (highest > 0 || !look.heights.empty()) {
-        states.resize(count * CellState::size);
-        for (std::size_t cell = 0; cell < count; ++cell) {
-            const Colour light =
-                light_in(look.colour, look.values.subspan(cell * look.channels, look.channels),
-                         cells_.places[cell]);
-            std::copy(light.begin(), light.end(), &states[cell * CellState::size]);
-            if (look.heights.empty()) continue;
-            states[cell * CellState::size + 3] =
-                static_cast<float>(static_cast<double>(look.heights[cell]) / filter_.radius());
-        }
-    }
-    const Levels levels = make_levels(cells_, std::move(states), highest, team);
+    Levels levels(1);
     const Shader shader(look, filter_, drawn_.mesh, levels, spacing_);
+    if (highest > 0 || !look.heights.empty()) {
+        std::vector<float>& states = levels[0];
+        states.resize(count * CellState::size);
+        team.run([&](int thread) {
+            const RowRange part = split_rows(static_cast<std::int64_t>(count), thread, team.size());
+            for (auto cell = static_cast<std::size_t>(part.begin);
+                 cell < static_cast<std::size_t>(part.end); ++cell) {
+                float* state = &states[cell * CellState::size];
+                if (highest > 0) {
+                    const Colour light = shader.light_of_cell(cells_.places[cell]);
+                    std::copy(light.begin(), light.end(), state);
+                }
+                if (look.heights.empty()) continue;
+                state[3] = static_cast<float>(static_cast<double>(look.heights[cell]) /
+                                              filter_.radius());
+            }
+        });
+    }
+    add_levels(cells_, highest, levels, team);
     return cascade::draw(drawn_.mesh, caster_, shader, options, team);
 }
 

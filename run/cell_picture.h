@@ -34,7 +34,7 @@ public:
     CellScene(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team);
 
     /// Colours are those of the filtered values. Where a sample stands for more than the square of a cell,
-    /// colours of the cells are taken, blurred by diffusion as widely as it asks for. `round_shadows`
+    /// the colours at the cells' places are taken, blurred by diffusion as widely as it asks for. `round_shadows`
     /// of the options is set. The same picture on any number of threads. Throws std::bad_alloc.
     Image draw(const CellLook& look, DrawOptions options, Team& team) const;
 

@@ -145,6 +145,48 @@ TEST(Draw, ThreadsDoNotMatter) {
     EXPECT_TRUE(one.pixels == three.pixels);
 }
 
+TEST(Draw, ATiltTurnsTheLightAndFlipsOnTheBack) {
+    // A wall seen head on; the sun stands to the left of the viewer and above him.
+    const auto place = [](float u, float v) { return Vector3{u - 0.5F, 0, 0.75F * (0.5F - v)}; };
+    const auto brightness = [&](float azimuth, Vector3 tilt) {
+        const TriangleMesh wall = sheet(1, 1, place);
+        DrawOptions options = small_picture();
+        options.view = {azimuth, 0, {0, 0, 1}};
+        Team team(1);
+        const Image image = draw(wall, RayCaster(wall), [&](const Sight&) {
+            return Look{{0.5F, 0.5F, 0.5F}, tilt};
+        }, options, team);
+        return image.at(80, 60)[0];
+    };
+    const float plain = brightness(0, {});
+    // The outside is that of y. From there the sun stands on the side of x; from the other side it stands on
+    // that of −x, to which the back leans where the outside leans to x.
+    for (const float azimuth : {180.0F, 0.0F}) {
+        EXPECT_GT(brightness(azimuth, {0.5F, 0, 0}), plain + 0.02F);
+        EXPECT_LT(brightness(azimuth, {-0.5F, 0, 0}), plain - 0.05F);
+    }
+}
+
+TEST(Draw, ASightKnowsHowWideASampleIs) {
+    const TriangleMesh wall =
+        sheet(1, 1, [](float u, float v) { return Vector3{u - 0.5F, 0, 0.75F * (0.5F - v)}; });
+    DrawOptions options = small_picture();
+    options.view = {0, 0, {0, 0, 1}};
+    for (const int samples : {1, 3}) {
+        options.samples = samples;
+        float least = 1, most = 0;
+        Team team(1);
+        draw(wall, RayCaster(wall), [&](const Sight& sight) {
+            least = std::min(least, sight.width);
+            most = std::max(most, sight.width);
+            return Look{};
+        }, options, team);
+        // The wall is 160 / 1.12 pixels wide.
+        EXPECT_NEAR(least, 1.12F / 160 / static_cast<float>(samples), 1e-4F);
+        EXPECT_LT(most, least * 1.1F);
+    }
+}
+
 TEST(RayCaster, FindsTheNearestTriangle) {
     TriangleMesh mesh;
     mesh.positions = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 2}, {4, 0, 2}, {0, 4, 2}};
@@ -173,6 +215,47 @@ TEST(Camera, EveryAxisCanPointUp) {
         EXPECT_LT(length(closest), 0.05F);
         EXPECT_NEAR(dot(camera.up(), up), std::cos(25 * std::numbers::pi / 180), 1e-5);
         EXPECT_NEAR(dot(camera.right(), up), 0, 1e-6);
+    }
+}
+
+TEST(Camera, AWholeTurnHasOneFrame) {
+    // A long body beside the axis of the file's origin.
+    TriangleMesh mesh = sphere(1);
+    for (Vector3& p : mesh.positions) p = {3 * p.x + 7, p.y - 2, 0.5F * p.z};
+    for (const float elevation : {-40.0F, 0.0F, 25.0F, 80.0F}) {
+        const auto camera_at = [&](float azimuth) {
+            View view{azimuth, elevation, {0, 0, 1}};
+            view.is_turning = true;
+            return Camera(mesh, view, 200, 100);
+        };
+        const Vector3 middle = bounds(mesh).centre();
+        const float distance = length(camera_at(0).eye() - middle);
+        float low = 1e9F, high = -1e9F;
+        for (int k = 0; k < 36; ++k) {
+            const auto azimuth = static_cast<float>(10 * k);
+            const Camera camera = camera_at(azimuth);
+            // The eye goes around the axis on a circle.
+            EXPECT_NEAR(length(camera.eye() - middle), distance, 1e-4F * distance);
+            EXPECT_NEAR(camera.eye().z, camera_at(0).eye().z, 1e-4F * distance);
+            // The axis is in the middle of the picture.
+            EXPECT_NEAR(dot(camera.eye() - middle, camera.right()), 0, 1e-4F * distance);
+            for (const Vector3& p : mesh.positions) {
+                const Vector3 way = p - camera.eye();
+                const float depth = -dot(way, camera.backward());
+                ASSERT_GT(depth, 0);
+                const float x = dot(way, camera.right()) / depth / camera.pixel();
+                const float y = dot(way, camera.up()) / depth / camera.pixel();
+                EXPECT_LT(std::abs(x), 100 / 1.12F + 0.1F);
+                low = std::min(low, y);
+                high = std::max(high, y);
+            }
+        }
+        EXPECT_GT(low, -50 / 1.12F - 0.1F);
+        EXPECT_LT(high, 50 / 1.12F + 0.1F);
+        // It is not farther away than it must be.
+        if (elevation > 60) {
+            EXPECT_GT(high, 44 / 1.12F);
+        }
     }
 }
 
