@@ -3,6 +3,7 @@
 #include "core/with_commas.h"
 #include "surface/make_mesh.h"
 #include "surface/model_file.h"
+#include "surface/relax.h"
 #include "surface/scatter.h"
 #include "surface/voronoi_cells.h"
 
@@ -14,8 +15,6 @@
 namespace cascade {
 
 namespace {
-
-constexpr int rounds = 40;
 
 std::string counted(std::size_t count, std::string_view noun) {
     return fmt::format("{} {}{}", with_commas(static_cast<std::int64_t>(count)), noun,
@@ -57,7 +56,7 @@ void describe_cells(const SurfaceMesh& mesh, const CellRequest& request, Team& t
                     const std::atomic<bool>& cancel, std::vector<std::string>& lines) {
     std::vector<SurfacePlace> places =
         scatter(mesh, static_cast<std::size_t>(request.count), request.seed);
-    relax(mesh, places, rounds, team, cancel);
+    relax(mesh, places, relaxing_rounds, team, cancel);
     const SurfaceCells cells = voronoi_cells(mesh, std::move(places), team, cancel);
     if (cancel) return;
     double sum = 0, squares = 0;

@@ -21,6 +21,7 @@ public:
 
     const std::vector<Edge>& edges() const { return edges_; }
     bool empty() const { return edges_.empty(); }
+    void clear() { edges_.clear(); }
     double area() const;
     /// Of the corner farthest from the origin.
     double farthest() const;

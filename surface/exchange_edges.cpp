@@ -43,11 +43,13 @@ void leave_out(SurfaceMesh& mesh, const std::vector<bool>& is_out) {
         mesh.triangles[kept] = mesh.triangles[t];
         mesh.across[kept] = mesh.across[t];
         if (!mesh.texture.empty()) mesh.texture[kept] = mesh.texture[t];
+        if (!mesh.faces.empty()) mesh.faces[kept] = mesh.faces[t];
         ++kept;
     }
     mesh.triangles.resize(kept);
     mesh.across.resize(kept);
     if (!mesh.texture.empty()) mesh.texture.resize(kept);
+    if (!mesh.faces.empty()) mesh.faces.resize(kept);
     for (auto& edges : mesh.across) {
         for (TriangleEdge& other : edges) {
             if (!other.exists()) continue;
@@ -128,6 +130,7 @@ ExchangedEdges remove_flat_triangles(SurfaceMesh& mesh) {
                 changed = true;
             } else if (other.triangle != t && !is_flat(mesh, other.triangle)) {
                 exchange_edge(mesh, {t, k});
+                if (!mesh.faces.empty()) mesh.faces[t] = mesh.faces[other.triangle];
                 ++done.exchanged;
                 changed = true;
             }

@@ -19,6 +19,9 @@ struct Vector2d {
     friend double length(Vector2d a) { return std::sqrt(dot(a, a)); }
 };
 
+/// Corners and edges of a triangle follow each other: 0, 1, 2, 0.
+constexpr std::uint32_t next_corner(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
+
 using FlatTriangle = std::array<Vector2d, 3>;
 
 /// A point of a triangle as weights of its corners; they are not negative and their sum is 1.
@@ -49,8 +52,20 @@ FlatTriangle own_frame(const SurfaceMesh& mesh, std::uint32_t triangle);
 /// nearest that are allowed: below 0 becomes 0.
 std::array<double, 3> weights_at(const FlatTriangle& flat, Vector2d point);
 
+/// A vector in another frame, whose x axis is `turn` (of length 1) in the first one.
+inline Vector2d turned_into(Vector2d vector, Vector2d turn) {
+    return {dot(turn, vector), cross(turn, vector)};
+}
+
+/// Where a walk ended.
+struct WalkEnd {
+    SurfacePlace place;
+    double part = 1;      ///< Of the step that was walked; below 1 at a boundary.
+    Vector2d turn{1, 0};  ///< The x axis of the frame in which it ended, in that in which it began.
+};
+
 /// Goes straight on from a place by a step in the frame of its triangle, unfolding triangles on the way;
 /// ends early at a boundary.
-SurfacePlace walk(const SurfaceMesh& mesh, const SurfacePlace& from, Vector2d step);
+WalkEnd walk(const SurfaceMesh& mesh, const SurfacePlace& from, Vector2d step);
 
 }  // namespace cascade

@@ -123,8 +123,12 @@ private:
                                                               first + piece[2]};
                 const std::uint32_t a = point_of(corners[0]), b = point_of(corners[1]),
                                     c = point_of(corners[2]);
-                if (a == b || b == c || c == a) ++without_area;
-                else corners_.push_back(corners);
+                if (a == b || b == c || c == a) {
+                    ++without_area;
+                } else {
+                    corners_.push_back(corners);
+                    mesh().faces.push_back(static_cast<std::uint32_t>(p));
+                }
             }
         }
         if (without_area > 0) {
@@ -155,9 +159,12 @@ private:
         if (count == 0) return;
         std::size_t kept = 0;
         for (std::size_t t = 0; t < corners_.size(); ++t) {
-            if (!is_double[t]) corners_[kept++] = corners_[t];
+            if (is_double[t]) continue;
+            mesh().faces[kept] = mesh().faces[t];
+            corners_[kept++] = corners_[t];
         }
         corners_.resize(kept);
+        mesh().faces.resize(kept);
         say(counted(count, "face that was there twice was", "faces that were there twice were") +
             " left out");
     }

@@ -4,6 +4,7 @@
 #include "core/vector3.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,24 +14,33 @@ namespace cascade {
 /// Points sorted by the box of side `reach` in which they lie.
 class PointIndex {
 public:
-    /// `reach` is above 0. The points must stay where they are as long as the index is used.
+    /// `reach` is above 0: about how far from a point others are looked for. The points must stay where
+    /// they are as long as the index is used.
     PointIndex(std::span<const Vector3d> points, double reach);
 
-    /// Calls `visit(number)` for all points no farther than `reach` from `centre`, itself included,
-    /// in an order that depends on the points only.
+    /// Calls `visit(number)` for all points no farther than `radius` from `centre`, itself included,
+    /// in an order that depends on the points only. Many boxes are looked at where `radius` is many
+    /// times `reach`, but never more than there are points.
     template <typename Visit>
-    void near(Vector3d centre, const Visit& visit) const {
+    void near(Vector3d centre, double radius, const Visit& visit) const {
+        const auto look_at = [&](const Entry& entry) {
+            const Vector3d apart = entry.point - centre;
+            if (dot(apart, apart) <= radius * radius) visit(entry.number);
+        };
+        const double side = 2 * std::ceil(radius / reach_) + 1;
+        if (side * side * side > static_cast<double>(entries_.size()) + 27) {
+            for (const Entry& entry : entries_) look_at(entry);
+            return;
+        }
         const Box middle = box_of(centre);
-        for (std::int32_t dz = -1; dz <= 1; ++dz) {
-            for (std::int32_t dy = -1; dy <= 1; ++dy) {
-                for (std::int32_t dx = -1; dx <= 1; ++dx) {
+        const auto half = static_cast<std::int32_t>(side) / 2;
+        for (std::int32_t dz = -half; dz <= half; ++dz) {
+            for (std::int32_t dy = -half; dy <= half; ++dy) {
+                for (std::int32_t dx = -half; dx <= half; ++dx) {
                     const Box box = {middle[0] + dx, middle[1] + dy, middle[2] + dz};
                     const std::size_t slot = slot_of(box);
                     for (std::uint32_t k = starts_[slot]; k < starts_[slot + 1]; ++k) {
-                        const Entry& entry = entries_[k];
-                        if (entry.box != box) continue;
-                        const Vector3d apart = entry.point - centre;
-                        if (dot(apart, apart) <= reach_ * reach_) visit(entry.number);
+                        if (entries_[k].box == box) look_at(entries_[k]);
                     }
                 }
             }

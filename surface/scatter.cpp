@@ -1,18 +1,15 @@
 #include "surface/scatter.h"
 
 #include "core/hash.h"
-#include "surface/point_index.h"
-#include "surface/unfolding.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <numeric>
+#include <tuple>
 
 namespace cascade {
 
 namespace {
-
-constexpr double strength = 0.15;
 
 /// In (0, 1).
 double uniform(std::uint32_t word) { return (word + 0.5) / 4294967296.0; }
@@ -24,94 +21,108 @@ std::array<double, 3> place_in_triangle(double s, double t) {
     return {1 - root, (1 - s) * root, s * root};
 }
 
-std::vector<double> areas_up_to(const SurfaceMesh& mesh) {
-    std::vector<double> sums;
-    sums.reserve(mesh.triangles.size());
-    double sum = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) sums.push_back(sum += mesh.area(t));
-    return sums;
+/// Spreads the lower 21 bits to every third.
+std::uint64_t every_third(std::uint64_t bits) {
+    bits &= 0x1fffff;
+    bits = (bits | bits << 32) & 0x001f00000000ffff;
+    bits = (bits | bits << 16) & 0x001f0000ff0000ff;
+    bits = (bits | bits << 8) & 0x100f00f00f00f00f;
+    bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
+    return (bits | bits << 2) & 0x1249249249249249;
 }
 
-/// Where a place is pushed to by those around it. Places that coincide are pushed apart in a
-/// direction of each one's own.
-class Repulsion {
-public:
-    Repulsion(const SurfaceMesh& mesh, const std::vector<SurfacePlace>& places,
-              const PointIndex& index, double radius)
-        : mesh_(mesh), places_(places), index_(index), radius_(radius), unfolding_(mesh) {}
-
-    SurfacePlace pushed(std::uint32_t number, Vector3d position) {
-        const SurfacePlace& place = places_[number];
-        unfolding_.around(place, radius_);
-        Vector2d push;
-        index_.near(position, [&](std::uint32_t other) {
-            const FlatTriangle* flat = unfolding_.flat_of(places_[other].triangle);
-            if (other == number || !flat) return;
-            const Vector2d from = position_of(*flat, places_[other].weights);
-            const double distance = length(from);
-            if (distance >= radius_) return;
-            const Vector2d away = distance > 1e-9 * radius_ ? from * (-1 / distance)
-                                                            : own_direction(number);
-            push = push + away * (radius_ - distance);
-        });
-        return walk(mesh_, place, push * strength);
+/// The triangles, piece after piece, each along Morton's curve through the cube around the surface
+/// (G. M. Morton, "A computer oriented geodetic data base", IBM, 1966).
+std::vector<std::uint32_t> in_order(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& pieces) {
+    const auto [low, high] = mesh.box();
+    const Vector3d size = high - low;
+    const double scale = 2097151 / std::max({size.x, size.y, size.z});
+    std::vector<std::tuple<std::uint32_t, std::uint64_t, std::uint32_t>> keys;
+    keys.reserve(mesh.triangles.size());
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Vector3d middle = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) * (1.0 / 3);
+        const Vector3d at = (middle - low) * scale;
+        keys.push_back({pieces[t],
+                        every_third(static_cast<std::uint64_t>(std::max(0.0, at.x))) |
+                            every_third(static_cast<std::uint64_t>(std::max(0.0, at.y))) << 1 |
+                            every_third(static_cast<std::uint64_t>(std::max(0.0, at.z))) << 2,
+                        t});
     }
+    std::sort(keys.begin(), keys.end());
+    std::vector<std::uint32_t> order;
+    order.reserve(keys.size());
+    for (const auto& key : keys) order.push_back(std::get<2>(key));
+    return order;
+}
 
-private:
-    static Vector2d own_direction(std::uint32_t number) {
-        const double angle = 2 * std::numbers::pi * uniform(pcg4d({number, 0, 0, 0})[0]);
-        return {std::cos(angle), std::sin(angle)};
+/// How many of `count` places each piece gets: by area, and one at least if there are enough.
+std::vector<std::size_t> shared_out(const std::vector<double>& areas, std::size_t count) {
+    std::vector<std::size_t> shares(areas.size(), 0);
+    double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+    std::size_t left = count;
+    // Pieces that would get less than one get one, and the others have the rest: which may make more of
+    // them too small.
+    for (bool is_found = count >= areas.size(); is_found;) {
+        is_found = false;
+        const double each = area / static_cast<double>(left);
+        for (std::size_t p = 0; p < areas.size(); ++p) {
+            if (shares[p] != 0 || areas[p] >= each) continue;
+            shares[p] = 1;
+            --left;
+            area -= areas[p];
+            is_found = left > 0;
+        }
     }
-
-    const SurfaceMesh& mesh_;
-    const std::vector<SurfacePlace>& places_;
-    const PointIndex& index_;
-    double radius_;
-    Unfolding unfolding_;
-};
+    double sum = 0;
+    std::size_t before = 0, last = areas.size();
+    for (std::size_t p = 0; p < areas.size(); ++p) {
+        if (shares[p] == 0) last = p;
+    }
+    for (std::size_t p = 0; p < areas.size(); ++p) {
+        if (shares[p] != 0) continue;
+        sum += areas[p];
+        const double part = std::round(sum / area * static_cast<double>(left));
+        const std::size_t end = p == last ? left : std::min(left, static_cast<std::size_t>(part));
+        shares[p] = end - before;
+        before = end;
+    }
+    return shares;
+}
 
 }  // namespace
 
-double repulsion_radius(double area, std::size_t count) {
-    return 2 * std::sqrt(area / static_cast<double>(count));
-}
-
 std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, std::uint32_t seed) {
-    const std::vector<double> sums = areas_up_to(mesh);
+    const std::vector<std::uint32_t> pieces = pieces_of(mesh);
+    const std::vector<std::uint32_t> order = in_order(mesh, pieces);
+    std::vector<double> sums;                  // Of areas in that order, within each piece.
+    std::vector<std::size_t> ends;             // Of pieces in it.
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const bool is_first = k == 0 || pieces[order[k]] != pieces[order[k - 1]];
+        if (is_first && k > 0) ends.push_back(k);
+        sums.push_back((is_first ? 0 : sums.back()) + mesh.area(order[k]));
+    }
+    ends.push_back(order.size());
+    std::vector<double> areas;
+    for (const std::size_t end : ends) areas.push_back(sums[end - 1]);
+    const std::vector<std::size_t> shares = shared_out(areas, count);
+
     std::vector<SurfacePlace> places;
     places.reserve(count);
-    for (std::size_t k = 0; k < count; ++k) {
-        const auto [strip, s, t, unused] =
-            pcg4d({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(k >> 32), seed, 1});
-        const double share = (static_cast<double>(k) + uniform(strip)) / static_cast<double>(count);
-        const auto found = std::upper_bound(sums.begin(), sums.end(), share * sums.back());
-        const auto triangle = std::min<std::size_t>(found - sums.begin(), sums.size() - 1);
-        places.push_back({static_cast<std::uint32_t>(triangle),
-                          place_in_triangle(uniform(s), uniform(t))});
+    for (std::size_t p = 0; p < ends.size(); ++p) {
+        const auto first = sums.begin() + static_cast<std::ptrdiff_t>(p == 0 ? 0 : ends[p - 1]);
+        const auto last = sums.begin() + static_cast<std::ptrdiff_t>(ends[p]);
+        for (std::size_t j = 0; j < shares[p]; ++j) {
+            const std::size_t k = places.size();
+            const auto [strip, s, t, unused] = pcg4d(
+                {static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(k >> 32), seed, 1});
+            const double part =
+                (static_cast<double>(j) + uniform(strip)) / static_cast<double>(shares[p]);
+            const auto found = std::upper_bound(first, last - 1, part * areas[p]);
+            places.push_back({order[static_cast<std::size_t>(found - sums.begin())],
+                              place_in_triangle(uniform(s), uniform(t))});
+        }
     }
     return places;
-}
-
-void relax(const SurfaceMesh& mesh, std::vector<SurfacePlace>& places, int rounds, Team& team,
-           const std::atomic<bool>& cancel) {
-    if (places.empty()) return;
-    const double radius = repulsion_radius(mesh.total_area(), places.size());
-    std::vector<Vector3d> positions(places.size());
-    std::vector<SurfacePlace> moved(places.size());
-    for (int round = 0; round < rounds && !cancel; ++round) {
-        for (std::size_t k = 0; k < places.size(); ++k) positions[k] = position_of(mesh, places[k]);
-        const PointIndex index(positions, radius);
-        team.run([&](int thread) {
-            const RowRange part =
-                split_rows(static_cast<std::int64_t>(places.size()), thread, team.size());
-            Repulsion repulsion(mesh, places, index, radius);
-            for (auto k = static_cast<std::size_t>(part.begin);
-                 k < static_cast<std::size_t>(part.end) && !cancel; ++k) {
-                moved[k] = repulsion.pushed(static_cast<std::uint32_t>(k), positions[k]);
-            }
-        });
-        if (!cancel) places.swap(moved);
-    }
 }
 
 }  // namespace cascade

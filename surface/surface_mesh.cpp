@@ -10,6 +10,16 @@ double SurfaceMesh::total_area() const {
     return sum;
 }
 
+SurfaceMesh::Box SurfaceMesh::box() const {
+    Box box;
+    if (!points.empty()) box.low = box.high = points[0];
+    for (const Vector3d& p : points) {
+        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    }
+    return box;
+}
+
 std::vector<std::uint32_t> pieces_of(const SurfaceMesh& mesh) {
     std::vector<std::uint32_t> pieces(mesh.triangles.size(), TriangleEdge::none);
     std::vector<std::uint32_t> waiting;
@@ -76,13 +86,9 @@ MeshFacts facts_of(const SurfaceMesh& mesh) {
     facts.pieces = pieces.empty() ? 0 : *std::max_element(pieces.begin(), pieces.end()) + 1;
     facts.euler_characteristic = static_cast<std::int64_t>(facts.points + facts.triangles) -
                                  static_cast<std::int64_t>(facts.edges);
-    if (!mesh.points.empty()) facts.low = facts.high = mesh.points[0];
-    for (const Vector3d& p : mesh.points) {
-        facts.low = {std::min(facts.low.x, p.x), std::min(facts.low.y, p.y),
-                     std::min(facts.low.z, p.z)};
-        facts.high = {std::max(facts.high.x, p.x), std::max(facts.high.y, p.y),
-                      std::max(facts.high.z, p.z)};
-    }
+    const SurfaceMesh::Box box = mesh.box();
+    facts.low = box.low;
+    facts.high = box.high;
     return facts;
 }
 

@@ -30,6 +30,9 @@ struct SurfaceMesh {
     std::vector<std::array<TriangleEdge, 3>> across;
     std::vector<std::array<TexturePlace, 3>> texture;  ///< Per triangle; empty where there is none.
     std::vector<PointAttribute> attributes;
+    /// The face of the model from which each triangle was cut, counted from 0 (one without area that
+    /// was merged with a neighbour counts to the neighbour's); empty where nothing but triangles is known.
+    std::vector<std::uint32_t> faces;
 
     Vector3d corner(std::size_t triangle, std::size_t k) const {
         return points[triangles[triangle][k]];
@@ -42,6 +45,11 @@ struct SurfaceMesh {
     double area(std::size_t triangle) const { return length(double_area_normal(triangle)) / 2; }
     /// Of all triangles, added in their order.
     double total_area() const;
+    /// The smallest box that holds all points.
+    struct Box {
+        Vector3d low, high;
+    };
+    Box box() const;
 };
 
 /// What a mesh is, in numbers.

@@ -7,27 +7,43 @@ namespace cascade {
 
 namespace {
 
-/// From the origin to the line between two points.
-double distance_to(Vector2d a, Vector2d b) {
+/// The square of the distance from the origin to the line between two points.
+double square_to(Vector2d a, Vector2d b) {
     const Vector2d along = b - a;
-    const double square = dot(along, along);
-    const double part = square > 0 ? std::clamp(-dot(a, along) / square, 0.0, 1.0) : 0;
-    return length(a + along * part);
+    const double square = dot(along, along), part = -dot(a, along);
+    if (part <= 0) return dot(a, a);
+    if (part >= square) return dot(b, b);
+    const double height = cross(a, along);
+    return height * height / square;
 }
 
 }  // namespace
 
+EdgeShapes::EdgeShapes(const SurfaceMesh& mesh) {
+    shapes_.reserve(mesh.triangles.size());
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        std::array<Vector2d, 3> shape;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            shape[k] = lay_flat(mesh, {t, k}, {0, 0}, {1, 0})[next_corner(next_corner(k))];
+        }
+        shapes_.push_back(shape);
+    }
+}
+
 void Unfolding::add(std::uint32_t triangle, const FlatTriangle& flat, std::uint32_t entered,
-                    double radius) {
+                    double square) {
+    const auto piece = static_cast<std::uint32_t>(pieces_.size());
     pieces_.push_back({triangle, flat});
     marks_[triangle] = first_mark_ + static_cast<std::uint32_t>(pieces_.size());
     for (std::uint32_t k = 0; k < 3; ++k) {
         const TriangleEdge other = mesh_.across[triangle][k];
         if (k == entered || !other.exists() || flat_of(other.triangle)) continue;
-        const Vector2d from = flat[(k + 1) % 3], to = flat[k];
-        const double distance = distance_to(from, to);
-        if (distance > radius) continue;
-        fronts_.push_back({distance, other, from, to});
+        const double distance = square_to(flat[next_corner(k)], flat[k]);
+        if (distance > square) {
+            is_everything_ = false;
+            continue;
+        }
+        fronts_.push_back({distance, piece, k});
         std::push_heap(fronts_.begin(), fronts_.end());
     }
 }
@@ -40,17 +56,23 @@ std::span<const Unfolding::Piece> Unfolding::around(const SurfacePlace& place, d
     }
     pieces_.clear();
     fronts_.clear();
+    is_everything_ = true;
     FlatTriangle flat = own_frame(mesh_, place.triangle);
     const Vector2d origin = position_of(flat, place.weights);
     for (Vector2d& corner : flat) corner = corner - origin;
-    add(place.triangle, flat, 3, radius);
+    add(place.triangle, flat, 3, radius * radius);
     while (!fronts_.empty()) {
         std::pop_heap(fronts_.begin(), fronts_.end());
-        const Front front = fronts_.back();
+        const auto [square, number, edge] = fronts_.back();
         fronts_.pop_back();
-        if (flat_of(front.into.triangle)) continue;
-        add(front.into.triangle, lay_flat(mesh_, front.into, front.from, front.to), front.into.edge,
-            radius);
+        const Piece& piece = pieces_[number];
+        const TriangleEdge into = mesh_.across[piece.triangle][edge];
+        if (flat_of(into.triangle)) continue;
+        const std::uint32_t k = into.edge;
+        flat[k] = piece.flat[next_corner(edge)];
+        flat[next_corner(k)] = piece.flat[edge];
+        flat[next_corner(next_corner(k))] = shapes_.apex(into, flat[k], flat[next_corner(k)]);
+        add(into.triangle, flat, k, radius * radius);
     }
     return pieces_;
 }

@@ -2,7 +2,7 @@
 
 #include "surface/convex_region.h"
 #include "surface/point_index.h"
-#include "surface/scatter.h"
+#include "surface/relax.h"
 #include "surface/unfolding.h"
 
 #include <algorithm>
@@ -19,42 +19,45 @@ struct Claim {
     double area = 0;
 };
 
-/// A wall as one of its cells sees it.
-struct SeenWall {
-    std::uint32_t low = 0, high = 0;
-    double length = 0;
-    double distance = 0;
-};
-
+/// What one thread found, cell after cell.
 struct Found {
     std::vector<Claim> claims;
-    std::vector<SeenWall> walls;
+    std::vector<CellWall> walls;  ///< As their cells see them, by the numbers of the neighbours.
 };
 
 /// Finds the regions of some cells; one a thread.
 class RegionFinder {
 public:
-    RegionFinder(const SurfaceMesh& mesh, const std::vector<SurfacePlace>& places,
-                 const PointIndex& index, double reach)
-        : places_(places), index_(index), reach_(reach), unfolding_(mesh) {}
+    RegionFinder(const SurfaceMesh& mesh, const EdgeShapes& shapes,
+                 const std::vector<SurfacePlace>& places, const PointIndex& index,
+                 const Anisotropy* anisotropy)
+        : mesh_(mesh), places_(places), index_(index), anisotropy_(anisotropy),
+          unfolding_(mesh, shapes) {}
 
-    void find(std::uint32_t cell, Vector3d position, Found& found) {
-        const auto pieces = unfolding_.around(places_[cell], reach_);
-        collect_neighbours(cell, position);
-        ConvexRegion region = ConvexRegion::square(reach_);
-        for (std::uint32_t k = 0; k < neighbours_.size(); ++k) {
-            if (neighbours_[k].distance >= 2 * region.farthest()) break;
-            region.cut_halfway(neighbours_[k].place, k);
+    /// Unfolds as much of the surface as the region of a cell depends on, `reach` at least.
+    void find(std::uint32_t cell, Vector3d position, double reach, Found& found) {
+        double ratio = 1;
+        if (anisotropy_) {
+            stretch_ = anisotropy_->of(mesh_, places_[cell].triangle);
+            ratio = anisotropy_->ratio_of(places_[cell].triangle);
         }
-        lengths_.assign(neighbours_.size(), 0);
-        const double farthest = region.farthest();
-        for (const Unfolding::Piece& piece : pieces) claim(cell, piece, region, farthest, found);
+        const std::size_t claims = found.claims.size();
+        for (;; reach *= 2) {
+            // Within `reach` as lengths count lies what is within `wide` on the surface.
+            const double wide = reach * std::sqrt(ratio);
+            const auto pieces = unfolding_.around(places_[cell], wide);
+            collect_neighbours(cell, position, wide);
+            const double farthest = claim_all(cell, pieces, reach, found);
+            if (2 * farthest <= reach || unfolding_.is_everything()) break;
+            found.claims.resize(claims);
+        }
+        const std::size_t walls = found.walls.size();
         for (std::size_t k = 0; k < neighbours_.size(); ++k) {
             if (lengths_[k] <= 0) continue;
-            const std::uint32_t other = neighbours_[k].number;
-            found.walls.push_back({std::min(cell, other), std::max(cell, other), lengths_[k],
-                                   neighbours_[k].distance});
+            found.walls.push_back({neighbours_[k].number, lengths_[k], neighbours_[k].distance});
         }
+        std::sort(found.walls.begin() + static_cast<std::ptrdiff_t>(walls), found.walls.end(),
+                  [](const CellWall& a, const CellWall& b) { return a.neighbour < b.neighbour; });
     }
 
 private:
@@ -64,12 +67,12 @@ private:
         Vector2d place;
     };
 
-    void collect_neighbours(std::uint32_t cell, Vector3d position) {
+    void collect_neighbours(std::uint32_t cell, Vector3d position, double wide) {
         neighbours_.clear();
-        index_.near(position, [&](std::uint32_t other) {
+        index_.near(position, wide, [&](std::uint32_t other) {
             const FlatTriangle* flat = unfolding_.flat_of(places_[other].triangle);
             if (other == cell || !flat) return;
-            const Vector2d place = position_of(*flat, places_[other].weights);
+            const Vector2d place = stretch_(position_of(*flat, places_[other].weights));
             const double distance = length(place);
             if (distance > 0) neighbours_.push_back({distance, other, place});
         });
@@ -78,17 +81,43 @@ private:
         });
     }
 
+    /// Claims what is nearer to the cell than to its neighbours; how far that goes.
+    double claim_all(std::uint32_t cell, std::span<const Unfolding::Piece> pieces, double reach,
+                     Found& found) {
+        ConvexRegion region = ConvexRegion::square(unfolding_.is_everything() ? 4 * reach : reach);
+        for (std::uint32_t k = 0; k < neighbours_.size(); ++k) {
+            if (neighbours_[k].distance >= 2 * region.farthest()) break;
+            region.cut_halfway(neighbours_[k].place, k);
+        }
+        lengths_.assign(neighbours_.size(), 0);
+        const double size = region.farthest();
+        double farthest = 0;
+        for (const Unfolding::Piece& piece : pieces) {
+            claim(cell, piece, region, size, found);
+            farthest = std::max(farthest, part_.farthest());
+        }
+        return farthest;
+    }
+
     void claim(std::uint32_t cell, const Unfolding::Piece& piece, const ConvexRegion& region,
-               double farthest, Found& found) {
-        const FlatTriangle& flat = piece.flat;
+               double size, Found& found) {
+        const FlatTriangle flat = {stretch_(piece.flat[0]), stretch_(piece.flat[1]),
+                                   stretch_(piece.flat[2])};
+        part_.clear();
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const Vector2d from = flat[k], along = flat[next_corner(k)] - from;
+            const double side = cross(from, along);
+            if (side < 0 && side * side > size * size * dot(along, along)) return;
+        }
         part_ = region;
         for (std::uint32_t k = 0; k < 3 && !part_.empty(); ++k) {
-            const Vector2d from = flat[k], to = flat[(k + 1) % 3];
-            if (cross(to - from, Vector2d{} - from) < -farthest * length(to - from)) return;
-            part_.cut(from, to, ConvexRegion::nothing);
+            part_.cut(flat[k], flat[next_corner(k)], ConvexRegion::nothing);
         }
         const double area = part_.area();
-        if (area <= 0) return;
+        if (area <= 0) {
+            part_.clear();
+            return;
+        }
         found.claims.push_back({piece.triangle, cell, area});
         const auto& edges = part_.edges();
         for (std::size_t k = 0; k < edges.size(); ++k) {
@@ -98,10 +127,12 @@ private:
         }
     }
 
+    const SurfaceMesh& mesh_;
     const std::vector<SurfacePlace>& places_;
     const PointIndex& index_;
-    double reach_;
+    const Anisotropy* anisotropy_;
     Unfolding unfolding_;
+    Stretch stretch_;  ///< At the cell.
     std::vector<Neighbour> neighbours_;
     std::vector<double> lengths_;  ///< Of the walls to the neighbours.
     ConvexRegion part_;
@@ -111,6 +142,9 @@ private:
 template <typename T>
 std::vector<T> joined(std::vector<Found>& found, std::vector<T> Found::*part) {
     std::vector<T> all;
+    std::size_t count = 0;
+    for (const Found& one : found) count += (one.*part).size();
+    all.reserve(count);
     for (Found& one : found) {
         all.insert(all.end(), (one.*part).begin(), (one.*part).end());
         std::vector<T>().swap(one.*part);
@@ -118,73 +152,129 @@ std::vector<T> joined(std::vector<Found>& found, std::vector<T> Found::*part) {
     return all;
 }
 
+/// Gives each triangle to those who claim it. One that nobody claims, in a dent that unfolding
+/// overlooks, goes to the cell that claims most of one beside it.
 void share_areas(const SurfaceMesh& mesh, const std::vector<Claim>& claims, SurfaceCells& cells) {
     std::vector<double> claimed(mesh.triangles.size());
-    for (const Claim& claim : claims) claimed[claim.triangle] += claim.area;
+    std::vector<Claim> most(mesh.triangles.size());
+    for (const Claim& claim : claims) {
+        claimed[claim.triangle] += claim.area;
+        if (claim.area > most[claim.triangle].area) most[claim.triangle] = claim;
+    }
     for (const Claim& claim : claims) {
         cells.areas[claim.cell] +=
             claim.area / claimed[claim.triangle] * mesh.area(claim.triangle);
+    }
+    std::vector<std::uint32_t> next;  // Triangles that have an owner and may have neighbours without.
+    for (std::uint32_t t = 0; t < claimed.size(); ++t) {
+        if (claimed[t] <= 0) continue;
+        const auto& around = mesh.across[t];
+        if (std::any_of(around.begin(), around.end(), [&](const TriangleEdge& other) {
+                return other.exists() && claimed[other.triangle] <= 0;
+            })) {
+            next.push_back(t);
+        }
+    }
+    for (std::size_t k = 0; k < next.size(); ++k) {
+        for (const TriangleEdge& other : mesh.across[next[k]]) {
+            if (!other.exists() || claimed[other.triangle] > 0) continue;
+            claimed[other.triangle] = 1;
+            most[other.triangle].cell = most[next[k]].cell;
+            cells.areas[most[next[k]].cell] += mesh.area(other.triangle);
+            next.push_back(other.triangle);
+        }
     }
     for (std::size_t t = 0; t < claimed.size(); ++t) {
         if (claimed[t] <= 0) cells.bare_area += mesh.area(t);
     }
 }
 
-/// A wall that one cell alone sees is half as long.
-void match_walls(std::vector<SeenWall> seen, SurfaceCells& cells) {
-    std::sort(seen.begin(), seen.end(), [](const SeenWall& a, const SeenWall& b) {
-        return std::tie(a.low, a.high, a.length, a.distance) <
-               std::tie(b.low, b.high, b.length, b.distance);
-    });
-    std::vector<std::pair<std::uint32_t, CellWall>> sided;
-    for (std::size_t begin = 0, end = 0; begin < seen.size(); begin = end) {
-        double length_sum = 0, distance_sum = 0;
-        for (; end < seen.size() && seen[end].low == seen[begin].low &&
-               seen[end].high == seen[begin].high;
-             ++end) {
-            length_sum += seen[end].length;
-            distance_sum += seen[end].distance;
+/// The wall to a neighbour in one of the lists, which are sorted; null if there is none.
+const CellWall* wall_to(std::uint32_t neighbour, std::span<const CellWall> walls) {
+    const auto found = std::lower_bound(
+        walls.begin(), walls.end(), neighbour,
+        [](const CellWall& wall, std::uint32_t number) { return wall.neighbour < number; });
+    return found != walls.end() && found->neighbour == neighbour ? &*found : nullptr;
+}
+
+/// Takes the mean of what the two cells of a wall see; one that one cell alone sees is half as long.
+/// `cells` has the walls as they are seen.
+void match_walls(SurfaceCells& cells) {
+    SurfaceCells matched;
+    std::vector<std::pair<std::uint32_t, CellWall>> unseen;  // Who does not see it, what it does not see.
+    for (std::uint32_t cell = 0; cell < cells.ends.size(); ++cell) {
+        for (const CellWall& wall : cells.walls_of(cell)) {
+            if (wall_to(cell, cells.walls_of(wall.neighbour))) continue;
+            unseen.push_back({wall.neighbour, {cell, wall.length, wall.distance}});
         }
-        const CellWall wall = {0, length_sum / 2, distance_sum / static_cast<double>(end - begin)};
-        sided.push_back({seen[begin].low, {seen[begin].high, wall.length, wall.distance}});
-        sided.push_back({seen[begin].high, {seen[begin].low, wall.length, wall.distance}});
     }
-    std::sort(sided.begin(), sided.end(), [](const auto& a, const auto& b) {
+    std::sort(unseen.begin(), unseen.end(), [](const auto& a, const auto& b) {
         return std::tie(a.first, a.second.neighbour) < std::tie(b.first, b.second.neighbour);
     });
-    cells.ends.assign(cells.places.size(), 0);
-    for (const auto& [cell, wall] : sided) {
-        ++cells.ends[cell];
-        cells.walls.push_back(wall);
+    matched.walls.reserve(cells.walls.size() + unseen.size());
+    matched.ends.reserve(cells.ends.size());
+    auto next = unseen.begin();
+    for (std::uint32_t cell = 0; cell < cells.ends.size(); ++cell) {
+        const auto take_unseen = [&](std::uint32_t before) {
+            for (; next != unseen.end() && next->first == cell && next->second.neighbour < before; ++next) {
+                const CellWall& wall = next->second;
+                matched.walls.push_back({wall.neighbour, wall.length / 2, wall.distance});
+            }
+        };
+        for (const CellWall& wall : cells.walls_of(cell)) {
+            take_unseen(wall.neighbour);
+            const CellWall* back = wall_to(cell, cells.walls_of(wall.neighbour));
+            const CellWall other = back ? *back : CellWall{cell, 0, wall.distance};
+            matched.walls.push_back({wall.neighbour, (wall.length + other.length) / 2,
+                                     (wall.distance + other.distance) / 2});
+        }
+        take_unseen(static_cast<std::uint32_t>(cells.ends.size()));
+        matched.ends.push_back(matched.walls.size());
     }
-    for (std::size_t k = 1; k < cells.ends.size(); ++k) cells.ends[k] += cells.ends[k - 1];
+    cells.walls.swap(matched.walls);
+    cells.ends.swap(matched.ends);
 }
 
 }  // namespace
 
 SurfaceCells voronoi_cells(const SurfaceMesh& mesh, std::vector<SurfacePlace> places, Team& team,
-                           const std::atomic<bool>& cancel) {
+                           const std::atomic<bool>& cancel, const Anisotropy* anisotropy) {
     SurfaceCells cells;
     cells.places = std::move(places);
     cells.areas.assign(cells.places.size(), 0);
+    cells.ends.assign(cells.places.size(), 0);
     if (cells.places.empty()) return cells;
     std::vector<Vector3d> positions;
+    positions.reserve(cells.places.size());
     for (const SurfacePlace& place : cells.places) positions.push_back(position_of(mesh, place));
-    const double reach = 2 * repulsion_radius(mesh.total_area(), cells.places.size());
+    const double reach = repulsion_radius(mesh.total_area(), cells.places.size());
     const PointIndex index(positions, reach);
+    const EdgeShapes shapes(mesh);
     std::vector<Found> found(static_cast<std::size_t>(team.size()));
     team.run([&](int thread) {
         const RowRange part =
             split_rows(static_cast<std::int64_t>(cells.places.size()), thread, team.size());
-        RegionFinder finder(mesh, cells.places, index, reach);
+        RegionFinder finder(mesh, shapes, cells.places, index, anisotropy);
+        Found& own = found[static_cast<std::size_t>(thread)];
         for (std::int64_t k = part.begin; k < part.end && !cancel; ++k) {
             const auto cell = static_cast<std::size_t>(k);
-            finder.find(static_cast<std::uint32_t>(cell), positions[cell],
-                        found[static_cast<std::size_t>(thread)]);
+            finder.find(static_cast<std::uint32_t>(cell), positions[cell], reach, own);
+            cells.ends[cell] = own.walls.size();
         }
     });
+    if (cancel) return cells;
+    std::size_t before = 0;
+    for (int thread = 0; thread < team.size(); ++thread) {
+        const RowRange part =
+            split_rows(static_cast<std::int64_t>(cells.places.size()), thread, team.size());
+        for (std::int64_t k = part.begin; k < part.end; ++k) {
+            cells.ends[static_cast<std::size_t>(k)] += before;
+        }
+        before += found[static_cast<std::size_t>(thread)].walls.size();
+    }
     share_areas(mesh, joined(found, &Found::claims), cells);
-    match_walls(joined(found, &Found::walls), cells);
+    cells.walls = joined(found, &Found::walls);
+    match_walls(cells);
     return cells;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/parallel.h"
-#include "surface/flat.h"
+#include "surface/anisotropy.h"
 
 #include <atomic>
 #include <span>
@@ -24,7 +24,7 @@ struct SurfaceCells {
     std::vector<double> areas;
     std::vector<std::size_t> ends;   ///< Cell i's walls end before walls[ends[i]].
     std::vector<CellWall> walls;     ///< Cell after cell, by the numbers of the neighbours.
-    double bare_area = 0;            ///< Of triangles that no cell reaches.
+    double bare_area = 0;            ///< Of pieces of the surface without any cell.
 
     std::span<const CellWall> walls_of(std::size_t cell) const {
         const std::size_t first = cell == 0 ? 0 : ends[cell - 1];
@@ -39,6 +39,6 @@ struct SurfaceCells {
 /// triangle are scaled so that together they are the triangle. The sum of all areas and `bare_area` is
 /// the surface's area. The same on any number of threads. What it returns means nothing if `cancel` became true.
 SurfaceCells voronoi_cells(const SurfaceMesh& mesh, std::vector<SurfacePlace> places, Team& team,
-                           const std::atomic<bool>& cancel);
+                           const std::atomic<bool>& cancel, const Anisotropy* anisotropy = nullptr);
 
 }  // namespace cascade

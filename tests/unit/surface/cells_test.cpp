@@ -1,4 +1,6 @@
 // Places spread over surfaces, and the cells around them, against what is known of both.
+#include "surface/relax.h"
+#include "surface/scatter.h"
 #include "surface/unfolding.h"
 #include "unit/surface/shapes.h"
 
@@ -25,7 +27,7 @@ TEST(Walk, GoesAroundACubeAndComesBack) {
         for (std::uint32_t k = 0; k < 3; ++k) {
             const Vector2d edge = flat[(k + 1) % 3] - flat[k];
             if (std::abs(length(edge) - 1) > 1e-9) continue;
-            const SurfacePlace end = walk(mesh, start, edge * 4);
+            const SurfacePlace end = walk(mesh, start, edge * 4).place;
             EXPECT_NEAR(length(position_of(mesh, end) - position_of(mesh, start)), 0, 1e-12);
         }
     }
@@ -35,14 +37,15 @@ TEST(Walk, StopsAtABoundary) {
     const SurfaceMesh mesh = square();
     const FlatTriangle flat = own_frame(mesh, 0);
     const SurfacePlace start = {0, {0.2, 0.5, 0.3}};
-    const SurfacePlace end = walk(mesh, start, (flat[1] - flat[0]) * 9);
+    const SurfacePlace end = walk(mesh, start, (flat[1] - flat[0]) * 9).place;
     const Vector3d p = position_of(mesh, end);
     EXPECT_NEAR(std::max(std::abs(p.x - 0.5), std::abs(p.y - 0.5)), 0.5, 1e-12);
 }
 
 TEST(Unfolding, LaysACubesNetFlat) {
     const SurfaceMesh mesh = box();
-    Unfolding unfolding(mesh);
+    const EdgeShapes shapes(mesh);
+    Unfolding unfolding(mesh, shapes);
     const auto pieces = unfolding.around({0, {1.0 / 3, 1.0 / 3, 1.0 / 3}}, 0.9);
     double area = 0;
     for (const Unfolding::Piece& piece : pieces) {

@@ -1,0 +1,202 @@
+#include "surface/relax.h"
+
+#include "core/hash.h"
+#include "surface/point_index.h"
+#include "surface/unfolding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cascade {
+
+namespace {
+
+constexpr double strength = 0.15;
+/// Lists of others reach this much farther than the force, in radii.
+constexpr double skin = 0.25;
+/// A place moves no farther than this in a round, in radii. Where a surface is folded a place has so many
+/// others that they would throw it to and fro.
+constexpr double longest_step = 0.06;
+/// Lists are made anew when more than one place in so many has moved half the skin: few are always
+/// thrown about, and evenness is no better for knowing them exactly.
+constexpr std::size_t places_per_far_one = 100;
+/// … and no sooner than after one round in so many of those done: the first ones move places farthest.
+constexpr int rounds_per_age = 4;
+
+struct Vector2f {
+    float x = 0, y = 0;
+};
+
+/// One place as another one sees it: where it stood when the list was made, in radii and in the frame
+/// in which the other stood then, and how its own frame is turned in that.
+struct Other {
+    std::uint32_t number = 0;
+    Vector2f stood;
+    Vector2f turn;
+};
+
+/// Coinciding places are pushed apart, each in a direction of its own.
+Vector2d own_direction(std::uint32_t number) {
+    const double angle = 2 * std::numbers::pi / 4294967296.0 * pcg4d({number, 0, 0, 0})[0];
+    return {std::cos(angle), std::sin(angle)};
+}
+
+class Relaxation {
+public:
+    Relaxation(const SurfaceMesh& mesh, std::vector<SurfacePlace>& places, Team& team,
+               const std::atomic<bool>& cancel, const Anisotropy* anisotropy)
+        : mesh_(mesh), places_(places), team_(team), cancel_(cancel), anisotropy_(anisotropy),
+          radius_(repulsion_radius(mesh.total_area(), places.size())), shapes_(mesh),
+          turns_(places.size()), moved_(places.size()), moving_(places.size()), ends_(places.size()),
+          parts_(static_cast<std::size_t>(team.size())) {}
+
+    void run(int rounds) {
+        std::size_t far_moved = places_.size();
+        int made = -1;
+        for (int round = 0; round < rounds && !cancel_; ++round) {
+            if (far_moved > places_.size() / places_per_far_one &&
+                round - made > round / rounds_per_age) {
+                find_others();
+                made = round;
+            }
+            team_.run([&](int thread) { push(part_of(thread)); });
+            moved_.swap(moving_);
+            far_moved = 0;
+            for (const Part& part : parts_) far_moved += part.far_moved;
+        }
+    }
+
+private:
+    /// What belongs to one thread.
+    struct Part {
+        RowRange range;
+        std::vector<Other> others;  ///< Place after place.
+        std::size_t far_moved = 0;  ///< Places that have moved half the skin or more since.
+    };
+
+    Part& part_of(int thread) {
+        Part& part = parts_[static_cast<std::size_t>(thread)];
+        part.range = split_rows(static_cast<std::int64_t>(places_.size()), thread, team_.size());
+        return part;
+    }
+
+    Stretch stretch_at(const SurfacePlace& place) const {
+        return anisotropy_ ? anisotropy_->of(mesh_, place.triangle) : Stretch{};
+    }
+
+    void find_others() {
+        std::vector<Vector3d> positions;
+        positions.reserve(places_.size());
+        for (const SurfacePlace& place : places_) positions.push_back(position_of(mesh_, place));
+        const double reach = (1 + skin) * radius_;
+        const PointIndex index(positions, reach);
+        team_.run([&](int thread) {
+            Part& part = part_of(thread);
+            part.others.clear();
+            Unfolding unfolding(mesh_, shapes_);
+            for (std::int64_t row = part.range.begin; row < part.range.end && !cancel_; ++row) {
+                const auto k = static_cast<std::size_t>(row);
+                const double ratio = anisotropy_ ? anisotropy_->ratio_of(places_[k].triangle) : 1;
+                find_others_of(k, positions[k], index, reach * std::sqrt(ratio), unfolding, part);
+            }
+        });
+    }
+
+    void find_others_of(std::size_t k, Vector3d position, const PointIndex& index, double reach,
+                        Unfolding& unfolding, Part& part) {
+        unfolding.around(places_[k], reach);
+        index.near(position, reach, [&](std::uint32_t number) {
+            const FlatTriangle* flat = unfolding.flat_of(places_[number].triangle);
+            if (number == k || !flat) return;
+            const Vector2d stood = position_of(*flat, places_[number].weights);
+            if (dot(stood, stood) > reach * reach) return;
+            const Vector2d base = (*flat)[1] - (*flat)[0];
+            part.others.push_back({number, in_float(stood * (1 / radius_)),
+                                   in_float(base * (1 / length(base)))});
+        });
+        ends_[k] = part.others.size();
+        turns_[k] = {1, 0};
+        moved_[k] = {};
+    }
+
+    static Vector2f in_float(Vector2d v) {
+        return {static_cast<float>(v.x), static_cast<float>(v.y)};
+    }
+
+    void push(Part& part) {
+        part.far_moved = 0;
+        const Other* other = part.others.data();
+        for (std::int64_t row = part.range.begin; row < part.range.end && !cancel_; ++row) {
+            const auto k = static_cast<std::size_t>(row);
+            const Other* end = part.others.data() + ends_[k];
+            const Stretch stretch = stretch_at(places_[k]).in_frame({turns_[k].x, -turns_[k].y});
+            Vector2d pushed = push_on(k, {other, end}, stretch) * strength;
+            const double size = length(pushed);
+            if (size > longest_step) pushed = pushed * (longest_step / size);
+            const Vector2d step = stretch.inverse()(pushed);
+            const WalkEnd walked = walk(mesh_, places_[k], turned_into(step, turns_[k]) * radius_);
+            const Vector2d now = Vector2d{moved_[k].x, moved_[k].y} + step * walked.part;
+            moving_[k] = in_float(now);
+            part.far_moved += 2 * length(stretch(now)) > skin;
+            places_[k] = walked.place;
+            turns_[k] = composed(turns_[k], walked.turn);
+            other = end;
+        }
+    }
+
+    /// What pushes a place, as lengths count, in radii.
+    Vector2d push_on(std::size_t k, std::span<const Other> others, const Stretch& stretch) const {
+        const Vector2f here = moved_[k];
+        const auto xx = static_cast<float>(stretch.xx), xy = static_cast<float>(stretch.xy),
+                   yy = static_cast<float>(stretch.yy);
+        Vector2f push;
+        for (const Other& other : others) {
+            const Vector2f by = moved_[other.number], turn = other.turn;
+            const float x = other.stood.x + turn.x * by.x - turn.y * by.y - here.x;
+            const float y = other.stood.y + turn.y * by.x + turn.x * by.y - here.y;
+            const float u = xx * x + xy * y, v = xy * x + yy * y;
+            const float square = u * u + v * v;
+            if (square >= 1) continue;
+            const float distance = std::sqrt(square);
+            Vector2f away = {-u / distance, -v / distance};
+            if (distance < 1e-7F) away = in_float(own_direction(static_cast<std::uint32_t>(k)));
+            push.x += away.x * (1 - distance);
+            push.y += away.y * (1 - distance);
+        }
+        return {push.x, push.y};
+    }
+
+    /// Where the x axis of a frame turned first by one and then by another turn lies.
+    static Vector2d composed(Vector2d first, Vector2d second) {
+        return {first.x * second.x - first.y * second.y, first.x * second.y + first.y * second.x};
+    }
+
+    const SurfaceMesh& mesh_;
+    std::vector<SurfacePlace>& places_;
+    Team& team_;
+    const std::atomic<bool>& cancel_;
+    const Anisotropy* anisotropy_;
+    double radius_;
+    EdgeShapes shapes_;
+    /// Since the lists were made: the frame of each place's triangle and how far it has moved (in radii), as
+    /// seen from the frame in which it stood then. A round reads `moved_` and writes `moving_`.
+    std::vector<Vector2d> turns_;
+    std::vector<Vector2f> moved_, moving_;
+    std::vector<std::size_t> ends_;  ///< Of a place's others in those of its thread.
+    std::vector<Part> parts_;
+};
+
+}  // namespace
+
+double repulsion_radius(double area, std::size_t count) {
+    return 2 * std::sqrt(area / static_cast<double>(count));
+}
+
+void relax(const SurfaceMesh& mesh, std::vector<SurfacePlace>& places, int rounds, Team& team,
+           const std::atomic<bool>& cancel, const Anisotropy* anisotropy) {
+    if (places.size() < 2) return;
+    Relaxation(mesh, places, team, cancel, anisotropy).run(rounds);
+}
+
+}  // namespace cascade
