@@ -3,6 +3,8 @@
 #include "surface/scatter.h"
 #include "surface/unfolding.h"
 #include "unit/surface/shapes.h"
+#include "surface/voronoi_cells.h"
+#include "unit/surface/cell_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +21,7 @@ using test::sphere;
 using test::square;
 
 TEST(Walk, GoesAroundACubeAndComesBack) {
-    const SurfaceMesh mesh = box();
+    const SurfaceMesh mesh = test::box();
     for (std::uint32_t t = 0; t < 12; ++t) {
         const SurfacePlace start = {t, {0.3, 0.45, 0.25}};
         // Along the direction of an edge of the cube the way is closed after four sides.
@@ -34,7 +36,7 @@ TEST(Walk, GoesAroundACubeAndComesBack) {
 }
 
 TEST(Walk, StopsAtABoundary) {
-    const SurfaceMesh mesh = square();
+    const SurfaceMesh mesh = test::square();
     const FlatTriangle flat = own_frame(mesh, 0);
     const SurfacePlace start = {0, {0.2, 0.5, 0.3}};
     const SurfacePlace end = walk(mesh, start, (flat[1] - flat[0]) * 9).place;
@@ -43,7 +45,7 @@ TEST(Walk, StopsAtABoundary) {
 }
 
 TEST(Unfolding, LaysACubesNetFlat) {
-    const SurfaceMesh mesh = box();
+    const SurfaceMesh mesh = test::box();
     const EdgeShapes shapes(mesh);
     Unfolding unfolding(mesh, shapes);
     const auto pieces = unfolding.around({0, {1.0 / 3, 1.0 / 3, 1.0 / 3}}, 0.9);
@@ -60,7 +62,7 @@ TEST(Unfolding, LaysACubesNetFlat) {
 }
 
 TEST(Scatter, PlacesAreAsDenseEverywhere) {
-    const SurfaceMesh mesh = box();
+    const SurfaceMesh mesh = test::box();
     std::map<std::uint32_t, int> on_triangle;
     for (const SurfacePlace& place : scatter(mesh, 12'000, 7)) {
         ++on_triangle[place.triangle];
@@ -69,32 +71,16 @@ TEST(Scatter, PlacesAreAsDenseEverywhere) {
     for (const auto& [triangle, count] : on_triangle) EXPECT_NEAR(count, 1000, 1) << triangle;
 }
 
-/// Standard deviation over mean of the distance to the nearest other place.
-double unevenness(const SurfaceMesh& mesh, const std::vector<SurfacePlace>& places) {
-    double sum = 0, squares = 0;
-    for (std::size_t a = 0; a < places.size(); ++a) {
-        double nearest = 1e9;
-        for (std::size_t b = 0; b < places.size(); ++b) {
-            if (a == b) continue;
-            nearest = std::min(nearest, length(position_of(mesh, places[a]) - position_of(mesh, places[b])));
-        }
-        sum += nearest;
-        squares += nearest * nearest;
-    }
-    const auto count = static_cast<double>(places.size());
-    return std::sqrt(squares / count - sum / count * (sum / count)) / (sum / count);
-}
-
 TEST(Relax, PlacesBecomeEven) {
-    const SurfaceMesh mesh = sphere(16);
-    const double random = unevenness(mesh, scatter(mesh, 800, 1));
-    const double relaxed = unevenness(mesh, even_places(mesh, 800));
+    const SurfaceMesh mesh = test::sphere(16);
+    const double random = test::unevenness(mesh, scatter(mesh, 800, 1));
+    const double relaxed = test::unevenness(mesh, even_places(mesh, 800));
     EXPECT_GT(random, 0.35);  // Of independent places it would be 0.52.
     EXPECT_LT(relaxed, 0.08);
 }
 
 TEST(Relax, ThreadsDoNotMatter) {
-    const SurfaceMesh mesh = box();
+    const SurfaceMesh mesh = test::box();
     const auto one = even_places(mesh, 500, 1, 10), three = even_places(mesh, 500, 3, 10);
     for (std::size_t k = 0; k < one.size(); ++k) {
         EXPECT_EQ(one[k].triangle, three[k].triangle);
@@ -103,7 +89,7 @@ TEST(Relax, ThreadsDoNotMatter) {
 }
 
 TEST(VoronoiCells, AreasAreTheSurface) {
-    for (const SurfaceMesh& mesh : {square(), box(), sphere(20)}) {
+    for (const SurfaceMesh& mesh : {test::square(), test::box(), test::sphere(20)}) {
         const SurfaceCells cells = cells_of(mesh, 1000);
         double sum = cells.bare_area;
         for (const double area : cells.areas) {
@@ -116,62 +102,16 @@ TEST(VoronoiCells, AreasAreTheSurface) {
 }
 
 TEST(VoronoiCells, WallsAreSymmetricAndAboutSix) {
-    const SurfaceCells cells = cells_of(box(), 1200);
+    const SurfaceCells cells = cells_of(test::box(), 1200);
     EXPECT_NEAR(static_cast<double>(cells.walls.size()) / 1200, 6, 0.1);
-    for (std::uint32_t i = 0; i < 1200; ++i) {
-        for (const CellWall& wall : cells.walls_of(i)) {
-            bool is_found = false;
-            for (const CellWall& back : cells.walls_of(wall.neighbour)) {
-                if (back.neighbour != i) continue;
-                is_found = true;
-                EXPECT_EQ(back.length, wall.length);
-                EXPECT_EQ(back.distance, wall.distance);
-            }
-            EXPECT_TRUE(is_found);
-        }
-    }
-}
-
-/// (Σ wall (c_j − c_i) length / distance) / area.
-std::vector<double> laplacian(const SurfaceCells& cells, const std::vector<double>& c) {
-    std::vector<double> result;
-    for (std::size_t i = 0; i < c.size(); ++i) {
-        double sum = 0;
-        for (const CellWall& wall : cells.walls_of(i)) {
-            sum += (c[wall.neighbour] - c[i]) * wall.length / wall.distance;
-        }
-        result.push_back(sum / cells.areas[i]);
-    }
-    return result;
-}
-
-/// What ⟨f, L f⟩ / ⟨f, f⟩ is, with areas as weights: minus the rate at which f decays.
-double decay_rate(const SurfaceCells& cells, const std::vector<double>& f) {
-    const std::vector<double> lap = laplacian(cells, f);
-    double above = 0, below = 0;
-    for (std::size_t k = 0; k < f.size(); ++k) {
-        above -= f[k] * lap[k] * cells.areas[k];
-        below += f[k] * f[k] * cells.areas[k];
-    }
-    return above / below;
+    test::expect_symmetric_walls(cells);
 }
 
 TEST(VoronoiCells, SphericalHarmonicsDecayAtTheirRates) {
-    const SurfaceMesh mesh = sphere(40);
+    const SurfaceMesh mesh = test::sphere(40);
     double last_error = 1;
     for (const std::size_t count : {500, 2000, 8000}) {
-        const SurfaceCells cells = cells_of(mesh, count);
-        double worst = 0;
-        for (int l = 1; l <= 3; ++l) {
-            std::vector<double> f;
-            for (const SurfacePlace& place : cells.places) {
-                const double z = unit(position_of(mesh, place)).z;
-                f.push_back(l == 1 ? z : l == 2 ? 1.5 * z * z - 0.5 : 2.5 * z * z * z - 1.5 * z);
-            }
-            const double error = std::abs(decay_rate(cells, f) / (l * (l + 1)) - 1);
-            RecordProperty("error_l" + std::to_string(l) + "_" + std::to_string(count), std::to_string(error));
-            worst = std::max(worst, error);
-        }
+        const double worst = test::harmonics_error(mesh, cells_of(mesh, count));
         EXPECT_LT(worst, last_error);
         last_error = worst;
     }

@@ -1,0 +1,271 @@
+#include "surface/cell_file.h"
+
+#include "core/file.h"
+#include "core/hash.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::string_view magic = "CASCELLS";
+constexpr std::uint32_t byte_order_mark = 0x01020304;
+
+/// The first 64 bytes, without padding.
+struct Header {
+    std::array<char, 8> magic{};
+    std::uint32_t version = 0;
+    std::uint32_t byte_order = 0;
+    std::array<std::uint64_t, 2> key{};
+    std::uint64_t cells = 0;
+    std::uint64_t walls = 0;
+    double bare_area = 0;
+    std::uint64_t reserved = 0;
+};
+static_assert(sizeof(Header) == 64);
+
+constexpr std::uint64_t bytes_per_cell = 4 + 3 * 8 + 8 + 8;
+constexpr std::uint64_t bytes_per_wall = 4 + 8 + 8;
+constexpr std::uint64_t most = std::uint64_t{1} << 40;  // Keeps sums of sizes from wrapping.
+
+template <typename T>
+void append(std::string& bytes, const T& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// Takes values off the front. There must be enough.
+class Bytes {
+public:
+    explicit Bytes(std::string_view bytes) : bytes_(bytes) {}
+    template <typename T>
+    T take() {
+        T value;
+        std::memcpy(&value, bytes_.data(), sizeof value);
+        bytes_.remove_prefix(sizeof value);
+        return value;
+    }
+
+private:
+    std::string_view bytes_;
+};
+
+template <typename T>
+std::string_view bytes_of(const std::vector<T>& values) {
+    static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, double> ||
+                  std::is_same_v<T, Vector3d>);
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+/// Of several texts one after the other.
+class TwoHashes {
+public:
+    void add(std::string_view bytes) {
+        for (std::uint64_t& word : key_.words) word = fnv1a(bytes, word);
+    }
+    template <typename T>
+    void add_values(const std::vector<T>& values) {
+        add_value(std::uint64_t{values.size()});
+        add(bytes_of(values));
+    }
+    template <typename T>
+    void add_value(T value) {
+        add({reinterpret_cast<const char*>(&value), sizeof value});
+    }
+    CellKey key() const { return key_; }
+
+private:
+    CellKey key_{{0xcbf29ce484222325ULL, 0x9ae16a3b2f90404fULL}};
+};
+
+Result<Header> read_header(const std::filesystem::path& path, const CellKey& key) {
+    std::error_code error;
+    const std::uint64_t size = std::filesystem::file_size(path, error);
+    if (error) return failure(fmt::format("'{}' is not there", path.string()));
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return failure(fmt::format("'{}' cannot be read", path.string()));
+    Header header;
+    std::array<char, sizeof header> bytes{};
+    file.read(bytes.data(), bytes.size());
+    std::memcpy(&header, bytes.data(), sizeof header);
+    const auto fails = [&](std::string_view why) {
+        return failure(fmt::format("'{}' {}", path.string(), why));
+    };
+    if (!file || std::string_view(header.magic.data(), header.magic.size()) != magic) {
+        return fails("is no file of cells");
+    }
+    if (header.byte_order != byte_order_mark) return fails("is of a machine with another byte order");
+    if (header.version != cell_file_version) {
+        return fails(fmt::format("is of version {}, not {}", header.version, cell_file_version));
+    }
+    if (header.key != key.words) return fails("holds cells of another surface or made in another way");
+    if (header.cells > most || header.walls > most ||
+        size != sizeof header + header.cells * bytes_per_cell + header.walls * bytes_per_wall + 8) {
+        return fails("is damaged: its size is not what it says");
+    }
+    return header;
+}
+
+bool is_positive(double number) { return std::isfinite(number) && number > 0; }
+
+bool is_sound(const SurfacePlace& place, const SurfaceMesh& mesh) {
+    if (place.triangle >= mesh.triangles.size()) return false;
+    return std::all_of(place.weights.begin(), place.weights.end(),
+                       [](double weight) { return weight >= 0 && weight <= 1; });
+}
+
+/// Do the walls of a cell name others, in order, which have them too?
+bool are_sound(const SurfaceCells& cells, std::uint32_t cell) {
+    const auto walls = cells.walls_of(cell);
+    for (std::size_t k = 0; k < walls.size(); ++k) {
+        const CellWall& wall = walls[k];
+        if (wall.neighbour >= cells.places.size() || wall.neighbour == cell) return false;
+        if (k > 0 && wall.neighbour <= walls[k - 1].neighbour) return false;
+        if (!is_positive(wall.length) || !is_positive(wall.distance)) return false;
+        const auto others = cells.walls_of(wall.neighbour);
+        if (std::none_of(others.begin(), others.end(), [&](const CellWall& back) {
+                return back.neighbour == cell && back.length == wall.length &&
+                       back.distance == wall.distance;
+            })) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool are_sound(const SurfaceCells& cells, const SurfaceMesh& mesh) {
+    if (!std::is_sorted(cells.ends.begin(), cells.ends.end())) return false;
+    if ((cells.ends.empty() ? 0 : cells.ends.back()) != cells.walls.size()) return false;
+    if (!(cells.bare_area >= 0)) return false;
+    for (std::uint32_t cell = 0; cell < cells.places.size(); ++cell) {
+        if (!is_sound(cells.places[cell], mesh) || !(cells.areas[cell] >= 0) ||
+            !std::isfinite(cells.areas[cell]) || !are_sound(cells, cell)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+SurfaceCells taken_from(Bytes bytes, const Header& header) {
+    SurfaceCells cells;
+    cells.bare_area = header.bare_area;
+    cells.places.reserve(header.cells);
+    cells.areas.reserve(header.cells);
+    cells.ends.reserve(header.cells);
+    cells.walls.reserve(header.walls);
+    for (std::uint64_t k = 0; k < header.cells; ++k) {
+        SurfacePlace place;
+        place.triangle = bytes.take<std::uint32_t>();
+        for (double& weight : place.weights) weight = bytes.take<double>();
+        cells.places.push_back(place);
+        cells.areas.push_back(bytes.take<double>());
+        cells.ends.push_back(bytes.take<std::uint64_t>());
+    }
+    for (std::uint64_t k = 0; k < header.walls; ++k) {
+        CellWall wall;
+        wall.neighbour = bytes.take<std::uint32_t>();
+        wall.length = bytes.take<double>();
+        wall.distance = bytes.take<double>();
+        cells.walls.push_back(wall);
+    }
+    return cells;
+}
+
+}  // namespace
+
+std::string CellKey::text() const { return fmt::format("{:016x}{:016x}", words[0], words[1]); }
+
+CellKey key_of(const SurfaceMesh& mesh, const CellOptions& options) {
+    TwoHashes hashes;
+    hashes.add_value(cell_file_version);
+    hashes.add_values(mesh.points);
+    hashes.add_values(mesh.triangles);
+    hashes.add_values(mesh.across);
+    hashes.add_value(options.kind);
+    if (options.kind == CellKind::faces) hashes.add_values(mesh.faces);
+    if (options.kind != CellKind::places) return hashes.key();
+    hashes.add_value(options.count);
+    hashes.add_value(options.seed);
+    hashes.add_value(options.rounds);
+    hashes.add_value(options.anisotropy != nullptr);
+    if (options.anisotropy) {
+        hashes.add_values(options.anisotropy->direction);
+        hashes.add_values(options.anisotropy->ratio);
+    }
+    return hashes.key();
+}
+
+Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& cells,
+                         const CellKey& key) {
+    Header header;
+    std::copy(magic.begin(), magic.end(), header.magic.begin());
+    header.version = cell_file_version;
+    header.byte_order = byte_order_mark;
+    header.key = key.words;
+    header.cells = cells.places.size();
+    header.walls = cells.walls.size();
+    header.bare_area = cells.bare_area;
+    std::string bytes;
+    bytes.reserve(sizeof header + header.cells * bytes_per_cell + header.walls * bytes_per_wall + 8);
+    append(bytes, header);
+    for (std::size_t k = 0; k < cells.places.size(); ++k) {
+        append(bytes, cells.places[k].triangle);
+        append(bytes, cells.places[k].weights);
+        append(bytes, cells.areas[k]);
+        append(bytes, std::uint64_t{cells.ends[k]});
+    }
+    for (const CellWall& wall : cells.walls) {
+        append(bytes, wall.neighbour);
+        append(bytes, wall.length);
+        append(bytes, wall.distance);
+    }
+    append(bytes, fnv1a(bytes));
+    return write_file(path, bytes);
+}
+
+Result<SurfaceCells> read_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
+                                const CellKey& key) {
+    const Result<Header> header = read_header(path, key);
+    if (!header) return tl::unexpected(header.error());
+    const std::uint64_t size =
+        sizeof(Header) + header->cells * bytes_per_cell + header->walls * bytes_per_wall + 8;
+    const Result<std::string> bytes = read_file(path, size);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const auto damaged = [&](std::string_view why) {
+        return failure(fmt::format("'{}' is damaged: {}", path.string(), why));
+    };
+    // It may have been replaced since its header was read.
+    if (bytes->size() != size || std::memcmp(bytes->data(), &*header, sizeof(Header)) != 0) {
+        return damaged("it changed while it was read");
+    }
+    const std::string_view content(bytes->data(), size - 8);
+    if (Bytes(std::string_view(*bytes).substr(size - 8)).take<std::uint64_t>() != fnv1a(content)) {
+        return damaged("its checksum is wrong");
+    }
+    SurfaceCells cells = taken_from(Bytes(content.substr(sizeof(Header))), *header);
+    if (!are_sound(cells, mesh)) return damaged("its cells do not fit the surface");
+    return cells;
+}
+
+Result<KeptCells> kept_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
+                             const CellOptions& options, Team& team, const std::atomic<bool>& cancel) {
+    const CellKey key = key_of(mesh, options);
+    if (Result<SurfaceCells> cells = read_cells(path, mesh, key)) {
+        return KeptCells{*std::move(cells), true, ""};
+    }
+    Result<SurfaceCells> cells = make_cells(mesh, options, team, cancel);
+    if (!cells) return tl::unexpected(cells.error());
+    KeptCells kept{*std::move(cells), false, ""};
+    if (cancel) return kept;
+    if (const Result<void> written = write_cells(path, kept.cells, key); !written) {
+        kept.not_kept = written.error().message;
+    }
+    return kept;
+}
+
+}  // namespace cascade

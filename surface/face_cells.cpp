@@ -1,0 +1,124 @@
+#include "surface/face_cells.h"
+
+#include "surface/wall_list.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+#include <unordered_map>
+
+namespace cascade {
+
+namespace {
+
+/// The least weight of a corner in the middle of a triangle; in the centroid it is 1/3.
+constexpr double least_weight = 1.0 / 9;
+
+/// What is added up of a face.
+struct Face {
+    std::uint32_t triangles = 0;
+    double area = 0;
+    Vector3d moment;  ///< Area times centroid.
+    double nearest = std::numeric_limits<double>::infinity();  ///< A triangle to the centroid, squared.
+};
+
+Vector3d centroid_of(const SurfaceMesh& mesh, std::uint32_t t) {
+    return (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) * (1.0 / 3);
+}
+
+/// The place of a triangle nearest to a point, or nearly so where that is at its border.
+SurfacePlace place_near(const SurfaceMesh& mesh, std::uint32_t t, Vector3d point) {
+    const Vector3d origin = mesh.corner(t, 0);
+    const Vector3d x = unit(mesh.corner(t, 1) - origin);
+    const Vector3d y = cross(unit(mesh.double_area_normal(t)), x);
+    const Vector3d from = point - origin;
+    return {t, weights_at(own_frame(mesh, t), {dot(from, x), dot(from, y)})};
+}
+
+/// The circumcentre of a triangle, brought inside where it is near an edge or beyond.
+SurfacePlace middle_of(const SurfaceMesh& mesh, std::uint32_t t) {
+    // A corner's weight is as the sine of twice its angle.
+    std::array<double, 3> weights;
+    double sum = 0;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const Vector3d a = mesh.corner(t, next_corner(k)) - mesh.corner(t, k);
+        const Vector3d b = mesh.corner(t, next_corner(next_corner(k))) - mesh.corner(t, k);
+        const double size = length(a) * length(b);
+        weights[k] = size > 0 ? std::max(0.0, length(cross(a, b)) / size * (dot(a, b) / size)) : 0;
+        sum += weights[k];
+    }
+    double total = 0;
+    for (double& weight : weights) total += weight = std::max(sum > 0 ? weight / sum : 0, least_weight);
+    for (double& weight : weights) weight /= total;
+    return {t, weights};
+}
+
+/// How far a point is from the line of an edge.
+double height_above(const SurfaceMesh& mesh, TriangleEdge edge, Vector3d point) {
+    const Vector3d start = mesh.corner(edge.triangle, edge.edge);
+    const Vector3d along = mesh.corner(edge.triangle, next_corner(edge.edge)) - start;
+    return length(cross(along, point - start)) / length(along);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> cells_of_triangles(const SurfaceMesh& mesh) {
+    std::vector<std::uint32_t> cells;
+    cells.reserve(mesh.triangles.size());
+    std::unordered_map<std::uint32_t, std::uint32_t> numbers;  // Of faces; only looked up.
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::uint32_t face = mesh.faces.empty() ? t : mesh.faces[t];
+        const auto next = static_cast<std::uint32_t>(numbers.size());
+        cells.push_back(numbers.try_emplace(face, next).first->second);
+    }
+    return cells;
+}
+
+SurfaceCells face_cells(const SurfaceMesh& mesh) {
+    const std::vector<std::uint32_t> cell_of = cells_of_triangles(mesh);
+    const std::size_t count =
+        cell_of.empty() ? 0 : *std::max_element(cell_of.begin(), cell_of.end()) + std::size_t{1};
+    std::vector<Face> faces(count);
+    for (std::uint32_t t = 0; t < cell_of.size(); ++t) {
+        Face& face = faces[cell_of[t]];
+        const double area = mesh.area(t);
+        ++face.triangles;
+        face.area += area;
+        face.moment = face.moment + centroid_of(mesh, t) * area;
+    }
+    SurfaceCells cells;
+    cells.places.resize(count);
+    for (std::uint32_t t = 0; t < cell_of.size(); ++t) {
+        Face& face = faces[cell_of[t]];
+        const Vector3d centroid = face.moment * (1 / face.area);
+        const SurfacePlace place =
+            face.triangles == 1 ? middle_of(mesh, t) : place_near(mesh, t, centroid);
+        const Vector3d apart = position_of(mesh, place) - centroid;
+        if (!(dot(apart, apart) < face.nearest) && face.nearest < std::numeric_limits<double>::infinity()) {
+            continue;
+        }
+        face.nearest = dot(apart, apart);
+        cells.places[cell_of[t]] = place;
+    }
+    for (const Face& face : faces) cells.areas.push_back(face.area);
+
+    // A centroid in a dent of its polygon may lie on the line of an edge, but that is as near as it counts.
+    const auto height = [&](TriangleEdge edge) {
+        const Vector3d middle = position_of(mesh, cells.places[cell_of[edge.triangle]]);
+        const Vector3d least = position_of(mesh, middle_of(mesh, edge.triangle));
+        return std::max(height_above(mesh, edge, middle), least_weight * height_above(mesh, edge, least));
+    };
+    WallList walls;
+    for (std::uint32_t t = 0; t < cell_of.size(); ++t) {
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const TriangleEdge other = mesh.across[t][k];
+            if (!other.exists() || std::tie(t, k) > std::tie(other.triangle, other.edge)) continue;
+            const double size = length(mesh.corner(t, next_corner(k)) - mesh.corner(t, k));
+            walls.add(cell_of[t], cell_of[other.triangle], size, height({t, k}) + height(other));
+        }
+    }
+    walls.put_into(cells, count);
+    return cells;
+}
+
+}  // namespace cascade

@@ -1,0 +1,73 @@
+#include "surface/vertex_cells.h"
+
+#include "surface/intrinsic_delaunay.h"
+#include "surface/wall_list.h"
+
+#include <tuple>
+
+namespace cascade {
+
+namespace {
+
+/// Weights below this are zero but for rounding: of the diagonals of squares.
+constexpr double least_weight = 1e-9;
+
+/// Shares the area of a triangle among its corners: as Voronoi regions do, or, where an angle is
+/// obtuse, a half to it and a quarter to the others (Meyer et al., figure 4).
+void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>& areas) {
+    const double area = mesh.area(t);
+    std::array<double, 3> cotangents;
+    for (std::uint32_t k = 0; k < 3; ++k) cotangents[k] = mesh.cotangent({t, k});
+    const auto& corners = mesh.triangles[t];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        if (cotangents[k] >= 0) continue;
+        const std::uint32_t obtuse = next_corner(next_corner(k));  // The corner that faces edge k.
+        for (std::uint32_t j = 0; j < 3; ++j) areas[corners[j]] += area * (j == obtuse ? 0.5 : 0.25);
+        return;
+    }
+    std::array<double, 3> parts;  // Of edge k: a² cot / 8 for each of its ends.
+    double sum = 0;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        parts[k] = mesh.lengths[t][k] * mesh.lengths[t][k] * cotangents[k];
+        sum += parts[k];
+    }
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const double part = sum > 0 ? parts[k] / sum : 1.0 / 3;
+        areas[corners[k]] += area * part / 2;
+        areas[corners[next_corner(k)]] += area * part / 2;
+    }
+}
+
+}  // namespace
+
+SurfaceCells vertex_cells(const SurfaceMesh& mesh) {
+    const IntrinsicMesh flipped = intrinsic_delaunay(mesh);
+    SurfaceCells cells;
+    cells.places.resize(mesh.points.size());
+    cells.areas.assign(mesh.points.size(), 0);
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            SurfacePlace place = {t, {0, 0, 0}};
+            place.weights[k] = 1;
+            cells.places[mesh.triangles[t][k]] = place;
+        }
+    }
+    WallList walls;
+    for (std::uint32_t t = 0; t < flipped.triangles.size(); ++t) {
+        share_area(flipped, t, cells.areas);
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const TriangleEdge other = flipped.across[t][k];
+            if (other.exists() && std::tie(t, k) > std::tie(other.triangle, other.edge)) continue;
+            const double cotangents =
+                flipped.cotangent({t, k}) + (other.exists() ? flipped.cotangent(other) : 0);
+            if (cotangents / 2 < least_weight) continue;
+            const double distance = flipped.lengths[t][k];
+            walls.add(flipped.triangles[t][k], flipped.triangles[t][next_corner(k)],
+                      cotangents / 2 * distance, distance);
+        }
+    }
+    walls.put_into(cells, mesh.points.size());
+    return cells;
+}
+
+}  // namespace cascade

@@ -1,0 +1,155 @@
+// Surfaces for tests of cells, and what must hold of all cells.
+#pragma once
+
+#include "surface/surface_cells.h"
+#include "unit/surface/soups.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace cascade::test {
+
+inline SurfaceMesh box() { return make_mesh(cube())->mesh; }
+
+/// A square 0..1² of two triangles.
+inline SurfaceMesh square() {
+    return make_mesh(soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}))->mesh;
+}
+
+/// An octahedron whose triangles were cut into n² each and brought to the unit sphere.
+inline SurfaceMesh sphere(int n) {
+    PolygonSoup soup;
+    const auto add = [&](Vector3d a, Vector3d b, Vector3d c) {
+        for (const Vector3d& p : {a, b, c}) {
+            soup.corners.push_back(static_cast<std::uint32_t>(soup.points.size()));
+            soup.points.push_back(unit(p));
+        }
+        soup.ends.push_back(soup.corners.size());
+    };
+    for (const double x : {-1.0, 1.0}) {
+        for (const double y : {-1.0, 1.0}) {
+            for (const double z : {-1.0, 1.0}) {
+                const auto at = [&](int i, int j) {
+                    return Vector3d{x * (n - i - j), y * i, z * j};
+                };
+                for (int i = 0; i < n; ++i) {
+                    for (int j = 0; i + j < n; ++j) {
+                        add(at(i, j), at(i + 1, j), at(i, j + 1));
+                        if (i + j + 1 < n) add(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+                    }
+                }
+            }
+        }
+    }
+    return make_mesh(std::move(soup))->mesh;
+}
+
+/// Standard deviation over mean of the distance to the nearest other place.
+inline double unevenness(const SurfaceMesh& mesh, const std::vector<SurfacePlace>& places) {
+    double sum = 0, squares = 0;
+    for (std::size_t a = 0; a < places.size(); ++a) {
+        double nearest = 1e9;
+        for (std::size_t b = 0; b < places.size(); ++b) {
+            if (a == b) continue;
+            nearest = std::min(nearest, length(position_of(mesh, places[a]) - position_of(mesh, places[b])));
+        }
+        sum += nearest;
+        squares += nearest * nearest;
+    }
+    const auto count = static_cast<double>(places.size());
+    return std::sqrt(squares / count - sum / count * (sum / count)) / (sum / count);
+}
+
+/// (Σ wall (c_j − c_i) length / distance) / area.
+inline std::vector<double> laplacian(const SurfaceCells& cells, const std::vector<double>& c) {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+        double sum = 0;
+        for (const CellWall& wall : cells.walls_of(i)) {
+            sum += (c[wall.neighbour] - c[i]) * wall.weight();
+        }
+        result.push_back(sum / cells.areas[i]);
+    }
+    return result;
+}
+
+/// What ⟨f, L f⟩ / ⟨f, f⟩ is, with areas as weights: minus the rate at which f decays.
+inline double decay_rate(const SurfaceCells& cells, const std::vector<double>& f) {
+    const std::vector<double> lap = laplacian(cells, f);
+    double above = 0, below = 0;
+    for (std::size_t k = 0; k < f.size(); ++k) {
+        above -= f[k] * lap[k] * cells.areas[k];
+        below += f[k] * f[k] * cells.areas[k];
+    }
+    return above / below;
+}
+
+/// The largest relative error of the rates at which the harmonics of degree 1, 2 and 3 decay, l (l + 1).
+inline double harmonics_error(const SurfaceMesh& unit_sphere, const SurfaceCells& cells) {
+    double worst = 0;
+    for (int l = 1; l <= 3; ++l) {
+        std::vector<double> f;
+        for (const SurfacePlace& place : cells.places) {
+            const double z = unit(position_of(unit_sphere, place)).z;
+            f.push_back(l == 1 ? z : l == 2 ? 1.5 * z * z - 0.5 : 2.5 * z * z * z - 1.5 * z);
+        }
+        worst = std::max(worst, std::abs(decay_rate(cells, f) / (l * (l + 1)) - 1));
+    }
+    return worst;
+}
+
+inline void expect_areas_sum_to(const SurfaceMesh& mesh, const SurfaceCells& cells) {
+    double sum = cells.bare_area;
+    for (const double area : cells.areas) {
+        EXPECT_GE(area, 0);
+        sum += area;
+    }
+    EXPECT_NEAR(sum / mesh.total_area(), 1, 1e-9);
+}
+
+inline void expect_symmetric_walls(const SurfaceCells& cells) {
+    ASSERT_EQ(cells.ends.size(), cells.places.size());
+    ASSERT_EQ(cells.ends.empty() ? 0 : cells.ends.back(), cells.walls.size());
+    for (std::uint32_t i = 0; i < cells.places.size(); ++i) {
+        for (const CellWall& wall : cells.walls_of(i)) {
+            EXPECT_NE(wall.neighbour, i);
+            EXPECT_GT(wall.length, 0);
+            EXPECT_GT(wall.distance, 0);
+            EXPECT_TRUE(std::isfinite(wall.weight()));
+            const auto others = cells.walls_of(wall.neighbour);
+            EXPECT_EQ(std::count_if(others.begin(), others.end(),
+                                    [&](const CellWall& back) {
+                                        return back.neighbour == i && back.length == wall.length &&
+                                               back.distance == wall.distance;
+                                    }),
+                      1);
+        }
+    }
+}
+
+/// Are all cells of a piece reached from each other over walls? Counts the parts that are not.
+inline std::size_t parts_of(const SurfaceCells& cells) {
+    std::vector<bool> seen(cells.places.size());
+    std::size_t parts = 0;
+    for (std::uint32_t start = 0; start < seen.size(); ++start) {
+        if (seen[start]) continue;
+        ++parts;
+        std::vector<std::uint32_t> waiting = {start};
+        seen[start] = true;
+        while (!waiting.empty()) {
+            const std::uint32_t cell = waiting.back();
+            waiting.pop_back();
+            for (const CellWall& wall : cells.walls_of(cell)) {
+                if (seen[wall.neighbour]) continue;
+                seen[wall.neighbour] = true;
+                waiting.push_back(wall.neighbour);
+            }
+        }
+    }
+    return parts;
+}
+
+}  // namespace cascade::test
