@@ -48,7 +48,7 @@ public:
             const auto pieces = unfolding_.around(places_[cell], wide);
             collect_neighbours(cell, position, wide);
             const double farthest = claim_all(cell, pieces, reach, found);
-            if (2 * farthest <= reach || unfolding_.is_everything()) break;
+            if (2 * farthest <= reach || (unfolding_.is_everything() && reach >= 2 * size_of(pieces))) break;
             found.claims.resize(claims);
         }
         const std::size_t walls = found.walls.size();
@@ -67,6 +67,15 @@ private:
         Vector2d place;
     };
 
+    /// Of the corner of a patch that is farthest away.
+    double size_of(std::span<const Unfolding::Piece> pieces) const {
+        double size = 0;
+        for (const Unfolding::Piece& piece : pieces) {
+            for (const Vector2d& corner : piece.flat) size = std::max(size, length(stretch_(corner)));
+        }
+        return size;
+    }
+
     void collect_neighbours(std::uint32_t cell, Vector3d position, double wide) {
         neighbours_.clear();
         index_.near(position, wide, [&](std::uint32_t other) {
@@ -84,7 +93,7 @@ private:
     /// Claims what is nearer to the cell than to its neighbours; how far that goes.
     double claim_all(std::uint32_t cell, std::span<const Unfolding::Piece> pieces, double reach,
                      Found& found) {
-        ConvexRegion region = ConvexRegion::square(unfolding_.is_everything() ? 4 * reach : reach);
+        ConvexRegion region = ConvexRegion::square(reach);
         for (std::uint32_t k = 0; k < neighbours_.size(); ++k) {
             if (neighbours_[k].distance >= 2 * region.farthest()) break;
             region.cut_halfway(neighbours_[k].place, k);

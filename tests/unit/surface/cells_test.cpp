@@ -1,4 +1,6 @@
 // Places spread over surfaces, and the cells around them, against what is known of both.
+#include "core/hash.h"
+#include "surface/convex_region.h"
 #include "surface/relax.h"
 #include "surface/scatter.h"
 #include "surface/unfolding.h"
@@ -71,12 +73,66 @@ TEST(Scatter, PlacesAreAsDenseEverywhere) {
     for (const auto& [triangle, count] : on_triangle) EXPECT_NEAR(count, 1000, 1) << triangle;
 }
 
-TEST(Relax, PlacesBecomeEven) {
+double unevenness_of(const std::vector<double>& nearest) {
+    double sum = 0, squares = 0;
+    for (const double distance : nearest) {
+        sum += distance;
+        squares += distance * distance;
+    }
+    const auto count = static_cast<double>(nearest.size());
+    return std::sqrt(squares / count - sum / count * (sum / count)) / (sum / count);
+}
+
+/// The same of points on a periodic square of side 1 that S. Lloyd's method ("Least squares quantization in
+/// PCM", 1982) has moved to the centroids of their Voronoi regions.
+double unevenness_by_lloyd(std::size_t count, int rounds) {
+    std::vector<Vector2d> points;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const auto words = pcg4d({k, 5, 6, 7});
+        points.push_back({words[0] / 4294967296.0, words[1] / 4294967296.0});
+    }
+    std::vector<double> nearest(count);
+    for (int round = 0; round <= rounds; ++round) {
+        std::vector<Vector2d> moved = points;
+        for (std::size_t k = 0; k < count; ++k) {
+            std::vector<std::pair<double, Vector2d>> others;
+            for (std::size_t j = 0; j < count; ++j) {
+                const Vector2d d = points[j] - points[k];
+                const Vector2d image = {d.x - std::round(d.x), d.y - std::round(d.y)};
+                if (j != k && length(image) < 0.4) others.push_back({length(image), image});
+            }
+            std::sort(others.begin(), others.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+            nearest[k] = others[0].first;
+            ConvexRegion region = ConvexRegion::square(0.2);
+            for (const auto& [distance, place] : others) {
+                if (distance < 2 * region.farthest()) region.cut_halfway(place, 0);
+            }
+            Vector2d moment;
+            const auto& edges = region.edges();
+            for (std::size_t e = 0; e < edges.size(); ++e) {
+                const Vector2d a = edges[e].from, b = edges[(e + 1) % edges.size()].from;
+                moment = moment + (a + b) * (cross(a, b) / 6);
+            }
+            moved[k] = points[k] + moment * (1 / region.area());
+        }
+        points = moved;
+    }
+    return unevenness_of(nearest);
+}
+
+TEST(Relax, PlacesBecomeAsEvenAsByLloydsMethod) {
     const SurfaceMesh mesh = test::sphere(16);
     const double random = test::unevenness(mesh, scatter(mesh, 800, 1));
-    const double relaxed = test::unevenness(mesh, even_places(mesh, 800));
+    const double relaxed = test::unevenness(mesh, even_places(mesh, 800, 2, relaxing_rounds));
+    const double lloyd = unevenness_by_lloyd(400, relaxing_rounds);
+    RecordProperty("lloyd", std::to_string(lloyd));
+    RecordProperty("relaxed", std::to_string(relaxed));
     EXPECT_GT(random, 0.35);  // Of independent places it would be 0.52.
-    EXPECT_LT(relaxed, 0.08);
+    EXPECT_LT(relaxed, random / 5);
+    EXPECT_LT(relaxed, lloyd);
+    // The number of rounds is chosen so that more make no difference.
+    const double longer = test::unevenness(mesh, even_places(mesh, 800, 2, 3 * relaxing_rounds));
+    EXPECT_NEAR(longer, relaxed, 0.02);
 }
 
 TEST(Relax, ThreadsDoNotMatter) {
