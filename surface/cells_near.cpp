@@ -1,0 +1,96 @@
+#include "surface/cells_near.h"
+
+#include "surface/distance.h"
+#include "surface/nearest_place.h"
+#include "surface/scatter.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace cascade {
+
+namespace {
+
+/// The cell of the least distance, of equal ones that of the lowest number.
+struct Nearest {
+    double distance = std::numeric_limits<double>::infinity();
+    std::uint32_t cell = CellFinder::nothing;
+
+    void see(double other, std::uint32_t number) {
+        if (other < distance || (other == distance && number < cell)) *this = {other, number};
+    }
+};
+
+}  // namespace
+
+CellFinder::CellFinder(const SurfaceMesh& mesh, std::span<const SurfacePlace> cells)
+    : mesh_(mesh), cells_(cells), order_(cells.size()), unfolding_(mesh) {
+    const MeshFacts facts = facts_of(mesh);
+    reach_ = repulsion_radius(facts.area, std::max<std::size_t>(order_.size(), 1));
+    // No way in an unfolded patch is longer than all edges together.
+    whole_ = 3 * length(facts.high - facts.low) * static_cast<double>(facts.triangles);
+    std::iota(order_.begin(), order_.end(), std::uint32_t{0});
+    std::stable_sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return cells[a].triangle < cells[b].triangle;
+    });
+}
+
+std::span<const std::uint32_t> CellFinder::on(std::uint32_t triangle) const {
+    const auto of = [&](std::uint32_t cell) { return cells_[cell].triangle; };
+    const auto first = std::partition_point(order_.begin(), order_.end(),
+                                            [&](std::uint32_t cell) { return of(cell) < triangle; });
+    const auto last = std::partition_point(first, order_.end(),
+                                           [&](std::uint32_t cell) { return of(cell) <= triangle; });
+    return {first, last};
+}
+
+std::uint32_t CellFinder::at(const SurfacePlace& place) {
+    Nearest nearest;
+    for (double reach = reach_;; reach *= 2) {
+        for (const Unfolding::Piece& piece : unfolding_.around(place, reach)) {
+            for (const std::uint32_t cell : on(piece.triangle)) {
+                nearest.see(length(position_of(piece.flat, cells_[cell].weights)), cell);
+            }
+        }
+        // What is found beyond the reach may not be the nearest.
+        if (nearest.distance <= reach) return nearest.cell;
+        if (!(reach < whole_)) break;
+    }
+    if (nearest.cell != nothing) return nearest.cell;
+    const Vector3d position = position_of(mesh_, place);
+    for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
+        nearest.see(length(position_of(mesh_, cells_[cell]) - position), cell);
+    }
+    return nearest.cell;
+}
+
+std::vector<std::uint32_t> cells_at(const SurfaceMesh& mesh, const SurfaceCells& cells,
+                                    std::span<const Vector3d> points) {
+    const NearestPlace nearest(mesh);
+    CellFinder finder(mesh, cells.places);
+    std::vector<std::uint32_t> found;
+    found.reserve(points.size());
+    for (const Vector3d& point : points) {
+        const auto place = nearest.find(point);
+        found.push_back(place ? finder.at(*place) : CellFinder::nothing);
+    }
+    return found;
+}
+
+std::vector<std::uint8_t> cells_within(const SurfaceMesh& mesh, const SurfaceCells& cells,
+                                       std::span<const Vector3d> points, double distance,
+                                       const std::atomic<bool>& cancel) {
+    const NearestPlace nearest(mesh);
+    std::vector<SurfacePlace> sources;
+    for (const Vector3d& point : points) {
+        if (const auto place = nearest.find(point)) sources.push_back(*place);
+    }
+    const SurfaceDistance distances(mesh, sources, cancel);
+    std::vector<std::uint8_t> within;
+    within.reserve(cells.places.size());
+    for (const double away : distances_of_cells(distances, cells)) within.push_back(away <= distance);
+    return within;
+}
+
+}  // namespace cascade

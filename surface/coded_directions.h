@@ -1,0 +1,65 @@
+// Directions in tangent planes as complex numbers: how they are added, carried and smoothed.
+#pragma once
+
+#include "surface/direction_field.h"
+
+#include <cmath>
+
+namespace cascade {
+
+/// Sums of directions shorter than this part of what was added cancel out.
+constexpr double cancelled_part = 1e-6;
+
+/// Of two complex numbers.
+inline Vector2d product(Vector2d a, Vector2d b) {
+    return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
+}
+
+/// Of length 1; the zero vector stays zero.
+inline Vector2d unit_of(Vector2d v) {
+    const double size = std::hypot(v.x, v.y);
+    return size > 0 ? Vector2d{v.x / size, v.y / size} : Vector2d{};
+}
+
+inline bool is_finite(Vector3d v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// Directions in the frames of their planes; those of lines have twice the angle, so that v and −v
+/// are the same and lines at right angles cancel out.
+class CodedDirections {
+public:
+    CodedDirections(const TangentPlanes& planes, DirectionKind kind) : planes_(planes), kind_(kind) {}
+
+    /// Keeps the length.
+    Vector2d of(std::size_t plane, Vector3d v) const {
+        const Vector2d flat = planes_.frames[plane].in_plane(v);
+        if (kind_ == DirectionKind::arrows) return flat;
+        return product(flat, unit_of(flat));
+    }
+    /// Of length 1, whatever the length of the code.
+    Vector3d in_space(std::size_t plane, Vector2d code) const {
+        const double angle = std::atan2(code.y, code.x) / symmetry();
+        return planes_.frames[plane].in_space({std::cos(angle), std::sin(angle)});
+    }
+    /// What brings a neighbour's direction here, of length 1.
+    Vector2d turn(const TangentLink& link) const {
+        const double angle = link.turn * symmetry();
+        return {std::cos(angle), std::sin(angle)};
+    }
+
+    std::vector<Vector3d> in_space(const std::vector<Vector2d>& codes) const {
+        std::vector<Vector3d> field;
+        field.reserve(codes.size());
+        for (std::size_t k = 0; k < codes.size(); ++k) field.push_back(in_space(k, codes[k]));
+        return field;
+    }
+
+private:
+    double symmetry() const { return kind_ == DirectionKind::lines ? 2 : 1; }
+
+    const TangentPlanes& planes_;
+    DirectionKind kind_;
+};
+
+}  // namespace cascade

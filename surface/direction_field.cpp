@@ -1,0 +1,143 @@
+#include "surface/direction_field.h"
+
+#include "surface/coded_directions.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::uint32_t none = 0xffffffff;
+
+/// Principal curvatures that differ by less than this part of both are the same.
+constexpr double least_difference = 1e-3;
+
+/// Gives planes without a direction (0) one, layer after layer.
+class Filling {
+public:
+    Filling(const TangentPlanes& planes, const CodedDirections& coded, std::vector<Vector2d>& codes)
+        : planes_(planes), coded_(coded), codes_(codes), layers_(codes.size(), none) {}
+
+    void fill() {
+        std::vector<std::uint32_t> known;
+        for (std::uint32_t k = 0; k < codes_.size(); ++k) {
+            if (length(codes_[k]) > 0.5) known.push_back(k);
+        }
+        grow(std::move(known));
+        for (std::uint32_t k = 0; k < codes_.size(); ++k) {
+            if (layers_[k] != none) continue;
+            codes_[k] = {1, 0};
+            grow({k});
+        }
+    }
+
+private:
+    void grow(std::vector<std::uint32_t> front) {
+        for (const std::uint32_t node : front) layers_[node] = 0;
+        for (std::uint32_t layer = 1; !front.empty(); ++layer) {
+            std::vector<std::uint32_t> next;
+            for (const std::uint32_t node : front) {
+                for (const TangentLink& link : planes_.links_of(node)) {
+                    if (layers_[link.neighbour] != none) continue;
+                    layers_[link.neighbour] = layer;
+                    next.push_back(link.neighbour);
+                }
+            }
+            for (const std::uint32_t node : next) codes_[node] = from_around(node, layer);
+            front.swap(next);
+        }
+    }
+
+    Vector2d from_around(std::uint32_t node, std::uint32_t layer) const {
+        Vector2d sum, first;
+        double total = 0;
+        for (const TangentLink& link : planes_.links_of(node)) {
+            if (layers_[link.neighbour] >= layer) continue;
+            const Vector2d carried = product(codes_[link.neighbour], coded_.turn(link));
+            const double weight = std::max(link.weight, 1e-12);
+            if (total == 0) first = carried;
+            sum = sum + carried * weight;
+            total += weight;
+        }
+        return unit_of(length(sum) > cancelled_part * total ? sum : first);
+    }
+
+    const TangentPlanes& planes_;
+    const CodedDirections& coded_;
+    std::vector<Vector2d>& codes_;
+    std::vector<std::uint32_t> layers_;  ///< How far each is from what is known; none where it is not yet.
+};
+
+}  // namespace
+
+std::vector<Vector3d> directions(const TangentPlanes& planes, std::span<const Vector3d> vectors,
+                                 DirectionKind kind, double least_part) {
+    const CodedDirections coded(planes, kind);
+    // In units of the longest, so that squares neither overflow nor vanish.
+    double longest = 0;
+    for (const Vector3d& v : vectors) {
+        if (is_finite(v)) longest = std::max({longest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    }
+    std::vector<Vector2d> codes(planes.size());
+    for (std::size_t k = 0; k < codes.size() && longest > 0; ++k) {
+        const Vector3d& v = vectors[k];
+        if (!is_finite(v)) continue;
+        const Vector2d code = coded.of(k, {v.x / longest, v.y / longest, v.z / longest});
+        if (length(code) > least_part) codes[k] = unit_of(code);
+    }
+    Filling(planes, coded, codes).fill();
+    return coded.in_space(codes);
+}
+
+std::vector<Vector3d> axis_directions(const TangentPlanes& planes, Vector3d axis,
+                                      DirectionKind kind) {
+    return directions(planes, std::vector<Vector3d>(planes.size(), axis), kind);
+}
+
+std::vector<Vector3d> gradients_of_points(const SurfaceMesh& mesh, const TangentPlanes& planes,
+                                          std::span<const double> values) {
+    std::vector<Vector3d> gradients;
+    gradients.reserve(planes.size());
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+        const std::uint32_t triangle = planes.places[k].triangle;
+        const auto& corners = mesh.triangles[triangle];
+        const FlatTriangle flat = own_frame(mesh, triangle);
+        const Vector2d a = flat[1] - flat[0], b = flat[2] - flat[0];
+        const double up = values[corners[1]] - values[corners[0]];
+        const double left = values[corners[2]] - values[corners[0]];
+        const double twice_area = cross(a, b);
+        const Vector2d slope = {(up * b.y - left * a.y) / twice_area,
+                                (left * a.x - up * b.x) / twice_area};
+        const Vector3d gradient = planes.frames[k].in_space(slope);
+        gradients.push_back(is_finite(gradient) ? gradient : Vector3d{});
+    }
+    return gradients;
+}
+
+std::vector<Vector3d> curvature_lines(const SurfaceMesh& mesh, const TangentPlanes& planes,
+                                      const PrincipalCurvatures& curvature, Principal which) {
+    const CodedDirections coded(planes, DirectionKind::lines);
+    std::vector<Vector3d> lines;
+    lines.reserve(planes.size());
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+        const SurfacePlace& place = planes.places[k];
+        Vector2d sum;
+        double size = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint32_t point = mesh.triangles[place.triangle][c];
+            const double apart = curvature.high[point] - curvature.low[point];
+            size += (std::abs(curvature.high[point]) + std::abs(curvature.low[point])) *
+                    place.weights[c];
+            sum = sum + coded.of(k, curvature.high_direction[point]) * (apart * place.weights[c]);
+        }
+        if (!(length(sum) > least_difference * size)) sum = {};
+        // The other direction is at right angles, which is the opposite of what is doubled.
+        if (which == Principal::low) sum = sum * -1.0;
+        lines.push_back(coded.in_space(k, sum) * length(sum));
+    }
+    return lines;
+}
+
+}  // namespace cascade

@@ -1,0 +1,82 @@
+#include "surface/tangent_planes.h"
+
+#include "surface/cell_unfolding.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::uint32_t after(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
+
+/// The direction of an edge in the frame of its triangle.
+double edge_angle(const SurfaceMesh& mesh, TriangleEdge edge) {
+    const FlatTriangle flat = own_frame(mesh, edge.triangle);
+    const Vector2d along = flat[after(edge.edge)] - flat[edge.edge];
+    return std::atan2(along.y, along.x);
+}
+
+Vector3d middle_of(const SurfaceMesh& mesh, std::size_t triangle) {
+    return (mesh.corner(triangle, 0) + mesh.corner(triangle, 1) + mesh.corner(triangle, 2)) *
+           (1.0 / 3);
+}
+
+TangentLink link_over(const SurfaceMesh& mesh, TriangleEdge here, TriangleEdge there) {
+    const Vector3d from = mesh.corner(here.triangle, here.edge);
+    const Vector3d along = mesh.corner(here.triangle, after(here.edge)) - from;
+    const Vector3d half_way = from + along * 0.5;
+    TangentLink link;
+    link.neighbour = there.triangle;
+    // The other triangle has the edge the other way. The lower one is reckoned from, so that the two
+    // sides are each other's negatives to the last bit.
+    const double out = edge_angle(mesh, here), back = edge_angle(mesh, there);
+    constexpr double half_turn = std::numbers::pi;
+    link.turn = here.triangle < there.triangle ? out - back - half_turn : -(back - out - half_turn);
+    link.distance = length(middle_of(mesh, here.triangle) - half_way) +
+                    length(half_way - middle_of(mesh, there.triangle));
+    // The middles are a third of the triangles' heights away from the edge.
+    const double areas = mesh.area(here.triangle) + mesh.area(there.triangle);
+    const double weight = 1.5 * dot(along, along) / areas;
+    link.weight = std::isfinite(weight) ? weight : 0;
+    return link;
+}
+
+}  // namespace
+
+TangentPlanes planes_of_triangles(const SurfaceMesh& mesh) {
+    TangentPlanes planes;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        planes.places.push_back({t, {1.0 / 3, 1.0 / 3, 1.0 / 3}});
+        planes.frames.push_back(tangent_frame(mesh, t));
+        planes.areas.push_back(mesh.area(t));
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const TriangleEdge other = mesh.across[t][k];
+            if (other.exists()) planes.links.push_back(link_over(mesh, {t, k}, other));
+        }
+        planes.ends.push_back(planes.links.size());
+    }
+    return planes;
+}
+
+TangentPlanes planes_of_cells(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team,
+                              const std::atomic<bool>& cancel) {
+    const std::vector<UnfoldedNeighbour> neighbours = unfold_neighbours(mesh, cells, team, cancel);
+    TangentPlanes planes;
+    planes.places = cells.places;
+    planes.areas = cells.areas;
+    planes.ends = cells.ends;
+    for (const SurfacePlace& place : cells.places) {
+        planes.frames.push_back(tangent_frame(mesh, place.triangle));
+    }
+    planes.links.reserve(cells.walls.size());
+    for (std::size_t k = 0; k < cells.walls.size(); ++k) {
+        const CellWall& wall = cells.walls[k];
+        planes.links.push_back({wall.neighbour, neighbours[k].turn, wall.distance,
+                                wall.distance > 0 ? wall.length / wall.distance : 0});
+    }
+    return planes;
+}
+
+}  // namespace cascade
