@@ -11,7 +11,7 @@ namespace cascade {
 namespace {
 
 /// Neighbours are on one line if their spread across it is this part of that along it (squared).
-constexpr double on_a_line = 1e-8;
+constexpr double on_a_line = 1e-3;
 
 /// Neighbours nearer than this part of the cell's extent are in its own place.
 constexpr double same_place = 1e-9;

@@ -18,8 +18,9 @@ namespace cascade {
 /// the length of the wall over the distance, so that a wall that vanishes does not matter (T. Barth,
 /// "A 3-D upwind Euler solver for unstructured meshes", AIAA 91-1548, 1991, has such fits). Exact for
 /// linear functions where the surface is flat or only folded; of first order where it is curved.
-/// Units are one over those of the model. Where neighbours lie on one line the part at right angles to
-/// it cannot be known and is 0; without neighbours all is. Always finite. The same on any number of
+/// Units are one over those of the model. Where neighbours lie on one line, or are spread
+/// across it by less than 3 % of what they are along it, the part at right angles to it cannot be
+/// known and is 0; without neighbours all is. Always finite. The same on any number of
 /// threads; what it returns means nothing if `cancel` became true.
 std::vector<Vector3d> cell_gradient_weights(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                             Team& team, const std::atomic<bool>& cancel);

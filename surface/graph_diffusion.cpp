@@ -9,13 +9,16 @@ namespace cascade {
 namespace {
 
 constexpr int steps = 4;
-constexpr double tolerance = 1e-8;
+constexpr double tolerance = 1e-6;
 constexpr double rounding = 1e-14;
 constexpr int most_rounds = 2'000;
 constexpr double longest_time = 100;  ///< In units of the total mass: nothing is left to smooth.
 
 /// Sums are taken of blocks of this many nodes, so that threads do not matter.
 constexpr std::size_t block = 2'048;
+
+/// With fewer nodes than this for each thread, waiting for each other takes longer than the work.
+constexpr std::size_t least_for_thread = 50'000;
 
 double product(double a, double b) { return a * b; }
 Vector2d product(Vector2d a, Vector2d b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
@@ -28,6 +31,8 @@ public:
     /// Masses are taken in units of their mean: it is `unit`.
     ImplicitStep(const DiffusionGraph<Number>& graph, double time, double unit, Team& team)
         : graph_(graph), time_(time / unit), unit_(unit), team_(team),
+          threads_(static_cast<int>(std::clamp<std::size_t>(
+              graph.masses.size() / least_for_thread, 1, static_cast<std::size_t>(team.size())))),
           diagonal_(graph.masses.size()), blocks_((graph.masses.size() + block - 1) / block) {
         for (std::size_t k = 0; k < diagonal_.size(); ++k) {
             diagonal_[k] = mass(k);
@@ -91,9 +96,9 @@ private:
 
     template <typename Term>
     double sum(const Term& term) {
-        team_.run([&](int thread) {
+        const auto sum_part = [&](int thread) {
             const RowRange part =
-                split_rows(static_cast<std::int64_t>(blocks_.size()), thread, team_.size());
+                split_rows(static_cast<std::int64_t>(blocks_.size()), thread, threads_);
             for (auto b = static_cast<std::size_t>(part.begin);
                  b < static_cast<std::size_t>(part.end); ++b) {
                 const std::size_t end = std::min((b + 1) * block, diagonal_.size());
@@ -101,13 +106,15 @@ private:
                 for (std::size_t k = b * block; k < end; ++k) total += term(k);
                 blocks_[b] = total;
             }
-        });
+        };
+        team_.run(sum_part, threads_);
         return std::accumulate(blocks_.begin(), blocks_.end(), 0.0);
     }
 
     const DiffusionGraph<Number>& graph_;
     double time_, unit_;
     Team& team_;
+    int threads_;
     std::vector<double> diagonal_;
     std::vector<double> blocks_;
 };

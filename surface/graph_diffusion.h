@@ -27,7 +27,7 @@ struct DiffusionGraph {
 };
 
 /// The solution of mass_i dv_i/dt = Σ coupling v_j − weight v_i after some time, by four implicit
-/// steps of Euler's, each solved by conjugate gradients until what is wrong is 10⁻⁸ of what was at
+/// steps of Euler's, each solved by conjugate gradients until what is wrong is 10⁻⁶ of what was at
 /// first (J. Shewchuk, "An introduction to the conjugate gradient method without the agonizing
 /// pain", 1994, appendix B3; the preconditioner is the diagonal). Stable for any time; more than 100
 /// times the total mass counts as that. Numbers that are not finite spread. The same on any number

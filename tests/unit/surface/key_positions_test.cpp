@@ -1,6 +1,6 @@
 // Values at key positions, and cells near points.
 #include "surface/cells_near.h"
-#include "surface/distance.h"
+#include "surface/graph_diffusion.h"
 #include "surface/key_positions.h"
 #include "surface/nearest_place.h"
 #include "unit/surface/shapes.h"
@@ -129,6 +129,26 @@ TEST(Smoothing, StaysBetweenAndDoesNotDependOnThreads) {
         EXPECT_LE(value, 2);
     }
     EXPECT_EQ(smooth(cells, std::vector<double>(5000, 0.1), 0.5), std::vector<double>(5000, 0.1));
+}
+
+/// Waves on a ring die away as four implicit steps say, whatever the number of threads.
+TEST(GraphDiffusion, WavesOnARing) {
+    constexpr std::uint32_t count = 210'000;
+    DiffusionGraph<double> graph;
+    std::vector<double> wave;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        graph.masses.push_back(2);
+        graph.links.push_back({(k + 1) % count, 0.5, 0.5});
+        graph.links.push_back({(k + count - 1) % count, 0.5, 0.5});
+        graph.ends.push_back(graph.links.size());
+        wave.push_back(std::cos(2 * std::numbers::pi * k / 30));
+    }
+    const double time = 80, rate = (1 - std::cos(2 * std::numbers::pi / 30)) * 0.5;
+    Team one(1), four(4);
+    const std::vector<double> found = diffused(graph, wave, time, four, never);
+    EXPECT_EQ(found, diffused(graph, wave, time, one, never));
+    const double left = std::pow(1 + rate * time / 4, -4);
+    for (std::size_t k = 0; k < count; ++k) ASSERT_NEAR(found[k], wave[k] * left, 1e-5);
 }
 
 TEST(CellsNear, AreTheNearestOfAll) {
