@@ -1,0 +1,76 @@
+#include "surface/retile.h"
+
+#include "surface/improve_edges.h"
+#include "surface/mutual_tessellation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cascade {
+
+namespace {
+
+constexpr int most_rounds = 16;  ///< Of tries to remove what could not be removed before.
+
+class Retiler {
+public:
+    Retiler(const SurfaceMesh& old, std::size_t places, MutualTessellation made)
+        : old_(old), made_(std::move(made)),
+          removal_(made_.mesh, made_.normals,
+                   std::sqrt(old.total_area() / static_cast<double>(std::max<std::size_t>(places, 1)))) {
+        std::vector<bool> is_place(old.points.size());
+        for (const std::uint32_t point : made_.point_of_place) {
+            if (point < is_place.size()) is_place[point] = true;
+        }
+        for (std::uint32_t point = 0; point < is_place.size(); ++point) {
+            if (!is_place[point]) left_.push_back({point, WhyKept::topology});
+        }
+    }
+
+    Result<Retiled> retile(const std::atomic<bool>& cancel) {
+        for (const Care care : {Care::high, Care::low}) {
+            bool is_changed = true;
+            for (int round = 0; round < most_rounds && is_changed && !left_.empty(); ++round) {
+                is_changed = remove_all(care, cancel);
+                if (is_changed) improve_edges(made_.mesh, made_.normals, cancel);
+            }
+        }
+        if (cancel) return failure("re-tiling the surface was stopped");
+        return result();
+    }
+
+private:
+    /// Whether any point went.
+    bool remove_all(Care care, const std::atomic<bool>& cancel) {
+        const std::size_t before = left_.size();
+        std::erase_if(left_, [&](KeptPoint& kept) {
+            if (cancel) return false;
+            const std::optional<WhyKept> why = removal_.remove(kept.old_point, care);
+            if (why) kept.why = *why;
+            return !why;
+        });
+        return left_.size() < before;
+    }
+
+    Retiled result() const {
+        std::vector<std::uint32_t> points = made_.point_of_place;
+        for (const KeptPoint& kept : left_) points.push_back(kept.old_point);
+        return {made_.mesh.without_gaps(points), left_};
+    }
+
+    const SurfaceMesh& old_;
+    MutualTessellation made_;
+    PointRemoval removal_;
+    std::vector<KeptPoint> left_;  ///< Old points that are still there.
+};
+
+}  // namespace
+
+Result<Retiled> retile(const SurfaceMesh& mesh, std::span<const SurfacePlace> places,
+                       const std::atomic<bool>& cancel) {
+    Result<MutualTessellation> made = tessellate(mesh, places, cancel);
+    if (!made) return tl::unexpected(made.error());
+    return Retiler(mesh, places.size(), *std::move(made)).retile(cancel);
+}
+
+}  // namespace cascade
