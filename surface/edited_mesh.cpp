@@ -21,6 +21,7 @@ EditedMesh::EditedMesh(const SurfaceMesh& mesh) : corner_of_(mesh.points.size())
 
 void EditedMesh::set_triangle(std::uint32_t t, std::array<std::uint32_t, 3> corners) {
     mesh_.triangles[t] = corners;
+    changed_.push_back(t);
     for (std::uint32_t k = 0; k < 3; ++k) corner_of_[corners[k]] = {t, k};
 }
 

@@ -4,6 +4,7 @@
 #include "surface/surface_mesh.h"
 
 #include <span>
+#include <utility>
 
 namespace cascade {
 
@@ -51,6 +52,9 @@ public:
     void replace_fan(std::uint32_t point, const Fan& fan,
                      std::span<const std::array<std::uint32_t, 3>> ears);
 
+    /// Triangles that were made or changed since this was asked last, some several times or gone since.
+    std::vector<std::uint32_t> take_changed() { return std::exchange(changed_, {}); }
+
     /// The mesh of the points in `kept`, in this order; they must be all that are used.
     SurfaceMesh without_gaps(std::span<const std::uint32_t> kept) const;
 
@@ -62,6 +66,7 @@ private:
 
     SurfaceMesh mesh_;
     std::vector<TriangleEdge> corner_of_;  ///< A triangle at each point and the corner that it is.
+    std::vector<std::uint32_t> changed_;
 };
 
 }  // namespace cascade

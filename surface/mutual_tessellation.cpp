@@ -2,6 +2,7 @@
 
 #include "core/hash.h"
 #include "surface/place_lattice.h"
+#include "surface/point_normals.h"
 
 #include <fmt/format.h>
 
@@ -62,7 +63,7 @@ public:
         : old_(old), places_(places), made_{EditedMesh(old), {}, {}}, origins_(old.triangles.size()) {
         for (std::uint32_t t = 0; t < origins_.size(); ++t) origins_[t] = t;
         made_.point_of_place.resize(places.size());
-        take_normals();
+        made_.normals = point_normals(old);
     }
 
     MutualTessellation tessellate(const std::atomic<bool>& cancel) {
@@ -81,16 +82,6 @@ public:
 
 private:
     const SurfaceMesh& now() const { return made_.mesh.mesh(); }
-
-    void take_normals() {
-        std::vector<Vector3d> sums(old_.points.size());
-        for (std::size_t t = 0; t < old_.triangles.size(); ++t) {
-            for (const std::uint32_t point : old_.triangles[t]) {
-                sums[point] = sums[point] + old_.double_area_normal(t);
-            }
-        }
-        for (const Vector3d& sum : sums) made_.normals.push_back(unit(sum));
-    }
 
     /// In the order of places, which is why their numbers do not depend on that of insertion.
     void add_points() {

@@ -14,10 +14,10 @@ constexpr int most_rounds = 16;  ///< Of tries to remove what could not be remov
 
 class Retiler {
 public:
-    Retiler(const SurfaceMesh& old, std::size_t places, MutualTessellation made)
-        : old_(old), made_(std::move(made)),
-          removal_(made_.mesh, made_.normals,
-                   std::sqrt(old.total_area() / static_cast<double>(std::max<std::size_t>(places, 1)))) {
+    Retiler(const SurfaceMesh& old, std::span<const SurfacePlace> places, MutualTessellation made)
+        : old_(old), places_(places), made_(std::move(made)),
+          removal_(made_.mesh, made_.normals, spacing(old, places.size())),
+          improver_(made_.mesh, made_.normals) {
         std::vector<bool> is_place(old.points.size());
         for (const std::uint32_t point : made_.point_of_place) {
             if (point < is_place.size()) is_place[point] = true;
@@ -32,7 +32,7 @@ public:
             bool is_changed = true;
             for (int round = 0; round < most_rounds && is_changed && !left_.empty(); ++round) {
                 is_changed = remove_all(care, cancel);
-                if (is_changed) improve_edges(made_.mesh, made_.normals, cancel);
+                if (is_changed) improver_.improve(cancel);
             }
         }
         if (cancel) return failure("re-tiling the surface was stopped");
@@ -40,6 +40,11 @@ public:
     }
 
 private:
+    /// The side of the square that is a place's share of the surface.
+    static double spacing(const SurfaceMesh& mesh, std::size_t places) {
+        return std::sqrt(mesh.total_area() / static_cast<double>(std::max<std::size_t>(places, 1)));
+    }
+
     /// Whether any point went.
     bool remove_all(Care care, const std::atomic<bool>& cancel) {
         const std::size_t before = left_.size();
@@ -55,12 +60,31 @@ private:
     Retiled result() const {
         std::vector<std::uint32_t> points = made_.point_of_place;
         for (const KeptPoint& kept : left_) points.push_back(kept.old_point);
-        return {made_.mesh.without_gaps(points), left_};
+        Retiled result{made_.mesh.without_gaps(points), left_};
+        for (const PointAttribute& attribute : old_.attributes) {
+            result.mesh.attributes.push_back({attribute.name, carried(attribute.values)});
+        }
+        return result;
+    }
+
+    std::vector<float> carried(const std::vector<float>& of_points) const {
+        std::vector<float> values;
+        for (const SurfacePlace& place : places_) {
+            double sum = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                sum += place.weights[k] * of_points[old_.triangles[place.triangle][k]];
+            }
+            values.push_back(static_cast<float>(sum));
+        }
+        for (const KeptPoint& kept : left_) values.push_back(of_points[kept.old_point]);
+        return values;
     }
 
     const SurfaceMesh& old_;
+    std::span<const SurfacePlace> places_;
     MutualTessellation made_;
     PointRemoval removal_;
+    EdgeImprover improver_;
     std::vector<KeptPoint> left_;  ///< Old points that are still there.
 };
 
@@ -70,7 +94,7 @@ Result<Retiled> retile(const SurfaceMesh& mesh, std::span<const SurfacePlace> pl
                        const std::atomic<bool>& cancel) {
     Result<MutualTessellation> made = tessellate(mesh, places, cancel);
     if (!made) return tl::unexpected(made.error());
-    return Retiler(mesh, places.size(), *std::move(made)).retile(cancel);
+    return Retiler(mesh, places, *std::move(made)).retile(cancel);
 }
 
 }  // namespace cascade

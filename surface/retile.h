@@ -12,6 +12,8 @@
 
 #include <atomic>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace cascade {
 
@@ -23,7 +25,7 @@ struct KeptPoint {
 
 struct Retiled {
     /// Point i is place i; after them come the kept points, in order. Attributes of the old surface are
-    /// carried along, its texture is not.
+    /// carried along, linear within its triangles; its texture is not.
     SurfaceMesh mesh;
     std::vector<KeptPoint> kept;
 };
@@ -40,5 +42,10 @@ struct Retiled {
 /// `cancel` becomes true. Throws std::bad_alloc.
 Result<Retiled> retile(const SurfaceMesh& mesh, std::span<const SurfacePlace> places,
                        const std::atomic<bool>& cancel);
+
+/// Values of places as an attribute of the new surface. A kept point gets the mean of its neighbours that have
+/// a value, those next to places first; on a piece without any place all stay NaN.
+/// `values` has one for each place.
+PointAttribute attribute_of(const Retiled& retiled, std::string name, std::span<const float> values);
 
 }  // namespace cascade
