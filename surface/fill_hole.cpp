@@ -36,11 +36,11 @@ public:
             if (ears_.empty()) return {};
             const Ear ear = ears_.top();
             ears_.pop();
-            if (ear.age != ages_[ear.tip] || !may_make_(around(ear.tip), true)) continue;
+            if (ear.age != ages_[ear.tip] || !may_make_(around(ear.tip))) continue;
             triangles_.push_back(around(ear.tip));
             any = take_off(ear.tip);
         }
-        if (!may_make_(around(any), false)) return {};
+        if (!may_make_(around(any))) return {};
         triangles_.push_back(around(any));
         return std::move(triangles_);
     }

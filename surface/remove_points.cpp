@@ -9,7 +9,13 @@ namespace {
 constexpr double boundary_may_move = 0.1;     ///< Spacings.
 constexpr double longest_boundary_edge = 2;   ///< Spacings.
 constexpr double high_care = 0.26, low_care = 0.09;  ///< Cosines of 75° and 85°.
+constexpr std::size_t most_tried = 24;  ///< Points of a rim of which all ways to fill it are tried.
 constexpr double least_sine = 1e-9;
+
+bool is_fine(const TriangleQuality& quality, Care care) {
+    if (quality.least_sine < least_sine) return false;
+    return care == Care::high ? quality.least_cosine > high_care : quality.mean_cosine > low_care;
+}
 
 double distance_to_segment(Vector3d point, Vector3d from, Vector3d to) {
     const Vector3d along = to - from;
@@ -28,6 +34,13 @@ bool PointRemoval::may_leave_boundary(std::uint32_t point) {
                          std::max(moved_[fan_.rim.back()], moved_[point]);
     return moved <= boundary_may_move * spacing_ &&
            length(to - from) <= longest_boundary_edge * spacing_;
+}
+
+void PointRemoval::note_moved(std::uint32_t point) {
+    const auto& points = mesh_.mesh().points;
+    double& moved = moved_[fan_.rim.back()];
+    moved = std::max(moved, moved_[point]) +
+            distance_to_segment(points[point], points[fan_.rim.back()], points[fan_.rim.front()]);
 }
 
 bool PointRemoval::has_rim_twice() {
@@ -62,38 +75,50 @@ void PointRemoval::unroll_fan(std::uint32_t point) {
     flat_ = unroll(distances_, angles_);
 }
 
-bool PointRemoval::is_fine(const RimTriangle& corners, Care care) const {
+TriangleQuality PointRemoval::quality(const RimTriangle& corners) const {
     const auto& points = mesh_.mesh().points;
     const std::uint32_t a = fan_.rim[corners[0]], b = fan_.rim[corners[1]], c = fan_.rim[corners[2]];
-    const TriangleQuality quality =
-        quality_of({points[a], points[b], points[c]}, {normals_[a], normals_[b], normals_[c]});
-    if (quality.least_sine < least_sine) return false;
-    return care == Care::high ? quality.least_cosine > high_care : quality.mean_cosine > low_care;
+    return quality_of({points[a], points[b], points[c]}, {normals_[a], normals_[b], normals_[c]});
+}
+
+/// Whether the line from the first to the third corner is a side of the rim or no edge yet.
+bool PointRemoval::is_new(const RimTriangle& corners) {
+    const std::uint32_t reach = corners[2] > corners[0] ? corners[2] - corners[0]
+                                                        : corners[0] - corners[2];
+    if (reach == 1 || reach + 1 == fan_.rim.size()) return true;
+    const bool is_there = mesh_.are_neighbours(fan_.rim[corners[0]], fan_.rim[corners[2]]);
+    meets_edge_ |= is_there;
+    return !is_there;
+}
+
+/// All ways to fill the hole are tried.
+std::vector<RimTriangle> PointRemoval::best_filling(Care care) {
+    return best_triangles(static_cast<std::uint32_t>(fan_.rim.size()), [&](const RimTriangle& corners) {
+        const TriangleQuality found = quality(corners);
+        return is_fine(found, care) && is_new(corners) ? found.score() : 0;
+    });
+}
+
+/// The same ear by ear, in the plane into which the fan is unrolled.
+std::vector<RimTriangle> PointRemoval::cut_ears_around(std::uint32_t point, Care care) {
+    unroll_fan(point);
+    return cut_ears(flat_, fan_.is_closed, [&](const RimTriangle& corners) {
+        return is_new(corners) && is_fine(quality(corners), care);
+    });
 }
 
 std::optional<WhyKept> PointRemoval::remove(std::uint32_t point, Care care) {
     mesh_.fan_around(point, fan_);
     if (!fan_.is_closed && !may_leave_boundary(point)) return WhyKept::boundary;
     if (has_rim_twice() || !may_close()) return WhyKept::topology;
-    std::vector<RimTriangle> ears;
+    std::vector<RimTriangle> triangles;
     if (fan_.rim.size() > 2) {
-        unroll_fan(point);
-        WhyKept why = WhyKept::fold;
-        ears = cut_ears(flat_, fan_.is_closed, [&](const RimTriangle& corners, bool cuts) {
-            if (!is_fine(corners, care)) return false;
-            if (!cuts || !mesh_.are_neighbours(fan_.rim[corners[0]], fan_.rim[corners[2]])) return true;
-            why = WhyKept::topology;
-            return false;
-        });
-        if (ears.empty()) return why;
+        meets_edge_ = false;
+        triangles = fan_.rim.size() <= most_tried ? best_filling(care) : cut_ears_around(point, care);
+        if (triangles.empty()) return meets_edge_ ? WhyKept::topology : WhyKept::fold;
     }
-    if (!fan_.is_closed) {
-        const auto& points = mesh_.mesh().points;
-        double& moved = moved_[fan_.rim.back()];
-        moved = std::max(moved, moved_[point]) +
-                distance_to_segment(points[point], points[fan_.rim.back()], points[fan_.rim.front()]);
-    }
-    mesh_.replace_fan(point, fan_, ears);
+    if (!fan_.is_closed) note_moved(point);
+    mesh_.replace_fan(point, fan_, triangles);
     return std::nullopt;
 }
 

@@ -39,9 +39,13 @@ public:
 
 private:
     bool may_leave_boundary(std::uint32_t point);
+    void note_moved(std::uint32_t point);
     bool has_rim_twice();
     bool may_close();
-    bool is_fine(const RimTriangle& corners, Care care) const;
+    bool is_new(const RimTriangle& corners);
+    TriangleQuality quality(const RimTriangle& corners) const;
+    std::vector<RimTriangle> best_filling(Care care);
+    std::vector<RimTriangle> cut_ears_around(std::uint32_t point, Care care);
     void unroll_fan(std::uint32_t point);
 
     EditedMesh& mesh_;
@@ -49,6 +53,7 @@ private:
     double spacing_;
     std::vector<double> moved_;  ///< How far the boundary edge that begins at a point has moved at most.
     Fan fan_;
+    bool meets_edge_ = false;  ///< A triangle was refused because two points had an edge already.
     std::vector<std::uint32_t> sorted_;
     std::vector<double> distances_, angles_;
     std::vector<Vector2d> flat_;

@@ -28,6 +28,7 @@ public:
     }
 
     Result<Retiled> retile(const std::atomic<bool>& cancel) {
+        improver_.improve(cancel);
         for (const Care care : {Care::high, Care::low}) {
             bool is_changed = true;
             for (int round = 0; round < most_rounds && is_changed && !left_.empty(); ++round) {

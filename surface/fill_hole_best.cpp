@@ -1,0 +1,65 @@
+#include "surface/fill_hole.h"
+
+#include <algorithm>
+
+namespace cascade {
+
+namespace {
+
+/// Of the points of a rim from one to another.
+struct Part {
+    double worst = 1e300;     ///< The worth of the worst triangle between them, at best.
+    std::uint32_t middle = 0;  ///< Between the two, the third corner of the triangle at the line that joins them.
+};
+
+class BestFilling {
+public:
+    BestFilling(std::uint32_t count, const Worth& worth) : count_(count), parts_(count * count) {
+        for (std::uint32_t reach = 2; reach < count; ++reach) {
+            for (std::uint32_t from = 0; from + reach < count; ++from) {
+                part(from, from + reach) = best(from, from + reach, worth);
+            }
+        }
+    }
+
+    std::vector<RimTriangle> triangles() {
+        std::vector<RimTriangle> found;
+        if (part(0, count_ - 1).worst > 0) collect(0, count_ - 1, found);
+        return found;
+    }
+
+private:
+    Part& part(std::uint32_t from, std::uint32_t to) { return parts_[from * count_ + to]; }
+
+    Part best(std::uint32_t from, std::uint32_t to, const Worth& worth) {
+        Part best{0, 0};
+        for (std::uint32_t middle = from + 1; middle < to; ++middle) {
+            const double sides = std::min(part(from, middle).worst, part(middle, to).worst);
+            if (sides <= best.worst) continue;
+            const double worst = std::min(sides, worth({from, middle, to}));
+            if (worst > best.worst) best = {worst, middle};
+        }
+        return best;
+    }
+
+    /// Those farther out first, so that each cuts its middle corner off. No deeper than the rim is long.
+    void collect(std::uint32_t from, std::uint32_t to, std::vector<RimTriangle>& found) {
+        if (to - from < 2) return;
+        const std::uint32_t middle = part(from, to).middle;
+        collect(from, middle, found);
+        collect(middle, to, found);
+        found.push_back({from, middle, to});
+    }
+
+    std::uint32_t count_;
+    std::vector<Part> parts_;
+};
+
+}  // namespace
+
+std::vector<RimTriangle> best_triangles(std::uint32_t count, const Worth& worth) {
+    if (count < 3) return {};
+    return BestFilling(count, worth).triangles();
+}
+
+}  // namespace cascade
