@@ -17,7 +17,7 @@ struct TriangleQuality {
 
     /// What exchanging edges makes as large as it can: angles, and where the triangle leaves the surface
     /// steeply, how well it follows it.
-    double score() const { return least_sine * std::clamp(least_cosine / 0.7, 0.01, 1.0); }
+    double score() const { return least_sine * std::clamp(least_cosine / 0.9, 0.01, 1.0); }
 };
 
 /// `normals` are those of the surface at the corners, of length 1 (or 0 where it has none).

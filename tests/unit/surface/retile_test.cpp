@@ -242,7 +242,7 @@ TEST(Retile, PlacesMayLieInCornersOnEdgesAndInTheSamePlace) {
     expect_same_topology(mesh, *retiled, places.size());
     EXPECT_TRUE(retiled->kept.empty());  // All corners are places.
     EXPECT_LT(farthest_moved(mesh, places, *retiled), 1e-4);
-    EXPECT_NEAR(retiled->mesh.total_area(), 6, 1e-3);
+    EXPECT_NEAR(retiled->mesh.total_area(), 6, 0.06);  // Edges of the box may be cut.
     for (std::size_t a = 0; a < places.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b) {
             EXPECT_FALSE(retiled->mesh.points[a] == retiled->mesh.points[b]);
