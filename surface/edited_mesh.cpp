@@ -5,13 +5,6 @@
 
 namespace cascade {
 
-namespace {
-
-constexpr std::uint32_t after(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
-constexpr std::uint32_t before(std::uint32_t k) { return k == 0 ? 2 : k - 1; }
-
-}  // namespace
-
 EditedMesh::EditedMesh(const SurfaceMesh& mesh) : corner_of_(mesh.points.size()) {
     mesh_.points = mesh.points;
     mesh_.triangles = mesh.triangles;
@@ -53,21 +46,21 @@ void EditedMesh::split_triangle(std::uint32_t t, std::uint32_t point) {
 }
 
 void EditedMesh::split_edge(TriangleEdge edge, std::uint32_t point) {
-    // (a, b, c) becomes (a, p, c) and (p, b, c); across it (b, a, d) becomes (b, p, d) and (p, a, d).
+    // (a, b, c) becomes (a, p, c) and (p, b, c), and (b, a, d) across it (b, p, d) and (p, a, d).
     const TriangleEdge other = mesh_.across[edge.triangle][edge.edge];
     const auto halve = [&](TriangleEdge side) {
         const std::uint32_t t = side.triangle, k = side.edge;
-        const std::uint32_t b = mesh_.triangles[t][after(k)], c = mesh_.triangles[t][before(k)];
-        const TriangleEdge bc = mesh_.across[t][after(k)];
+        const std::uint32_t b = mesh_.triangles[t][corner_after(k)], c = mesh_.triangles[t][corner_before(k)];
+        const TriangleEdge bc = mesh_.across[t][corner_after(k)];
         const auto added = static_cast<std::uint32_t>(mesh_.triangles.size());
         mesh_.triangles.emplace_back();
         mesh_.across.emplace_back();
         set_triangle(added, {point, b, c});
         std::array<std::uint32_t, 3> corners = mesh_.triangles[t];
-        corners[after(k)] = point;
+        corners[corner_after(k)] = point;
         set_triangle(t, corners);
         link({added, 1}, bc);
-        link({added, 2}, {t, after(k)});
+        link({added, 2}, {t, corner_after(k)});
         return added;
     };
     const std::uint32_t added = halve(edge);
@@ -86,12 +79,12 @@ void EditedMesh::exchange(TriangleEdge edge) {
 
 /// The corner of the next triangle counterclockwise around the same point.
 TriangleEdge EditedMesh::next_around(TriangleEdge corner) const {
-    return mesh_.across[corner.triangle][before(corner.edge)];
+    return mesh_.across[corner.triangle][corner_before(corner.edge)];
 }
 
 TriangleEdge EditedMesh::previous_around(TriangleEdge corner) const {
     const TriangleEdge other = mesh_.across[corner.triangle][corner.edge];
-    return other.exists() ? TriangleEdge{other.triangle, after(other.edge)} : other;
+    return other.exists() ? TriangleEdge{other.triangle, corner_after(other.edge)} : other;
 }
 
 void EditedMesh::fan_around(std::uint32_t point, Fan& fan) const {
@@ -110,10 +103,10 @@ void EditedMesh::fan_around(std::uint32_t point, Fan& fan) const {
     do {
         const auto& corners = mesh_.triangles[at.triangle];
         fan.triangles.push_back(at.triangle);
-        fan.rim.push_back(corners[after(at.edge)]);
-        fan.beyond.push_back(mesh_.across[at.triangle][after(at.edge)]);
+        fan.rim.push_back(corners[corner_after(at.edge)]);
+        fan.beyond.push_back(mesh_.across[at.triangle][corner_after(at.edge)]);
         const TriangleEdge next = next_around(at);
-        if (!next.exists()) fan.rim.push_back(corners[before(at.edge)]);
+        if (!next.exists()) fan.rim.push_back(corners[corner_before(at.edge)]);
         at = next;
     } while (at.exists() && at != first);
 }
@@ -129,8 +122,8 @@ bool EditedMesh::are_neighbours(std::uint32_t a, std::uint32_t b) const {
     for (;;) {
         for (Walk& walk : walks) {
             const auto& corners = mesh_.triangles[walk.at.triangle];
-            if (corners[after(walk.at.edge)] == walk.wanted ||
-                corners[before(walk.at.edge)] == walk.wanted) {
+            if (corners[corner_after(walk.at.edge)] == walk.wanted ||
+                corners[corner_before(walk.at.edge)] == walk.wanted) {
                 return true;
             }
             TriangleEdge next = walk.is_back ? previous_around(walk.at) : next_around(walk.at);

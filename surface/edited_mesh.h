@@ -33,8 +33,8 @@ public:
     /// are added.
     void split_triangle(std::uint32_t triangle, std::uint32_t point);
 
-    /// Puts a point into the middle of an edge. The triangle keeps the edge's start, that across it its
-    /// end. Adds a triangle on the edge's side and then, if there is one, on the other side.
+    /// Puts a point into the middle of an edge. The triangle keeps the edge's start, that across it
+    /// its end. Adds a triangle on the edge's side and then, if there is one, on the other side.
     void split_edge(TriangleEdge edge, std::uint32_t point);
 
     /// Exchanges the edge between two triangles for the line between the corners that face it
@@ -47,12 +47,14 @@ public:
     /// longer than the smaller fan does.
     bool are_neighbours(std::uint32_t a, std::uint32_t b) const;
 
-    /// Takes a point away with its fan and puts triangles of rim numbers in its place. Each must cut off
-    /// the middle one of its corners from the rim that is left; the last is all that is left.
+    /// Takes a point away with its fan and puts triangles of rim numbers in its place. Each must
+    /// cut off the middle one of its corners from the rim that is left; the last is all that is
+    /// left.
     void replace_fan(std::uint32_t point, const Fan& fan,
                      std::span<const std::array<std::uint32_t, 3>> ears);
 
-    /// Triangles that were made or changed since this was asked last, some several times or gone since.
+    /// Triangles that were made or changed since this was asked last, some several times or gone
+    /// since.
     std::vector<std::uint32_t> take_changed() { return std::exchange(changed_, {}); }
 
     /// The mesh of the points in `kept`, in this order; they must be all that are used.

@@ -61,8 +61,8 @@ private:
         return before;
     }
 
-    /// The origin sees the whole rim, so that a triangle to whose right or on whose third side it lies
-    /// has no other point of the rim within.
+    /// The origin sees the whole rim, so that a triangle to whose right or on whose third side it
+    /// lies has no other point of the rim within.
     void consider(std::uint32_t tip) {
         if (!is_closed_ && (tip == 0 || tip + 1 == rim_.size())) return;
         const Vector2d a = rim_[previous_[tip]], b = rim_[tip], c = rim_[next_[tip]];
@@ -97,7 +97,8 @@ std::vector<Vector2d> unroll(std::span<const double> distances, std::span<const 
     return rim;
 }
 
-std::vector<RimTriangle> cut_ears(std::span<const Vector2d> rim, bool is_closed, const MayMake& may_make) {
+std::vector<RimTriangle> cut_ears(std::span<const Vector2d> rim, bool is_closed,
+                                  const MayMake& may_make) {
     return EarCutter(rim, is_closed, may_make).cut();
 }
 

@@ -10,18 +10,19 @@
 namespace cascade {
 
 /// Exchanges edges of a mesh where the worst of what changes becomes better: the two triangles
-/// (TriangleQuality::score()) and the folds at the edge and at their four sides. On a plane that is Lawson's
-/// way to the Delaunay triangulation, whose smallest angles are the largest (R. Sibson, "Locally equiangular
-/// triangulations", 1978). No triangle is turned upside down and no two points get a second edge.
+/// (TriangleQuality::score()) and the folds at the edge and at their four sides. On a plane that is
+/// Lawson's way to the Delaunay triangulation, whose smallest angles are the largest (R. Sibson,
+/// "Locally equiangular triangulations", 1978). No triangle is turned upside down and no two points
+/// get a second edge.
 class EdgeImprover {
 public:
     /// `normals` are those of the surface at the points.
     EdgeImprover(EditedMesh& mesh, std::span<const Vector3d> normals)
         : edited_(mesh), normals_(normals) {}
 
-    /// Looks at all triangles that were changed since the last call, and then at those it changes itself.
-    /// Ends because the scores of all triangles and edges, sorted, grow with every exchange. Stops early when
-    /// `cancel` becomes true.
+    /// Looks at all triangles that were changed since the last call, and then at those it changes
+    /// itself. Ends because the scores of all triangles and edges, sorted, grow with every
+    /// exchange. Stops early when `cancel` becomes true.
     void improve(const std::atomic<bool>& cancel);
 
 private:

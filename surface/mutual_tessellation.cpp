@@ -15,9 +15,6 @@ namespace cascade {
 
 namespace {
 
-constexpr std::uint32_t after(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
-constexpr std::uint32_t before(std::uint32_t k) { return k == 0 ? 2 : k - 1; }
-
 /// The bits of two numbers by turns: places near each other on this curve are near in the triangle.
 std::uint64_t along_curve(const Steps& steps) {
     std::uint64_t key = 0;
@@ -28,8 +25,8 @@ std::uint64_t along_curve(const Steps& steps) {
     return key;
 }
 
-/// Triangle by triangle; within one in rounds of twice as many places each, chosen by chance, and in each
-/// round along a curve.
+/// Triangle by triangle; within one in rounds of twice as many places each, chosen by chance, and
+/// in each round along a curve.
 std::vector<std::uint32_t> insertion_order(const std::vector<LatticePlace>& places) {
     using Entry = std::tuple<std::uint32_t, int, std::uint64_t, std::uint32_t>;
     std::vector<Entry> entries;
@@ -60,7 +57,10 @@ bool is_in_circle(Vector2d a, Vector2d b, Vector2d c, Vector2d d) {
 class Tessellator {
 public:
     Tessellator(const SurfaceMesh& old, const std::vector<LatticePlace>& places)
-        : old_(old), places_(places), made_{EditedMesh(old), {}, {}}, origins_(old.triangles.size()) {
+        : old_(old),
+          places_(places),
+          made_{EditedMesh(old), {}, {}},
+          origins_(old.triangles.size()) {
         for (std::uint32_t t = 0; t < origins_.size(); ++t) origins_[t] = t;
         made_.point_of_place.resize(places.size());
         made_.normals = point_normals(old);
@@ -138,15 +138,16 @@ private:
         std::uint32_t triangle = 0, edge = 3;
     };
 
-    /// Walks over the edges that lie between, which of two first is left to chance: O. Devillers, S. Pion
-    /// and M. Teillaud, "Walking in a triangulation", 2002. That never goes round in circles.
+    /// Walks over the edges that lie between, which of two first is left to chance: O. Devillers,
+    /// S. Pion and M. Teillaud, "Walking in a triangulation", 2002. That never goes round in
+    /// circles.
     Found locate(const Steps& point, std::uint32_t t) const {
         for (std::uint32_t step = 0;; ++step) {
             const std::array<Steps, 3> corners = corners_of(t);
             const std::uint32_t first = pcg4d({step, t, 0, 3})[0] % 3;
             std::uint32_t on = 3, leave = 3;
             for (std::uint32_t k = first; k < first + 3 && leave == 3; ++k) {
-                const std::int64_t side = turn(corners[k % 3], corners[after(k % 3)], point);
+                const std::int64_t side = turn(corners[k % 3], corners[corner_after(k % 3)], point);
                 if (side < 0) leave = k % 3;
                 if (side == 0) on = k % 3;
             }
@@ -170,19 +171,20 @@ private:
         made_.mesh.split_edge({t, found.edge}, point);
         origins_.push_back(origin);
         if (!other.exists()) {
-            restore({{t, before(found.edge)}, {added, 1}}, origin, point);
+            restore({{t, corner_before(found.edge)}, {added, 1}}, origin, point);
             return t;
         }
         const std::uint32_t there = origins_[other.triangle];
         origins_.push_back(there);
-        restore({{t, before(found.edge)}, {added, 1}}, origin, point);
-        restore({{other.triangle, before(other.edge)}, {added + 1, 1}}, there, point);
+        restore({{t, corner_before(found.edge)}, {added, 1}}, origin, point);
+        restore({{other.triangle, corner_before(other.edge)}, {added + 1, 1}}, there, point);
         return t;
     }
 
-    /// Exchanges edges that face a new point until all its triangles are Delaunay triangles. Each edge is
-    /// replaced by one of the point, of which there is a limited number.
-    void restore(std::initializer_list<TriangleEdge> facing, std::uint32_t origin, std::uint32_t point) {
+    /// Exchanges edges that face a new point until all its triangles are Delaunay triangles. Each
+    /// edge is replaced by one of the point, of which there is a limited number.
+    void restore(std::initializer_list<TriangleEdge> facing, std::uint32_t origin,
+                 std::uint32_t point) {
         if (origin != framed_) {
             frame_ = own_frame(old_, origin);
             framed_ = origin;
@@ -196,8 +198,8 @@ private:
             if (!other.exists() || origins_[other.triangle] != origin) continue;
             const auto& corners = now().triangles[edge.triangle];
             const Steps a = steps_in(origin, corners[edge.edge]);
-            const Steps b = steps_in(origin, corners[after(edge.edge)]);
-            const Steps d = steps_in(origin, now().triangles[other.triangle][before(other.edge)]);
+            const Steps b = steps_in(origin, corners[corner_after(edge.edge)]);
+            const Steps d = steps_in(origin, now().triangles[other.triangle][corner_before(other.edge)]);
             if (turn(p, d, b) <= 0 || turn(d, p, a) <= 0) continue;
             if (!is_in_circle(flat(a), flat(b), flat(p), flat(d))) continue;
             made_.mesh.exchange(edge);  // To (p, d, b) and (d, p, a).
@@ -212,7 +214,7 @@ private:
     std::vector<std::uint32_t> origins_;         ///< The old triangle in which each triangle lies.
     std::vector<std::uint32_t> place_of_point_;  ///< Of points that are not old.
     std::uint32_t framed_ = TriangleEdge::none;
-    FlatTriangle frame_;                         ///< Of the old triangle `framed_`.
+    FlatTriangle frame_;  ///< Of the old triangle `framed_`.
     std::vector<TriangleEdge> suspects_;
 };
 

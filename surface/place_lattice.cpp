@@ -14,8 +14,6 @@ namespace {
 constexpr double tolerance = 1e-6;       ///< Of weights.
 constexpr std::int64_t stride = 1 << 6;  ///< Steps between places that coincided.
 
-constexpr std::uint32_t after(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
-
 bool is_on(const SurfaceMesh& mesh, const SurfacePlace& place) {
     double sum = 0;
     for (const double weight : place.weights) {
@@ -55,12 +53,13 @@ Key key_of(const SurfaceMesh& mesh, const LatticePlace& place) {
             std::pair(place.triangle, k) < std::pair(other.triangle, other.edge)) {
             return {1, place.triangle, k, place.steps[k], 0};
         }
-        return {1, other.triangle, other.edge, place.steps[after(k)], 0};
+        return {1, other.triangle, other.edge, place.steps[corner_after(k)], 0};
     }
     return {2, place.triangle, 0, place.steps[0], place.steps[1]};
 }
 
-/// Point number k = 1, 2, … of a spiral around (0, 0) that visits all points with whole coordinates.
+/// Point number k = 1, 2, … of a spiral around (0, 0) that visits all points with whole
+/// coordinates.
 std::array<std::int64_t, 2> on_spiral(std::int64_t k) {
     // The larger coordinate; (2 ring − 1)² points come before.
     const auto ring = static_cast<std::int64_t>((std::sqrt(static_cast<double>(k)) + 1) / 2);
@@ -86,7 +85,7 @@ public:
     }
 
     void separate() {
-        std::int64_t tried = 0;  // Of the spiral, by all that coincide: each begins where the last ended.
+        std::int64_t tried = 0;  // Of the spiral; each place begins where the last one ended.
         for (std::size_t k = 1; k < order_.size(); ++k) {
             if (order_[k].first != order_[k - 1].first) tried = 0;
             else move_away(places_[order_[k].second], tried);
@@ -129,15 +128,15 @@ std::uint32_t LatticePlace::corner() const {
 std::uint32_t LatticePlace::edge() const {
     if (corner() < 3) return 3;
     for (std::uint32_t k = 0; k < 3; ++k) {
-        if (steps[after(after(k))] == 0) return k;
+        if (steps[corner_before(k)] == 0) return k;
     }
     return 3;
 }
 
-Steps steps_across(const Steps& steps, std::uint32_t other_edge, std::uint32_t edge) {
+Steps steps_across(const Steps& steps, std::uint32_t edge, std::uint32_t edge_there) {
     Steps across{};
-    across[edge] = steps[after(other_edge)];
-    across[after(edge)] = steps[other_edge];
+    across[edge_there] = steps[corner_after(edge)];
+    across[corner_after(edge_there)] = steps[edge];
     return across;
 }
 

@@ -16,7 +16,8 @@
 
 namespace cascade {
 
-using Steps = std::array<std::int64_t, 3>;  ///< Of each corner's weight; their sum is lattice_steps.
+/// The weight of each corner in steps; their sum is lattice_steps.
+using Steps = std::array<std::int64_t, 3>;
 inline constexpr std::int64_t lattice_steps = std::int64_t{1} << 24;
 
 struct LatticePlace {
@@ -34,14 +35,14 @@ inline std::int64_t turn(const Steps& p, const Steps& q, const Steps& r) {
     return (q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1]);
 }
 
-/// The steps of a place of `other`'s triangle that lies on its edge `other.edge`, as the triangle
-/// across that edge counts them, of which it is edge `edge`.
-Steps steps_across(const Steps& steps, std::uint32_t other_edge, std::uint32_t edge);
+/// Of a place on edge `edge` of its triangle: its steps in the triangle across, of which that edge is
+/// number `edge_there`.
+Steps steps_across(const Steps& steps, std::uint32_t edge, std::uint32_t edge_there);
 
 /// Brings places to the lattice so that no two of them coincide: of several in the same place the
 /// first stays there, and the others are moved into their triangle by some 2⁻¹⁸ of its size.
-/// Fails, naming the place, where one is on no triangle of the mesh: weights below −10⁻⁶, or whose sum
-/// differs from 1 by more than that, or not finite.
+/// Fails, naming the place, where one is on no triangle of the mesh: weights below −10⁻⁶, or whose
+/// sum differs from 1 by more than that, or not finite.
 Result<std::vector<LatticePlace>> to_lattice(const SurfaceMesh& mesh,
                                              std::span<const SurfacePlace> places);
 

@@ -6,8 +6,8 @@ namespace cascade {
 
 namespace {
 
-constexpr double boundary_may_move = 0.1;     ///< Spacings.
-constexpr double longest_boundary_edge = 2;   ///< Spacings.
+constexpr double boundary_may_move = 0.1;            ///< Spacings.
+constexpr double longest_boundary_edge = 2;          ///< Spacings.
 constexpr double high_care = 0.26, low_care = 0.09;  ///< Cosines of 75° and 85°.
 constexpr std::size_t most_tried = 24;  ///< Points of a rim of which all ways to fill it are tried.
 constexpr double least_sine = 1e-9;
@@ -59,14 +59,16 @@ bool PointRemoval::may_close() {
     if (rim.size() != 3) return true;
     const TriangleEdge other = fan_.beyond[0];
     return !other.exists() ||
-           mesh_.mesh().triangles[other.triangle][(other.edge + 2) % 3] != rim[2];
+           mesh_.mesh().triangles[other.triangle][corner_before(other.edge)] != rim[2];
 }
 
 void PointRemoval::unroll_fan(std::uint32_t point) {
     const auto& points = mesh_.mesh().points;
     distances_.clear();
     angles_.clear();
-    for (const std::uint32_t other : fan_.rim) distances_.push_back(length(points[other] - points[point]));
+    for (const std::uint32_t other : fan_.rim) {
+        distances_.push_back(length(points[other] - points[point]));
+    }
     for (std::size_t k = 0; k < fan_.triangles.size(); ++k) {
         const Vector3d a = points[fan_.rim[k]] - points[point];
         const Vector3d b = points[fan_.rim[k + 1 == fan_.rim.size() ? 0 : k + 1]] - points[point];
@@ -77,14 +79,15 @@ void PointRemoval::unroll_fan(std::uint32_t point) {
 
 TriangleQuality PointRemoval::quality(const RimTriangle& corners) const {
     const auto& points = mesh_.mesh().points;
-    const std::uint32_t a = fan_.rim[corners[0]], b = fan_.rim[corners[1]], c = fan_.rim[corners[2]];
+    const std::uint32_t a = fan_.rim[corners[0]], b = fan_.rim[corners[1]];
+    const std::uint32_t c = fan_.rim[corners[2]];
     return quality_of({points[a], points[b], points[c]}, {normals_[a], normals_[b], normals_[c]});
 }
 
 /// Whether the line from the first to the third corner is a side of the rim or no edge yet.
 bool PointRemoval::is_new(const RimTriangle& corners) {
-    const std::uint32_t reach = corners[2] > corners[0] ? corners[2] - corners[0]
-                                                        : corners[0] - corners[2];
+    const std::uint32_t reach =
+        corners[2] > corners[0] ? corners[2] - corners[0] : corners[0] - corners[2];
     if (reach == 1 || reach + 1 == fan_.rim.size()) return true;
     const bool is_there = mesh_.are_neighbours(fan_.rim[corners[0]], fan_.rim[corners[2]]);
     meets_edge_ |= is_there;
@@ -93,7 +96,8 @@ bool PointRemoval::is_new(const RimTriangle& corners) {
 
 /// All ways to fill the hole are tried.
 std::vector<RimTriangle> PointRemoval::best_filling(Care care) {
-    return best_triangles(static_cast<std::uint32_t>(fan_.rim.size()), [&](const RimTriangle& corners) {
+    const auto count = static_cast<std::uint32_t>(fan_.rim.size());
+    return best_triangles(count, [&](const RimTriangle& corners) {
         const TriangleQuality found = quality(corners);
         return is_fine(found, care) && is_new(corners) ? found.score() : 0;
     });
@@ -114,7 +118,8 @@ std::optional<WhyKept> PointRemoval::remove(std::uint32_t point, Care care) {
     std::vector<RimTriangle> triangles;
     if (fan_.rim.size() > 2) {
         meets_edge_ = false;
-        triangles = fan_.rim.size() <= most_tried ? best_filling(care) : cut_ears_around(point, care);
+        triangles =
+            fan_.rim.size() <= most_tried ? best_filling(care) : cut_ears_around(point, care);
         if (triangles.empty()) return meets_edge_ ? WhyKept::topology : WhyKept::fold;
     }
     if (!fan_.is_closed) note_moved(point);

@@ -15,7 +15,9 @@ constexpr int most_rounds = 16;  ///< Of tries to remove what could not be remov
 class Retiler {
 public:
     Retiler(const SurfaceMesh& old, std::span<const SurfacePlace> places, MutualTessellation made)
-        : old_(old), places_(places), made_(std::move(made)),
+        : old_(old),
+          places_(places),
+          made_(std::move(made)),
           removal_(made_.mesh, made_.normals, spacing(old, places.size())),
           improver_(made_.mesh, made_.normals) {
         std::vector<bool> is_place(old.points.size());

@@ -1,10 +1,12 @@
 // A surface over new points: G. Turk, "Re-Tiling Polygonal Surfaces" (Computer Graphics 26(2),
-// SIGGRAPH 1992), which is section 5.3.1 of his "Texturing Surfaces Using Reaction-Diffusion" (thesis, 1992).
+// SIGGRAPH 1992), which is section 5.3.1 of his "Texturing Surfaces Using Reaction-Diffusion"
+// (thesis, 1992).
 //
-// The old triangles are cut so that the places are among their points (surface/mutual_tessellation.h),
-// then the old points are taken away one by one (surface/remove_points.h), and at the end edges are
-// exchanged for better ones (surface/improve_edges.h). At every moment there is a surface of the same
-// topology, so nothing can tear.
+// The old triangles are cut so that the places are among their points
+// (surface/mutual_tessellation.h), then the old points are taken away one by one
+// (surface/remove_points.h), and at the end edges are exchanged for better ones
+// (surface/improve_edges.h). At every moment there is a surface of the same topology, so nothing
+// can tear.
 #pragma once
 
 #include "core/result.h"
@@ -24,28 +26,30 @@ struct KeptPoint {
 };
 
 struct Retiled {
-    /// Point i is place i; after them come the kept points, in order. Attributes of the old surface are
-    /// carried along, linear within its triangles; its texture is not.
+    /// Point i is place i; after them come the kept points, in order. Attributes of the old surface
+    /// are carried along, linear within its triangles; its texture is not.
     SurfaceMesh mesh;
     std::vector<KeptPoint> kept;
 };
 
-/// The surface as triangles whose corners are the places, in their order. It has the same pieces, boundaries
-/// and Euler characteristic, no two points have two edges if they had not before, and every triangle turns
-/// outwards where the old surface does. Old points stay where a boundary bends or has no places, where too few
-/// places are left for the topology (a sphere takes 4 points, a torus 7), and where only upside-down
-/// triangles could replace them. Points lie within 10⁻⁷ of their triangle's size of their places; of
-/// places that coincide all but the first move by some 4·10⁻⁶ of it.
+/// The surface as triangles whose corners are the places, in their order. It has the same pieces,
+/// boundaries and Euler characteristic, and no two points have two edges if they had not before.
+/// The normal of a triangle and the mean of the old normals at its corners are less than 90° apart,
+/// unless it was so before. Old points stay where a boundary bends or has no places, where too few
+/// places are left for the topology (a sphere takes 4 points, a torus 7), and where only triangles
+/// upside down could replace them. A point lies within 10⁻⁷ of its place, measured by the place's
+/// old triangle; where places coincide all but the first move by some 4·10⁻⁶.
 ///
-/// The same for the same arguments. Takes O((n + m) log (n + m)) of n points and m places. Fails where a place is on
-/// no triangle, where a triangle has a corner twice, where there would be 2³² points or triangles, and when
-/// `cancel` becomes true. Throws std::bad_alloc.
+/// The same for the same arguments. Takes O((n + m) log (n + m)) of n points and m places. Fails
+/// where a place is on no triangle, where a triangle has a corner twice, where there would be 2³²
+/// points or triangles, and when `cancel` becomes true. Throws std::bad_alloc.
 Result<Retiled> retile(const SurfaceMesh& mesh, std::span<const SurfacePlace> places,
                        const std::atomic<bool>& cancel);
 
-/// Values of places as an attribute of the new surface. A kept point gets the mean of its neighbours that have
-/// a value, those next to places first; on a piece without any place all stay NaN.
-/// `values` has one for each place.
-PointAttribute attribute_of(const Retiled& retiled, std::string name, std::span<const float> values);
+/// Values of places as an attribute of the new surface. A kept point gets the mean of its
+/// neighbours that have a value, those next to places first; on a piece without any place all stay
+/// NaN. `values` has one for each place.
+PointAttribute attribute_of(const Retiled& retiled, std::string name,
+                            std::span<const float> values);
 
 }  // namespace cascade

@@ -25,7 +25,8 @@ std::map<std::uint32_t, std::vector<std::uint32_t>> neighbours_from(const Surfac
 
 }  // namespace
 
-PointAttribute attribute_of(const Retiled& retiled, std::string name, std::span<const float> values) {
+PointAttribute attribute_of(const Retiled& retiled, std::string name,
+                            std::span<const float> values) {
     PointAttribute attribute{std::move(name), {values.begin(), values.end()}};
     std::vector<float>& known = attribute.values;
     known.resize(retiled.mesh.points.size(), std::numeric_limits<float>::quiet_NaN());

@@ -11,12 +11,12 @@ namespace cascade {
 
 /// A triangle against the surface it is to follow.
 struct TriangleQuality {
-    double least_sine = 0;   ///< Of its smallest angle; 0 if its corners lie on a line.
-    double least_cosine = 0; ///< Between its normal and those of the surface at its corners.
-    double mean_cosine = 0;  ///< Between its normal and the mean of those: above 0 if it does not lie upside down.
+    double least_sine = 0;    ///< Of its smallest angle; 0 if its corners lie on a line.
+    double least_cosine = 0;  ///< Between its normal and those of the surface at its corners.
+    double mean_cosine = 0;   ///< Between its normal and the mean of those; below 0 upside down.
 
-    /// What exchanging edges makes as large as it can: angles, and where the triangle leaves the surface
-    /// steeply, how well it follows it.
+    /// What exchanging edges makes as large as it can: angles, and where the triangle leaves the
+    /// surface steeply, how well it follows it.
     double score() const { return least_sine * std::clamp(least_cosine / 0.9, 0.01, 1.0); }
 };
 
@@ -32,8 +32,8 @@ inline TriangleQuality quality_of(const std::array<Vector3d, 3>& corners,
     const Vector3d direction = unit(normal);
     TriangleQuality quality;
     if (double_area > 0) quality.least_sine = double_area / (sides[1] * sides[2]);
-    quality.least_cosine = std::min({dot(direction, normals[0]), dot(direction, normals[1]),
-                                     dot(direction, normals[2])});
+    quality.least_cosine = std::min(
+        {dot(direction, normals[0]), dot(direction, normals[1]), dot(direction, normals[2])});
     quality.mean_cosine = dot(direction, unit(normals[0] + normals[1] + normals[2]));
     return quality;
 }

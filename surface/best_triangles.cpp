@@ -1,6 +1,7 @@
 #include "surface/fill_hole.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace cascade {
 
@@ -8,8 +9,8 @@ namespace {
 
 /// Of the points of a rim from one to another.
 struct Part {
-    double worst = 1e300;     ///< The worth of the worst triangle between them, at best.
-    std::uint32_t middle = 0;  ///< Between the two, the third corner of the triangle at the line that joins them.
+    double worst = std::numeric_limits<double>::infinity();  ///< The worth of the worst triangle between them, at best.
+    std::uint32_t middle = 0;  ///< The third corner of the triangle at the line that joins the two.
 };
 
 class BestFilling {
@@ -42,7 +43,8 @@ private:
         return best;
     }
 
-    /// Those farther out first, so that each cuts its middle corner off. No deeper than the rim is long.
+    /// Those farther out first, so that each cuts its middle corner off. No deeper than the rim is
+    /// long.
     void collect(std::uint32_t from, std::uint32_t to, std::vector<RimTriangle>& found) {
         if (to - from < 2) return;
         const std::uint32_t middle = part(from, to).middle;
