@@ -32,6 +32,10 @@ Result<NpyArray> parse_npy(std::string_view bytes, Precision precision = Precisi
 Result<NpyArray> read_npy(const std::filesystem::path& path,
                           Precision precision = Precision::single);
 
+/// The head of a .npy file as NumPy writes it, version 1.0, which the elements follow in C order.
+/// `type` as NumPy calls it, such as "<f4"; `shape` as Python writes a tuple, such as "2, 3" or "2,".
+std::string npy_head(std::string_view type, std::string_view shape);
+
 /// A field as a .npy file in memory: version 1.0, header as NumPy writes it, rows × columns
 /// (slices × rows × columns where there are several slices) of little-endian float32 or float64 in C
 /// order; every NaN as 0x7fc00000, or 0x7ff8000000000000.

@@ -3,46 +3,22 @@
 #include "core/check.h"
 #include "core/file.h"
 #include "picture/float_bytes.h"
+#include "picture/xml_text.h"
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <new>
-#include <string_view>
 
 namespace cascade {
 
 namespace {
-
-static_assert(std::endian::native == std::endian::little);
-
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&': result += "&amp;"; break;
-            case '<': result += "&lt;"; break;
-            case '>': result += "&gt;"; break;
-            case '"': result += "&quot;"; break;
-            default: result += c;
-        }
-    }
-    return result;
-}
 
 /// Bytes of an array's elements, which stand in front of them.
 using BlockSize = std::uint64_t;
 
 /// vtkDataSetAttributes::HIDDENCELL: a cell that is not there.
 constexpr char hidden_cell = 32;
-
-void append_size(std::string& text, BlockSize bytes) {
-    char size[sizeof(BlockSize)];
-    std::memcpy(size, &bytes, sizeof size);
-    text.append(size, sizeof size);
-}
 
 }  // namespace
 
@@ -61,13 +37,13 @@ std::string encode_vti(std::span<const VolumeArray> arrays, double spacing, cons
         "  <ImageData WholeExtent=\"{0}\" Origin=\"0 0 0\" Spacing=\"{1} {1} {1}\">\n"
         "    <Piece Extent=\"{0}\">\n"
         "      <CellData Scalars=\"{2}\">\n",
-        extent, spacing, escaped(arrays.front().name));
+        extent, spacing, xml_escaped(arrays.front().name));
     BlockSize offset = 0;
     for (const VolumeArray& array : arrays) {
         text += fmt::format(
             "        <DataArray type=\"Float{}\" Name=\"{}\" format=\"appended\" "
             "offset=\"{}\"/>\n",
-            8 * bytes, escaped(array.name), offset);
+            8 * bytes, xml_escaped(array.name), offset);
         offset += sizeof(BlockSize) + bytes_of_array;
     }
     if (inside != nullptr) {
@@ -82,11 +58,11 @@ std::string encode_vti(std::span<const VolumeArray> arrays, double spacing, cons
     for (const VolumeArray& array : arrays) {
         CHECK(array.field->layout() == layout && bytes_of(array.field->precision()) == bytes,
               "the arrays of a volume have one layout and precision");
-        append_size(text, bytes_of_array);
+        append_number(text, bytes_of_array);
         append_floats(text, *array.field);
     }
     if (inside != nullptr) {
-        append_size(text, cells);
+        append_number(text, cells);
         for (std::int64_t row = 0; row < layout.row_count(); ++row) {
             for (std::int64_t i = 0; i < layout.width; ++i) {
                 text += inside->row(row)[i] != 0 ? '\0' : hidden_cell;

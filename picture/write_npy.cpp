@@ -13,13 +13,11 @@ namespace {
 constexpr std::size_t prefix_size = 10;  // \x93NUMPY, the version, the header's size.
 constexpr std::size_t alignment = 64;    // NumPy starts the elements at a multiple of it.
 
-std::string header_of(const PlaneLayout& layout, Precision precision) {
-    const std::string shape =
-        layout.depth > 1 ? fmt::format("{}, {}, {}", layout.depth, layout.height, layout.width)
-                         : fmt::format("{}, {}", layout.height, layout.width);
-    std::string text =
-        fmt::format("{{'descr': '<f{}', 'fortran_order': False, 'shape': ({}), }}",
-                    bytes_of(precision), shape);
+}  // namespace
+
+std::string npy_head(std::string_view type, std::string_view shape) {
+    std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}",
+                                   type, shape);
     const std::size_t used = prefix_size + text.size() + 1;
     text.append((alignment - used % alignment) % alignment, ' ');
     text += '\n';
@@ -29,11 +27,12 @@ std::string header_of(const PlaneLayout& layout, Precision precision) {
     return header + text;
 }
 
-}  // namespace
-
 std::string encode_npy(const Field& field) {
     const PlaneLayout& layout = field.layout();
-    std::string bytes = header_of(layout, field.precision());
+    const std::string shape =
+        layout.depth > 1 ? fmt::format("{}, {}, {}", layout.depth, layout.height, layout.width)
+                         : fmt::format("{}, {}", layout.height, layout.width);
+    std::string bytes = npy_head(fmt::format("<f{}", bytes_of(field.precision())), shape);
     bytes.reserve(bytes.size() + static_cast<std::size_t>(layout.width * layout.row_count()) *
                                      bytes_of(field.precision()));
     append_floats(bytes, field);

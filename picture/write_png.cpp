@@ -6,6 +6,7 @@
 #include "core/check.h"
 #include "core/file.h"
 #include "picture/image.h"
+#include "picture/light.h"
 
 #include <fmt/format.h>
 #include <png.h>
@@ -23,21 +24,14 @@ namespace {
 constexpr std::int64_t longest_side = 0x7fffffff;       // The format's own limit.
 constexpr std::size_t longest_plain_text = 1024;        // Longer ones are compressed.
 
-/// A channel as a level of 0 … `highest`, rounded to nearest; NaN becomes 0.
-unsigned level(float value, unsigned highest) {
-    if (!(value > 0)) return 0;
-    const double clamped = std::min(static_cast<double>(value), 1.0);
-    return static_cast<unsigned>(std::floor(clamped * highest + 0.5));
-}
-
 bool some_transparent(const Image& image) {
     return std::any_of(image.pixels.begin(), image.pixels.end(), is_transparent);
 }
 
 bool all_grey(const Image& image, unsigned highest) {
     return std::all_of(image.pixels.begin(), image.pixels.end(), [highest](const Colour& pixel) {
-        const unsigned red = level(pixel[0], highest);
-        return red == level(pixel[1], highest) && red == level(pixel[2], highest);
+        const unsigned red = level_of(pixel[0], highest);
+        return red == level_of(pixel[1], highest) && red == level_of(pixel[2], highest);
     });
 }
 
@@ -119,7 +113,7 @@ void Encoder::fill_row(std::int64_t y) {
         for (std::size_t channel = 0; channel < channels_; ++channel) {
             // What is transparent is white, for those who do not look at alpha.
             const unsigned value = channel == colours ? (is_seen ? highest : 0)
-                                   : is_seen          ? level(pixel[channel], highest)
+                                   : is_seen          ? level_of(pixel[channel], highest)
                                                       : highest;
             if (depth_ == 16) *out++ = static_cast<png_byte>(value >> 8);
             *out++ = static_cast<png_byte>(value & 0xffU);

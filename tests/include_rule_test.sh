@@ -3,7 +3,7 @@
 set -u
 cd "${SOURCE:-$(dirname "${BASH_SOURCE[0]}")/..}" || exit 1
 
-rooms='core ir lang jit solvers picture measure surface render run app'
+rooms='core ir lang jit solvers picture measure surface render export run app'
 declare -A may=(
     [core]='core'
     [ir]='ir core'
@@ -14,7 +14,8 @@ declare -A may=(
     [measure]='measure core'
     [surface]='surface core'
     [render]='render picture core'
-    [run]='run render surface measure picture solvers jit lang ir core cascade'
+    [export]='export surface picture core'
+    [run]='run export render surface measure picture solvers jit lang ir core cascade'
     [app]='app run picture measure lang core'
 )
 

@@ -1,0 +1,64 @@
+#include "export/model_writer.h"
+
+#include "core/check.h"
+#include "core/file.h"
+#include "export/glb.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <new>
+
+namespace cascade {
+
+namespace {
+
+std::string ending_of(const std::filesystem::path& path) {
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
+}
+
+Result<std::string> encode(const std::string& ending, const SurfaceMesh& mesh,
+                           const PointResults& results) {
+    if (ending == ".ply") return encode_ply(mesh, results);
+    if (ending == ".obj") return encode_obj(mesh, results);
+    if (ending == ".vtp") return encode_vtp(mesh, results);
+    GlbLook look;
+    look.colours = results.colours;
+    return encode_glb(mesh, look);
+}
+
+}  // namespace
+
+bool is_model_ending(const std::filesystem::path& path) {
+    const std::string ending = ending_of(path);
+    return ending == ".ply" || ending == ".obj" || ending == ".glb" || ending == ".vtp";
+}
+
+Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& mesh,
+                         const PointResults& results) {
+    CHECK(results.colours.empty() || results.colours.size() == mesh.points.size(),
+          "there is a colour for each point");
+    for (const Channel& channel : results.channels) {
+        CHECK(channel.values.size() == mesh.points.size(), "a channel has a number for each point");
+    }
+    if (!is_model_ending(path)) {
+        return failure(fmt::format("cannot write '{}': a model's name ends in .ply, .obj, .glb or "
+                                   ".vtp",
+                                   path.string()));
+    }
+    try {
+        const Result<std::string> bytes = encode(ending_of(path), mesh, results);
+        if (bytes) return write_file(path, *bytes);
+        return failure(fmt::format("cannot write '{}': {}", path.string(), bytes.error().message),
+                       bytes.error().hint);
+    } catch (const std::bad_alloc&) {
+        return failure(fmt::format("cannot write '{}': there is not enough memory", path.string()));
+    }
+}
+
+}  // namespace cascade

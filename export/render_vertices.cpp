@@ -1,0 +1,110 @@
+#include "export/render_vertices.h"
+
+#include "surface/flat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace cascade {
+
+namespace {
+
+TexturePlace finite(TexturePlace place) {
+    for (float& number : place) {
+        if (!std::isfinite(number)) number = 0;
+        number += 0.0F;  // −0 becomes 0.
+    }
+    return place;
+}
+
+/// How a triangle lies in the texture.
+struct TriangleTangent {
+    Vector3d direction;  ///< In which the first coordinate grows; zero where it has no area there.
+    int side = 1;
+};
+
+TriangleTangent tangent_of(const SurfaceMesh& mesh, std::size_t t) {
+    const auto step = [&](std::size_t k) {
+        const TexturePlace a = finite(mesh.texture[t][0]), b = finite(mesh.texture[t][k]);
+        return Vector2d{static_cast<double>(b[0]) - static_cast<double>(a[0]),
+                        static_cast<double>(b[1]) - static_cast<double>(a[1])};
+    };
+    const Vector2d first = step(1), second = step(2);
+    const double area = cross(first, second);
+    if (area == 0 || !std::isfinite(area)) return {};
+    const Vector3d a = mesh.corner(t, 0);
+    const Vector3d along = (mesh.corner(t, 1) - a) * second.y - (mesh.corner(t, 2) - a) * first.y;
+    return {unit(along * (area > 0 ? 1.0 : -1.0)), area > 0 ? 1 : -1};
+}
+
+double angle_at(const SurfaceMesh& mesh, std::size_t t, std::size_t k) {
+    const Vector3d here = mesh.corner(t, k);
+    const Vector3d a = unit(mesh.corner(t, (k + 1) % 3) - here);
+    const Vector3d b = unit(mesh.corner(t, (k + 2) % 3) - here);
+    return std::atan2(length(cross(a, b)), dot(a, b));
+}
+
+/// What is left of a vector at right angles to a normal, of length 1; zero where nothing is.
+Vector3d across(Vector3d vector, Vector3d normal) {
+    const Vector3d left = vector - normal * dot(vector, normal);
+    return length(left) > 1e-6 ? unit(left) : Vector3d{};
+}
+
+/// Some direction at right angles to a normal.
+Vector3d any_across(Vector3d normal) {
+    return across(std::abs(normal.x) < 0.9 ? Vector3d{1, 0, 0} : Vector3d{0, 1, 0}, normal);
+}
+
+}  // namespace
+
+RenderVertices render_vertices(const SurfaceMesh& mesh, const std::vector<Vector3d>& normals) {
+    RenderVertices result;
+    if (mesh.texture.empty()) {
+        for (std::uint32_t p = 0; p < mesh.points.size(); ++p) result.points.push_back(p);
+        result.triangles = mesh.triangles;
+        return result;
+    }
+    struct Corner {
+        std::uint32_t point;
+        int side;
+        TexturePlace place;
+        std::uint32_t number;
+        auto vertex() const { return std::tie(point, side, place); }
+    };
+    std::vector<Corner> corners;
+    std::vector<TriangleTangent> tangents;
+    corners.reserve(3 * mesh.triangles.size());
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        tangents.push_back(tangent_of(mesh, t));
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            corners.push_back({mesh.triangles[t][k], tangents[t].side, finite(mesh.texture[t][k]),
+                               3 * t + k});
+        }
+    }
+    std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+        return a.vertex() != b.vertex() ? a.vertex() < b.vertex() : a.number < b.number;
+    });
+    result.triangles.resize(mesh.triangles.size());
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+        const Corner& corner = corners[c];
+        if (c == 0 || corners[c - 1].vertex() != corner.vertex()) {
+            result.points.push_back(corner.point);
+            result.texture.push_back(corner.place);
+            result.tangents.push_back({{}, corner.side});
+        }
+        const std::uint32_t t = corner.number / 3, k = corner.number % 3;
+        result.triangles[t][k] = static_cast<std::uint32_t>(result.points.size() - 1);
+        Vector3d& sum = result.tangents.back().direction;
+        sum = sum + across(tangents[t].direction, normals[corner.point]) * angle_at(mesh, t, k);
+    }
+    for (std::size_t v = 0; v < result.points.size(); ++v) {
+        const Vector3d normal = normals[result.points[v]];
+        Vector3d& direction = result.tangents[v].direction;
+        direction = across(direction, normal);
+        if (length(direction) == 0) direction = any_across(normal);
+    }
+    return result;
+}
+
+}  // namespace cascade
