@@ -22,8 +22,8 @@ float to_light(float stored) {
 
 float to_stored(float light) {
     if (!(light > 0)) return 0;
-    const float clamped = std::min(light, 1.0F);
-    return clamped <= 0.0031308F ? clamped * 12.92F : 1.055F * power(clamped, 1 / 2.4) - 0.055F;
+    if (light >= 1) return 1;
+    return light <= 0.0031308F ? light * 12.92F : 1.055F * power(light, 1 / 2.4) - 0.055F;
 }
 
 unsigned level_of(float value, unsigned highest) {

@@ -9,7 +9,7 @@ namespace cascade {
 /// above. The same on every processor.
 float to_light(float stored);
 
-/// The number that stands for an amount of light, clamped to 0 … 1; NaN becomes 0.
+/// The number that stands for an amount of light, clamped to 0 … 1, both of which stay; NaN becomes 0.
 float to_stored(float light);
 
 /// A number as one of the levels 0 … `highest` of a file, rounded to the nearest one and clamped; NaN

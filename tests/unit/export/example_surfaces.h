@@ -41,7 +41,7 @@ inline SurfaceMesh flat_square(std::uint32_t n) {
 
 /// The unit sphere as `rows` bands of 2 · rows quadrilaterals, longitude and latitude its texture
 /// coordinates, with a seam at longitude 0.
-inline SurfaceMesh sphere(std::uint32_t rows) {
+inline SurfaceMesh sphere_with_texture(std::uint32_t rows) {
     PolygonSoup soup;
     const std::uint32_t columns = 2 * rows;
     const auto place = [&](std::uint32_t i, std::uint32_t j) {

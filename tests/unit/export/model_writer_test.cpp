@@ -4,7 +4,7 @@
 #include "picture/light.h"
 #include "surface/model_file.h"
 #include "surface/point_normals.h"
-#include "tests/unit/export/example_surfaces.h"
+#include "unit/export/example_surfaces.h"
 
 #include <cstring>
 #include <filesystem>
@@ -19,7 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 using test::flat_square;
 using test::place_colours;
-using test::sphere;
+using test::sphere_with_texture;
 using test::x_channel;
 
 SurfaceMesh read_back(const Result<PolygonSoup>& soup) {
@@ -56,7 +56,7 @@ const PointAttribute& attribute(const SurfaceMesh& mesh, const std::string& name
 }
 
 TEST(ModelWriter, PlyIsReadBackExactly) {
-    const SurfaceMesh mesh = sphere(12);
+    const SurfaceMesh mesh = sphere_with_texture(12);
     const std::vector<Colour> colours = place_colours(mesh);
     const Channel channels[] = {x_channel(mesh), {"a b", x_channel(mesh).values},
                                 {"u", x_channel(mesh).values}};
@@ -81,7 +81,7 @@ TEST(ModelWriter, PlyOfSinglePlacesIsSmaller) {
 }
 
 TEST(ModelWriter, ObjIsReadBackExactly) {
-    const SurfaceMesh mesh = sphere(10);
+    const SurfaceMesh mesh = sphere_with_texture(10);
     const std::vector<Colour> colours = place_colours(mesh);
     const std::string text = encode_obj(mesh, {colours, {}});
     const SurfaceMesh read = read_back(read_by_openmesh(text, "obj"));
@@ -94,7 +94,7 @@ TEST(ModelWriter, ObjIsReadBackExactly) {
 }
 
 TEST(ModelWriter, GlbIsReadBack) {
-    const SurfaceMesh mesh = sphere(11);
+    const SurfaceMesh mesh = sphere_with_texture(11);
     const std::vector<Colour> colours = place_colours(mesh);
     GlbLook look;
     look.colours = colours;
@@ -128,7 +128,7 @@ TEST(ModelWriter, GlbKeepsPlacesFarFromTheOriginApart) {
 
 TEST(ModelWriter, GlbOfABoundaryIsSeenFromBothSides) {
     EXPECT_TRUE(json_of(*encode_glb(flat_square(2), {}))["materials"][0].contains("doubleSided"));
-    EXPECT_FALSE(json_of(*encode_glb(sphere(6), {}))["materials"][0].contains("doubleSided"));
+    EXPECT_FALSE(json_of(*encode_glb(sphere_with_texture(6), {}))["materials"][0].contains("doubleSided"));
 }
 
 TEST(ModelWriter, GlbRefusesWhatBinary32DoesNotHold) {
@@ -175,7 +175,7 @@ TEST(ModelWriter, WritesByTheEnding) {
     const std::filesystem::path folder =
         std::filesystem::path(::testing::TempDir()) / "cascade_model_writer";
     std::filesystem::create_directories(folder);
-    const SurfaceMesh mesh = sphere(4);
+    const SurfaceMesh mesh = sphere_with_texture(4);
     for (const char* name : {"a.ply", "a.OBJ", "a.glb"}) {
         ASSERT_TRUE(write_model(folder / name, mesh, {}).has_value());
         expect_same(read_back(read_model(folder / name)), mesh, 2e-7);

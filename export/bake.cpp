@@ -1,0 +1,315 @@
+#include "export/bake.h"
+
+#include "core/check.h"
+#include "export/fill_gaps.h"
+#include "export/render_vertices.h"
+#include "export/texture_layout.h"
+#include "picture/light.h"
+#include "surface/point_normals.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <numeric>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::int64_t rows_of_band = 16;   ///< Texels; what one thread does at a time.
+constexpr double most_covered_area = 64;    ///< More is a picture that is repeated all over the model.
+
+/// What one thread needs, made before it runs.
+struct Scratch {
+    std::vector<std::uint32_t> owners;
+    std::vector<SurfacePlace> places;       ///< Of the samples of one row of texels.
+    std::vector<float> values;
+    std::vector<Colour> colours;
+    std::vector<std::uint32_t> columns;     ///< The texel of each sample.
+    std::vector<CellShare> shares;
+    std::vector<SlopedShare> slopes;
+    std::int64_t covered = 0, again = 0;    ///< Samples.
+};
+
+class TextureBaker {
+public:
+    TextureBaker(const SurfaceMesh& mesh, const CellFilter& filter, const BakeSource& source,
+                 const BakeOptions& options)
+        : mesh_(mesh), filter_(filter), source_(source), options_(options),
+          layout_(mesh, options.width * options.samples, options.height * options.samples),
+          normals_(point_normals(mesh)), vertices_(render_vertices(mesh, normals_)),
+          colour_(options.width, options.height),
+          relief_(source.height ? options.width : 0, source.height ? options.height : 0),
+          slopes_(relief_.width, relief_.height) {}
+
+    Result<Bake> run(Team& team, const std::atomic<bool>& cancel) {
+        if (layout_.covered_area() > most_covered_area) {
+            return failure(fmt::format("the model's texture coordinates cover the texture {:.0f} "
+                                       "times over",
+                                       layout_.covered_area()),
+                           "they are meant for a picture that repeats; give every part of the model "
+                           "a place of its own");
+        }
+        std::vector<Scratch> scratch(static_cast<std::size_t>(team.size()));
+        for (Scratch& own : scratch) prepare(own);
+        const std::int64_t bands = (options_.height + rows_of_band - 1) / rows_of_band;
+        std::atomic<std::int64_t> next = 0;
+        team.run([&](int index) {
+            Scratch& own = scratch[static_cast<std::size_t>(index)];
+            for (std::int64_t band = next++; band < bands && !cancel; band = next++) {
+                paint_band(band * rows_of_band,
+                           std::min((band + 1) * rows_of_band, options_.height), own);
+            }
+        });
+        std::int64_t covered = 0, again = 0;
+        for (const Scratch& own : scratch) {
+            covered += own.covered;
+            again += own.again;
+        }
+        if (covered == 0 && !cancel) {
+            return failure("the model's texture coordinates have no area in the texture",
+                           "give the model texture coordinates, or a larger texture");
+        }
+        return finish(covered, again);
+    }
+
+private:
+    std::int64_t samples() const { return options_.samples; }
+    std::size_t texel(std::int64_t x, std::int64_t y) const {
+        return static_cast<std::size_t>(y * options_.width + x);
+    }
+
+    void prepare(Scratch& own) const {
+        const auto row = static_cast<std::size_t>(layout_.width());
+        const auto deep = static_cast<std::size_t>(samples());
+        own.owners.resize(row * deep * static_cast<std::size_t>(rows_of_band));
+        own.places.reserve(row * deep);
+        own.columns.reserve(row * deep);
+        own.values.reserve(row * deep * source_.channels.size());
+        own.colours.resize(row * deep);
+    }
+
+    void paint_band(std::int64_t first, std::int64_t last, Scratch& own) {
+        const auto count = static_cast<std::size_t>((last - first) * samples() * layout_.width());
+        const std::span<std::uint32_t> owners(own.owners.data(), count);
+        own.again += layout_.find_owners(first * samples(), last * samples(), owners);
+        for (std::int64_t y = first; y < last; ++y) {
+            collect_row(y, owners.subspan(static_cast<std::size_t>((y - first) * samples() *
+                                                                   layout_.width())), own);
+            if (own.places.empty()) continue;
+            own.covered += static_cast<std::int64_t>(own.places.size());
+            paint_row(y, own);
+            if (source_.height) raise_row(y, own);
+        }
+    }
+
+    /// The samples of a row of texels on the surface, texel after texel.
+    void collect_row(std::int64_t y, std::span<const std::uint32_t> owners, Scratch& own) const {
+        own.places.clear();
+        own.columns.clear();
+        own.values.clear();
+        for (std::int64_t x = 0; x < options_.width; ++x) {
+            for (std::int64_t j = 0; j < samples(); ++j) {
+                for (std::int64_t i = x * samples(); i < (x + 1) * samples(); ++i) {
+                    const std::uint32_t owner =
+                        owners[static_cast<std::size_t>(j * layout_.width() + i)];
+                    if (owner == TextureLayout::nothing) continue;
+                    own.places.push_back(layout_.place_at(owner, i, y * samples() + j));
+                    own.columns.push_back(static_cast<std::uint32_t>(x));
+                }
+            }
+        }
+        for (const SurfacePlace& place : own.places) {
+            filter_.shares(place, own.shares);
+            for (const Channel& channel : source_.channels) {
+                float sum = 0;
+                for (const CellShare& share : own.shares) {
+                    sum += share.weight * channel.values[share.cell];
+                }
+                own.values.push_back(sum);
+            }
+        }
+    }
+
+    /// Calls `visit(x, first, last)` for each texel of a row and its samples.
+    template <typename Visit>
+    static void visit_texels(const Scratch& own, const Visit& visit) {
+        for (std::size_t first = 0; first < own.columns.size();) {
+            std::size_t last = first + 1;
+            while (last < own.columns.size() && own.columns[last] == own.columns[first]) ++last;
+            visit(static_cast<std::int64_t>(own.columns[first]), first, last);
+            first = last;
+        }
+    }
+
+    void paint_row(std::int64_t y, Scratch& own) {
+        const std::span<Colour> colours(own.colours.data(), own.places.size());
+        source_.paint(own.places, own.values, colours);
+        visit_texels(own, [&](std::int64_t x, std::size_t first, std::size_t last) {
+            Colour sum{};
+            for (std::size_t k = first; k < last; ++k) {
+                const Colour light = to_light(shown(colours[k]));
+                for (std::size_t c = 0; c < 3; ++c) sum[c] += light[c];
+            }
+            for (float& light : sum) light /= static_cast<float>(last - first);
+            colour_.texels[texel(x, y)] = sum;
+            colour_.is_filled[texel(x, y)] = 1;
+        });
+    }
+
+    void raise_row(std::int64_t y, Scratch& own) {
+        const std::size_t channels = source_.channels.size(), height = *source_.height;
+        visit_texels(own, [&](std::int64_t x, std::size_t first, std::size_t last) {
+            float sum = 0;
+            int count = 0;
+            for (std::size_t k = first; k < last; ++k) {
+                const float value = own.values[k * channels + height];
+                if (!std::isfinite(value)) continue;
+                sum += value;
+                ++count;
+            }
+            if (count == 0) return;
+            relief_.texels[texel(x, y)][0] = sum / static_cast<float>(count);
+            relief_.is_filled[texel(x, y)] = 1;
+            // That of the middle one stands for all.
+            const Vector3 normal = bumped_normal(own.places[(first + last) / 2], own.slopes);
+            if (!std::isfinite(normal.x + normal.y + normal.z)) return;
+            slopes_.texels[texel(x, y)] = {normal.x, normal.y, normal.z};
+            slopes_.is_filled[texel(x, y)] = 1;
+        });
+    }
+
+    /// The normal of the raised surface, relative to the tangent, the bitangent and the smooth normal: J.
+    /// Blinn, "Simulation of Wrinkled Surfaces" (SIGGRAPH 1978), for small heights.
+    Vector3 bumped_normal(const SurfacePlace& place, std::vector<SlopedShare>& shares) const {
+        filter_.sloped_shares(place, shares);
+        const std::vector<float>& heights = source_.channels[*source_.height].values;
+        Vector3 slope;
+        const float base = heights[shares[0].cell];  // So that equal heights are exactly level.
+        for (const SlopedShare& share : shares) {
+            slope = slope + share.slope * (heights[share.cell] - base);
+        }
+        const Vector3d rise = Vector3d{static_cast<double>(slope.x), static_cast<double>(slope.y),
+                                       static_cast<double>(slope.z)} * source_.bump;
+        const Vector3d normal = normal_at(mesh_, normals_, place);
+        Vector3d sum;
+        for (std::size_t k = 0; k < 3; ++k) {
+            sum = sum + vertices_.tangents[vertices_.triangles[place.triangle][k]].direction *
+                            place.weights[k];
+        }
+        const Vector3d tangent = unit(sum - normal * dot(sum, normal));
+        const int side = vertices_.tangents[vertices_.triangles[place.triangle][0]].side;
+        const Vector3d bitangent = cross(normal, tangent) * static_cast<double>(side);
+        const Vector3d bumped = unit(Vector3d{-dot(rise, tangent), -dot(rise, bitangent), 1});
+        return {static_cast<float>(bumped.x), static_cast<float>(bumped.y),
+                static_cast<float>(bumped.z)};
+    }
+
+    Bake finish(std::int64_t covered, std::int64_t again) {
+        Bake bake;
+        const auto all = static_cast<double>(layout_.width() * layout_.height());
+        bake.covered = static_cast<double>(covered) / all;
+        bake.overlapping =
+            static_cast<double>(again) / static_cast<double>(std::max(covered + again, std::int64_t{1}));
+        warn(bake);
+        fill_gaps(colour_);
+        for (Colour& texel : colour_.texels) texel = to_stored(texel);
+        bake.colour = image_of(std::move(colour_));
+        if (!source_.height) return bake;
+        finish_relief(bake);
+        fill_gaps(slopes_);
+        for (auto& texel : slopes_.texels) {
+            Vector3 normal = unit(Vector3{texel[0], texel[1], texel[2]});
+            if (length(normal) == 0) normal = {0, 0, 1};
+            texel = {0.5F + 0.5F * normal.x, 0.5F + 0.5F * normal.y, 0.5F + 0.5F * normal.z};
+        }
+        bake.normals = image_of(std::move(slopes_));
+        return bake;
+    }
+
+    void finish_relief(Bake& bake) {
+        bool has_height = false;
+        for (std::size_t k = 0; k < relief_.texels.size(); ++k) {
+            if (relief_.is_filled[k] == 0) continue;
+            const float height = relief_.texels[k][0];
+            bake.heights.low = has_height ? std::min(bake.heights.low, height) : height;
+            bake.heights.high = has_height ? std::max(bake.heights.high, height) : height;
+            has_height = true;
+        }
+        if (!has_height) bake.heights = {0, 0};
+        fill_gaps(relief_);
+        const double low = static_cast<double>(bake.heights.low);
+        const double range = static_cast<double>(bake.heights.high) - low;
+        for (auto& texel : relief_.texels) {
+            const double part = range > 0 ? (static_cast<double>(texel[0]) - low) / range : 0.5;
+            texel.fill(static_cast<float>(std::clamp(part, 0.0, 1.0)));
+        }
+        bake.relief = image_of(std::move(relief_));
+    }
+
+    static Image image_of(PartialTexture texture) {
+        Image image;
+        image.width = texture.width;
+        image.height = texture.height;
+        image.pixels = std::move(texture.texels);
+        return image;
+    }
+
+    void warn(Bake& bake) const {
+        const auto triangles = [](std::size_t count) {
+            return fmt::format("{} triangle{}", count, count == 1 ? "" : "s");
+        };
+        if (bake.overlapping >= 5e-4) {
+            bake.warnings.push_back(fmt::format(
+                "{:.1f} % of the model lies over other parts of it in the texture and shows their "
+                "pattern",
+                100 * bake.overlapping));
+        }
+        if (layout_.skipped().without_area > 0) {
+            bake.warnings.push_back(triangles(layout_.skipped().without_area) +
+                                    " without area in the texture left out");
+        }
+        if (layout_.skipped().without_place > 0) {
+            bake.warnings.push_back(
+                fmt::format("{} with texture coordinates that are not finite or beyond ±{} left out",
+                            triangles(layout_.skipped().without_place),
+                            TextureLayout::largest_place));
+        }
+    }
+
+    const SurfaceMesh& mesh_;
+    const CellFilter& filter_;
+    const BakeSource& source_;
+    const BakeOptions& options_;
+    TextureLayout layout_;
+    std::vector<Vector3d> normals_;
+    RenderVertices vertices_;
+    PartialTexture colour_, relief_, slopes_;
+};
+
+}  // namespace
+
+Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const BakeSource& source,
+                  const BakeOptions& options, Team& team, const std::atomic<bool>& cancel) {
+    const auto is_side = [](std::int64_t side) {
+        return side >= 1 && side <= BakeOptions::largest_texture;
+    };
+    CHECK(is_side(options.width) && is_side(options.height) && options.samples >= 1 &&
+              options.samples <= 8,
+          "the size of a texture is checked where it is given");
+    CHECK(!source.height || *source.height < source.channels.size(), "the height is a channel");
+    if (mesh.texture.empty()) {
+        return failure("the model has no texture coordinates to paint by",
+                       "give it some in a modeller, or write colours of its points");
+    }
+    try {
+        return TextureBaker(mesh, filter, source, options).run(team, cancel);
+    } catch (const std::bad_alloc&) {
+        return failure(fmt::format("there is not enough memory for a texture of {} × {}",
+                                   options.width, options.height));
+    }
+}
+
+}  // namespace cascade

@@ -1,0 +1,70 @@
+// Baking: what grew on a surface painted into a picture that other programs lay over the model by its
+// texture coordinates.
+#pragma once
+
+#include "core/parallel.h"
+#include "core/result.h"
+#include "export/channels.h"
+#include "picture/image.h"
+#include "surface/cell_filter.h"
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// Colours (sRGB) of places, one for each. `values` are the filtered channels there, all of the first place
+/// first. Called from several threads at once; must not throw.
+using PaintPlaces = std::function<void(std::span<const SurfacePlace> places,
+                                       std::span<const float> values, std::span<Colour> colours)>;
+
+/// What is painted: channels of the cells, and how they are seen.
+struct BakeSource {
+    std::span<const Channel> channels;      ///< One number per cell each.
+    PaintPlaces paint;
+    std::optional<std::size_t> height;      ///< The channel that is the height.
+    double bump = 0;                        ///< What 1 of it is, in units of the model; below 0: inwards.
+};
+
+struct BakeOptions {
+    std::int64_t width = 1024, height = 1024;  ///< Texels, 1 … largest_texture.
+    int samples = 2;                           ///< samples × samples in each texel, 1 … 8.
+    static constexpr std::int64_t largest_texture = 8192;
+};
+
+struct Bake {
+    Image colour;
+    /// Grey, 0 the smallest and 1 the largest height of a texel; empty without a channel of heights.
+    Image relief;
+    ValueRange heights;
+    /// Directions relative to the tangents of render_vertices(), −1 … 1 as 0 … 1, y upwards; empty likewise.
+    Image normals;
+    double covered = 0;       ///< Part of the samples that lie on the surface.
+    double overlapping = 0;   ///< Part of the surface in the texture that lies behind another part.
+    std::vector<std::string> warnings;  ///< A sentence each.
+};
+
+/// Paints every texel with the mean, as amounts of light, over its samples on the surface, and all others by
+/// going on from those. Texture coordinates beyond 0 … 1 repeat the picture. Heights that are not finite are
+/// taken from around. The same on any number of threads. Fails, with a hint, on a model without texture
+/// coordinates and on coordinates that are of no use, and where memory is short; gives what means nothing if
+/// `cancel` became true.
+Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const BakeSource& source,
+                  const BakeOptions& options, Team& team, const std::atomic<bool>& cancel);
+
+/// The files that write_baked makes: the model itself, then NAME_color.png and, with heights,
+/// NAME_height.png (16 bits) and NAME_normal.png beside it.
+std::vector<std::filesystem::path> baked_paths(const std::filesystem::path& glb, bool has_heights);
+
+/// Writes a GLB file of the model with the maps inside, and the maps as PNG files with these texts. Each file
+/// is written atomically.
+Result<void> write_baked(const std::filesystem::path& glb, const SurfaceMesh& mesh, const Bake& bake,
+                         const PngTexts& texts);
+
+}  // namespace cascade

@@ -1,0 +1,79 @@
+// Baked maps as files.
+#include "core/file.h"
+#include "export/bake.h"
+#include "export/glb.h"
+
+#include <fmt/format.h>
+
+#include <new>
+
+namespace cascade {
+
+namespace {
+
+struct Maps {
+    std::string colour, relief, normals;  ///< PNG files.
+};
+
+Result<Maps> encode_maps(const Bake& bake, const PngTexts& texts) {
+    Maps maps;
+    struct Map {
+        const Image& image;
+        PngDepth depth;
+        std::string& bytes;
+    };
+    for (const auto& [image, depth, bytes] :
+         {Map{bake.colour, PngDepth::eight, maps.colour},
+          Map{bake.relief, PngDepth::sixteen, maps.relief},
+          Map{bake.normals, PngDepth::eight, maps.normals}}) {
+        if (image.pixels.empty()) continue;
+        Result<std::string> encoded = encode_png(image, depth, texts);
+        if (!encoded) return tl::unexpected(encoded.error());
+        bytes = std::move(*encoded);
+    }
+    return maps;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> baked_paths(const std::filesystem::path& glb, bool has_heights) {
+    std::vector<std::filesystem::path> paths = {glb};
+    const auto add = [&](std::string_view map) {
+        std::filesystem::path name = glb.stem();
+        name += map;
+        paths.push_back(glb.parent_path() / name);
+    };
+    add("_color.png");
+    if (has_heights) {
+        add("_height.png");
+        add("_normal.png");
+    }
+    return paths;
+}
+
+Result<void> write_baked(const std::filesystem::path& glb, const SurfaceMesh& mesh,
+                         const Bake& bake, const PngTexts& texts) {
+    const auto in_file = [&](const Failure& why) {
+        return failure(fmt::format("cannot write '{}': {}", glb.string(), why.message), why.hint);
+    };
+    try {
+        const Result<Maps> maps = encode_maps(bake, texts);
+        if (!maps) return in_file(maps.error());
+        GlbLook look;
+        look.colour_map = maps->colour;
+        look.normal_map = maps->normals;
+        const Result<std::string> model = encode_glb(mesh, look);
+        if (!model) return in_file(model.error());
+        const auto paths = baked_paths(glb, !maps->relief.empty());
+        const std::array<const std::string*, 4> files = {&*model, &maps->colour, &maps->relief,
+                                                         &maps->normals};
+        for (std::size_t k = 0; k < paths.size(); ++k) {
+            if (Result<void> written = write_file(paths[k], *files[k]); !written) return written;
+        }
+        return {};
+    } catch (const std::bad_alloc&) {
+        return failure(fmt::format("cannot write '{}': there is not enough memory", glb.string()));
+    }
+}
+
+}  // namespace cascade

@@ -1,0 +1,398 @@
+// Textures baked from cells: what is in which texel.
+#include "export/bake.h"
+#include "export/fill_gaps.h"
+#include "export/glb.h"
+#include "export/texture_layout.h"
+#include "picture/light.h"
+#include "surface/model_file.h"
+#include "unit/export/example_surfaces.h"
+#include "unit/surface/surfaces.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <limits>
+#include <numbers>
+
+namespace cascade {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using test::flat_square;
+using test::never;
+
+/// A value in each cell by where it is.
+template <typename Function>
+Channel channel_of(const SurfaceMesh& mesh, const SurfaceCells& cells, const Function& function) {
+    Channel channel{"u", {}};
+    for (const SurfacePlace& place : cells.places) {
+        channel.values.push_back(static_cast<float>(function(position_of(mesh, place))));
+    }
+    return channel;
+}
+
+/// Grey as bright as the first channel.
+void paint_grey(std::span<const SurfacePlace>, std::span<const float> values,
+                std::span<Colour> colours) {
+    for (std::size_t k = 0; k < colours.size(); ++k) {
+        colours[k].fill(values[k * (values.size() / colours.size())]);
+    }
+}
+
+Bake baked(const SurfaceMesh& mesh, const SurfaceCells& cells, const BakeSource& source,
+           const BakeOptions& options, int threads = 2) {
+    Team team(threads);
+    const CellFilter filter(mesh, cells, team);
+    Result<Bake> result = bake(mesh, filter, source, options, team, never);
+    EXPECT_TRUE(result.has_value()) << result.error().message;
+    return std::move(*result);
+}
+
+BakeOptions size_of_texture(std::int64_t width, std::int64_t height, int samples = 2) {
+    BakeOptions options;
+    options.width = width;
+    options.height = height;
+    options.samples = samples;
+    return options;
+}
+
+TEST(TextureLayout, EverySampleOfASquareHasOneTriangle) {
+    for (const std::uint32_t n : {1u, 3u, 8u}) {
+        const SurfaceMesh mesh = flat_square(n);
+        const TextureLayout layout(mesh, 24, 16);
+        std::vector<std::uint32_t> owners(24 * 16);
+        EXPECT_EQ(layout.find_owners(0, 16, owners), 0);
+        EXPECT_EQ(std::count(owners.begin(), owners.end(), TextureLayout::nothing), 0);
+        EXPECT_NEAR(layout.covered_area(), 1, 1e-6);
+        for (std::int64_t row = 0; row < 16; ++row) {
+            for (std::int64_t column = 0; column < 24; ++column) {
+                const SurfacePlace place = layout.place_at(
+                    owners[static_cast<std::size_t>(row * 24 + column)], column, row);
+                const Vector3d p = position_of(mesh, place);
+                EXPECT_NEAR(p.x, (static_cast<double>(column) + 0.5) / 24, 1e-6);
+                EXPECT_NEAR(p.y, 1 - (static_cast<double>(row) + 0.5) / 16, 1e-6);
+            }
+        }
+    }
+}
+
+TEST(TextureLayout, RepeatsBeyondItsSides) {
+    SurfaceMesh mesh = flat_square(4);
+    for (auto& corners : mesh.texture) {
+        for (TexturePlace& place : corners) place = {place[0] - 7.25F, place[1] + 2.5F};
+    }
+    const TextureLayout layout(mesh, 16, 8);
+    std::vector<std::uint32_t> owners(16 * 8);
+    EXPECT_EQ(layout.find_owners(0, 8, owners), 0);
+    EXPECT_EQ(std::count(owners.begin(), owners.end(), TextureLayout::nothing), 0);
+    const Vector3d p = position_of(mesh, layout.place_at(owners[0], 0, 0));
+    EXPECT_NEAR(p.x, 0.25 + 0.5 / 16, 1e-6);
+    EXPECT_NEAR(p.y, 0.5 - 0.5 / 8, 1e-6);
+}
+
+TEST(TextureLayout, SkipsWhatHasNoArea) {
+    SurfaceMesh mesh = flat_square(2);
+    mesh.texture[0].fill({0.5F, 0.5F});
+    mesh.texture[1][2][0] = std::numeric_limits<float>::quiet_NaN();
+    mesh.texture[2][0][1] = 1e30F;
+    const TextureLayout layout(mesh, 8, 8);
+    EXPECT_EQ(layout.skipped().without_area, 1u);
+    EXPECT_EQ(layout.skipped().without_place, 2u);
+}
+
+TEST(FillGaps, GoesOnFromWhatIsThere) {
+    PartialTexture texture(13, 7);
+    texture.texels[30] = {2, 3, 4};
+    texture.is_filled[30] = 1;
+    fill_gaps(texture);
+    for (const auto& texel : texture.texels) EXPECT_THAT(texel, ElementsAre(2, 3, 4));
+
+    PartialTexture halves(32, 32);
+    for (std::size_t k = 0; k < halves.texels.size(); ++k) {
+        const std::size_t x = k % 32;
+        if (x >= 4 && x < 8) halves.texels[k] = {1, 0, 0};
+        if ((x >= 4 && x < 8) || (x >= 20 && x < 24)) halves.is_filled[k] = 1;
+    }
+    fill_gaps(halves);
+    for (std::size_t y = 0; y < 32; ++y) {
+        EXPECT_GT(halves.texels[y * 32 + 8][0], 0.8F);
+        EXPECT_GT(halves.texels[y * 32 + 3][0], 0.8F);
+        EXPECT_LT(halves.texels[y * 32 + 19][0], 0.2F);
+        for (std::size_t x = 0; x < 32; ++x) {
+            EXPECT_GE(halves.texels[y * 32 + x][0], 0);
+            EXPECT_LE(halves.texels[y * 32 + x][0], 1);
+        }
+    }
+
+    PartialTexture nothing(5, 5);
+    fill_gaps(nothing);
+    EXPECT_THAT(nothing.texels[7], ElementsAre(0, 0, 0));
+}
+
+TEST(Bake, TexelsOfASquareAreWhatThePlacesSay) {
+    const SurfaceMesh mesh = flat_square(3);
+    const SurfaceCells cells = test::cells_of(mesh, 500);
+    const Channel channels[] = {channel_of(mesh, cells, [](Vector3d) { return 0; })};
+    BakeSource source;
+    source.channels = channels;
+    // A colour for each quarter of each texel: the mean is one of light.
+    source.paint = [&](std::span<const SurfacePlace> places, std::span<const float>,
+                       std::span<Colour> colours) {
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            const Vector3d p = position_of(mesh, places[k]);
+            const bool is_left = p.x * 16 - std::floor(p.x * 16) < 0.5;
+            colours[k] = {static_cast<float>(p.x), static_cast<float>(p.y), is_left ? 1.0F : 0.0F};
+        }
+    };
+    const Bake result = baked(mesh, cells, source, size_of_texture(16, 16));
+    EXPECT_THAT(result.warnings, IsEmpty());
+    EXPECT_EQ(result.covered, 1);
+    EXPECT_EQ(result.overlapping, 0);
+    EXPECT_THAT(result.relief.pixels, IsEmpty());
+    for (std::int64_t y = 0; y < 16; ++y) {
+        for (std::int64_t x = 0; x < 16; ++x) {
+            const Colour& texel = result.colour.at(x, y);
+            const auto light = [](double place) {
+                return (to_light(static_cast<float>(place - 0.25 / 16)) +
+                        to_light(static_cast<float>(place + 0.25 / 16))) / 2;
+            };
+            EXPECT_NEAR(to_light(texel[0]), light((static_cast<double>(x) + 0.5) / 16), 1e-5F);
+            EXPECT_NEAR(to_light(texel[1]), light(1 - (static_cast<double>(y) + 0.5) / 16), 1e-5F);
+            EXPECT_NEAR(to_light(texel[2]), 0.5F, 1e-5F);
+        }
+    }
+}
+
+TEST(Bake, ConstantsStayAndLinearFunctionsNearly) {
+    const SurfaceMesh mesh = flat_square(5);
+    const SurfaceCells cells = test::cells_of(mesh, 3000);
+    const Channel channels[] = {channel_of(mesh, cells, [](Vector3d p) { return p.x; }),
+                                channel_of(mesh, cells, [](Vector3d) { return 0.1; })};
+    BakeSource source;
+    source.channels = channels;
+    source.paint = [](std::span<const SurfacePlace>, std::span<const float> values,
+                      std::span<Colour> colours) {
+        for (std::size_t k = 0; k < colours.size(); ++k) {
+            colours[k] = {values[2 * k], values[2 * k + 1], 0};
+        }
+    };
+    const Bake result = baked(mesh, cells, source, size_of_texture(64, 64));
+    for (std::int64_t x = 8; x < 56; ++x) {
+        EXPECT_NEAR(result.colour.at(x, 32)[0], (static_cast<double>(x) + 0.5) / 64, 0.012);
+        EXPECT_NEAR(result.colour.at(x, 32)[1], 0.1F, 1e-5F);
+    }
+}
+
+/// The sphere with a pattern that does not know of the seam.
+struct BakedSphere {
+    SurfaceMesh mesh = test::sphere_with_texture(24);
+    SurfaceCells cells = test::cells_of(mesh, 4000);
+    Channel channels[1] = {channel_of(mesh, cells, [](Vector3d p) {
+        return 0.5 + 0.4 * std::sin(5 * p.x) * std::cos(4 * p.y + 3 * p.z);
+    })};
+    BakeSource source;
+    BakedSphere() {
+        source.channels = channels;
+        source.paint = paint_grey;
+        source.height = 0;
+        source.bump = 0.05;
+    }
+};
+
+TEST(Bake, BothSidesOfASeamAgree) {
+    const BakedSphere sphere;
+    const Bake result = baked(sphere.mesh, sphere.cells, sphere.source, size_of_texture(256, 128));
+    double largest = 0, steps = 0;
+    for (std::int64_t y = 8; y < 120; ++y) {
+        const auto step = [&](std::int64_t x) {
+            return std::abs(static_cast<double>(result.colour.at(x, y)[0]) -
+                            static_cast<double>(result.colour.at((x + 1) % 256, y)[0]));
+        };
+        largest = std::max(largest, step(255));
+        for (std::int64_t x = 0; x < 255; ++x) steps = std::max(steps, step(x));
+    }
+    EXPECT_LE(largest, steps);
+    EXPECT_GT(steps, 0.005);
+}
+
+TEST(Bake, TheMeanColourIsThatOfTheCells) {
+    const BakedSphere sphere;
+    const Bake result = baked(sphere.mesh, sphere.cells, sphere.source, size_of_texture(256, 128));
+    double sum = 0, weights = 0, cells = 0, areas = 0;
+    for (std::int64_t y = 0; y < 128; ++y) {
+        const double weight = std::sin(std::numbers::pi * (static_cast<double>(y) + 0.5) / 128);
+        for (std::int64_t x = 0; x < 256; ++x) {
+            sum += weight * static_cast<double>(result.colour.at(x, y)[0]);
+            weights += weight;
+        }
+    }
+    for (std::size_t k = 0; k < sphere.cells.places.size(); ++k) {
+        cells += sphere.cells.areas[k] * static_cast<double>(sphere.channels[0].values[k]);
+        areas += sphere.cells.areas[k];
+    }
+    EXPECT_NEAR(sum / weights, cells / areas, 0.002);
+    EXPECT_NEAR(result.covered, 1 - 1.0 / 24, 0.002);  // Beside each triangle at a pole it is empty.
+}
+
+TEST(Bake, TheSameOnAnyNumberOfThreads) {
+    const BakedSphere sphere;
+    const Bake one = baked(sphere.mesh, sphere.cells, sphere.source, size_of_texture(97, 61, 3), 1);
+    const Bake three = baked(sphere.mesh, sphere.cells, sphere.source, size_of_texture(97, 61, 3), 3);
+    EXPECT_EQ(one.colour.pixels, three.colour.pixels);
+    EXPECT_EQ(one.relief.pixels, three.relief.pixels);
+    EXPECT_EQ(one.normals.pixels, three.normals.pixels);
+    EXPECT_EQ(one.covered, three.covered);
+}
+
+TEST(Bake, NormalsLeanAwayFromWhatRises) {
+    SurfaceMesh mesh = flat_square(4);
+    const SurfaceCells cells = test::cells_of(mesh, 4000);
+    const Channel channels[] = {
+        channel_of(mesh, cells, [](Vector3d p) { return 3 * p.x - 2 * p.y; })};
+    BakeSource source;
+    source.channels = channels;
+    source.paint = paint_grey;
+    source.height = 0;
+    source.bump = 0.1;
+    const auto middle = [&] {
+        const Bake result = baked(mesh, cells, source, size_of_texture(64, 64));
+        Vector3d sum;
+        for (std::int64_t y = 24; y < 40; ++y) {
+            for (std::int64_t x = 24; x < 40; ++x) {
+                const Colour& texel = result.normals.at(x, y);
+                sum = sum + Vector3d{2.0 * texel[0] - 1, 2.0 * texel[1] - 1, 2.0 * texel[2] - 1};
+            }
+        }
+        return unit(sum);
+    };
+    const Vector3d wanted = unit(Vector3d{-0.3, 0.2, 1});
+    EXPECT_LT(length(middle() - wanted), 0.02);
+    // Mirrored in the texture, the first direction is the other way.
+    for (auto& corners : mesh.texture) {
+        for (TexturePlace& place : corners) place[0] = 1 - place[0];
+    }
+    EXPECT_LT(length(middle() - Vector3d{-wanted.x, wanted.y, wanted.z}), 0.02);
+    // A quarter turn: u is y and v is −x.
+    mesh = flat_square(4);
+    for (auto& corners : mesh.texture) {
+        for (TexturePlace& place : corners) place = {place[1], 1 - place[0]};
+    }
+    EXPECT_LT(length(middle() - Vector3d{wanted.y, -wanted.x, wanted.z}), 0.02);
+}
+
+TEST(Bake, LevelGroundIsLevelAndNaNIsTakenFromAround) {
+    const SurfaceMesh mesh = flat_square(2);
+    const SurfaceCells cells = test::cells_of(mesh, 400);
+    Channel channels[] = {channel_of(mesh, cells, [](Vector3d) { return 1e6 / 3; })};
+    BakeSource source;
+    source.channels = channels;
+    source.paint = paint_grey;
+    source.height = 0;
+    source.bump = 1;
+    const Bake level = baked(mesh, cells, source, size_of_texture(32, 32));
+    for (const Colour& texel : level.normals.pixels) EXPECT_THAT(texel, ElementsAre(0.5F, 0.5F, 1));
+    for (std::size_t k = 0; k < 40; ++k) {
+        channels[0].values[k * 10] = k % 2 == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                                : std::numeric_limits<float>::infinity();
+    }
+    const Bake holes = baked(mesh, cells, source, size_of_texture(32, 32));
+    for (const Colour& texel : holes.normals.pixels) EXPECT_NEAR(texel[2], 1, 1e-6F);
+    for (const Colour& texel : holes.relief.pixels) {
+        EXPECT_GE(texel[0], 0);
+        EXPECT_LE(texel[0], 1);
+    }
+    EXPECT_NEAR(holes.heights.low, 1e6F / 3, 1);
+    EXPECT_EQ(holes.colour.at(0, 0).size(), 3u);
+    std::fill(channels[0].values.begin(), channels[0].values.end(),
+              std::numeric_limits<float>::quiet_NaN());
+    const Bake nothing = baked(mesh, cells, source, size_of_texture(8, 8));
+    EXPECT_EQ(nothing.heights.high, 0);
+    for (const Colour& texel : nothing.normals.pixels) EXPECT_THAT(texel, ElementsAre(0.5F, 0.5F, 1));
+    for (const Colour& texel : nothing.colour.pixels) EXPECT_THAT(texel, ElementsAre(1, 0, 1));
+}
+
+TEST(Bake, MarginsGoOnFromThePartsOfTheModel) {
+    SurfaceMesh mesh = flat_square(4);
+    for (auto& corners : mesh.texture) {
+        for (TexturePlace& place : corners) place = {0.25F + place[0] / 2, 0.25F + place[1] / 2};
+    }
+    const SurfaceCells cells = test::cells_of(mesh, 300);
+    const Channel channels[] = {channel_of(mesh, cells, [](Vector3d) { return 0.75; })};
+    BakeSource source;
+    source.channels = channels;
+    source.paint = paint_grey;
+    const Bake result = baked(mesh, cells, source, size_of_texture(50, 50));
+    EXPECT_NEAR(result.covered, 0.25, 0.02);
+    for (const Colour& texel : result.colour.pixels) EXPECT_NEAR(texel[0], 0.75, 1e-4);
+}
+
+TEST(Bake, SaysHowMuchOverlaps) {
+    SurfaceMesh mesh = flat_square(4);
+    for (auto& corners : mesh.texture) {
+        for (TexturePlace& place : corners) place[0] = std::min(place[0], 1 - place[0]);
+    }
+    const SurfaceCells cells = test::cells_of(mesh, 100);
+    const Channel channels[] = {channel_of(mesh, cells, [](Vector3d) { return 0; })};
+    BakeSource source;
+    source.channels = channels;
+    source.paint = paint_grey;
+    const Bake result = baked(mesh, cells, source, size_of_texture(32, 32));
+    EXPECT_NEAR(result.overlapping, 0.5, 1e-9);
+    EXPECT_THAT(result.warnings, ElementsAre("50.0 % of the model lies over other parts of it in the "
+                                             "texture and shows their pattern"));
+}
+
+TEST(Bake, RefusesWhatCannotBePainted) {
+    SurfaceMesh mesh = flat_square(2);
+    const SurfaceCells cells = test::cells_of(mesh, 20);
+    const Channel channels[] = {channel_of(mesh, cells, [](Vector3d) { return 0; })};
+    BakeSource source;
+    source.channels = channels;
+    source.paint = paint_grey;
+    Team team(2);
+    const CellFilter filter(mesh, cells, team);
+    const auto message = [&] {
+        const Result<Bake> result = bake(mesh, filter, source, size_of_texture(16, 16), team, never);
+        EXPECT_FALSE(result.has_value());
+        return result.error().message + ": " + result.error().hint;
+    };
+    const auto texture = mesh.texture;
+    mesh.texture.clear();
+    EXPECT_THAT(message(), HasSubstr("no texture coordinates to paint by: give it some"));
+    mesh.texture.assign(mesh.triangles.size(), {});
+    EXPECT_THAT(message(), HasSubstr("have no area in the texture"));
+    mesh.texture = texture;
+    for (auto& corners : mesh.texture) {
+        for (TexturePlace& place : corners) place = {place[0] * 9, place[1] * 9};
+    }
+    EXPECT_THAT(message(), HasSubstr("cover the texture 81 times over: they are meant for"));
+}
+
+TEST(Bake, FilesAreAModelAndItsMaps) {
+    const std::filesystem::path folder =
+        std::filesystem::path(::testing::TempDir()) / "cascade_baked";
+    std::filesystem::create_directories(folder);
+    const BakedSphere sphere;
+    Bake result = baked(sphere.mesh, sphere.cells, sphere.source, size_of_texture(64, 32));
+    const std::filesystem::path model = folder / "a.b.glb";
+    ASSERT_TRUE(write_baked(model, sphere.mesh, result, {{"Software", "Cascade"}}).has_value());
+    EXPECT_THAT(baked_paths(model, true),
+                ElementsAre(model, folder / "a.b_color.png", folder / "a.b_height.png",
+                            folder / "a.b_normal.png"));
+    for (const auto& path : baked_paths(model, true)) {
+        EXPECT_TRUE(std::filesystem::remove(path)) << path;
+    }
+    result.relief = result.normals = {};
+    ASSERT_TRUE(write_baked(model, sphere.mesh, result, {}).has_value());
+    const Result<PolygonSoup> read = read_model(model);
+    ASSERT_TRUE(read.has_value()) << read.error().message;
+    EXPECT_EQ(read->texture.size(), 3 * sphere.mesh.triangles.size());
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.b_height.png"));
+    std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace cascade

@@ -1,0 +1,167 @@
+// Cells as files: what NumPy and a reader of XML find in them.
+#include "export/cell_writer.h"
+#include "export/model_writer.h"
+#include "export/point_values.h"
+#include "export/zip.h"
+#include "unit/export/example_surfaces.h"
+#include "unit/surface/surfaces.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace cascade {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Cells of a square with a channel that is x and one with a NaN.
+struct CellsOfSquare {
+    SurfaceMesh mesh = test::flat_square(4);
+    SurfaceCells cells = test::cells_of(mesh, 60);
+    std::vector<Channel> channels{{"u", {}}, {"areas", std::vector<float>(60, 2)}};
+    std::vector<Colour> colours{60, Colour{0.25F, 0.5F, 1}};
+    CellsOfSquare() {
+        for (const SurfacePlace& place : cells.places) {
+            channels[0].values.push_back(static_cast<float>(position_of(mesh, place).x));
+        }
+        channels[1].values[7] = -std::numeric_limits<float>::quiet_NaN();
+    }
+    CellResults results() const { return {colours, channels}; }
+};
+
+/// A folder in which a Python script looks at files.
+class PythonFolder {
+public:
+    PythonFolder() { std::filesystem::create_directories(folder_); }
+    ~PythonFolder() { std::filesystem::remove_all(folder_); }
+    std::filesystem::path operator/(const char* name) const { return folder_ / name; }
+    static bool has_numpy() { return std::system("python3 -c 'import numpy' 2>/dev/null") == 0; }
+    bool runs(const std::string& script) const {
+        std::ofstream(folder_ / "script.py") << script;
+        return std::system(("cd '" + folder_.string() + "' && python3 script.py").c_str()) == 0;
+    }
+
+private:
+    std::filesystem::path folder_ =
+        std::filesystem::path(::testing::TempDir()) / "cascade_cell_writer";
+};
+
+TEST(CellWriter, NumPyReadsTheArchive) {
+    if (!PythonFolder::has_numpy()) GTEST_SKIP() << "there is no NumPy";
+    const CellsOfSquare square;
+    const PythonFolder folder;
+    ASSERT_TRUE(write_cells(folder / "cells.npz", square.mesh, square.cells, square.results())
+                    .has_value());
+    EXPECT_TRUE(folder.runs(R"(
+import numpy, zipfile
+assert zipfile.ZipFile("cells.npz").testzip() is None
+d = numpy.load("cells.npz", allow_pickle=False)
+n = 60
+assert sorted(d.files) == ["areas", "areas_", "colors", "links", "normals", "points", "u", "weights"], d.files
+assert d["points"].shape == (n, 3) and d["points"].dtype == numpy.dtype("<f8")
+assert d["normals"].shape == (n, 3) and numpy.allclose(d["normals"], [0, 0, 1])
+assert d["areas"].shape == (n,) and abs(d["areas"].sum() - 1) < 1e-9
+assert d["u"].dtype == numpy.dtype("<f4") and numpy.allclose(d["u"], d["points"][:, 0])
+assert numpy.isnan(d["areas_"][7]) and numpy.nansum(d["areas_"]) == 2 * (n - 1)
+assert d["areas_"].view("<u4")[7] == 0x7fc00000
+assert d["colors"].shape == (n, 3) and (d["colors"][5] == [0.25, 0.5, 1]).all()
+i, j = d["links"].T
+assert d["links"].dtype == numpy.dtype("<u4") and (i < j).all() and j.max() < n
+assert d["weights"].shape == i.shape and (d["weights"] > 0).all()
+# A step of diffusion keeps what there is and lowers the peaks.
+u = d["points"][:, 0].copy(); before = (u * d["areas"]).sum()
+flow = d["weights"] * (u[j] - u[i])
+numpy.add.at(u, i, 1e-3 * flow / d["areas"][i]); numpy.add.at(u, j, -1e-3 * flow / d["areas"][j])
+assert abs((u * d["areas"]).sum() - before) < 1e-12 and u.max() < d["points"][:, 0].max()
+)"));
+}
+
+TEST(CellWriter, XmlSaysWhereArraysAre) {
+    if (!PythonFolder::has_numpy()) GTEST_SKIP() << "there is no NumPy";
+    const CellsOfSquare square;
+    const PythonFolder folder;
+    ASSERT_TRUE(write_cells(folder / "cells.vtp", square.mesh, square.cells, square.results())
+                    .has_value());
+    const Channel points[] = {{"a<b", std::vector<float>(square.mesh.points.size(), 3)}};
+    ASSERT_TRUE(write_model(folder / "model.vtp", square.mesh, {{}, points}).has_value());
+    EXPECT_TRUE(folder.runs(R"(
+import numpy, struct, xml.etree.ElementTree as tree
+def read(name):
+    data = open(name, "rb").read()
+    start = data.index(b"<AppendedData")
+    block = data.index(b"_", data.index(b">", start)) + 1
+    root = tree.fromstring(data[:start] + b"</VTKFile>")
+    assert root.get("type") == "PolyData" and root.get("header_type") == "UInt64"
+    piece = root.find("PolyData").find("Piece")
+    arrays = {}
+    types = {"Float32": "<f4", "Float64": "<f8", "Int64": "<i8", "UInt8": "<u1"}
+    end = 0
+    for section in piece:
+        for array in section:
+            offset = block + int(array.get("offset"))
+            size = struct.unpack_from("<Q", data, offset)[0]
+            values = numpy.frombuffer(data, types[array.get("type")], offset=offset + 8,
+                                      count=size // int(array.get("type")[-2:].replace("t8", "8")) * 8)
+            arrays[section.tag, array.get("Name")] = values.reshape(
+                -1, int(array.get("NumberOfComponents")))
+            end = max(end, offset + 8 + size)
+    assert data[end:] == b"\n  </AppendedData>\n</VTKFile>\n"
+    return piece, arrays
+piece, a = read("cells.vtp")
+assert piece.get("NumberOfPoints") == piece.get("NumberOfVerts") == "60"
+assert piece.get("NumberOfPolys") == "0"
+points = a["Points", "Points"]
+assert points.shape == (60, 3) and points.dtype == "<f8"
+assert numpy.allclose(a["PointData", "u"][:, 0], points[:, 0])
+assert (a["PointData", "color"] == [64, 128, 255]).all()
+assert abs(a["PointData", "area"].sum() - 1) < 1e-9
+assert numpy.isnan(a["PointData", "areas"][7, 0])
+assert (a["Verts", "connectivity"][:, 0] == range(60)).all()
+assert (a["Verts", "offsets"][:, 0] == range(1, 61)).all()
+piece, a = read("model.vtp")
+assert piece.get("NumberOfPoints") == "25" and piece.get("NumberOfPolys") == "32"
+assert a["Points", "Points"].dtype == "<f4" and (a["PointData", "a<b"] == 3).all()
+corners = a["Polys", "connectivity"].reshape(-1, 3)
+assert corners.shape == (32, 3) and set(corners.flat) == set(range(25))
+p = a["Points", "Points"].astype(float)[corners]
+normals = numpy.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+assert abs(normals[:, 2].sum() / 2 - 1) < 1e-6
+assert (a["Polys", "offsets"][:, 0] == range(3, 99, 3)).all()
+)"));
+}
+
+TEST(CellWriter, RefusesOtherEndings) {
+    const CellsOfSquare square;
+    const Result<void> refused = write_cells("cells.csv", square.mesh, square.cells, {});
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_THAT(refused.error().message, HasSubstr("ends in .npz or .vtp"));
+}
+
+TEST(CellWriter, ArchivesWithoutEntriesAreArchives) {
+    const Result<std::string> bytes = encode_zip({});
+    ASSERT_TRUE(bytes.has_value());
+    EXPECT_EQ(bytes->size(), 22u);
+}
+
+TEST(PointValues, AreThoseOfTheCellsAround) {
+    const CellsOfSquare square;
+    Team one(1), two(2);
+    const CellFilter filter(square.mesh, square.cells, one);
+    const std::vector<Channel> values = at_points(square.mesh, filter, square.channels, one);
+    ASSERT_EQ(values.size(), 2u);
+    EXPECT_EQ(values[0].name, "u");
+    ASSERT_EQ(values[0].values.size(), square.mesh.points.size());
+    for (std::size_t p = 0; p < square.mesh.points.size(); ++p) {
+        const double x = square.mesh.points[p].x;
+        const double tolerance = x > 0.3 && x < 0.7 ? 0.1 : 0.25;  // At sides cells are inside.
+        EXPECT_NEAR(values[0].values[p], x, tolerance);
+    }
+    EXPECT_EQ(at_points(square.mesh, filter, square.channels, two)[0].values, values[0].values);
+}
+
+}  // namespace
+}  // namespace cascade
