@@ -5,14 +5,13 @@
 #include "export/render_vertices.h"
 #include "export/texture_layout.h"
 #include "picture/light.h"
-#include "surface/point_normals.h"
+#include "surface/normals.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <new>
-#include <numeric>
 
 namespace cascade {
 
@@ -25,23 +24,22 @@ constexpr double most_covered_area = 64;    ///< More is a picture that is repea
 struct Scratch {
     std::vector<std::uint32_t> owners;
     std::vector<SurfacePlace> places;       ///< Of the samples of one row of texels.
-    std::vector<float> values;
-    std::vector<Colour> colours;
+    std::vector<Colour> lights;             ///< Of each sample.
+    std::vector<float> heights;             ///< Likewise.
     std::vector<std::uint32_t> columns;     ///< The texel of each sample.
-    std::vector<CellShare> shares;
-    std::vector<SlopedShare> slopes;
+    PlacePainter painter;
     std::int64_t covered = 0, again = 0;    ///< Samples.
 };
 
 class TextureBaker {
 public:
-    TextureBaker(const SurfaceMesh& mesh, const CellFilter& filter, const BakeSource& source,
+    TextureBaker(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                  const BakeOptions& options)
-        : mesh_(mesh), filter_(filter), source_(source), options_(options),
+        : mesh_(mesh), filter_(filter), cells_(cells), options_(options),
           layout_(mesh, options.width * options.samples, options.height * options.samples),
-          normals_(point_normals(mesh)), vertices_(render_vertices(mesh, normals_)),
+          normals_(corner_normals(mesh)), vertices_(render_vertices(mesh, normals_)),
           colour_(options.width, options.height),
-          relief_(source.height ? options.width : 0, source.height ? options.height : 0),
+          relief_(has_heights() ? options.width : 0, has_heights() ? options.height : 0),
           slopes_(relief_.width, relief_.height) {}
 
     Result<Bake> run(Team& team, const std::atomic<bool>& cancel) {
@@ -52,8 +50,8 @@ public:
                            "they are meant for a picture that repeats; give every part of the model "
                            "a place of its own");
         }
-        std::vector<Scratch> scratch(static_cast<std::size_t>(team.size()));
-        for (Scratch& own : scratch) prepare(own);
+        std::vector<Scratch> scratch;
+        for (int k = 0; k < team.size(); ++k) scratch.push_back(make_scratch());
         const std::int64_t bands = (options_.height + rows_of_band - 1) / rows_of_band;
         std::atomic<std::int64_t> next = 0;
         team.run([&](int index) {
@@ -76,19 +74,22 @@ public:
     }
 
 private:
+    bool has_heights() const { return !cells_.heights.empty(); }
     std::int64_t samples() const { return options_.samples; }
     std::size_t texel(std::int64_t x, std::int64_t y) const {
         return static_cast<std::size_t>(y * options_.width + x);
     }
 
-    void prepare(Scratch& own) const {
+    Scratch make_scratch() const {
+        Scratch own{{}, {}, {}, {}, {}, PlacePainter(filter_, cells_)};
         const auto row = static_cast<std::size_t>(layout_.width());
         const auto deep = static_cast<std::size_t>(samples());
         own.owners.resize(row * deep * static_cast<std::size_t>(rows_of_band));
         own.places.reserve(row * deep);
         own.columns.reserve(row * deep);
-        own.values.reserve(row * deep * source_.channels.size());
-        own.colours.resize(row * deep);
+        own.lights.reserve(row * deep);
+        own.heights.reserve(row * deep);
+        return own;
     }
 
     void paint_band(std::int64_t first, std::int64_t last, Scratch& own) {
@@ -101,7 +102,7 @@ private:
             if (own.places.empty()) continue;
             own.covered += static_cast<std::int64_t>(own.places.size());
             paint_row(y, own);
-            if (source_.height) raise_row(y, own);
+            if (has_heights()) raise_row(y, own);
         }
     }
 
@@ -109,7 +110,8 @@ private:
     void collect_row(std::int64_t y, std::span<const std::uint32_t> owners, Scratch& own) const {
         own.places.clear();
         own.columns.clear();
-        own.values.clear();
+        own.lights.clear();
+        own.heights.clear();
         for (std::int64_t x = 0; x < options_.width; ++x) {
             for (std::int64_t j = 0; j < samples(); ++j) {
                 for (std::int64_t i = x * samples(); i < (x + 1) * samples(); ++i) {
@@ -122,14 +124,9 @@ private:
             }
         }
         for (const SurfacePlace& place : own.places) {
-            filter_.shares(place, own.shares);
-            for (const Channel& channel : source_.channels) {
-                float sum = 0;
-                for (const CellShare& share : own.shares) {
-                    sum += share.weight * channel.values[share.cell];
-                }
-                own.values.push_back(sum);
-            }
+            const PlacePainter::Look look = own.painter.at(place);
+            own.lights.push_back(to_light(look.colour));
+            own.heights.push_back(look.height);
         }
     }
 
@@ -144,14 +141,11 @@ private:
         }
     }
 
-    void paint_row(std::int64_t y, Scratch& own) {
-        const std::span<Colour> colours(own.colours.data(), own.places.size());
-        source_.paint(own.places, own.values, colours);
+    void paint_row(std::int64_t y, const Scratch& own) {
         visit_texels(own, [&](std::int64_t x, std::size_t first, std::size_t last) {
             Colour sum{};
             for (std::size_t k = first; k < last; ++k) {
-                const Colour light = to_light(shown(colours[k]));
-                for (std::size_t c = 0; c < 3; ++c) sum[c] += light[c];
+                for (std::size_t c = 0; c < 3; ++c) sum[c] += own.lights[k][c];
             }
             for (float& light : sum) light /= static_cast<float>(last - first);
             colour_.texels[texel(x, y)] = sum;
@@ -160,12 +154,11 @@ private:
     }
 
     void raise_row(std::int64_t y, Scratch& own) {
-        const std::size_t channels = source_.channels.size(), height = *source_.height;
         visit_texels(own, [&](std::int64_t x, std::size_t first, std::size_t last) {
             float sum = 0;
             int count = 0;
             for (std::size_t k = first; k < last; ++k) {
-                const float value = own.values[k * channels + height];
+                const float value = own.heights[k];
                 if (!std::isfinite(value)) continue;
                 sum += value;
                 ++count;
@@ -174,7 +167,7 @@ private:
             relief_.texels[texel(x, y)][0] = sum / static_cast<float>(count);
             relief_.is_filled[texel(x, y)] = 1;
             // That of the middle one stands for all.
-            const Vector3 normal = bumped_normal(own.places[(first + last) / 2], own.slopes);
+            const Vector3 normal = bumped_normal(own.places[(first + last) / 2], own.painter);
             if (!std::isfinite(normal.x + normal.y + normal.z)) return;
             slopes_.texels[texel(x, y)] = {normal.x, normal.y, normal.z};
             slopes_.is_filled[texel(x, y)] = 1;
@@ -183,17 +176,9 @@ private:
 
     /// The normal of the raised surface, relative to the tangent, the bitangent and the smooth normal: J.
     /// Blinn, "Simulation of Wrinkled Surfaces" (SIGGRAPH 1978), for small heights.
-    Vector3 bumped_normal(const SurfacePlace& place, std::vector<SlopedShare>& shares) const {
-        filter_.sloped_shares(place, shares);
-        const std::vector<float>& heights = source_.channels[*source_.height].values;
-        Vector3 slope;
-        const float base = heights[shares[0].cell];  // So that equal heights are exactly level.
-        for (const SlopedShare& share : shares) {
-            slope = slope + share.slope * (heights[share.cell] - base);
-        }
-        const Vector3d rise = Vector3d{static_cast<double>(slope.x), static_cast<double>(slope.y),
-                                       static_cast<double>(slope.z)} * source_.bump;
-        const Vector3d normal = normal_at(mesh_, normals_, place);
+    Vector3 bumped_normal(const SurfacePlace& place, PlacePainter& painter) const {
+        const Vector3d rise = painter.rise_at(place);
+        const Vector3d normal = normals_.at(mesh_, place);
         Vector3d sum;
         for (std::size_t k = 0; k < 3; ++k) {
             sum = sum + vertices_.tangents[vertices_.triangles[place.triangle][k]].direction *
@@ -217,7 +202,7 @@ private:
         fill_gaps(colour_);
         for (Colour& texel : colour_.texels) texel = to_stored(texel);
         bake.colour = image_of(std::move(colour_));
-        if (!source_.height) return bake;
+        if (!has_heights()) return bake;
         finish_relief(bake);
         fill_gaps(slopes_);
         for (auto& texel : slopes_.texels) {
@@ -281,17 +266,17 @@ private:
 
     const SurfaceMesh& mesh_;
     const CellFilter& filter_;
-    const BakeSource& source_;
+    const PaintedCells& cells_;
     const BakeOptions& options_;
     TextureLayout layout_;
-    std::vector<Vector3d> normals_;
+    CornerNormals normals_;
     RenderVertices vertices_;
     PartialTexture colour_, relief_, slopes_;
 };
 
 }  // namespace
 
-Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const BakeSource& source,
+Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel) {
     const auto is_side = [](std::int64_t side) {
         return side >= 1 && side <= BakeOptions::largest_texture;
@@ -299,13 +284,12 @@ Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const BakeS
     CHECK(is_side(options.width) && is_side(options.height) && options.samples >= 1 &&
               options.samples <= 8,
           "the size of a texture is checked where it is given");
-    CHECK(!source.height || *source.height < source.channels.size(), "the height is a channel");
     if (mesh.texture.empty()) {
         return failure("the model has no texture coordinates to paint by",
                        "give it some in a modeller, or write colours of its points");
     }
     try {
-        return TextureBaker(mesh, filter, source, options).run(team, cancel);
+        return TextureBaker(mesh, filter, cells, options).run(team, cancel);
     } catch (const std::bad_alloc&) {
         return failure(fmt::format("there is not enough memory for a texture of {} × {}",
                                    options.width, options.height));

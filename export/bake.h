@@ -2,35 +2,16 @@
 // texture coordinates.
 #pragma once
 
-#include "core/parallel.h"
 #include "core/result.h"
-#include "export/channels.h"
+#include "export/painted_cells.h"
 #include "picture/image.h"
-#include "surface/cell_filter.h"
 
 #include <atomic>
-#include <cstddef>
 #include <filesystem>
-#include <functional>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 namespace cascade {
-
-/// Colours (sRGB) of places, one for each. `values` are the filtered channels there, all of the first place
-/// first. Called from several threads at once; must not throw.
-using PaintPlaces = std::function<void(std::span<const SurfacePlace> places,
-                                       std::span<const float> values, std::span<Colour> colours)>;
-
-/// What is painted: channels of the cells, and how they are seen.
-struct BakeSource {
-    std::span<const Channel> channels;      ///< One number per cell each.
-    PaintPlaces paint;
-    std::optional<std::size_t> height;      ///< The channel that is the height.
-    double bump = 0;                        ///< What 1 of it is, in units of the model; below 0: inwards.
-};
 
 struct BakeOptions {
     std::int64_t width = 1024, height = 1024;  ///< Texels, 1 … largest_texture.
@@ -40,7 +21,7 @@ struct BakeOptions {
 
 struct Bake {
     Image colour;
-    /// Grey, 0 the smallest and 1 the largest height of a texel; empty without a channel of heights.
+    /// Grey, 0 the smallest and 1 the largest height of a texel, which are `heights`; empty without any.
     Image relief;
     ValueRange heights;
     /// Directions relative to the tangents of render_vertices(), −1 … 1 as 0 … 1, y upwards; empty likewise.
@@ -55,7 +36,7 @@ struct Bake {
 /// taken from around. The same on any number of threads. Fails, with a hint, on a model without texture
 /// coordinates and on coordinates that are of no use, and where memory is short; gives what means nothing if
 /// `cancel` became true.
-Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const BakeSource& source,
+Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel);
 
 /// The files that write_baked makes: the model itself, then NAME_color.png and, with heights,

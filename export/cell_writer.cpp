@@ -7,7 +7,7 @@
 #include "export/zip.h"
 #include "picture/float_bytes.h"
 #include "picture/npy.h"
-#include "surface/point_normals.h"
+#include "surface/normals.h"
 
 #include <fmt/format.h>
 
@@ -24,11 +24,11 @@ struct PlacesAndNormals {
 };
 
 PlacesAndNormals places_and_normals(const SurfaceMesh& mesh, const SurfaceCells& cells) {
-    const std::vector<Vector3d> normals = point_normals(mesh);
+    const CornerNormals normals = corner_normals(mesh);
     PlacesAndNormals result;
     for (const SurfacePlace& place : cells.places) {
         result.places.push_back(position_of(mesh, place));
-        result.normals.push_back(normal_at(mesh, normals, place));
+        result.normals.push_back(normals.at(mesh, place));
     }
     return result;
 }

@@ -4,7 +4,7 @@
 #include "export/channels.h"
 #include "picture/float_bytes.h"
 #include "picture/light.h"
-#include "surface/point_normals.h"
+#include "surface/normals.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -101,8 +101,7 @@ Extent extent_of(const SurfaceMesh& mesh) {
 class GlbFile {
 public:
     GlbFile(const SurfaceMesh& mesh, const GlbLook& look)
-        : mesh_(mesh), look_(look), normals_(point_normals(mesh)),
-          vertices_(render_vertices(mesh, normals_)) {}
+        : mesh_(mesh), look_(look), vertices_(render_vertices(mesh, corner_normals(mesh))) {}
 
     Result<std::string> encode() {
         const Extent extent = extent_of(mesh_);
@@ -132,7 +131,7 @@ private:
         Json attributes;
         attributes["POSITION"] = add_places(origin);
         attributes["NORMAL"] = buffer_.add_floats("VEC3", count, 3, [&](std::size_t k, std::size_t c) {
-            return component(normals_[vertices_.points[k]], c);
+            return component(vertices_.normals[k], c);
         });
         if (!vertices_.texture.empty()) {
             // glTF counts from the upper left.
@@ -244,7 +243,6 @@ private:
 
     const SurfaceMesh& mesh_;
     const GlbLook& look_;
-    std::vector<Vector3d> normals_;
     RenderVertices vertices_;
     Buffer buffer_;
 };

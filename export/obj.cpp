@@ -1,6 +1,6 @@
 // Models as Wavefront OBJ files.
 #include "export/model_writer.h"
-#include "surface/point_normals.h"
+#include "surface/normals.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,8 @@ std::string encode_obj(const SurfaceMesh& mesh, const PointResults& results) {
         }
         text += '\n';
     }
-    for (const Vector3d& normal : point_normals(mesh)) {
+    const CornerNormals normals = corner_normals(mesh);
+    for (const Vector3d& normal : normals.normals) {
         fmt::format_to(out, "vn {:.6g} {:.6g} {:.6g}\n", normal.x, normal.y, normal.z);
     }
     for (const auto& corners : mesh.texture) {
@@ -33,9 +34,9 @@ std::string encode_obj(const SurfaceMesh& mesh, const PointResults& results) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         text += 'f';
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t point = mesh.triangles[t][k] + 1;
-            if (mesh.texture.empty()) fmt::format_to(out, " {0}//{0}", point);
-            else fmt::format_to(out, " {0}/{1}/{0}", point, 3 * t + k + 1);
+            fmt::format_to(out, " {}/", mesh.triangles[t][k] + 1);
+            if (!mesh.texture.empty()) fmt::format_to(out, "{}", 3 * t + k + 1);
+            fmt::format_to(out, "/{}", normals.numbers[t][k] + 1);
         }
         text += '\n';
     }

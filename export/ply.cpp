@@ -2,7 +2,7 @@
 #include "export/model_writer.h"
 #include "picture/float_bytes.h"
 #include "picture/light.h"
-#include "surface/point_normals.h"
+#include "surface/normals.h"
 
 #include <fmt/format.h>
 

@@ -58,19 +58,14 @@ Vector3d any_across(Vector3d normal) {
 
 }  // namespace
 
-RenderVertices render_vertices(const SurfaceMesh& mesh, const std::vector<Vector3d>& normals) {
-    RenderVertices result;
-    if (mesh.texture.empty()) {
-        for (std::uint32_t p = 0; p < mesh.points.size(); ++p) result.points.push_back(p);
-        result.triangles = mesh.triangles;
-        return result;
-    }
+RenderVertices render_vertices(const SurfaceMesh& mesh, const CornerNormals& normals) {
+    if (mesh.texture.empty()) return {normals.points, normals.normals, {}, {}, normals.numbers};
     struct Corner {
-        std::uint32_t point;
+        std::uint32_t normal;
         int side;
         TexturePlace place;
         std::uint32_t number;
-        auto vertex() const { return std::tie(point, side, place); }
+        auto vertex() const { return std::tie(normal, side, place); }
     };
     std::vector<Corner> corners;
     std::vector<TriangleTangent> tangents;
@@ -78,31 +73,33 @@ RenderVertices render_vertices(const SurfaceMesh& mesh, const std::vector<Vector
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         tangents.push_back(tangent_of(mesh, t));
         for (std::uint32_t k = 0; k < 3; ++k) {
-            corners.push_back({mesh.triangles[t][k], tangents[t].side, finite(mesh.texture[t][k]),
+            corners.push_back({normals.numbers[t][k], tangents[t].side, finite(mesh.texture[t][k]),
                                3 * t + k});
         }
     }
     std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
         return a.vertex() != b.vertex() ? a.vertex() < b.vertex() : a.number < b.number;
     });
+    RenderVertices result;
     result.triangles.resize(mesh.triangles.size());
     for (std::size_t c = 0; c < corners.size(); ++c) {
         const Corner& corner = corners[c];
+        const Vector3d normal = normals.normals[corner.normal];
         if (c == 0 || corners[c - 1].vertex() != corner.vertex()) {
-            result.points.push_back(corner.point);
+            result.points.push_back(normals.points[corner.normal]);
+            result.normals.push_back(normal);
             result.texture.push_back(corner.place);
             result.tangents.push_back({{}, corner.side});
         }
         const std::uint32_t t = corner.number / 3, k = corner.number % 3;
         result.triangles[t][k] = static_cast<std::uint32_t>(result.points.size() - 1);
         Vector3d& sum = result.tangents.back().direction;
-        sum = sum + across(tangents[t].direction, normals[corner.point]) * angle_at(mesh, t, k);
+        sum = sum + across(tangents[t].direction, normal) * angle_at(mesh, t, k);
     }
     for (std::size_t v = 0; v < result.points.size(); ++v) {
-        const Vector3d normal = normals[result.points[v]];
         Vector3d& direction = result.tangents[v].direction;
-        direction = across(direction, normal);
-        if (length(direction) == 0) direction = any_across(normal);
+        direction = across(direction, result.normals[v]);
+        if (length(direction) == 0) direction = any_across(result.normals[v]);
     }
     return result;
 }

@@ -1,8 +1,8 @@
-// Vertices as renderers want them: each with one place in the texture, so that points along its
-// seams become several vertices.
+// Vertices as renderers want them: each with one normal and one place in the texture, so that points
+// on creases and along the seams of the texture become several vertices.
 #pragma once
 
-#include "surface/surface_mesh.h"
+#include "surface/normals.h"
 
 #include <array>
 #include <cstdint>
@@ -20,16 +20,17 @@ struct Tangent {
 
 struct RenderVertices {
     std::vector<std::uint32_t> points;   ///< Of the mesh, in ascending order, each at least once.
+    std::vector<Vector3d> normals;       ///< One per vertex, of length 1.
     std::vector<TexturePlace> texture;   ///< Finite; empty where the mesh has none.
     std::vector<Tangent> tangents;       ///< Likewise.
     /// Those of the mesh in their order, over the vertices.
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Without texture coordinates vertices are the points. With them there is one for each point, place in the
-/// texture and side; its tangent is the sum over its triangles, each weighted by its angle there (M.
+/// Without texture coordinates there is a vertex for each normal. With them there is one for each normal, place
+/// in the texture and side; its tangent is the sum over its triangles, each weighted by its angle there (M.
 /// Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, does the same). Coordinates that are not
 /// finite become 0.
-RenderVertices render_vertices(const SurfaceMesh& mesh, const std::vector<Vector3d>& normals);
+RenderVertices render_vertices(const SurfaceMesh& mesh, const CornerNormals& normals);
 
 }  // namespace cascade

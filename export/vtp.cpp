@@ -4,7 +4,7 @@
 #include "picture/float_bytes.h"
 #include "picture/light.h"
 #include "picture/xml_text.h"
-#include "surface/point_normals.h"
+#include "surface/normals.h"
 
 #include <fmt/format.h>
 

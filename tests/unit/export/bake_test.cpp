@@ -26,27 +26,27 @@ using test::never;
 
 /// A value in each cell by where it is.
 template <typename Function>
-Channel channel_of(const SurfaceMesh& mesh, const SurfaceCells& cells, const Function& function) {
-    Channel channel{"u", {}};
+std::vector<float> values_of(const SurfaceMesh& mesh, const SurfaceCells& cells,
+                             const Function& function) {
+    std::vector<float> values;
     for (const SurfacePlace& place : cells.places) {
-        channel.values.push_back(static_cast<float>(function(position_of(mesh, place))));
+        values.push_back(static_cast<float>(function(position_of(mesh, place))));
     }
-    return channel;
+    return values;
 }
 
 /// Grey as bright as the first channel.
-void paint_grey(std::span<const SurfacePlace>, std::span<const float> values,
-                std::span<Colour> colours) {
-    for (std::size_t k = 0; k < colours.size(); ++k) {
-        colours[k].fill(values[k * (values.size() / colours.size())]);
-    }
+Colour grey(std::span<const float> values, const SurfacePlace&) {
+    return {values[0], values[0], values[0]};
 }
 
-Bake baked(const SurfaceMesh& mesh, const SurfaceCells& cells, const BakeSource& source,
+PaintedCells painted(std::span<const float> values) { return {1, values, grey, {}}; }
+
+Bake baked(const SurfaceMesh& mesh, const SurfaceCells& cells, const PaintedCells& look,
            const BakeOptions& options, int threads = 2) {
     Team team(threads);
     const CellFilter filter(mesh, cells, team);
-    Result<Bake> result = bake(mesh, filter, source, options, team, never);
+    Result<Bake> result = bake(mesh, filter, look, options, team, never);
     EXPECT_TRUE(result.has_value()) << result.error().message;
     return std::move(*result);
 }
@@ -135,19 +135,15 @@ TEST(FillGaps, GoesOnFromWhatIsThere) {
 TEST(Bake, TexelsOfASquareAreWhatThePlacesSay) {
     const SurfaceMesh mesh = flat_square(3);
     const SurfaceCells cells = test::cells_of(mesh, 500);
-    const Channel channels[] = {channel_of(mesh, cells, [](Vector3d) { return 0; })};
-    BakeSource source;
-    source.channels = channels;
+    const std::vector<float> values = values_of(mesh, cells, [](Vector3d) { return 0; });
+    PaintedCells look = painted(values);
     // A colour for each quarter of each texel: the mean is one of light.
-    source.paint = [&](std::span<const SurfacePlace> places, std::span<const float>,
-                       std::span<Colour> colours) {
-        for (std::size_t k = 0; k < places.size(); ++k) {
-            const Vector3d p = position_of(mesh, places[k]);
-            const bool is_left = p.x * 16 - std::floor(p.x * 16) < 0.5;
-            colours[k] = {static_cast<float>(p.x), static_cast<float>(p.y), is_left ? 1.0F : 0.0F};
-        }
+    look.colour = [&](std::span<const float>, const SurfacePlace& place) -> Colour {
+        const Vector3d p = position_of(mesh, place);
+        const bool is_left = p.x * 16 - std::floor(p.x * 16) < 0.5;
+        return {static_cast<float>(p.x), static_cast<float>(p.y), is_left ? 1.0F : 0.0F};
     };
-    const Bake result = baked(mesh, cells, source, size_of_texture(16, 16));
+    const Bake result = baked(mesh, cells, look, size_of_texture(16, 16));
     EXPECT_THAT(result.warnings, IsEmpty());
     EXPECT_EQ(result.covered, 1);
     EXPECT_EQ(result.overlapping, 0);
@@ -169,17 +165,17 @@ TEST(Bake, TexelsOfASquareAreWhatThePlacesSay) {
 TEST(Bake, ConstantsStayAndLinearFunctionsNearly) {
     const SurfaceMesh mesh = flat_square(5);
     const SurfaceCells cells = test::cells_of(mesh, 3000);
-    const Channel channels[] = {channel_of(mesh, cells, [](Vector3d p) { return p.x; }),
-                                channel_of(mesh, cells, [](Vector3d) { return 0.1; })};
-    BakeSource source;
-    source.channels = channels;
-    source.paint = [](std::span<const SurfacePlace>, std::span<const float> values,
-                      std::span<Colour> colours) {
-        for (std::size_t k = 0; k < colours.size(); ++k) {
-            colours[k] = {values[2 * k], values[2 * k + 1], 0};
-        }
+    std::vector<float> values;
+    for (const float x : values_of(mesh, cells, [](Vector3d p) { return p.x; })) {
+        values.insert(values.end(), {x, 0.1F});
+    }
+    PaintedCells look;
+    look.channels = 2;
+    look.values = values;
+    look.colour = [](std::span<const float> at, const SurfacePlace&) -> Colour {
+        return {at[0], at[1], 0};
     };
-    const Bake result = baked(mesh, cells, source, size_of_texture(64, 64));
+    const Bake result = baked(mesh, cells, look, size_of_texture(64, 64));
     for (std::int64_t x = 8; x < 56; ++x) {
         EXPECT_NEAR(result.colour.at(x, 32)[0], (static_cast<double>(x) + 0.5) / 64, 0.012);
         EXPECT_NEAR(result.colour.at(x, 32)[1], 0.1F, 1e-5F);
@@ -190,21 +186,15 @@ TEST(Bake, ConstantsStayAndLinearFunctionsNearly) {
 struct BakedSphere {
     SurfaceMesh mesh = test::sphere_with_texture(24);
     SurfaceCells cells = test::cells_of(mesh, 4000);
-    Channel channels[1] = {channel_of(mesh, cells, [](Vector3d p) {
+    std::vector<float> values = values_of(mesh, cells, [](Vector3d p) {
         return 0.5 + 0.4 * std::sin(5 * p.x) * std::cos(4 * p.y + 3 * p.z);
-    })};
-    BakeSource source;
-    BakedSphere() {
-        source.channels = channels;
-        source.paint = paint_grey;
-        source.height = 0;
-        source.bump = 0.05;
-    }
+    });
+    PaintedCells look = {1, values, grey, values};
 };
 
 TEST(Bake, BothSidesOfASeamAgree) {
     const BakedSphere sphere;
-    const Bake result = baked(sphere.mesh, sphere.cells, sphere.source, size_of_texture(256, 128));
+    const Bake result = baked(sphere.mesh, sphere.cells, sphere.look, size_of_texture(256, 128));
     double largest = 0, steps = 0;
     for (std::int64_t y = 8; y < 120; ++y) {
         const auto step = [&](std::int64_t x) {
@@ -220,7 +210,7 @@ TEST(Bake, BothSidesOfASeamAgree) {
 
 TEST(Bake, TheMeanColourIsThatOfTheCells) {
     const BakedSphere sphere;
-    const Bake result = baked(sphere.mesh, sphere.cells, sphere.source, size_of_texture(256, 128));
+    const Bake result = baked(sphere.mesh, sphere.cells, sphere.look, size_of_texture(256, 128));
     double sum = 0, weights = 0, cells = 0, areas = 0;
     for (std::int64_t y = 0; y < 128; ++y) {
         const double weight = std::sin(std::numbers::pi * (static_cast<double>(y) + 0.5) / 128);
@@ -230,7 +220,7 @@ TEST(Bake, TheMeanColourIsThatOfTheCells) {
         }
     }
     for (std::size_t k = 0; k < sphere.cells.places.size(); ++k) {
-        cells += sphere.cells.areas[k] * static_cast<double>(sphere.channels[0].values[k]);
+        cells += sphere.cells.areas[k] * static_cast<double>(sphere.values[k]);
         areas += sphere.cells.areas[k];
     }
     EXPECT_NEAR(sum / weights, cells / areas, 0.002);
@@ -239,8 +229,8 @@ TEST(Bake, TheMeanColourIsThatOfTheCells) {
 
 TEST(Bake, TheSameOnAnyNumberOfThreads) {
     const BakedSphere sphere;
-    const Bake one = baked(sphere.mesh, sphere.cells, sphere.source, size_of_texture(97, 61, 3), 1);
-    const Bake three = baked(sphere.mesh, sphere.cells, sphere.source, size_of_texture(97, 61, 3), 3);
+    const Bake one = baked(sphere.mesh, sphere.cells, sphere.look, size_of_texture(97, 61, 3), 1);
+    const Bake three = baked(sphere.mesh, sphere.cells, sphere.look, size_of_texture(97, 61, 3), 3);
     EXPECT_EQ(one.colour.pixels, three.colour.pixels);
     EXPECT_EQ(one.relief.pixels, three.relief.pixels);
     EXPECT_EQ(one.normals.pixels, three.normals.pixels);
@@ -250,15 +240,11 @@ TEST(Bake, TheSameOnAnyNumberOfThreads) {
 TEST(Bake, NormalsLeanAwayFromWhatRises) {
     SurfaceMesh mesh = flat_square(4);
     const SurfaceCells cells = test::cells_of(mesh, 4000);
-    const Channel channels[] = {
-        channel_of(mesh, cells, [](Vector3d p) { return 3 * p.x - 2 * p.y; })};
-    BakeSource source;
-    source.channels = channels;
-    source.paint = paint_grey;
-    source.height = 0;
-    source.bump = 0.1;
+    const std::vector<float> heights =
+        values_of(mesh, cells, [](Vector3d p) { return 0.3 * p.x - 0.2 * p.y; });
+    const PaintedCells look{1, heights, grey, heights};
     const auto middle = [&] {
-        const Bake result = baked(mesh, cells, source, size_of_texture(64, 64));
+        const Bake result = baked(mesh, cells, look, size_of_texture(64, 64));
         Vector3d sum;
         for (std::int64_t y = 24; y < 40; ++y) {
             for (std::int64_t x = 24; x < 40; ++x) {
@@ -286,19 +272,15 @@ TEST(Bake, NormalsLeanAwayFromWhatRises) {
 TEST(Bake, LevelGroundIsLevelAndNaNIsTakenFromAround) {
     const SurfaceMesh mesh = flat_square(2);
     const SurfaceCells cells = test::cells_of(mesh, 400);
-    Channel channels[] = {channel_of(mesh, cells, [](Vector3d) { return 1e6 / 3; })};
-    BakeSource source;
-    source.channels = channels;
-    source.paint = paint_grey;
-    source.height = 0;
-    source.bump = 1;
-    const Bake level = baked(mesh, cells, source, size_of_texture(32, 32));
+    std::vector<float> values = values_of(mesh, cells, [](Vector3d) { return 1e6 / 3; });
+    const PaintedCells look = {1, values, grey, values};
+    const Bake level = baked(mesh, cells, look, size_of_texture(32, 32));
     for (const Colour& texel : level.normals.pixels) EXPECT_THAT(texel, ElementsAre(0.5F, 0.5F, 1));
     for (std::size_t k = 0; k < 40; ++k) {
-        channels[0].values[k * 10] = k % 2 == 0 ? std::numeric_limits<float>::quiet_NaN()
+        values[k * 10] = k % 2 == 0 ? std::numeric_limits<float>::quiet_NaN()
                                                 : std::numeric_limits<float>::infinity();
     }
-    const Bake holes = baked(mesh, cells, source, size_of_texture(32, 32));
+    const Bake holes = baked(mesh, cells, look, size_of_texture(32, 32));
     for (const Colour& texel : holes.normals.pixels) EXPECT_NEAR(texel[2], 1, 1e-6F);
     for (const Colour& texel : holes.relief.pixels) {
         EXPECT_GE(texel[0], 0);
@@ -306,9 +288,9 @@ TEST(Bake, LevelGroundIsLevelAndNaNIsTakenFromAround) {
     }
     EXPECT_NEAR(holes.heights.low, 1e6F / 3, 1);
     EXPECT_EQ(holes.colour.at(0, 0).size(), 3u);
-    std::fill(channels[0].values.begin(), channels[0].values.end(),
+    std::fill(values.begin(), values.end(),
               std::numeric_limits<float>::quiet_NaN());
-    const Bake nothing = baked(mesh, cells, source, size_of_texture(8, 8));
+    const Bake nothing = baked(mesh, cells, look, size_of_texture(8, 8));
     EXPECT_EQ(nothing.heights.high, 0);
     for (const Colour& texel : nothing.normals.pixels) EXPECT_THAT(texel, ElementsAre(0.5F, 0.5F, 1));
     for (const Colour& texel : nothing.colour.pixels) EXPECT_THAT(texel, ElementsAre(1, 0, 1));
@@ -320,11 +302,9 @@ TEST(Bake, MarginsGoOnFromThePartsOfTheModel) {
         for (TexturePlace& place : corners) place = {0.25F + place[0] / 2, 0.25F + place[1] / 2};
     }
     const SurfaceCells cells = test::cells_of(mesh, 300);
-    const Channel channels[] = {channel_of(mesh, cells, [](Vector3d) { return 0.75; })};
-    BakeSource source;
-    source.channels = channels;
-    source.paint = paint_grey;
-    const Bake result = baked(mesh, cells, source, size_of_texture(50, 50));
+    const std::vector<float> values = values_of(mesh, cells, [](Vector3d) { return 0.75; });
+    const PaintedCells look = painted(values);
+    const Bake result = baked(mesh, cells, look, size_of_texture(50, 50));
     EXPECT_NEAR(result.covered, 0.25, 0.02);
     for (const Colour& texel : result.colour.pixels) EXPECT_NEAR(texel[0], 0.75, 1e-4);
 }
@@ -335,11 +315,9 @@ TEST(Bake, SaysHowMuchOverlaps) {
         for (TexturePlace& place : corners) place[0] = std::min(place[0], 1 - place[0]);
     }
     const SurfaceCells cells = test::cells_of(mesh, 100);
-    const Channel channels[] = {channel_of(mesh, cells, [](Vector3d) { return 0; })};
-    BakeSource source;
-    source.channels = channels;
-    source.paint = paint_grey;
-    const Bake result = baked(mesh, cells, source, size_of_texture(32, 32));
+    const std::vector<float> values = values_of(mesh, cells, [](Vector3d) { return 0; });
+    const PaintedCells look = painted(values);
+    const Bake result = baked(mesh, cells, look, size_of_texture(32, 32));
     EXPECT_NEAR(result.overlapping, 0.5, 1e-9);
     EXPECT_THAT(result.warnings, ElementsAre("50.0 % of the model lies over other parts of it in the "
                                              "texture and shows their pattern"));
@@ -348,14 +326,12 @@ TEST(Bake, SaysHowMuchOverlaps) {
 TEST(Bake, RefusesWhatCannotBePainted) {
     SurfaceMesh mesh = flat_square(2);
     const SurfaceCells cells = test::cells_of(mesh, 20);
-    const Channel channels[] = {channel_of(mesh, cells, [](Vector3d) { return 0; })};
-    BakeSource source;
-    source.channels = channels;
-    source.paint = paint_grey;
+    const std::vector<float> values = values_of(mesh, cells, [](Vector3d) { return 0; });
+    const PaintedCells look = painted(values);
     Team team(2);
     const CellFilter filter(mesh, cells, team);
     const auto message = [&] {
-        const Result<Bake> result = bake(mesh, filter, source, size_of_texture(16, 16), team, never);
+        const Result<Bake> result = bake(mesh, filter, look, size_of_texture(16, 16), team, never);
         EXPECT_FALSE(result.has_value());
         return result.error().message + ": " + result.error().hint;
     };
@@ -376,7 +352,7 @@ TEST(Bake, FilesAreAModelAndItsMaps) {
         std::filesystem::path(::testing::TempDir()) / "cascade_baked";
     std::filesystem::create_directories(folder);
     const BakedSphere sphere;
-    Bake result = baked(sphere.mesh, sphere.cells, sphere.source, size_of_texture(64, 32));
+    Bake result = baked(sphere.mesh, sphere.cells, sphere.look, size_of_texture(64, 32));
     const std::filesystem::path model = folder / "a.b.glb";
     ASSERT_TRUE(write_baked(model, sphere.mesh, result, {{"Software", "Cascade"}}).has_value());
     EXPECT_THAT(baked_paths(model, true),

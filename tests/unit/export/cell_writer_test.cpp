@@ -39,13 +39,21 @@ public:
     PythonFolder() { std::filesystem::create_directories(folder_); }
     ~PythonFolder() { std::filesystem::remove_all(folder_); }
     std::filesystem::path operator/(const char* name) const { return folder_ / name; }
-    static bool has_numpy() { return std::system("python3 -c 'import numpy' 2>/dev/null") == 0; }
+    static bool has_numpy() { return !python().empty(); }
     bool runs(const std::string& script) const {
         std::ofstream(folder_ / "script.py") << script;
-        return std::system(("cd '" + folder_.string() + "' && python3 script.py").c_str()) == 0;
+        return std::system(("cd '" + folder_.string() + "' && " + python() + " script.py").c_str()) ==
+               0;
     }
 
 private:
+    /// One that has NumPy: the first that is found, or the system's.
+    static std::string python() {
+        for (const std::string name : {"python3", "/usr/bin/python3"}) {
+            if (std::system((name + " -c 'import numpy' 2>/dev/null").c_str()) == 0) return name;
+        }
+        return "";
+    }
     std::filesystem::path folder_ =
         std::filesystem::path(::testing::TempDir()) / "cascade_cell_writer";
 };
@@ -104,8 +112,8 @@ def read(name):
         for array in section:
             offset = block + int(array.get("offset"))
             size = struct.unpack_from("<Q", data, offset)[0]
-            values = numpy.frombuffer(data, types[array.get("type")], offset=offset + 8,
-                                      count=size // int(array.get("type")[-2:].replace("t8", "8")) * 8)
+            kind = numpy.dtype(types[array.get("type")])
+            values = numpy.frombuffer(data, kind, size // kind.itemsize, offset + 8)
             arrays[section.tag, array.get("Name")] = values.reshape(
                 -1, int(array.get("NumberOfComponents")))
             end = max(end, offset + 8 + size)

@@ -3,7 +3,7 @@
 #include "export/model_writer.h"
 #include "picture/light.h"
 #include "surface/model_file.h"
-#include "surface/point_normals.h"
+#include "surface/normals.h"
 #include "unit/export/example_surfaces.h"
 
 #include <cstring>

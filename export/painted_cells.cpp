@@ -1,0 +1,56 @@
+#include "export/painted_cells.h"
+
+#include "export/channels.h"
+#include "export/point_values.h"
+
+#include <algorithm>
+
+namespace cascade {
+
+PlacePainter::Look PlacePainter::at(const SurfacePlace& place) {
+    filter_.shares(place, shares_);
+    std::fill(values_.begin(), values_.end(), 0.0F);
+    Look look;
+    for (const CellShare& share : shares_) {
+        const std::size_t first = share.cell * cells_.channels;
+        for (std::size_t c = 0; c < cells_.channels; ++c) {
+            values_[c] += share.weight * cells_.values[first + c];
+        }
+        if (!cells_.heights.empty()) look.height += share.weight * cells_.heights[share.cell];
+    }
+    look.colour = shown(cells_.colour(values_, place));
+    return look;
+}
+
+Vector3d PlacePainter::rise_at(const SurfacePlace& place) {
+    filter_.sloped_shares(place, slopes_);
+    const auto height = [&](const SlopedShare& share) {
+        return static_cast<double>(cells_.heights[share.cell]);
+    };
+    Vector3d rise;
+    for (const SlopedShare& share : slopes_) {
+        const Vector3d slope = {static_cast<double>(share.slope.x),
+                                static_cast<double>(share.slope.y),
+                                static_cast<double>(share.slope.z)};
+        rise = rise + slope * ((height(share) - height(slopes_[0])) / filter_.radius());
+    }
+    return rise;
+}
+
+std::vector<Colour> colours_at_points(const SurfaceMesh& mesh, const CellFilter& filter,
+                                      const PaintedCells& cells, Team& team) {
+    const std::vector<SurfacePlace> places = places_of_points(mesh);
+    std::vector<Colour> colours(places.size());
+    team.run([&](int index) {
+        const RowRange mine =
+            split_rows(static_cast<std::int64_t>(places.size()), index, team.size());
+        PlacePainter painter(filter, cells);
+        for (auto p = static_cast<std::size_t>(mine.begin);
+             p < static_cast<std::size_t>(mine.end); ++p) {
+            colours[p] = painter.at(places[p]).colour;
+        }
+    });
+    return colours;
+}
+
+}  // namespace cascade
