@@ -7,8 +7,9 @@ say() {
 
 # packages_for PURPOSE…: names from packages.txt.
 packages_for() {
-    local name purpose wanted
-    while read -r name purpose; do
+    local name purpose command wanted
+    while read -r name purpose command; do
+        [ -n "$command" ] && command -v "$command" >/dev/null && continue
         for wanted in "$@"; do
             [ "$purpose" = "$wanted" ] && printf '%s\n' "$name"
         done

@@ -1,0 +1,79 @@
+// Writes the GLB files that tests/viewer_test.sh opens into the current folder. What is to be seen
+// in them is known: tests/viewer/view.mjs has it.
+#include "export/bake.h"
+#include "export/model_writer.h"
+#include "unit/export/example_surfaces.h"
+#include "unit/surface/surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace cascade {
+namespace {
+
+/// Red where the channel is 0, blue where it is 1.
+Colour red_to_blue(std::span<const float> values, const SurfacePlace&) {
+    const float blue = std::clamp(values[0], 0.0F, 1.0F);
+    return {0.8F - 0.7F * blue, 0.2F, 0.1F + 0.8F * blue};
+}
+
+Colour white(std::span<const float>, const SurfacePlace&) { return {1, 1, 1}; }
+
+bool report(const Result<void>& written) {
+    if (!written) std::fprintf(stderr, "%s\n", written.error().message.c_str());
+    return written.has_value();
+}
+
+bool write_maps(const char* name, const SurfaceMesh& mesh, const CellFilter& filter,
+                const PaintedCells& look, Team& team) {
+    BakeOptions options;
+    options.width = 256;
+    options.height = 128;
+    const Result<Bake> maps = bake(mesh, filter, look, options, team, test::never);
+    if (!maps) std::fprintf(stderr, "%s\n", maps.error().message.c_str());
+    return maps && report(write_baked(name, mesh, *maps, {}));
+}
+
+/// A sphere, red for x below 0 and blue above, as colours of points and as a texture.
+bool write_spheres(Team& team) {
+    const SurfaceMesh mesh = test::sphere_with_texture(48);
+    const SurfaceCells cells = test::cells_of(mesh, 4000);
+    const CellFilter filter(mesh, cells, team);
+    std::vector<float> values, heights;
+    for (const SurfacePlace& place : cells.places) {
+        const Vector3d p = position_of(mesh, place);
+        values.push_back(p.x < 0 ? 0.0F : 1.0F);
+        heights.push_back(static_cast<float>(0.02 * std::sin(20 * p.z)));
+    }
+    const PaintedCells look{1, values, red_to_blue, heights};
+    const std::vector<Colour> colours = colours_at_points(mesh, filter, look, team);
+    return report(write_model("points.glb", mesh, {colours, {}})) &&
+           write_maps("maps.glb", mesh, filter, look, team);
+}
+
+/// A white square with a hill in its middle, and the same with its texture mirrored.
+bool write_hills(Team& team) {
+    SurfaceMesh mesh = test::flat_square(8);
+    const SurfaceCells cells = test::cells_of(mesh, 4000);
+    const CellFilter filter(mesh, cells, team);
+    std::vector<float> heights;
+    for (const SurfacePlace& place : cells.places) {
+        const Vector3d p = position_of(mesh, place) - Vector3d{0.5, 0.5, 0};
+        heights.push_back(static_cast<float>(0.1 * std::exp(-dot(p, p) / 0.02)));
+    }
+    const PaintedCells look{1, heights, white, heights};
+    if (!write_maps("hill.glb", mesh, filter, look, team)) return false;
+    for (auto& corners : mesh.texture) {
+        for (TexturePlace& place : corners) place[0] = 1 - place[0];
+    }
+    return write_maps("mirrored_hill.glb", mesh, filter, look, team);
+}
+
+}  // namespace
+}  // namespace cascade
+
+int main() {
+    cascade::Team team(2);
+    return cascade::write_spheres(team) && cascade::write_hills(team) ? 0 : 1;
+}

@@ -1,0 +1,148 @@
+// Opens GLB files as a browser does. Arguments: the browser and the folder of the models; three.js and
+// the validator are found in node_modules of the current folder.
+//
+// Each file must be one in which the Khronos validator finds nothing wrong. Then three.js draws it in
+// the browser, without a window and without a graphics card, and the pixels must show what the model is known
+// to look like. Pictures are left in the current folder.
+import { spawn } from "node:child_process";
+import { createServer } from "node:http";
+import { createRequire } from "node:module";
+import { readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { extname, join, normalize } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const [browser, models] = process.argv.slice(2);
+const here = process.cwd();
+const page = join(fileURLToPath(new URL(".", import.meta.url)), "page.html");
+const faults = [];
+const expect = (condition, message) => condition || faults.push(message);
+
+async function validate() {
+    const validator = createRequire(join(here, "package.json"))("gltf-validator");
+    const files = readdirSync(models).filter((name) => name.endsWith(".glb"));
+    expect(files.length >= 4, `only ${files.length} models were written`);
+    for (const file of files) {
+        const report = await validator.validateBytes(
+            new Uint8Array(readFileSync(join(models, file))), { maxIssues: 20 });
+        const { numErrors, numWarnings, messages } = report.issues;
+        expect(numErrors + numWarnings === 0, `${file}: ${JSON.stringify(messages, null, 1)}`);
+        console.log(`${file}: ${report.info.totalVertexCount} vertices, ` +
+                    `${report.info.totalTriangleCount} triangles, valid`);
+    }
+}
+
+// `frame` is the middle and half the side of what is seen, along z; x grows to the right, y up.
+const views = [
+    { name: "points", model: "points.glb", ambient: 1, frame: [0, 0, 1.2] },
+    { name: "maps", model: "maps.glb", ambient: 1, frame: [0, 0, 1.2] },
+    { name: "relief", model: "maps.glb", sun: [0, 5, 5], frame: [0, 0, 1.2] },
+    ...["hill", "mirrored_hill"].flatMap((name) => [
+        { name: `${name}_left`, model: `${name}.glb`, sun: [-5, 0, 5], frame: [0.5, 0.5, 0.5] },
+        { name: `${name}_top`, model: `${name}.glb`, sun: [0, 5, 5], frame: [0.5, 0.5, 0.5] },
+    ]),
+];
+
+/// The mean colour of 5 × 5 pixels of a view around a place, −1 … 1 to the right and up.
+function colour(view, x, y) {
+    const sum = [0, 0, 0];
+    const column = Math.round(64 + 64 * x), row = Math.round(64 - 64 * y);
+    for (let j = row - 2; j <= row + 2; ++j) {
+        for (let i = column - 2; i <= column + 2; ++i) {
+            for (let c = 0; c < 3; ++c) sum[c] += view[4 * (128 * j + i) + c] / 25;
+        }
+    }
+    return sum;
+}
+
+function expect_colour(seen, name, x, y, wanted) {
+    const found = colour(seen[name], x, y);
+    expect(found.every((level, c) => Math.abs(level - wanted[c]) <= 4),
+           `${name} at ${x}, ${y}: ${found.map(Math.round)} and not ${wanted}`);
+}
+
+function look_at(seen) {
+    for (const name of ["points", "maps"]) {
+        expect_colour(seen, name, 0.97, 0.97, [0, 0, 0]);
+        for (const y of [-0.5, 0, 0.5]) {
+            expect_colour(seen, name, -0.4, y, [204, 51, 26]);
+            expect_colour(seen, name, 0.4, y, [26, 51, 230]);
+        }
+    }
+    // Ridges: without them the light would change little along the way.
+    const along = Array.from({ length: 40 }, (_, k) => colour(seen.relief, 0.3, 0.4 - k / 80)[2]);
+    expect(Math.max(...along) - Math.min(...along) > 20, `no relief: ${along.map(Math.round)}`);
+    for (const name of ["hill", "mirrored_hill"]) {
+        const bright = (sun, x, y) => colour(seen[`${name}_${sun}`], x, y)[1];
+        const level = bright("left", 0.8, 0.8);
+        expect(bright("left", -0.2, 0) > level + 10 && bright("left", 0.2, 0) < level - 10,
+               `${name} is not lit from the left: ${bright("left", -0.2, 0)}, ${level}, ` +
+               `${bright("left", 0.2, 0)}`);
+        expect(bright("top", 0, 0.2) > level + 10 && bright("top", 0, -0.2) < level - 10,
+               `${name} is not lit from above: ${bright("top", 0, 0.2)}, ${level}, ` +
+               `${bright("top", 0, -0.2)}`);
+    }
+}
+
+/// The pixels of all views by name.
+function draw() {
+    const seen = {};
+    const types = { ".html": "text/html", ".js": "text/javascript", ".json": "application/json" };
+    return new Promise((resolve, reject) => {
+        let shell;
+        const server = createServer((request, response) => {
+            const path = normalize(decodeURIComponent(new URL(request.url, "http://x").pathname));
+            let body = "";
+            request.on("data", (part) => (body += part));
+            request.on("end", () => {
+                if (path.startsWith("/view/")) {
+                    const name = path.slice(6), { png, pixels } = JSON.parse(body);
+                    seen[name] = pixels;
+                    writeFileSync(join(here, `${name}.png`), Buffer.from(png.split(",")[1], "base64"));
+                }
+                if (path === "/done") finish(() => resolve(seen));
+                if (path === "/failed") finish(() => reject(new Error(`in the browser: ${body}`)));
+                if (request.method === "POST") return response.end();
+                if (path === "/views.json") return response.end(JSON.stringify(views));
+                const file = path === "/" ? page
+                    : path.startsWith("/models/") ? join(models, path.slice(8)) : join(here, path);
+                try {
+                    response.setHeader("Content-Type", types[extname(file)] || "application/octet-stream");
+                    response.end(readFileSync(file));
+                } catch {
+                    response.writeHead(404).end();
+                }
+            });
+        });
+        const finish = (action) => {
+            clearTimeout(limit);
+            server.close();
+            server.closeAllConnections();
+            shell.removeAllListeners("exit");
+            shell.once("exit", action);
+            shell.kill("SIGKILL");
+        };
+        const limit = setTimeout(
+            () => finish(() => reject(new Error("the browser drew nothing in 4 minutes"))), 240000);
+        server.listen(0, "127.0.0.1", () => {
+            // No sandbox: it does not work for root, who runs tests in containers.
+            shell = spawn(browser, [
+                "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
+                "--enable-unsafe-swiftshader", "--no-first-run", "--disable-background-networking",
+                `--user-data-dir=${join(here, "profile")}`, `http://127.0.0.1:${server.address().port}/`,
+            ], { stdio: ["ignore", "ignore", "pipe"] });
+            let said = "";
+            shell.stderr.on("data", (part) => (said = (said + part).slice(-4000)));
+            shell.once("error", (error) => reject(error));
+            shell.once("exit", (code) => {
+                clearTimeout(limit);
+                server.close();
+                reject(new Error(`the browser ended with ${code}: ${said}`));
+            });
+        });
+    });
+}
+
+await validate();
+look_at(await draw());
+for (const fault of faults) console.log(fault);
+process.exit(faults.length === 0 ? 0 : 1);
