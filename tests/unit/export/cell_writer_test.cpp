@@ -1,6 +1,8 @@
 // Cells as files: what NumPy and a reader of XML find in them.
 #include "export/cell_writer.h"
+#include "export/glb.h"
 #include "export/model_writer.h"
+#include "export/painted_cells.h"
 #include "export/point_values.h"
 #include "export/zip.h"
 #include "unit/export/example_surfaces.h"
@@ -153,6 +155,49 @@ TEST(CellWriter, ArchivesWithoutEntriesAreArchives) {
     const Result<std::string> bytes = encode_zip({});
     ASSERT_TRUE(bytes.has_value());
     EXPECT_EQ(bytes->size(), 22u);
+}
+
+TEST(CellWriter, FilesAreTheSameOnAnyNumberOfThreads) {
+    const SurfaceMesh mesh = test::sphere_with_texture(8);
+    std::vector<std::string> first;
+    for (const int threads : {1, 3}) {
+        Team team(threads);
+        const SurfaceCells cells = test::cells_of(mesh, 200, threads);
+        const CellFilter filter(mesh, cells, team);
+        std::vector<Channel> channels{{"u", std::vector<float>(cells.areas.begin(),
+                                                               cells.areas.end())}};
+        const PaintedCells look{1, channels[0].values,
+                                [](std::span<const float> values, const SurfacePlace&) -> Colour {
+                                    return {10 * values[0], 0.5F, 0};
+                                },
+                                {}};
+        const std::vector<Colour> colours = colours_at_points(mesh, filter, look, team);
+        const std::vector<Channel> points = at_points(mesh, filter, channels, team);
+        GlbLook glb;
+        glb.colours = colours;
+        const std::vector<std::string> files = {
+            encode_ply(mesh, {colours, points}), encode_obj(mesh, {colours, points}),
+            encode_vtp(mesh, {colours, points}), *encode_glb(mesh, glb),
+            *encode_npz(mesh, cells, {{}, channels}), encode_vtp(mesh, cells, {{}, channels})};
+        if (first.empty()) first = files;
+        for (std::size_t k = 0; k < files.size(); ++k) EXPECT_TRUE(files[k] == first[k]) << k;
+    }
+}
+
+TEST(PaintedCells, PointsHaveTheColourOfTheFilteredValues) {
+    const CellsOfSquare square;
+    Team team(2);
+    const CellFilter filter(square.mesh, square.cells, team);
+    const PaintedCells look{1, square.channels[0].values,
+                            [](std::span<const float> values, const SurfacePlace&) -> Colour {
+                                return {values[0], 0.5F, 1 - values[0]};
+                            },
+                            {}};
+    const std::vector<Colour> colours = colours_at_points(square.mesh, filter, look, team);
+    const std::vector<Channel> values = at_points(square.mesh, filter, square.channels, team);
+    for (std::size_t p = 0; p < colours.size(); ++p) {
+        EXPECT_EQ(colours[p], (Colour{values[0].values[p], 0.5F, 1 - values[0].values[p]}));
+    }
 }
 
 TEST(PointValues, AreThoseOfTheCellsAround) {
