@@ -4,7 +4,7 @@
 #include "export/fill_gaps.h"
 #include "export/render_vertices.h"
 #include "export/texture_layout.h"
-#include "picture/light.h"
+#include "picture/srgb.h"
 #include "surface/normals.h"
 
 #include <fmt/format.h>
@@ -125,7 +125,7 @@ private:
         }
         for (const SurfacePlace& place : own.places) {
             const PlacePainter::Look look = own.painter.at(place);
-            own.lights.push_back(to_light(look.colour));
+            own.lights.push_back(light_of(look.colour));
             own.heights.push_back(look.height);
         }
     }
@@ -200,7 +200,7 @@ private:
             static_cast<double>(again) / static_cast<double>(std::max(covered + again, std::int64_t{1}));
         warn(bake);
         fill_gaps(colour_);
-        for (Colour& texel : colour_.texels) texel = to_stored(texel);
+        for (Colour& texel : colour_.texels) texel = stored_of(texel);
         bake.colour = image_of(std::move(colour_));
         if (!has_heights()) return bake;
         finish_relief(bake);

@@ -3,7 +3,7 @@
 #include "core/check.h"
 #include "export/channels.h"
 #include "picture/float_bytes.h"
-#include "picture/light.h"
+#include "picture/srgb.h"
 #include "surface/normals.h"
 
 #include <fmt/format.h>
@@ -179,7 +179,7 @@ private:
         const std::size_t count = vertices_.points.size();
         const std::size_t view = buffer_.add_view(vertex_buffer, [&](std::string& bytes) {
             for (const std::uint32_t point : vertices_.points) {
-                for (const float light : to_light(shown(look_.colours[point]))) {
+                for (const float light : light_of(shown(look_.colours[point]))) {
                     append_number(bytes, static_cast<std::uint16_t>(level_of(light, 65535)));
                 }
                 append_number(bytes, std::uint16_t{65535});

@@ -1,7 +1,7 @@
 // Models as binary PLY files.
 #include "export/model_writer.h"
 #include "picture/float_bytes.h"
-#include "picture/light.h"
+#include "picture/srgb.h"
 #include "surface/normals.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "export/model_writer.h"
 #include "picture/float_bytes.h"
-#include "picture/light.h"
+#include "picture/srgb.h"
 #include "picture/xml_text.h"
 #include "surface/normals.h"
 

@@ -6,7 +6,7 @@
 #include "core/check.h"
 #include "core/file.h"
 #include "picture/image.h"
-#include "picture/light.h"
+#include "picture/srgb.h"
 
 #include <fmt/format.h>
 #include <png.h>

@@ -6,7 +6,7 @@
 #include "render/draw.h"
 
 #include "core/hash.h"
-#include "render/srgb.h"
+#include "picture/srgb.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "run/cell_picture.h"
 
 #include "core/check.h"
-#include "render/srgb.h"
+#include "picture/srgb.h"
 #include "surface/blur_cells.h"
 
 #include <algorithm>

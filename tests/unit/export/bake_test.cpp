@@ -3,7 +3,7 @@
 #include "export/fill_gaps.h"
 #include "export/glb.h"
 #include "export/texture_layout.h"
-#include "picture/light.h"
+#include "picture/srgb.h"
 #include "surface/model_file.h"
 #include "unit/export/example_surfaces.h"
 #include "unit/surface/surfaces.h"
@@ -152,12 +152,12 @@ TEST(Bake, TexelsOfASquareAreWhatThePlacesSay) {
         for (std::int64_t x = 0; x < 16; ++x) {
             const Colour& texel = result.colour.at(x, y);
             const auto light = [](double place) {
-                return (to_light(static_cast<float>(place - 0.25 / 16)) +
-                        to_light(static_cast<float>(place + 0.25 / 16))) / 2;
+                return (light_of(static_cast<float>(place - 0.25 / 16)) +
+                        light_of(static_cast<float>(place + 0.25 / 16))) / 2;
             };
-            EXPECT_NEAR(to_light(texel[0]), light((static_cast<double>(x) + 0.5) / 16), 1e-5F);
-            EXPECT_NEAR(to_light(texel[1]), light(1 - (static_cast<double>(y) + 0.5) / 16), 1e-5F);
-            EXPECT_NEAR(to_light(texel[2]), 0.5F, 1e-5F);
+            EXPECT_NEAR(light_of(texel[0]), light((static_cast<double>(x) + 0.5) / 16), 1e-5F);
+            EXPECT_NEAR(light_of(texel[1]), light(1 - (static_cast<double>(y) + 0.5) / 16), 1e-5F);
+            EXPECT_NEAR(light_of(texel[2]), 0.5F, 1e-5F);
         }
     }
 }

@@ -1,7 +1,7 @@
 // Models as files: our own readers get back what was written.
 #include "export/glb.h"
 #include "export/model_writer.h"
-#include "picture/light.h"
+#include "picture/srgb.h"
 #include "surface/model_file.h"
 #include "surface/normals.h"
 #include "unit/export/example_surfaces.h"
@@ -104,7 +104,7 @@ TEST(ModelWriter, GlbIsReadBack) {
     expect_same(read, mesh, 2e-7);
     expect_same_texture(read, mesh, 1e-7F);
     for (std::size_t p = 0; p < mesh.points.size(); ++p) {
-        EXPECT_NEAR(attribute(read, "red").values[p], to_light(colours[p][0]), 1e-5F);
+        EXPECT_NEAR(attribute(read, "red").values[p], light_of(colours[p][0]), 1e-5F);
     }
 }
 

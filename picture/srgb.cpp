@@ -1,29 +1,23 @@
-#include "picture/light.h"
+#include "picture/srgb.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace cascade {
 
-namespace {
-
-// The library's functions differ in their last bit from processor to processor. Those of binary64,
-// rounded to binary32, do not.
-float power(float base, double exponent) {
+float steady_power(float base, double exponent) {
     return static_cast<float>(std::pow(static_cast<double>(base), exponent));
 }
 
-}  // namespace
-
-float to_light(float stored) {
+float light_of(float stored) {
     if (!(stored > 0)) return 0;
-    return stored <= 0.04045F ? stored / 12.92F : power((stored + 0.055F) / 1.055F, 2.4);
+    return stored <= 0.04045F ? stored / 12.92F : steady_power((stored + 0.055F) / 1.055F, 2.4);
 }
 
-float to_stored(float light) {
+float stored_of(float light) {
     if (!(light > 0)) return 0;
     if (light >= 1) return 1;
-    return light <= 0.0031308F ? light * 12.92F : 1.055F * power(light, 1 / 2.4) - 0.055F;
+    return light <= 0.0031308F ? light * 12.92F : 1.055F * steady_power(light, 1 / 2.4) - 0.055F;
 }
 
 unsigned level_of(float value, unsigned highest) {

@@ -1,5 +1,5 @@
 // Stored numbers and amounts of light.
-#include "picture/light.h"
+#include "picture/srgb.h"
 
 #include <gtest/gtest.h>
 #include <limits>
@@ -7,26 +7,26 @@
 namespace cascade {
 namespace {
 
-TEST(Light, LevelsComeBack) {
+TEST(Srgb, LevelsComeBack) {
     for (unsigned level = 0; level < 256; ++level) {
         const float stored = static_cast<float>(level) / 255;
-        EXPECT_EQ(level_of(to_stored(to_light(stored)), 255), level);
+        EXPECT_EQ(level_of(stored_of(light_of(stored)), 255), level);
     }
-    EXPECT_EQ(to_light(0.0F), 0);
-    EXPECT_EQ(to_light(1.0F), 1);
-    EXPECT_EQ(to_stored(1.0F), 1);
-    EXPECT_NEAR(to_light(0.5F), 0.214041F, 1e-6F);  // The standard's formula.
-    EXPECT_NEAR(to_light(0.04F), 0.04F / 12.92F, 1e-9F);
+    EXPECT_EQ(light_of(0.0F), 0);
+    EXPECT_EQ(light_of(1.0F), 1);
+    EXPECT_EQ(stored_of(1.0F), 1);
+    EXPECT_NEAR(light_of(0.5F), 0.214041F, 1e-6F);  // The standard's formula.
+    EXPECT_NEAR(light_of(0.04F), 0.04F / 12.92F, 1e-9F);
 }
 
-TEST(Light, WhatIsNoAmountIsClamped) {
+TEST(Srgb, WhatIsNoAmountIsClamped) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const float none : {nan, -1.0F, -std::numeric_limits<float>::infinity()}) {
-        EXPECT_EQ(to_light(none), 0);
-        EXPECT_EQ(to_stored(none), 0);
+        EXPECT_EQ(light_of(none), 0);
+        EXPECT_EQ(stored_of(none), 0);
         EXPECT_EQ(level_of(none, 65535), 0u);
     }
-    EXPECT_EQ(to_stored(7.0F), 1);
+    EXPECT_EQ(stored_of(7.0F), 1);
     EXPECT_EQ(level_of(std::numeric_limits<float>::infinity(), 65535), 65535u);
 }
 
