@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace cascade::checking {
 
@@ -120,12 +121,13 @@ private:
         const ShapeName& name = *shape_of(word_of(value));
         const std::vector<ast::Expression> arguments = arguments_of(script_, sentence.values[0]);
         const bool is_implicit = name.shape == ModelShape::implicit;
-        if (arguments.size() != name.sizes && (is_implicit || !arguments.empty())) {
+        const bool has_box = is_implicit && arguments.size() == 2;
+        if (arguments.size() != name.sizes && !has_box && (is_implicit || !arguments.empty())) {
             work_.diagnostics.error(
                 value.span,
                 name.sizes == 0 ? fmt::format("'{}' stands alone", name.word)
                                 : fmt::format("{} takes {} in brackets", name.word,
-                                              is_implicit ? "an expression of x, y and z"
+                                              is_implicit ? "an expression of x, y and z, and perhaps half the side of its box"
                                               : name.sizes == 2 ? "its two radii" : "its three sides"),
                 fmt::format("surface: {}", name.example));
             return;
@@ -139,17 +141,16 @@ private:
             auto checked = check_number(work_, script_, arguments[0], scope);
             if (!checked) return;
             model.implicit = std::move(checked->formula);
-        } else {
-            for (const ast::Expression each : arguments) {
-                const auto size = check_constant(work_, script_, each, "a size");
-                if (!size) return;
-                if (!(*size >= 1e-6 && *size <= 1e6)) {
-                    work_.diagnostics.error(script_.expressions[each.root].span,
-                                            "a size is from 1e-6 to 1e6");
-                    return;
-                }
-                model.sizes.push_back(*size);
+        }
+        for (const ast::Expression each : std::span(arguments).subspan(is_implicit ? 1 : 0)) {
+            const auto size = check_constant(work_, script_, each, "a size");
+            if (!size) return;
+            if (!(*size >= 1e-6 && *size <= 1e6)) {
+                work_.diagnostics.error(script_.expressions[each.root].span,
+                                        "a size is from 1e-6 to 1e6");
+                return;
             }
+            model.sizes.push_back(*size);
         }
         if (model.shape == ModelShape::torus && !model.sizes.empty() &&
             model.sizes[1] >= model.sizes[0]) {

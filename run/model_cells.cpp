@@ -1,15 +1,20 @@
 #include "run/model_cells.h"
 
-#include "core/with_commas.h"
+#include "core/check.h"
 #include "ir/word_format.h"
 #include "lang/evaluate.h"
 #include "lang/models.h"
 #include "surface/cell_gradient.h"
+#include "surface/creature.h"
 #include "surface/curvature.h"
+#include "surface/implicit_surface.h"
+#include "run/memory.h"
+#include "surface/make_cells.h"
 #include "surface/make_mesh.h"
 #include "surface/model_file.h"
+#include "surface/normals.h"
 #include "surface/place_values.h"
-#include "surface/scatter.h"
+#include "surface/shapes.h"
 
 #include <fmt/format.h>
 
@@ -21,8 +26,6 @@
 namespace cascade {
 
 namespace {
-
-constexpr int rounds = 40;
 
 // Cells that are so much smaller than the mean are taken for no smaller: a step would have to be as short.
 constexpr double least_area = 1e-3;
@@ -41,31 +44,47 @@ Result<MadeMesh> read_mesh(const ModelSettings& settings, const ModelAccess& acc
     return failure(fmt::format("'{}': {}", settings.path, made.error().message), made.error().hint);
 }
 
-Result<MadeMesh> make_surface(const ModelSettings& settings, const ModelAccess& access) {
-    if (settings.shape == ModelShape::file) return read_mesh(settings, access);
-    return failure("surfaces without a file are not made yet");
+/// Where a formula of x, y and z is 0, it being above 0 inside.
+Result<SurfaceMesh> implicit_mesh(const ModelSettings& settings, const std::atomic<bool>& cancel) {
+    const auto function = [&](std::span<const Vector3d> points, std::span<double> values) {
+        BuiltinValues place{};
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            place[static_cast<std::size_t>(Builtin::x)] = points[k].x;
+            place[static_cast<std::size_t>(Builtin::y)] = points[k].y;
+            place[static_cast<std::size_t>(Builtin::z)] = points[k].z;
+            values[k] = evaluate(*settings.implicit, place);
+        }
+    };
+    const double half = settings.sizes.empty() ? 1 : settings.sizes[0];
+    ImplicitRequest request;
+    request.low = {-half, -half, -half};
+    request.high = {half, half, half};
+    request.edge = half / 25;
+    return implicit_surface(function, request, cancel);
 }
 
-/// The cells of a list in another order; `order[k]` is the number of what becomes number k.
-SurfaceCells reordered(const SurfaceCells& cells, const std::vector<std::uint32_t>& order) {
-    std::vector<std::uint32_t> position(order.size());
-    for (std::uint32_t k = 0; k < order.size(); ++k) position[order[k]] = k;
-    SurfaceCells result;
-    result.bare_area = cells.bare_area;
-    result.places.reserve(order.size());
-    result.areas.reserve(order.size());
-    result.ends.reserve(order.size());
-    result.walls.reserve(cells.walls.size());
-    for (const std::uint32_t cell : order) {
-        result.places.push_back(cells.places[cell]);
-        result.areas.push_back(cells.areas[cell]);
-        for (CellWall wall : cells.walls_of(cell)) {
-            wall.neighbour = position[wall.neighbour];
-            result.walls.push_back(wall);
+Result<MadeMesh> make_surface(const ModelSettings& settings, const ModelAccess& access,
+                              const std::atomic<bool>& cancel) {
+    // Fine enough for the smallest features, however many cells are asked for.
+    constexpr double edge = 0.02;
+    const auto size = [&](std::size_t k, double otherwise) {
+        return k < settings.sizes.size() ? settings.sizes[k] : otherwise;
+    };
+    Result<SurfaceMesh> mesh;
+    switch (settings.shape) {
+        case ModelShape::file: return read_mesh(settings, access);
+        case ModelShape::sphere: mesh = sphere_mesh(1, edge); break;
+        case ModelShape::torus: mesh = torus_mesh(size(0, 1), size(1, 0.4), edge * size(0, 1)); break;
+        case ModelShape::box: {
+            const Vector3d sides{size(0, 1), size(1, 1), size(2, 1)};
+            mesh = box_mesh(sides, edge * std::max({sides.x, sides.y, sides.z}));
+            break;
         }
-        result.ends.push_back(result.walls.size());
+        case ModelShape::creature: mesh = creature_mesh(0.04, cancel); break;
+        case ModelShape::implicit: mesh = implicit_mesh(settings, cancel); break;
     }
-    return result;
+    if (!mesh) return tl::unexpected(mesh.error());
+    return MadeMesh{*std::move(mesh), {}};
 }
 
 /// Weights of a Laplacian in units, one for each wall.
@@ -88,6 +107,15 @@ std::vector<double> weights_of(const SurfaceCells& cells, ModelLaplacian laplaci
     return weights;
 }
 
+CellKind kind_of(ModelCellKind kind) {
+    switch (kind) {
+        case ModelCellKind::spread: return CellKind::places;
+        case ModelCellKind::faces: return CellKind::faces;
+        case ModelCellKind::vertices: return CellKind::vertices;
+    }
+    CHECK(false, "a kind of cells");
+}
+
 class ModelCellMaker {
 public:
     ModelCellMaker(const Program& program, Team& team, RunControl& control)
@@ -95,7 +123,7 @@ public:
 
     Result<std::shared_ptr<const ModelCells>> make(const ModelAccess& access) {
         report("reading");
-        Result<MadeMesh> made = make_surface(settings_, access);
+        Result<MadeMesh> made = make_surface(settings_, access, control_.cancel);
         if (!made) return tl::unexpected(made.error());
         model_->mesh = std::move(made->mesh);
         model_->repairs = std::move(made->repairs);
@@ -117,23 +145,19 @@ private:
 
     Result<void> spread_cells() {
         report("spreading");
-        const auto count = static_cast<std::size_t>(settings_.count);
-        const auto pieces = pieces_of(model_->mesh);
-        const std::size_t piece_count =
-            pieces.empty() ? 0 : *std::max_element(pieces.begin(), pieces.end()) + std::size_t{1};
-        if (count < piece_count) {
-            return failure(fmt::format("the model has {} pieces, but {} cells are to be spread over it",
-                                       with_commas(static_cast<std::int64_t>(piece_count)),
-                                       with_commas(settings_.count)),
-                           "each piece needs cells: --cells");
+        CellOptions options;
+        options.kind = kind_of(settings_.cells);
+        options.count = static_cast<std::uint64_t>(settings_.count);
+        options.seed = program_.domain.seed;
+        const double bytes = memory_of_cells(model_->mesh, options);
+        if (bytes > static_cast<double>(available_memory())) {
+            return failure(fmt::format("making these cells takes {}, more than is free",
+                                       describe_bytes(bytes)), "fewer cells: --cells");
         }
-        std::vector<SurfacePlace> places = scatter(model_->mesh, count, program_.domain.seed);
-        relax(model_->mesh, places, rounds, team_, control_.cancel);
+        auto made = make_cells(model_->mesh, options, team_, control_.cancel);
+        if (!made) return tl::unexpected(made.error());
         if (control_.cancel) return {};
-        SurfaceCells cells = voronoi_cells(model_->mesh, std::move(places), team_, control_.cancel);
-        model_->numbers.resize(cells.places.size());
-        std::iota(model_->numbers.begin(), model_->numbers.end(), 0);
-        model_->cells = reordered(cells, model_->numbers);
+        model_->cells = *std::move(made);
         return {};
     }
 
@@ -199,7 +223,7 @@ private:
         model_->planes.resize(model_plane_count);
         const SurfaceMesh& mesh = model_->mesh;
         const SurfaceCells& cells = model_->cells;
-        put(ModelPlane::number, [&](std::size_t k) { return model_->numbers[k]; });
+        put(ModelPlane::number, [](std::size_t k) { return static_cast<std::uint32_t>(k); });
         put(ModelPlane::area, [&](std::size_t k) { return areas[k]; });
         const MeshFacts facts = facts_of(mesh);
         const Vector3d size = facts.high - facts.low;
@@ -213,15 +237,10 @@ private:
         put(ModelPlane::sx, [&](std::size_t k) { return part(places[k].x, size.x); });
         put(ModelPlane::sy, [&](std::size_t k) { return part(places[k].y, size.y); });
         put(ModelPlane::sz, [&](std::size_t k) { return part(places[k].z, size.z); });
-        const std::vector<Vector3d> of_points = point_normals(mesh);
+        const std::vector<Vector3d> of_points = sphere_normals(mesh);
         std::vector<Vector3d> normals;
         for (const SurfacePlace& place : cells.places) {
-            Vector3d sum{};
-            for (std::size_t k = 0; k < 3; ++k) {
-                sum = sum + of_points[mesh.triangles[place.triangle][k]] * place.weights[k];
-            }
-            if (!(length(sum) > 0)) sum = mesh.double_area_normal(place.triangle);
-            normals.push_back(length(sum) > 0 ? sum * (1 / length(sum)) : Vector3d{0, 0, 1});
+            normals.push_back(normal_at(mesh, of_points, place));
         }
         put(ModelPlane::nx, [&](std::size_t k) { return normals[k].x; });
         put(ModelPlane::ny, [&](std::size_t k) { return normals[k].y; });
@@ -248,11 +267,11 @@ Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& progra
     return ModelCellMaker(program, team, control).make(access);
 }
 
-std::vector<double> in_own_order(const Field& field, const ModelCells& model) {
+std::vector<double> cell_values(const Field& field, const ModelCells& model) {
     std::vector<double> values(model.count());
     for (std::size_t k = 0; k < model.count(); ++k) {
         const auto place = static_cast<std::int64_t>(k);
-        values[model.numbers[k]] =
+        values[k] =
             field.number_at(place % model.grid.width, place / model.grid.width);
     }
     return values;

@@ -2,13 +2,14 @@
 #pragma once
 
 #include "core/links.h"
+#include "core/parallel.h"
 #include "core/plane.h"
 #include "core/result.h"
 #include "core/run_control.h"
 #include "lang/program.h"
 #include "run/read_access.h"
 #include "surface/surface_mesh.h"
-#include "surface/voronoi_cells.h"
+#include "surface/surface_cells.h"
 
 #include <filesystem>
 #include <memory>
@@ -20,10 +21,7 @@ namespace cascade {
 struct ModelCells {
     SurfaceMesh mesh;
     std::vector<std::string> repairs;  ///< What was done to the model, a sentence each.
-    /// In the order in which they lie in memory: cell k at column k mod W of row k / W.
-    SurfaceCells cells;
-    /// Their own numbers, which random numbers and files know.
-    std::vector<std::uint32_t> numbers;
+    SurfaceCells cells;                ///< Cell k lies at column k mod W of row k / W.
     Grid grid;
     double unit = 1;                   ///< In lengths of the model.
     double largest_weight = 0;         ///< The largest sum of the weights of a cell's links.
@@ -47,7 +45,7 @@ Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& progra
                                                            const ModelAccess& access, Team& team,
                                                            RunControl& control);
 
-/// The values of a plane's cells in the order of their own numbers.
-std::vector<double> in_own_order(const Field& field, const ModelCells& model);
+/// The values of a plane's cells in their order, without those that fill the last row.
+std::vector<double> cell_values(const Field& field, const ModelCells& model);
 
 }  // namespace cascade

@@ -1,7 +1,7 @@
 #include "surface/cell_filter.h"
 
 #include "surface/point_index.h"
-#include "surface/scatter.h"
+#include "surface/relax.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ std::vector<std::uint32_t> nearest_points(std::span<const Vector3d> points,
         for (std::size_t k = 0; k < others.size(); ++k) {
             if (nearest[k] != TriangleEdge::none) continue;
             double least = 0;
-            index.near(others[k], [&](std::uint32_t point) {
+            index.near(others[k], reach, [&](std::uint32_t point) {
                 const Vector3d apart = points[point] - others[k];
                 const double square = dot(apart, apart);
                 const bool is_first = nearest[k] == TriangleEdge::none;

@@ -14,8 +14,8 @@ double angle_of(Vector2d v) { return std::atan2(v.y, v.x); }
 /// Unfolds around cells, one a thread.
 class NeighbourFinder {
 public:
-    NeighbourFinder(const SurfaceMesh& mesh, const SurfaceCells& cells)
-        : mesh_(mesh), cells_(cells), unfolding_(mesh) {}
+    NeighbourFinder(const SurfaceMesh& mesh, const EdgeShapes& shapes, const SurfaceCells& cells)
+        : mesh_(mesh), cells_(cells), unfolding_(mesh, shapes) {}
 
     void find(std::size_t cell, std::span<UnfoldedNeighbour> found) {
         const auto walls = cells_.walls_of(cell);
@@ -86,10 +86,11 @@ void match_turns(const SurfaceCells& cells, std::vector<UnfoldedNeighbour>& foun
 std::vector<UnfoldedNeighbour> unfold_neighbours(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                                  Team& team, const std::atomic<bool>& cancel) {
     std::vector<UnfoldedNeighbour> found(cells.walls.size());
+    const EdgeShapes shapes(mesh);
     team.run([&](int thread) {
         const RowRange part =
             split_rows(static_cast<std::int64_t>(cells.places.size()), thread, team.size());
-        NeighbourFinder finder(mesh, cells);
+        NeighbourFinder finder(mesh, shapes, cells);
         for (std::int64_t k = part.begin; k < part.end && !cancel; ++k) {
             const auto cell = static_cast<std::size_t>(k);
             const auto walls = cells.walls_of(cell);

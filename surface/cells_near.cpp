@@ -2,7 +2,7 @@
 
 #include "surface/distance.h"
 #include "surface/nearest_place.h"
-#include "surface/scatter.h"
+#include "surface/relax.h"
 
 #include <algorithm>
 #include <limits>
@@ -25,7 +25,7 @@ struct Nearest {
 }  // namespace
 
 CellFinder::CellFinder(const SurfaceMesh& mesh, std::span<const SurfacePlace> cells)
-    : mesh_(mesh), cells_(cells), order_(cells.size()), unfolding_(mesh) {
+    : mesh_(mesh), cells_(cells), order_(cells.size()), shapes_(mesh), unfolding_(mesh, shapes_) {
     const MeshFacts facts = facts_of(mesh);
     reach_ = repulsion_radius(facts.area, std::max<std::size_t>(order_.size(), 1));
     // No way in an unfolded patch is longer than all edges together.

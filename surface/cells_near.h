@@ -32,6 +32,7 @@ private:
     double reach_;                      ///< About twice as far as cells are apart.
     double whole_;                      ///< Farther than anything is.
     std::vector<std::uint32_t> order_;  ///< The cells by their triangles.
+    EdgeShapes shapes_;
     Unfolding unfolding_;
 };
 

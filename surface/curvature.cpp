@@ -148,7 +148,7 @@ void for_each_edge(const SurfaceMesh& mesh, const Visit& visit) {
 
 }  // namespace
 
-std::vector<Vector3d> point_normals(const SurfaceMesh& mesh) {
+std::vector<Vector3d> sphere_normals(const SurfaceMesh& mesh) {
     std::vector<Vector3d> sums(mesh.points.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -207,7 +207,7 @@ std::vector<double> angle_defects(const SurfaceMesh& mesh) {
 }
 
 PrincipalCurvatures principal_curvatures(const SurfaceMesh& mesh) {
-    const std::vector<Vector3d> normals = point_normals(mesh);
+    const std::vector<Vector3d> normals = sphere_normals(mesh);
     const std::size_t count = mesh.points.size();
     std::vector<Axes> axes;
     axes.reserve(count);
@@ -244,7 +244,7 @@ PrincipalCurvatures principal_curvatures(const SurfaceMesh& mesh) {
 }
 
 std::vector<double> turk_radii(const SurfaceMesh& mesh, int rounds) {
-    const std::vector<Vector3d> normals = point_normals(mesh);
+    const std::vector<Vector3d> normals = sphere_normals(mesh);
     const MeshFacts facts = facts_of(mesh);
     std::vector<double> radii(mesh.points.size(), length(facts.high - facts.low));
     for_each_edge(mesh, [&](std::uint32_t p, std::uint32_t q) {

@@ -15,7 +15,7 @@ namespace cascade {
 /// Of length 1, outwards: the mean of the normals of the triangles around each point, weighted so that
 /// it is exact on a sphere (N. Max, "Weights for computing vertex normals from facet normals",
 /// Journal of Graphics Tools 4(2), 1999).
-std::vector<Vector3d> point_normals(const SurfaceMesh& mesh);
+std::vector<Vector3d> sphere_normals(const SurfaceMesh& mesh);
 
 /// The part of the surface that is nearer to each point than to the others of its triangles, where
 /// these are acute, and a share of the triangle where it is obtuse: the mixed area of M. Meyer,

@@ -1,5 +1,7 @@
 #include "surface/even_triangles.h"
 
+#include "surface/normals.h"
+
 #include "surface/collapse_edges.h"
 #include "surface/exchange_edges.h"
 
@@ -126,16 +128,6 @@ void move_points(SurfaceMesh& mesh, std::vector<Vector3d> places) {
 }
 
 }  // namespace
-
-std::vector<Vector3d> point_normals(const SurfaceMesh& mesh) {
-    std::vector<Vector3d> normals(mesh.points.size());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Vector3d normal = mesh.double_area_normal(t);
-        for (const std::uint32_t point : mesh.triangles[t]) normals[point] = normals[point] + normal;
-    }
-    for (Vector3d& normal : normals) normal = unit(normal);
-    return normals;
-}
 
 Result<void> make_even(SurfaceMesh& mesh, double edge, const BringBack& bring_back,
                        const std::atomic<bool>& cancel) {

@@ -25,7 +25,4 @@ using BringBack =
 Result<void> make_even(SurfaceMesh& mesh, double edge, const BringBack& bring_back,
                        const std::atomic<bool>& cancel);
 
-/// The sum of the normals around each point, each as long as its triangle's area, to length 1.
-std::vector<Vector3d> point_normals(const SurfaceMesh& mesh);
-
 }  // namespace cascade

@@ -41,8 +41,8 @@ SurfacePlace middle_of(const SurfaceMesh& mesh, std::uint32_t t) {
     std::array<double, 3> weights;
     double sum = 0;
     for (std::uint32_t k = 0; k < 3; ++k) {
-        const Vector3d a = mesh.corner(t, next_corner(k)) - mesh.corner(t, k);
-        const Vector3d b = mesh.corner(t, next_corner(next_corner(k))) - mesh.corner(t, k);
+        const Vector3d a = mesh.corner(t, corner_after(k)) - mesh.corner(t, k);
+        const Vector3d b = mesh.corner(t, corner_before(k)) - mesh.corner(t, k);
         const double size = length(a) * length(b);
         weights[k] = size > 0 ? std::max(0.0, length(cross(a, b)) / size * (dot(a, b) / size)) : 0;
         sum += weights[k];
@@ -56,7 +56,7 @@ SurfacePlace middle_of(const SurfaceMesh& mesh, std::uint32_t t) {
 /// How far a point is from the line of an edge.
 double height_above(const SurfaceMesh& mesh, TriangleEdge edge, Vector3d point) {
     const Vector3d start = mesh.corner(edge.triangle, edge.edge);
-    const Vector3d along = mesh.corner(edge.triangle, next_corner(edge.edge)) - start;
+    const Vector3d along = mesh.corner(edge.triangle, corner_after(edge.edge)) - start;
     return length(cross(along, point - start)) / length(along);
 }
 
@@ -113,7 +113,7 @@ SurfaceCells face_cells(const SurfaceMesh& mesh) {
         for (std::uint32_t k = 0; k < 3; ++k) {
             const TriangleEdge other = mesh.across[t][k];
             if (!other.exists() || std::tie(t, k) > std::tie(other.triangle, other.edge)) continue;
-            const double size = length(mesh.corner(t, next_corner(k)) - mesh.corner(t, k));
+            const double size = length(mesh.corner(t, corner_after(k)) - mesh.corner(t, k));
             walls.add(cell_of[t], cell_of[other.triangle], size, height({t, k}) + height(other));
         }
     }

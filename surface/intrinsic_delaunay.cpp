@@ -22,7 +22,7 @@ public:
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
             std::array<double, 3> lengths;
             for (std::uint32_t k = 0; k < 3; ++k) {
-                lengths[k] = length(mesh.corner(t, next_corner(k)) - mesh.corner(t, k));
+                lengths[k] = length(mesh.corner(t, corner_after(k)) - mesh.corner(t, k));
             }
             mesh_.lengths.push_back(lengths);
         }
@@ -47,8 +47,8 @@ public:
 private:
     /// Triangles (a, b, c) and (b, a, d) become (c, d, b) and (d, c, a).
     void exchange(TriangleEdge edge, TriangleEdge other) {
-        const std::uint32_t t = edge.triangle, k = edge.edge, k1 = next_corner(k), k2 = next_corner(k1);
-        const std::uint32_t o = other.triangle, m = other.edge, m1 = next_corner(m), m2 = next_corner(m1);
+        const std::uint32_t t = edge.triangle, k = edge.edge, k1 = corner_after(k), k2 = corner_after(k1);
+        const std::uint32_t o = other.triangle, m = other.edge, m1 = corner_after(m), m2 = corner_after(m1);
         const double diagonal = length(apex(edge) - mirrored(apex(other), mesh_.lengths[t][k]));
         if (!(diagonal > 0)) return;
         const std::uint32_t a = mesh_.triangles[t][k], b = mesh_.triangles[t][k1];
@@ -87,7 +87,7 @@ private:
     Vector2d apex(TriangleEdge edge) const {
         const auto& sides = mesh_.lengths[edge.triangle];
         const double base = sides[edge.edge];
-        const double right = sides[next_corner(edge.edge)], left = sides[next_corner(next_corner(edge.edge))];
+        const double right = sides[corner_after(edge.edge)], left = sides[corner_before(edge.edge)];
         const double x = (base + (left - right) * ((left + right) / base)) / 2;
         return {x, 2 * mesh_.area(edge.triangle) / base};
     }
@@ -114,7 +114,7 @@ double IntrinsicMesh::area(std::uint32_t triangle) const {
 double IntrinsicMesh::cotangent(TriangleEdge edge) const {
     const auto& sides = lengths[edge.triangle];
     const double a = sides[edge.edge];
-    const double b = sides[next_corner(edge.edge)], c = sides[next_corner(next_corner(edge.edge))];
+    const double b = sides[corner_after(edge.edge)], c = sides[corner_before(edge.edge)];
     const double four_areas = 4 * area(edge.triangle);
     const double above = b * b + (c - a) * (c + a);
     return above / std::max(four_areas, 1e-12 * (a * a + b * b + c * c));

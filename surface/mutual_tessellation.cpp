@@ -2,7 +2,7 @@
 
 #include "core/hash.h"
 #include "surface/place_lattice.h"
-#include "surface/point_normals.h"
+#include "surface/normals.h"
 
 #include <fmt/format.h>
 

@@ -49,6 +49,15 @@ std::vector<Vector3d> point_normals(const SurfaceMesh& mesh) {
     return normals;
 }
 
+Vector3d normal_at(const SurfaceMesh& mesh, const std::vector<Vector3d>& normals,
+                   const SurfacePlace& place) {
+    Vector3d sum;
+    for (std::size_t k = 0; k < 3; ++k) {
+        sum = sum + normals[mesh.triangles[place.triangle][k]] * place.weights[k];
+    }
+    return unit_or(sum, unit_or(mesh.double_area_normal(place.triangle), {0, 0, 1}));
+}
+
 CornerNormals corner_normals(const SurfaceMesh& mesh) {
     DisjointSets groups = smooth_groups(mesh);
     const auto count = static_cast<std::uint32_t>(3 * mesh.triangles.size());

@@ -13,6 +13,11 @@ namespace cascade {
 /// scaled to length 1. (0, 0, 1) where they cancel out.
 std::vector<Vector3d> point_normals(const SurfaceMesh& mesh);
 
+/// The same anywhere: the normals of the triangle's corners, weighted and scaled to length 1. That of the
+/// triangle where they cancel out.
+Vector3d normal_at(const SurfaceMesh& mesh, const std::vector<Vector3d>& normals,
+                   const SurfacePlace& place);
+
 /// Normals that are smooth where the surface is meant to be round: a point has one for each group of its
 /// triangles that hang together over edges at which they meet at no more than 60°.
 struct CornerNormals {

@@ -24,7 +24,7 @@ EdgeShapes::EdgeShapes(const SurfaceMesh& mesh) {
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         std::array<Vector2d, 3> shape;
         for (std::uint32_t k = 0; k < 3; ++k) {
-            shape[k] = lay_flat(mesh, {t, k}, {0, 0}, {1, 0})[next_corner(next_corner(k))];
+            shape[k] = lay_flat(mesh, {t, k}, {0, 0}, {1, 0})[corner_before(k)];
         }
         shapes_.push_back(shape);
     }
@@ -38,7 +38,7 @@ void Unfolding::add(std::uint32_t triangle, const FlatTriangle& flat, std::uint3
     for (std::uint32_t k = 0; k < 3; ++k) {
         const TriangleEdge other = mesh_.across[triangle][k];
         if (k == entered || !other.exists() || flat_of(other.triangle)) continue;
-        const double distance = square_to(flat[next_corner(k)], flat[k]);
+        const double distance = square_to(flat[corner_after(k)], flat[k]);
         if (distance > square) {
             is_everything_ = false;
             continue;
@@ -69,9 +69,9 @@ std::span<const Unfolding::Piece> Unfolding::around(const SurfacePlace& place, d
         const TriangleEdge into = mesh_.across[piece.triangle][edge];
         if (flat_of(into.triangle)) continue;
         const std::uint32_t k = into.edge;
-        flat[k] = piece.flat[next_corner(edge)];
-        flat[next_corner(k)] = piece.flat[edge];
-        flat[next_corner(next_corner(k))] = shapes_.apex(into, flat[k], flat[next_corner(k)]);
+        flat[k] = piece.flat[corner_after(edge)];
+        flat[corner_after(k)] = piece.flat[edge];
+        flat[corner_before(k)] = shapes_.apex(into, flat[k], flat[corner_after(k)]);
         add(into.triangle, flat, k, radius * radius);
     }
     return pieces_;

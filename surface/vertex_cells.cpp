@@ -21,7 +21,7 @@ void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>&
     const auto& corners = mesh.triangles[t];
     for (std::uint32_t k = 0; k < 3; ++k) {
         if (cotangents[k] >= 0) continue;
-        const std::uint32_t obtuse = next_corner(next_corner(k));  // The corner that faces edge k.
+        const std::uint32_t obtuse = corner_before(k);  // The corner that faces edge k.
         for (std::uint32_t j = 0; j < 3; ++j) areas[corners[j]] += area * (j == obtuse ? 0.5 : 0.25);
         return;
     }
@@ -34,7 +34,7 @@ void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>&
     for (std::uint32_t k = 0; k < 3; ++k) {
         const double part = sum > 0 ? parts[k] / sum : 1.0 / 3;
         areas[corners[k]] += area * part / 2;
-        areas[corners[next_corner(k)]] += area * part / 2;
+        areas[corners[corner_after(k)]] += area * part / 2;
     }
 }
 
@@ -62,7 +62,7 @@ SurfaceCells vertex_cells(const SurfaceMesh& mesh) {
                 flipped.cotangent({t, k}) + (other.exists() ? flipped.cotangent(other) : 0);
             if (cotangents / 2 < least_weight) continue;
             const double distance = flipped.lengths[t][k];
-            walls.add(flipped.triangles[t][k], flipped.triangles[t][next_corner(k)],
+            walls.add(flipped.triangles[t][k], flipped.triangles[t][corner_after(k)],
                       cotangents / 2 * distance, distance);
         }
     }

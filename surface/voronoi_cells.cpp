@@ -114,13 +114,13 @@ private:
                                    stretch_(piece.flat[2])};
         part_.clear();
         for (std::uint32_t k = 0; k < 3; ++k) {
-            const Vector2d from = flat[k], along = flat[next_corner(k)] - from;
+            const Vector2d from = flat[k], along = flat[corner_after(k)] - from;
             const double side = cross(from, along);
             if (side < 0 && side * side > size * size * dot(along, along)) return;
         }
         part_ = region;
         for (std::uint32_t k = 0; k < 3 && !part_.empty(); ++k) {
-            part_.cut(flat[k], flat[next_corner(k)], ConvexRegion::nothing);
+            part_.cut(flat[k], flat[corner_after(k)], ConvexRegion::nothing);
         }
         const double area = part_.area();
         if (area <= 0) {

@@ -6,7 +6,7 @@
 #include "picture/srgb.h"
 #include "surface/model_file.h"
 #include "unit/export/example_surfaces.h"
-#include "unit/surface/surfaces.h"
+#include "unit/surface/shapes.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -2,7 +2,7 @@
 #include "run/cell_picture.h"
 
 #include "render/srgb.h"
-#include "unit/surface/surfaces.h"
+#include "unit/surface/shapes.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "surface/blur_cells.h"
 
 #include "core/hash.h"
-#include "unit/surface/surfaces.h"
+#include "unit/surface/shapes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Smooth normals, and creases.
 #include "surface/normals.h"
 
-#include "unit/surface/surfaces.h"
+#include "unit/surface/shapes.h"
 
 #include <algorithm>
 #include <gmock/gmock.h>

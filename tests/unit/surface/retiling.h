@@ -2,7 +2,7 @@
 #pragma once
 
 #include "surface/retile.h"
-#include "unit/surface/surfaces.h"
+#include "unit/surface/shapes.h"
 
 #include <algorithm>
 #include <cmath>
