@@ -189,16 +189,11 @@ std::vector<double> point_areas(const SurfaceMesh& mesh) {
 
 std::vector<double> angle_defects(const SurfaceMesh& mesh) {
     std::vector<double> defects(mesh.points.size(), 2 * std::numbers::pi);
-    std::vector<bool> is_at_boundary(mesh.points.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
-            if (mesh.across[t][k].exists()) continue;
-            is_at_boundary[mesh.triangles[t][k]] = true;
-            is_at_boundary[mesh.triangles[t][after(k)]] = true;
+            // As many boundaries go through a point as edges of them begin there.
+            if (!mesh.across[t][k].exists()) defects[mesh.triangles[t][k]] -= std::numbers::pi;
         }
-    }
-    for (std::size_t p = 0; p < defects.size(); ++p) {
-        if (is_at_boundary[p]) defects[p] = std::numbers::pi;
     }
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) defects[mesh.triangles[t][k]] -= angle_at(mesh, t, k);

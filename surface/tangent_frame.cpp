@@ -22,8 +22,10 @@ TangentFrame tangent_frame(const SurfaceMesh& mesh, std::uint32_t triangle) {
     const Vector3d side = unit(mesh.corner(triangle, 2) - a);
     if (length(along) == 0) along = length(side) > 0 ? side : Vector3d{1, 0, 0};
     Vector3d normal = unit(cross(along, side));
+    // Where the edges are nearly parallel rounding has turned what is left.
+    normal = unit(normal - along * dot(normal, along));
     if (!(length(normal) > 0.5)) normal = any_normal_to(along);
-    return {along, cross(normal, along), normal};
+    return {along, unit(cross(normal, along)), normal};
 }
 
 }  // namespace cascade
