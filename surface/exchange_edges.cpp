@@ -1,6 +1,9 @@
 #include "surface/exchange_edges.h"
 
+#include "surface/separate_fans.h"
+
 #include <algorithm>
+#include <type_traits>
 
 namespace cascade {
 
@@ -60,26 +63,18 @@ void leave_out(SurfaceMesh& mesh, const std::vector<bool>& is_out) {
     }
 }
 
-/// Without points that no triangle uses any more.
-void leave_out_points(SurfaceMesh& mesh) {
-    std::vector<std::uint32_t> numbers(mesh.points.size(), TriangleEdge::none);
-    for (const auto& triangle : mesh.triangles) {
-        for (const std::uint32_t point : triangle) numbers[point] = 0;
-    }
-    std::uint32_t kept = 0;
-    for (std::size_t k = 0; k < numbers.size(); ++k) {
-        if (numbers[k] == TriangleEdge::none) continue;
-        mesh.points[kept] = mesh.points[k];
-        for (PointAttribute& attribute : mesh.attributes) {
-            attribute.values[kept] = attribute.values[k];
-        }
-        numbers[k] = kept++;
-    }
-    mesh.points.resize(kept);
-    for (PointAttribute& attribute : mesh.attributes) attribute.values.resize(kept);
-    for (auto& triangle : mesh.triangles) {
-        for (std::uint32_t& point : triangle) point = numbers[point];
-    }
+/// Without points that no triangle uses any more, and with more of those at which what was left out
+/// held parts together.
+void renew_points(SurfaceMesh& mesh) {
+    const std::vector<std::uint32_t> sources = separate_fans(mesh);
+    const auto taken = [&](const auto& old) {
+        std::remove_cvref_t<decltype(old)> values;
+        values.reserve(sources.size());
+        for (const std::uint32_t source : sources) values.push_back(old[source]);
+        return values;
+    };
+    mesh.points = taken(mesh.points);
+    for (PointAttribute& attribute : mesh.attributes) attribute.values = taken(attribute.values);
 }
 
 }  // namespace
@@ -139,7 +134,7 @@ ExchangedEdges remove_flat_triangles(SurfaceMesh& mesh) {
     }
     if (done.left_out > 0) {
         leave_out(mesh, is_out);
-        leave_out_points(mesh);
+        renew_points(mesh);
     }
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) done.remaining += is_flat(mesh, t);
     return done;

@@ -1,8 +1,8 @@
 #include "surface/make_mesh.h"
 
 #include "surface/edge_pairs.h"
-#include "surface/disjoint_sets.h"
 #include "surface/exchange_edges.h"
+#include "surface/separate_fans.h"
 #include "surface/triangulate.h"
 
 #include <fmt/format.h>
@@ -211,33 +211,9 @@ private:
 
     /// A point for every fan of triangles; the points' numbers keep their order.
     void split_fans() {
-        SurfaceMesh& m = mesh();
-        DisjointSets fans(3 * m.triangles.size());
-        const auto number = [](std::uint32_t t, std::uint32_t k) { return 3 * t + k % 3; };
-        for (std::uint32_t t = 0; t < m.triangles.size(); ++t) {
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const TriangleEdge other = m.across[t][k];
-                if (!other.exists()) continue;
-                fans.join(number(t, k), number(other.triangle, other.edge + 1));
-                fans.join(number(t, k + 1), number(other.triangle, other.edge));
-            }
-        }
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> owners;  // A point and one of its fans.
-        for (std::uint32_t c = 0; c < 3 * m.triangles.size(); ++c) {
-            if (fans.find(c) == c) owners.emplace_back(m.triangles[c / 3][c % 3], c);
-        }
-        std::sort(owners.begin(), owners.end());
-        std::vector<std::uint32_t> point_of_fan(3 * m.triangles.size());
-        std::vector<std::uint32_t> sources;
+        const std::vector<std::uint32_t> sources = separate_fans(mesh());
         std::size_t doubled = 0;
-        for (std::size_t k = 0; k < owners.size(); ++k) {
-            doubled += k > 0 && owners[k].first == owners[k - 1].first;
-            point_of_fan[owners[k].second] = static_cast<std::uint32_t>(sources.size());
-            sources.push_back(owners[k].first);
-        }
-        for (std::uint32_t c = 0; c < 3 * m.triangles.size(); ++c) {
-            m.triangles[c / 3][c % 3] = point_of_fan[fans.find(c)];
-        }
+        for (std::size_t k = 1; k < sources.size(); ++k) doubled += sources[k] == sources[k - 1];
         if (doubled > 0) {
             say(counted(doubled, "point was", "points were") +
                 " doubled where faces do not hang together around it");

@@ -107,6 +107,7 @@ TEST(AnyModel, HasFiniteGeometry) {
         if (!model) continue;
         ++made;
         SCOPED_TRACE(seed);
+        expect_manifold(model->mesh);
         expect_finite_geometry(model->mesh);
         expect_finite_cells(model->mesh);
         if (HasFailure()) break;

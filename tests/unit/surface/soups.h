@@ -2,6 +2,7 @@
 #pragma once
 
 #include "surface/make_mesh.h"
+#include "surface/separate_fans.h"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +37,8 @@ inline void append(PolygonSoup& soup, const PolygonSoup& other, Vector3d by = {}
     for (const std::size_t end : other.ends) soup.ends.push_back(corners + end);
 }
 
-/// Every link leads back, and neighbours share an edge in opposite directions.
+/// Every link leads back, neighbours share an edge in opposite directions, and around each point
+/// there is one fan of triangles.
 inline void expect_manifold(const SurfaceMesh& mesh) {
     ASSERT_EQ(mesh.across.size(), mesh.triangles.size());
     std::vector<bool> is_used(mesh.points.size());
@@ -52,6 +54,8 @@ inline void expect_manifold(const SurfaceMesh& mesh) {
         }
     }
     for (std::size_t k = 0; k < is_used.size(); ++k) EXPECT_TRUE(is_used[k]) << "point " << k;
+    SurfaceMesh separated = mesh;
+    EXPECT_EQ(separate_fans(separated).size(), mesh.points.size());
 }
 
 /// Inside a closed surface.
