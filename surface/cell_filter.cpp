@@ -13,6 +13,9 @@ namespace {
 /// A sum of weights below this is no average: the place is at the very rim of what it sees.
 constexpr float least_sum = 1e-5F;
 
+/// In radii: two images of a cell that are no farther apart are one.
+constexpr float same_place = 0.004F;
+
 Vector3 single(Vector3d v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -49,12 +52,16 @@ std::vector<std::uint32_t> nearest_points(std::span<const Vector3d> points,
 
 CellFilter::CellFilter(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team)
     : radius_(repulsion_radius(mesh.total_area(), cells.places.size())) {
-    lay_out(mesh);
+    lay_out(mesh, cells);
     fill_boxes(cell_images(mesh, cells.places, radius_, team));
     find_substitutes(mesh, cells);
 }
 
-void CellFilter::lay_out(const SurfaceMesh& mesh) {
+void CellFilter::lay_out(const SurfaceMesh& mesh, const SurfaceCells& cells) {
+    const Vector3d middle = position_of(mesh, cells.places[0]);
+    for (const SurfacePlace& place : cells.places) {
+        positions_.push_back(single((position_of(mesh, place) - middle) * (1 / radius_)));
+    }
     patches_.resize(mesh.triangles.size());
     std::size_t boxes = 0;
     for (std::uint32_t t = 0; t < patches_.size(); ++t) {
@@ -63,6 +70,7 @@ void CellFilter::lay_out(const SurfaceMesh& mesh) {
         const FlatTriangle flat = longest_edge_frame(mesh, t);
         const Vector2d third = flat[(first + 2) % 3];
         const Vector3d along = unit(mesh.corner(t, second) - mesh.corner(t, first));
+        patch.origin = single((mesh.corner(t, first) - middle) * (1 / radius_));
         patch.x_axis = single(along);
         patch.y_axis = single(cross(unit(mesh.double_area_normal(t)), along));
         const double scale = 1 / radius_;
@@ -84,7 +92,23 @@ void CellFilter::lay_out(const SurfaceMesh& mesh) {
 CellFilter::FlatPlace CellFilter::flat_place(const Patch& patch, const SurfacePlace& place) {
     const auto second = static_cast<float>(place.weights[(patch.first_corner + 1) % 3]);
     const auto third = static_cast<float>(place.weights[(patch.first_corner + 2) % 3]);
-    return {second * patch.second_x + third * patch.third_x, third * patch.third_y};
+    FlatPlace result{second * patch.second_x + third * patch.third_x, third * patch.third_y, {}};
+    // On an edge the opposite corner's weight is 0, and that edge counts alone.
+    float sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double others = place.weights[k] * place.weights[(k + 1) % 3];
+        result.edges[k] = static_cast<float>(others * others);
+        sum += result.edges[k];
+    }
+    if (sum > 0) {
+        for (float& edge : result.edges) edge /= sum;
+    } else {
+        // At a corner: its two edges.
+        for (std::size_t k = 0; k < 3; ++k) {
+            result.edges[k] = place.weights[k] + place.weights[(k + 1) % 3] > 0.5 ? 0.5F : 0.0F;
+        }
+    }
+    return result;
 }
 
 std::size_t CellFilter::box_of(const Patch& patch, FlatPlace place) {
@@ -101,28 +125,42 @@ std::span<const CellFilter::Sighting> CellFilter::sightings_of(std::size_t first
     return {sightings_.data() + first, box_ends_[first_box + boxes - 1] - first};
 }
 
-/// Calls `visit(box)` for those of its triangle's boxes from which an image is within the radius.
+/// Edges that see nearly the same share a sighting.
+CellFilter::Sightings CellFilter::sightings_in(const CellImage& image) {
+    Sightings found;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const auto [x, y] = image.from_edges[k];
+        const std::uint32_t bit = 1u << k;
+        bool is_shared = false;
+        for (std::size_t j = 0; j < found.count && !is_shared; ++j) {
+            Sighting& other = found.all[j];
+            is_shared = std::hypot(x - other.x, y - other.y) < same_place;
+            if (is_shared) other.edges |= bit;
+        }
+        if (!is_shared) found.all[found.count++] = {image.cell, bit, x, y};
+    }
+    return found;
+}
+
+/// Calls `visit(box)` for those of its triangle's boxes from which an image is within the radius: all
+/// between the lowest and highest that can be.
 template <typename Visit>
 void CellFilter::visit_boxes(const CellImage& image, const Visit& visit) const {
     const Patch& patch = patches_[image.triangle];
     // A little more: where a place falls between boxes is rounded.
-    const double reach = 1 + 1e-4;
-    const auto x = static_cast<double>(image.x), y = static_cast<double>(image.y);
-    const auto number = [](double at, std::uint32_t count) {
-        return static_cast<std::uint32_t>(std::clamp(std::floor(at), 0.0, count - 1.0));
+    const float reach = 1 + 1e-3F;
+    const auto number = [](float at, std::uint32_t count) {
+        return static_cast<std::uint32_t>(
+            std::clamp(std::floor(at), 0.0F, static_cast<float>(count - 1)));
     };
-    /// From a number to an interval of length 1; the last one goes on.
-    const auto beyond = [](double at, std::uint32_t interval, std::uint32_t count) {
-        if (at < interval) return interval - at;
-        return interval + 1 == count ? 0 : std::max(0.0, at - interval - 1);
-    };
-    const std::uint32_t last_row = number(y + reach, patch.rows);
-    const std::uint32_t last_column = number(x + reach, patch.columns);
-    for (std::uint32_t row = number(y - reach, patch.rows); row <= last_row; ++row) {
-        for (std::uint32_t column = number(x - reach, patch.columns); column <= last_column;
+    const auto& [a, b, c] = image.from_edges;
+    const auto [left, right] = std::minmax({a.x, b.x, c.x});
+    const auto [bottom, top] = std::minmax({a.y, b.y, c.y});
+    const std::uint32_t last_row = number(top + reach, patch.rows);
+    const std::uint32_t last_column = number(right + reach, patch.columns);
+    for (std::uint32_t row = number(bottom - reach, patch.rows); row <= last_row; ++row) {
+        for (std::uint32_t column = number(left - reach, patch.columns); column <= last_column;
              ++column) {
-            const double dx = beyond(x, column, patch.columns), dy = beyond(y, row, patch.rows);
-            if (dx * dx + dy * dy > reach * reach) continue;
             visit(patch.first_box + std::size_t{row} * patch.columns + column);
         }
     }
@@ -130,7 +168,8 @@ void CellFilter::visit_boxes(const CellImage& image, const Visit& visit) const {
 
 void CellFilter::fill_boxes(std::span<const CellImage> images) {
     for (const CellImage& image : images) {
-        visit_boxes(image, [&](std::size_t box) { ++box_ends_[box]; });
+        const std::size_t count = sightings_in(image).count;
+        visit_boxes(image, [&](std::size_t box) { box_ends_[box] += count; });
     }
     std::size_t sum = 0;
     for (std::size_t& end : box_ends_) {
@@ -140,8 +179,11 @@ void CellFilter::fill_boxes(std::span<const CellImage> images) {
     }
     sightings_.resize(sum);
     for (const CellImage& image : images) {
+        const Sightings found = sightings_in(image);
         visit_boxes(image, [&](std::size_t box) {
-            sightings_[box_ends_[box]++] = {image.cell, image.x, image.y};
+            for (std::size_t k = 0; k < found.count; ++k) {
+                sightings_[box_ends_[box]++] = found.all[k];
+            }
         });
     }
 }
@@ -207,21 +249,35 @@ std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPlace place) cons
     return nearest;
 }
 
-/// Calls `visit(near)` once for each cell nearer than the radius.
+/// Calls `visit(near)` once for each cell nearer than the radius. On each edge a distance is that of
+/// the edge's own sighting, so that both sides agree; inside a triangle it is between those.
 template <typename Visit>
 void CellFilter::visit_near(const Patch& patch, FlatPlace place, const Visit& visit) const {
-    Near near{0, INFINITY, 0, 0};
-    for (const Sighting& sighting : sightings_of(box_of(patch, place), 1)) {
-        const float x = place.x - sighting.x, y = place.y - sighting.y;
-        const float square = x * x + y * y;
-        if (sighting.cell != near.cell) {
-            if (near.square < 1) visit(near);
-            near = {sighting.cell, square, x, y};
-        } else if (square < near.square) {
-            near = {sighting.cell, square, x, y};
+    const Vector3 position = patch.origin + patch.x_axis * place.x + patch.y_axis * place.y;
+    const auto sightings = sightings_of(box_of(patch, place), 1);
+    for (std::size_t k = 0; k < sightings.size();) {
+        Near near{sightings[k].cell, 0, 0, 0};
+        for (; k < sightings.size() && sightings[k].cell == near.cell; ++k) {
+            const Sighting& sighting = sightings[k];
+            float part = 1;
+            if (sighting.edges != 7) {
+                part = 0;
+                for (std::size_t edge = 0; edge < 3; ++edge) {
+                    if (sighting.edges >> edge & 1) part += place.edges[edge];
+                }
+            }
+            const float x = place.x - sighting.x, y = place.y - sighting.y;
+            near.square += part * (x * x + y * y);
+            near.x += part * x;
+            near.y += part * y;
         }
+        if (near.square >= 1) continue;
+        const Vector3 apart = position - positions_[near.cell];
+        if (const float in_space = dot(apart, apart); in_space > near.square) {
+            near = {near.cell, in_space, dot(apart, patch.x_axis), dot(apart, patch.y_axis)};
+        }
+        if (near.square < 1) visit(near);
     }
-    if (near.square < 1) visit(near);
 }
 
 void CellFilter::shares(const SurfacePlace& place, std::vector<CellShare>& out) const {

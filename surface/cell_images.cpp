@@ -1,7 +1,6 @@
-// The fronts of a place are edges beyond which its image is to be continued. The nearest is
-// continued first. A front knows which part of its edge is seen on straight lines (V. Surazhsky et al.,
-// "Fast Exact and Approximate Geodesics on Meshes", SIGGRAPH 2005, call it a window): one of which
-// nothing is seen waits until all others are done and only fills what they have left.
+// From the triangle of a place its image is handed on over edges, the nearest first, each edge once. A
+// strip of triangles that is unfolded may wind back to where it came from; that no way along the
+// surface is shorter than that through space keeps it from going on.
 #include "surface/cell_images.h"
 
 #include <algorithm>
@@ -13,169 +12,119 @@ namespace {
 
 constexpr std::uint32_t after(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
 
-/// An image that is nearer by no more than this nowhere on a triangle is none of its own. In squares
-/// of the radius.
-constexpr double same_square = 0.02;
-
-/// More images on one triangle than this would be those of a surface crumpled within the radius.
-constexpr int most_images = 6;
-
-/// Of an edge, 0 at its start and 1 at its end.
-struct Part {
-    double low = 0, high = 1;
-    bool is_empty() const { return !(high - low > 1e-9); }
-};
-
-double square_distance(Vector2d a, Vector2d b) { return dot(a - b, a - b); }
-
-double square_distance_to_edge(Vector2d p, Vector2d a, Vector2d b) {
-    const Vector2d along = b - a;
+/// From a point to the line between two others, squared.
+template <typename Vector>
+double square_distance(const Vector& p, const Vector& a, const Vector& b) {
+    const Vector along = b - a;
     const double square = dot(along, along);
     const double part = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
-    return square_distance(p, a + along * part);
-}
-
-/// Leaves of the part of an edge what is on the wanted side of a line; `at_start` and `at_end` are how
-/// far the edge's ends are on it.
-void clip(Part& part, double at_start, double at_end) {
-    if (at_start < 0 && at_end < 0) part = {0, 0};
-    if ((at_start < 0) == (at_end < 0)) return;
-    const double meeting = at_start / (at_start - at_end);
-    if (at_start < 0) part.low = std::max(part.low, meeting);
-    if (at_end < 0) part.high = std::min(part.high, meeting);
-}
-
-/// What is seen of the edge from `a` to `b` out of `eye` between `left` and `right`.
-Part seen_part(Vector2d eye, Vector2d left, Vector2d right, Vector2d a, Vector2d b) {
-    Part part;
-    clip(part, cross(a - eye, left - eye), cross(b - eye, left - eye));
-    clip(part, cross(right - eye, a - eye), cross(right - eye, b - eye));
-    return part;
+    const Vector apart = p - (a + along * part);
+    return dot(apart, apart);
 }
 
 class ImageFinder {
 public:
     ImageFinder(const SurfaceMesh& mesh, std::span<const FlatTriangle> frames, double radius)
-        : mesh_(mesh), frames_(frames), radius_(radius), square_radius_(radius * radius),
-          heads_(frames.size()) {}
+        : mesh_(mesh), frames_(frames), radius_(radius), last_seen_(frames.size()) {}
 
     void find(std::uint32_t cell, const SurfacePlace& place, std::vector<CellImage>& found) {
         cell_ = cell;
-        images_.clear();
-        const Vector2d own = position_of(frames_[place.triangle], place.weights);
-        continue_image({0, {place.triangle, none}, own, {}});
-        drain(fronts_);
-        drain(hidden_);
-        for (const Image& image : images_) {
-            const Vector2d at = image.source * (1 / radius_);
-            found.push_back({cell, image.triangle, static_cast<float>(at.x),
-                             static_cast<float>(at.y)});
+        position_ = position_of(mesh_, place);
+        seen_.clear();
+        enter({place.triangle, none}, position_of(frames_[place.triangle], place.weights));
+        while (!fronts_.empty()) {
+            std::pop_heap(fronts_.begin(), fronts_.end());
+            const Front front = fronts_.back();
+            fronts_.pop_back();
+            hand_on(front);
+        }
+        for (const Seen& seen : seen_) {
+            CellImage image{cell, seen.triangle, {}};
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const Vector2d at = seen.from_edges[k] * (1 / radius_);
+                image.from_edges[k] = {static_cast<float>(at.x), static_cast<float>(at.y)};
+            }
+            found.push_back(image);
         }
     }
 
 private:
     static constexpr std::uint32_t none = 3;
-    static constexpr std::uint32_t no_image = 0xffffffff;
 
+    /// A triangle that was reached.
+    struct Seen {
+        std::uint32_t triangle = 0;
+        std::array<bool, 3> is_reached{};  ///< Edges over which an image came or went.
+        std::array<Vector2d, 3> from_edges;
+    };
+    /// An edge of a triangle that was reached.
     struct Front {
         double square_distance = 0;
-        TriangleEdge into;     ///< The edge through which the triangle is entered.
-        Vector2d source;       ///< In the frame of that triangle.
-        Part seen;
+        std::uint32_t seen = 0;
+        std::uint32_t edge = 0;
         friend bool operator<(const Front& a, const Front& b) {
-            return std::tie(a.square_distance, a.into.triangle, a.into.edge) >
-                   std::tie(b.square_distance, b.into.triangle, b.into.edge);
+            return std::tie(a.square_distance, a.seen, a.edge) >
+                   std::tie(b.square_distance, b.seen, b.edge);
         }
     };
-    struct Image {
-        std::uint32_t triangle = 0;
-        std::uint32_t next = no_image;  ///< On the same triangle.
-        Vector2d source;
-    };
-    /// The last image on a triangle, if it is one of this cell.
-    struct Head {
-        std::uint32_t cell = 0;
-        std::uint32_t image = no_image;
+    /// Its number in seen_, if it is one of this cell.
+    struct LastSeen {
+        std::uint32_t cell = TriangleEdge::none;
+        std::uint32_t number = 0;
     };
 
-    std::uint32_t last_image(std::uint32_t triangle) const {
-        const Head& head = heads_[triangle];
-        return head.cell == cell_ ? head.image : no_image;
-    }
-
-    void drain(std::vector<Front>& heap) {
-        while (!heap.empty()) {
-            std::pop_heap(heap.begin(), heap.end());
-            const Front front = heap.back();
-            heap.pop_back();
-            if (is_wanted(front)) continue_image(front);
-        }
-    }
-
-    bool is_wanted(const Front& front) const {
-        const FlatTriangle& flat = frames_[front.into.triangle];
-        int count = 0;
-        for (std::uint32_t k = last_image(front.into.triangle); k != no_image;
-             k = images_[k].next) {
-            const Vector2d other = images_[k].source;
-            // The difference of the squares is linear: it is largest at a corner.
-            const bool is_nearer = std::any_of(flat.begin(), flat.end(), [&](Vector2d corner) {
-                return square_distance(front.source, corner) <
-                       square_distance(other, corner) - same_square * square_radius_;
-            });
-            if (!is_nearer || front.seen.is_empty() || ++count == most_images) return false;
-        }
-        return true;
-    }
-
-    void continue_image(const Front& front) {
-        const std::uint32_t triangle = front.into.triangle;
-        const FlatTriangle& flat = frames_[triangle];
-        images_.push_back({triangle, last_image(triangle), front.source});
-        heads_[triangle] = {cell_, static_cast<std::uint32_t>(images_.size() - 1)};
+    void enter(TriangleEdge edge, Vector2d source) {
+        const std::uint32_t triangle = edge.triangle;
+        const auto number = static_cast<std::uint32_t>(seen_.size());
+        last_seen_[triangle] = {cell_, number};
+        seen_.push_back({triangle, {}, {source, source, source}});
         for (std::uint32_t k = 0; k < 3; ++k) {
-            const TriangleEdge other = mesh_.across[triangle][k];
-            if (k == front.into.edge || !other.exists()) continue;
-            const Vector2d from = flat[k], to = flat[after(k)];
-            const double square = square_distance_to_edge(front.source, from, to);
-            if (square >= square_radius_) continue;
-            const Part seen = front.into.edge == none ? Part{} : seen_through(front, from, to);
-            const Front next = {square, other, carried(front.source, from, to, other),
-                                {1 - seen.high, 1 - seen.low}};
-            std::vector<Front>& heap = next.seen.is_empty() ? hidden_ : fronts_;
-            heap.push_back(next);
-            std::push_heap(heap.begin(), heap.end());
+            if (k == edge.edge || !mesh_.across[triangle][k].exists()) continue;
+            const double along = square_distance(source, frames_[triangle][k],
+                                                 frames_[triangle][after(k)]);
+            const double in_space = square_distance(position_, mesh_.corner(triangle, k),
+                                                    mesh_.corner(triangle, after(k)));
+            const double square = std::max(along, in_space);
+            if (square >= radius_ * radius_) continue;
+            fronts_.push_back({square, number, k});
+            std::push_heap(fronts_.begin(), fronts_.end());
         }
     }
 
-    Part seen_through(const Front& front, Vector2d from, Vector2d to) const {
-        if (front.seen.is_empty()) return {0, 0};
-        const FlatTriangle& flat = frames_[front.into.triangle];
-        const Vector2d start = flat[front.into.edge];
-        const Vector2d along = flat[after(front.into.edge)] - start;
-        return seen_part(front.source, start + along * front.seen.low,
-                         start + along * front.seen.high, from, to);
+    void hand_on(const Front& front) {
+        Seen& here = seen_[front.seen];
+        if (here.is_reached[front.edge]) return;
+        here.is_reached[front.edge] = true;
+        const TriangleEdge other = mesh_.across[here.triangle][front.edge];
+        const Vector2d source = carried({here.triangle, front.edge}, other,
+                                        here.from_edges[front.edge]);
+        if (last_seen_[other.triangle].cell != cell_) enter(other, source);
+        Seen& there = seen_[last_seen_[other.triangle].number];
+        there.is_reached[other.edge] = true;
+        there.from_edges[other.edge] = source;
     }
 
-    /// A point of this plane in that of the triangle beyond the edge `from`, `to`.
-    Vector2d carried(Vector2d point, Vector2d from, Vector2d to, TriangleEdge other) const {
-        const FlatTriangle& flat = frames_[other.triangle];
-        const Vector2d there = flat[after(other.edge)];
-        const Vector2d along = flat[other.edge] - there, here = to - from;
+    /// A point of the plane of the one triangle in that of the other.
+    Vector2d carried(TriangleEdge edge, TriangleEdge other, Vector2d point) const {
+        const FlatTriangle& from = frames_[edge.triangle];
+        const FlatTriangle& into = frames_[other.triangle];
+        const Vector2d here = from[after(edge.edge)] - from[edge.edge];
+        const Vector2d there = into[other.edge] - into[after(other.edge)];
         const double square = dot(here, here);
-        if (!(square > 0)) return there;
-        const double part = dot(point - from, here) / square;
-        const double side = cross(here, point - from) / square;
-        return there + along * part + Vector2d{-along.y, along.x} * side;
+        if (!(square > 0)) return into[other.edge];
+        const double part = dot(point - from[edge.edge], here) / square;
+        const double side = cross(here, point - from[edge.edge]) / square;
+        return into[after(other.edge)] + there * part + Vector2d{-there.y, there.x} * side;
     }
 
     const SurfaceMesh& mesh_;
     std::span<const FlatTriangle> frames_;
-    double radius_, square_radius_;
+    double radius_;
     std::uint32_t cell_ = 0;
-    std::vector<Head> heads_;     ///< Per triangle.
-    std::vector<Image> images_;   ///< Of this cell.
-    std::vector<Front> fronts_, hidden_;
+    Vector3d position_;
+    std::vector<LastSeen> last_seen_;  ///< Per triangle.
+    std::vector<Seen> seen_;
+    std::vector<Front> fronts_;        ///< A heap; the nearest comes out first.
 };
 
 }  // namespace

@@ -146,6 +146,12 @@ TEST(CellFilter, NothingJumpsAtEdges) {
     EXPECT_LT(largest_jump(box(), 300, values), 0.05);
     EXPECT_LT(largest_jump(box(), 40'000, values), 0.05);
     EXPECT_LT(largest_jump(leaf(0.3, 8), 400, values), 0.05);
+    // A ball so crumpled that a strip of its triangles laid flat winds back to where it began.
+    SurfaceMesh crumpled = sphere(12);
+    for (std::uint32_t k = 0; k < crumpled.points.size(); ++k) {
+        crumpled.points[k] = crumpled.points[k] * (1 + 2e-11 * pcg4d({k, 0, 0, 1})[0]);
+    }
+    EXPECT_LT(largest_jump(crumpled, 800, values), 0.05);
 }
 
 TEST(CellFilter, TheOtherSideOfALeafIsNotSeen) {
@@ -254,7 +260,7 @@ TEST(CellFilter, SlopesAreThoseOfTheShares) {
             const double change = filtered(filter, values, behind) - filtered(filter, values, before);
             const double expected =
                 (slope.x * way.x + slope.y * way.y + slope.z * way.z) / filter.radius();
-            EXPECT_NEAR(change, expected, 1e-5 + 0.02 * length(way) / filter.radius());
+            EXPECT_NEAR(change, expected, 1e-5 + 0.08 * length(way) / filter.radius());
         }
     }
 }
