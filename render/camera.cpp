@@ -76,7 +76,8 @@ Camera::Camera(const TriangleMesh& mesh, const View& view, std::int64_t width,
             const float radius = length(p - middle - view.up * rise);
             const float back = rise * above.sine;
             // To the sides, cosine and sine of the angle together.
-            const float swing = radius * std::hypot(1.0F, half_x * above.cosine);
+            const float slope = half_x * above.cosine;
+            const float swing = radius * std::sqrt(1 + slope * slope);
             x.add(swing, back, half_x);
             x.add(-swing, back, half_x);
             y.add_circle(rise * above.cosine, back, -radius * above.sine, radius * above.cosine,

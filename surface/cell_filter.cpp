@@ -134,7 +134,8 @@ CellFilter::Sightings CellFilter::sightings_in(const CellImage& image) {
         bool is_shared = false;
         for (std::size_t j = 0; j < found.count && !is_shared; ++j) {
             Sighting& other = found.all[j];
-            is_shared = std::hypot(x - other.x, y - other.y) < same_place;
+            const float dx = x - other.x, dy = y - other.y;
+            is_shared = dx * dx + dy * dy < same_place * same_place;
             if (is_shared) other.edges |= bit;
         }
         if (!is_shared) found.all[found.count++] = {image.cell, bit, x, y};
