@@ -5,20 +5,25 @@
 #include "run/describe_model.h"
 
 #include <atomic>
+#include <optional>
 
 namespace cascade {
 
 int mesh_command(const Options& options, Console& console) {
-    if (options.cells && options.cells->count == 0) {
-        console.fail({"--seed means nothing without --cells", ""});
-        return exit_status::wrong_use;
+    std::optional<CellOptions> cells = options.cells;
+    if (options.cell_seed) {
+        if (!cells || cells->kind != CellKind::places) {
+            console.fail({"--seed means nothing without a number of --cells", ""});
+            return exit_status::wrong_use;
+        }
+        cells->seed = *options.cell_seed;
     }
     std::atomic<bool> cancel = false;
     const InterruptGuard interrupt(cancel);
     Team team(hardware_threads());
     int status = exit_status::success;
     for (const std::string& model : options.models) {
-        const auto lines = describe_model(model, options.cells, team, cancel);
+        const auto lines = describe_model(model, cells, team, cancel);
         if (cancel) return exit_status::signal_base + interrupt.signal();
         if (!lines) {
             console.fail(lines.error());

@@ -197,19 +197,13 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
 void add_mesh(CLI::App& app, Options& options) {
     app.add_option("MODELS", options.models, "Files: .ply, .obj, .off, .stl, .gltf, .glb")
         ->type_name("");
-    add_value(app, "--cells", "N", "Spread cells over the surface and say how they turn out",
-              whole_number(2, 1'000'000'000),
-              [&](auto count) {
-                  if (!options.cells) options.cells.emplace();
-                  options.cells->count = count;
-              })
+    add_value(app, "--cells", "N|faces|vertices",
+              "Spread N cells over the surface, or make cells of the\nmodel's faces or points, and say how they turn out",
+              parse_cells, [&](const CellOptions& cells) { options.cells = cells; })
         ->group("Cells");
-    add_value(app, "--seed", "N", "Other random places of the cells (with --cells)",
+    add_value(app, "--seed", "N", "Other random places of the cells (with --cells N)",
               whole_number(0, 4294967295),
-              [&](auto seed) {
-                  if (!options.cells) options.cells.emplace();
-                  options.cells->seed = static_cast<std::uint32_t>(seed);
-              })
+              [&](auto seed) { options.cell_seed = static_cast<std::uint32_t>(seed); })
         ->group("Cells");
 }
 

@@ -48,6 +48,18 @@ Result<GridSize> parse_grid(std::string_view text) {
                    "write columns x rows, as in --grid 256x128, or columns x rows x slices");
 }
 
+Result<CellOptions> parse_cells(std::string_view text) {
+    CellOptions cells;
+    if (text == "faces" || text == "vertices") {
+        cells.kind = text == "faces" ? CellKind::faces : CellKind::vertices;
+        return cells;
+    }
+    const auto count = parse_whole(text, 1, 1'000'000'000);
+    if (!count) return failure(count.error().message, "or write 'faces' or 'vertices'");
+    cells.count = static_cast<std::uint64_t>(*count);
+    return cells;
+}
+
 Result<Slice> parse_slice(std::string_view text) {
     const std::size_t axis = std::string_view("xyz").find(text.substr(0, 1));
     Slice slice;

@@ -4,6 +4,7 @@
 #include "core/result.h"
 #include "picture/image.h"
 #include "picture/slice.h"
+#include "run/describe_model.h"
 #include "run/run.h"
 
 #include <cstdint>
@@ -20,6 +21,9 @@ Result<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::i
 
 /// "256x128" is 256 columns of 128 rows; "60" is one row of 60 cells.
 Result<GridSize> parse_grid(std::string_view text);
+
+/// "600" cells, 1 … 10⁹, spread over a surface; "faces" or "vertices" of a model.
+Result<CellOptions> parse_cells(std::string_view text);
 
 /// "z=0.5": a slice across an axis, 0 … 1 along it.
 Result<Slice> parse_slice(std::string_view text);

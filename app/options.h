@@ -50,7 +50,8 @@ struct Options {
     std::filesystem::path new_script;  ///< `new -o`
     bool check_only = false;           ///< `fmt --check`
     std::vector<std::string> models;   ///< Of `mesh`.
-    std::optional<CellRequest> cells;  ///< `mesh --cells`, with `mesh --seed`.
+    std::optional<CellOptions> cells;  ///< `mesh --cells`.
+    std::optional<std::uint32_t> cell_seed;  ///< `mesh --seed`.
     CompileRequest compile;
     std::filesystem::path object;      ///< `compile -o`
     std::filesystem::path header;      ///< `compile --header`

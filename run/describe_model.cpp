@@ -1,11 +1,9 @@
 #include "run/describe_model.h"
 
 #include "core/with_commas.h"
+#include "run/memory.h"
 #include "surface/make_mesh.h"
 #include "surface/model_file.h"
-#include "surface/relax.h"
-#include "surface/scatter.h"
-#include "surface/voronoi_cells.h"
 
 #include <fmt/format.h>
 
@@ -52,34 +50,63 @@ void describe_mesh(const MadeMesh& made, std::vector<std::string>& lines) {
     for (const std::string& repair : made.repairs) lines.push_back("repaired: " + repair);
 }
 
-void describe_cells(const SurfaceMesh& mesh, const CellRequest& request, Team& team,
-                    const std::atomic<bool>& cancel, std::vector<std::string>& lines) {
-    std::vector<SurfacePlace> places =
-        scatter(mesh, static_cast<std::size_t>(request.count), request.seed);
-    relax(mesh, places, relaxing_rounds, team, cancel);
-    const SurfaceCells cells = voronoi_cells(mesh, std::move(places), team, cancel);
-    if (cancel) return;
+struct Spread {
+    double mean = 0;
+    double deviation = 0;  ///< In percent of the mean.
+};
+
+Spread spread_of(const std::vector<double>& values) {
     double sum = 0, squares = 0;
-    for (const double area : cells.areas) {
-        sum += area;
-        squares += area * area;
+    for (const double value : values) {
+        sum += value;
+        squares += value * value;
     }
-    const auto count = static_cast<double>(cells.areas.size());
+    const auto count = static_cast<double>(values.size());
     const double mean = sum / count;
-    const double deviation = std::sqrt(std::max(0.0, squares / count - mean * mean));
+    return {mean, 100 * std::sqrt(std::max(0.0, squares / count - mean * mean)) / mean};
+}
+
+Result<void> check_memory_of_cells(const SurfaceMesh& mesh, const CellOptions& options) {
+    const double needed = memory_of_cells(mesh, options);
+    const auto free = static_cast<double>(available_memory());
+    if (free == 0 || needed <= free) return {};
+    return failure(fmt::format("{} need about {}, but {} are free",
+                               counted(count_cells(mesh, options), "cell"), describe_bytes(needed),
+                               describe_bytes(free)),
+                   "use fewer cells");
+}
+
+Result<void> describe_cells(const SurfaceMesh& mesh, const CellOptions& options, Team& team,
+                            const std::atomic<bool>& cancel, std::vector<std::string>& lines) {
+    if (Result<void> fits = check_memory_of_cells(mesh, options); !fits) return fits;
+    const Result<SurfaceCells> cells = make_cells(mesh, options, team, cancel);
+    if (!cells) return tl::unexpected(cells.error());
+    if (cancel) return {};
+    const Spread areas = spread_of(cells->areas);
     lines.push_back(fmt::format("{} of mean area {:.4g}, deviation {:.1f} %, {:.2f} walls each",
-                                counted(cells.areas.size(), "cell"), mean, 100 * deviation / mean,
-                                static_cast<double>(cells.walls.size()) / count));
-    if (cells.bare_area > 0) {
-        lines.push_back(fmt::format("{:.2g} % of the surface is too far from any cell",
-                                    100 * cells.bare_area / (sum + cells.bare_area)));
+                                counted(cells->areas.size(), "cell"), areas.mean, areas.deviation,
+                                static_cast<double>(cells->walls.size()) /
+                                    static_cast<double>(cells->areas.size())));
+    std::vector<double> nearest;
+    for (std::size_t cell = 0; cell < cells->areas.size(); ++cell) {
+        const auto walls = cells->walls_of(cell);
+        if (walls.empty()) continue;
+        nearest.push_back(std::min_element(walls.begin(), walls.end(), [](const auto& a, const auto& b) {
+                              return a.distance < b.distance;
+                          })->distance);
     }
+    if (!nearest.empty()) {
+        const Spread distances = spread_of(nearest);
+        lines.push_back(fmt::format("the nearest neighbour {:.4g} away, deviation {:.1f} %",
+                                    distances.mean, distances.deviation));
+    }
+    return {};
 }
 
 }  // namespace
 
 Result<std::vector<std::string>> describe_model(const std::filesystem::path& path,
-                                                const std::optional<CellRequest>& cells, Team& team,
+                                                const std::optional<CellOptions>& cells, Team& team,
                                                 const std::atomic<bool>& cancel) {
     Result<PolygonSoup> soup = read_model(path);
     if (!soup) return tl::unexpected(soup.error());
@@ -90,7 +117,12 @@ Result<std::vector<std::string>> describe_model(const std::filesystem::path& pat
     }
     std::vector<std::string> lines;
     describe_mesh(*made, lines);
-    if (cells) describe_cells(made->mesh, *cells, team, cancel, lines);
+    if (!cells) return lines;
+    const Result<void> described = describe_cells(made->mesh, *cells, team, cancel, lines);
+    if (!described) {
+        return failure(fmt::format("'{}': {}", path.string(), described.error().message),
+                       described.error().hint);
+    }
     return lines;
 }
 

@@ -35,7 +35,22 @@ cmp -s out first || fail "seed 1 is the default"
 run 0 mesh cube.obj --cells 600 --seed 2
 cmp -s out first && fail "another seed gives the same cells"
 run 64 mesh cube.obj --seed 2
-says err "--seed means nothing without --cells"
+says err "--seed means nothing without a number of --cells"
+run 0 mesh cube.obj --cells faces
+says out "6 cells of mean area 1, deviation 0.0 %, 4.00 walls each"
+says out "the nearest neighbour 1 away, deviation 0.0 %"
+run 0 mesh cube.obj --cells vertices
+says out "8 cells of mean area 0.75, deviation 0.0 %, 3.00 walls each"
+run 64 mesh cube.obj --cells faces --seed 2
+says err "--seed means nothing without a number of --cells"
+run 64 mesh cube.obj --cells edges
+says err "or write 'faces' or 'vertices'"
+run 3 mesh cube.obj --cells 1000000000
+says err "1,000,000,000 cells need about 900.0 GB, but"
+sed 's/^f 5 6 7 8$//; s/^f 1 2 6 5$//; s/^f 2 3 7 6$//; s/^f 3 4 8 7$//; s/^f 4 1 5 8$//' cube.obj > parts.obj
+printf 'v 9 0 0\nv 9 1 0\nv 9 0 1\nf 9 10 11\n' >> parts.obj
+run 3 mesh parts.obj --cells 1
+says err "'parts.obj': 1 cell cannot cover a surface of 2 pieces that do not hang together"
 
 # Several models; a broken one does not hide the others.
 head -n 12 cube.obj > open.obj
