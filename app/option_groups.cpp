@@ -198,7 +198,8 @@ void add_mesh(CLI::App& app, Options& options) {
     app.add_option("MODELS", options.models, "Files: .ply, .obj, .off, .stl, .gltf, .glb")
         ->type_name("");
     add_value(app, "--cells", "N|faces|vertices",
-              "Spread N cells over the surface, or make cells of the\nmodel's faces or points, and say how they turn out",
+              "Spread N cells over the surface, or make cells of the\n"
+              "model's faces or points, and say how they turn out",
               parse_cells, [&](const CellOptions& cells) { options.cells = cells; })
         ->group("Cells");
     add_value(app, "--seed", "N", "Other random places of the cells (with --cells N)",

@@ -7,13 +7,13 @@
 
 namespace cascade {
 
-/// A symmetric matrix of determinant 1 that takes vectors of a plane to vectors whose lengths are those
-/// that count. It keeps areas.
+/// A symmetric matrix of determinant 1 that takes vectors of a plane to vectors whose lengths are
+/// those that count. It keeps areas.
 struct Stretch {
     double xx = 1, xy = 0, yy = 1;
 
-    /// 1/√ratio along a direction of the plane, √ratio across: what is a circle afterwards was an ellipse
-    /// `ratio` times as long as wide.
+    /// 1/√ratio along a direction of the plane, √ratio across: what is a circle afterwards was an
+    /// ellipse `ratio` times as long as wide.
     static Stretch along(Vector2d direction, double ratio);
 
     Vector2d operator()(Vector2d v) const { return {xx * v.x + xy * v.y, xy * v.x + yy * v.y}; }
@@ -22,11 +22,15 @@ struct Stretch {
     Stretch in_frame(Vector2d turn) const;
 };
 
-/// What each triangle is stretched by: G. Turk, "Texturing Surfaces Using Reaction-Diffusion" (thesis, 1992),
-/// section 4.4.1, contracts the places around a cell in the direction of anisotropy.
+/// What each triangle is stretched by: G. Turk, "Texturing Surfaces Using Reaction-Diffusion"
+/// (thesis, 1992), section 4.4.1, contracts the places around a cell in the direction of
+/// anisotropy.
 struct Anisotropy {
-    std::vector<Vector3d> direction;  ///< Per triangle, of any length; what is normal to it does not count.
-    std::vector<double> ratio;        ///< Per triangle, 1 … `largest_ratio`: how many times as long as wide cells are.
+    /// Per triangle, of any length; what is normal to the triangle does not count.
+    std::vector<Vector3d> direction;
+    /// Per triangle, 1 … `largest_ratio`: how many times as long as wide cells are. Diffusion over them
+    /// is `ratio` times as fast along the direction as it would be without, and a `ratio`-th across.
+    std::vector<double> ratio;
 
     static constexpr double largest_ratio = 100;
 

@@ -1,8 +1,9 @@
 // Cells kept in a file, for the next time that the same ones are asked for.
 //
-// The file is, in the byte order of the machine that wrote it: eight letters "CASCELLS", the version, a mark of the
-// byte order, the hash of all that the cells were made of, the numbers of cells and walls and the bare area; then places,
-// areas, ends and walls; and a checksum (FNV-1a, 64 bits) of everything before it.
+// The file is, in the byte order of the machine that wrote it: eight letters "CASCELLS", the
+// version, a mark of the byte order, the hash of all that the cells were made of, the numbers of
+// cells and walls and the bare area; then places, areas, ends and walls; and a checksum (FNV-1a, 64
+// bits) of everything before it.
 #pragma once
 
 #include "core/result.h"
@@ -12,11 +13,12 @@
 
 namespace cascade {
 
-/// Raised when the file's form changes, or when the same surface and options give other cells than before.
+/// Raised when the file's form changes, or when the same surface and options give other cells than
+/// before.
 inline constexpr std::uint32_t cell_file_version = 1;
 
-/// A hash of the surface and of all that decides what cells it gets. Cells may be used again if and only
-/// if it is the same; two different ones agree once in 2¹²⁸.
+/// A hash of the surface and of all that decides what cells it gets. Cells may be used again if and
+/// only if it is the same; two different ones agree once in 2¹²⁸.
 struct CellKey {
     std::array<std::uint64_t, 2> words{};
     friend bool operator==(const CellKey&, const CellKey&) = default;
@@ -28,10 +30,11 @@ CellKey key_of(const SurfaceMesh& mesh, const CellOptions& options);
 Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& cells,
                          const CellKey& key);
 
-/// The cells of a file written with this key for this surface. Fails, saying why, on a file that is missing, no
-/// file of cells, of another version or byte order, made of something else, truncated, or damaged in
-/// any bit. No more is allocated than the file's size allows, and cells that are returned are sound: every number
-/// names something, walls are symmetric, lengths are finite and above 0. Throws std::bad_alloc.
+/// The cells of a file written with this key for this surface. Fails, saying why, on a file that is
+/// missing, no file of cells, of another version or byte order, made of something else, truncated,
+/// or damaged in any bit. No more is allocated than the file's size allows, and cells that are
+/// returned are sound: every number names something, walls are symmetric, lengths are finite and
+/// above 0. Throws std::bad_alloc.
 Result<SurfaceCells> read_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
                                 const CellKey& key);
 

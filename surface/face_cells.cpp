@@ -94,19 +94,20 @@ SurfaceCells face_cells(const SurfaceMesh& mesh) {
         const SurfacePlace place =
             face.triangles == 1 ? middle_of(mesh, t) : place_near(mesh, t, centroid);
         const Vector3d apart = position_of(mesh, place) - centroid;
-        if (!(dot(apart, apart) < face.nearest) && face.nearest < std::numeric_limits<double>::infinity()) {
-            continue;
-        }
+        const bool is_first = face.nearest == std::numeric_limits<double>::infinity();
+        if (!is_first && !(dot(apart, apart) < face.nearest)) continue;
         face.nearest = dot(apart, apart);
         cells.places[cell_of[t]] = place;
     }
     for (const Face& face : faces) cells.areas.push_back(face.area);
 
-    // A centroid in a dent of its polygon may lie on the line of an edge, but that is as near as it counts.
+    // A centroid in a dent of its polygon may lie on the line of an edge, but that is as near as it
+    // counts.
     const auto height = [&](TriangleEdge edge) {
         const Vector3d middle = position_of(mesh, cells.places[cell_of[edge.triangle]]);
         const Vector3d least = position_of(mesh, middle_of(mesh, edge.triangle));
-        return std::max(height_above(mesh, edge, middle), least_weight * height_above(mesh, edge, least));
+        return std::max(height_above(mesh, edge, middle),
+                        least_weight * height_above(mesh, edge, least));
     };
     WallList walls;
     for (std::uint32_t t = 0; t < cell_of.size(); ++t) {

@@ -61,8 +61,8 @@ struct WalkEnd {
     Vector2d turn{1, 0};  ///< The x axis of the frame in which it ended, in that in which it began.
 };
 
-/// Goes straight on from a place by a step in the frame of its triangle, unfolding triangles on the way;
-/// ends early at a boundary.
+/// Goes straight on from a place by a step in the frame of its triangle, unfolding triangles on the
+/// way; ends early at a boundary.
 WalkEnd walk(const SurfaceMesh& mesh, const SurfacePlace& from, Vector2d step);
 
 }  // namespace cascade

@@ -20,14 +20,16 @@ constexpr std::uint64_t most_cells = 0xfffffffe;
 Result<void> check_anisotropy(const SurfaceMesh& mesh, const Anisotropy& anisotropy) {
     const std::size_t count = mesh.triangles.size();
     if (anisotropy.direction.size() != count || anisotropy.ratio.size() != count) {
-        return failure(fmt::format("a surface of {} triangles is stretched by {} directions and {} ratios",
+        return failure(fmt::format("a surface of {} triangles is stretched by {} directions and {} "
+                                   "ratios",
                                    count, anisotropy.direction.size(), anisotropy.ratio.size()));
     }
     for (std::size_t t = 0; t < count; ++t) {
         const double ratio = anisotropy.ratio[t];
         if (!(ratio >= 1 && ratio <= Anisotropy::largest_ratio)) {
-            return failure(fmt::format("cells of triangle {} are to be {} times as long as wide", t, ratio),
-                           fmt::format("ratios are 1 … {}", Anisotropy::largest_ratio));
+            return failure(
+                fmt::format("cells of triangle {} are to be {} times as long as wide", t, ratio),
+                fmt::format("ratios are 1 … {}", Anisotropy::largest_ratio));
         }
         if (!std::isfinite(dot(anisotropy.direction[t], anisotropy.direction[t]))) {
             return failure(fmt::format("the direction of cells of triangle {} is not finite", t));
@@ -44,8 +46,11 @@ Result<void> check_count(const SurfaceMesh& mesh, std::uint64_t count) {
     const std::vector<std::uint32_t> pieces = pieces_of(mesh);
     const std::uint64_t needed = *std::max_element(pieces.begin(), pieces.end()) + std::uint64_t{1};
     if (count >= needed) return {};
-    const auto commas = [](std::uint64_t number) { return with_commas(static_cast<std::int64_t>(number)); };
-    return failure(fmt::format("{} cell{} cannot cover a surface of {} pieces that do not hang together",
+    const auto commas = [](std::uint64_t number) {
+        return with_commas(static_cast<std::int64_t>(number));
+    };
+    return failure(fmt::format("{} cell{} cannot cover a surface of {} pieces that do not hang "
+                               "together",
                                commas(count), count == 1 ? "" : "s", commas(needed)),
                    fmt::format("use {} cells or more, or join the pieces", commas(needed)));
 }

@@ -14,8 +14,8 @@ namespace cascade {
 /// Points sorted by the box of side `reach` in which they lie.
 class PointIndex {
 public:
-    /// `reach` is above 0: about how far from a point others are looked for. The points must stay where
-    /// they are as long as the index is used.
+    /// `reach` is above 0: about how far from a point others are looked for. The points must stay
+    /// where they are as long as the index is used.
     PointIndex(std::span<const Vector3d> points, double reach);
 
     /// Calls `visit(number)` for all points no farther than `radius` from `centre`, itself included,

@@ -15,8 +15,8 @@ namespace {
 constexpr double strength = 0.15;
 /// Lists of others reach this much farther than the force, in radii.
 constexpr double skin = 0.25;
-/// A place moves no farther than this in a round, in radii. Where a surface is folded a place has so many
-/// others that they would throw it to and fro.
+/// A place moves no farther than this in a round, in radii. Where a surface is folded a place has
+/// so many others that they would throw it to and fro.
 constexpr double longest_step = 0.06;
 /// Lists are made anew when more than one place in so many has moved half the skin: few are always
 /// thrown about, and evenness is no better for knowing them exactly.
@@ -179,8 +179,9 @@ private:
     const Anisotropy* anisotropy_;
     double radius_;
     EdgeShapes shapes_;
-    /// Since the lists were made: the frame of each place's triangle and how far it has moved (in radii), as
-    /// seen from the frame in which it stood then. A round reads `moved_` and writes `moving_`.
+    /// Since the lists were made: the frame of each place's triangle and how far it has moved (in
+    /// radii), as seen from the frame in which it stood then. A round reads `moved_` and writes
+    /// `moving_`.
     std::vector<Vector2d> turns_;
     std::vector<Vector2f> moved_, moving_;
     std::vector<std::size_t> ends_;  ///< Of a place's others in those of its thread.

@@ -60,8 +60,8 @@ std::vector<std::size_t> shared_out(const std::vector<double>& areas, std::size_
     std::vector<std::size_t> shares(areas.size(), 0);
     double area = std::accumulate(areas.begin(), areas.end(), 0.0);
     std::size_t left = count;
-    // Pieces that would get less than one get one, and the others have the rest: which may make more of
-    // them too small.
+    // Pieces that would get less than one get one, and the others have the rest: which may make
+    // more of them too small.
     for (bool is_found = count >= areas.size(); is_found;) {
         is_found = false;
         const double each = area / static_cast<double>(left);

@@ -17,10 +17,10 @@ struct CellWall {
     double weight() const { return length / distance; }
 };
 
-/// Walls are symmetric: cell i has the wall to j with the same length and distance as j has it to i.
-/// Boundaries of the surface have no walls. Whatever the cells are, diffusion is dc_i/dt = Σ_j w_ij (c_j − c_i) / A_i
-/// with weights w = length / distance ≥ 0 and areas A (G. Turk, "Texturing Surfaces Using Reaction-Diffusion",
-/// thesis, 1992, section 4.4).
+/// Walls are symmetric: cell i has the wall to j with the same length and distance as j has it to
+/// i. Boundaries of the surface have no walls. Whatever the cells are, diffusion is dc_i/dt = Σ_j
+/// w_ij (c_j − c_i) / A_i with weights w = length / distance ≥ 0 and areas A (G. Turk, "Texturing
+/// Surfaces Using Reaction-Diffusion", thesis, 1992, section 4.4).
 struct SurfaceCells {
     std::vector<SurfacePlace> places;
     std::vector<double> areas;

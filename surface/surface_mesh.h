@@ -34,8 +34,9 @@ struct SurfaceMesh {
     std::vector<std::array<TriangleEdge, 3>> across;
     std::vector<std::array<TexturePlace, 3>> texture;  ///< Per triangle; empty where there is none.
     std::vector<PointAttribute> attributes;
-    /// The face of the model from which each triangle was cut, counted from 0 (one without area that
-    /// was merged with a neighbour counts to the neighbour's); empty where nothing but triangles is known.
+    /// The face of the model from which each triangle was cut, counted from 0 (one without area
+    /// that was merged with a neighbour counts to the neighbour's); empty where nothing but
+    /// triangles is known.
     std::vector<std::uint32_t> faces;
 
     Vector3d corner(std::size_t triangle, std::size_t k) const {

@@ -25,10 +25,11 @@ private:
     std::vector<std::array<Vector2d, 3>> shapes_;
 };
 
-/// Unfolds patches of one surface, each reached triangle once, over edges near the place first. Where
-/// the surface is curved triangles in the plane may overlap or leave gaps; G. Turk, "Texturing
-/// Surfaces Using Reaction-Diffusion" (1992), section 4.3.2, unfolds adjacent polygons exactly and others
-/// approximately. One object serves one thread at a time; it keeps four bytes a triangle.
+/// Unfolds patches of one surface, each reached triangle once, over edges near the place first.
+/// Where the surface is curved triangles in the plane may overlap or leave gaps; G. Turk,
+/// "Texturing Surfaces Using Reaction-Diffusion" (1992), section 4.3.2, unfolds adjacent polygons
+/// exactly and others approximately. One object serves one thread at a time; it keeps four bytes a
+/// triangle.
 class Unfolding {
 public:
     /// The surface and its shapes must stay as long as the unfolding is used.
@@ -40,8 +41,8 @@ public:
         FlatTriangle flat;
     };
 
-    /// All triangles within `radius` of the place, which is the origin; directions are those of the frame
-    /// of its triangle. Valid until the next call.
+    /// All triangles within `radius` of the place, which is the origin; directions are those of the
+    /// frame of its triangle. Valid until the next call.
     std::span<const Piece> around(const SurfacePlace& place, double radius);
 
     /// Of the patch that was unfolded last: is it all that hangs together with the place?
@@ -54,8 +55,8 @@ public:
     }
 
 private:
-    /// An edge beyond which lies a triangle that has not been looked at. A heap of them has the nearest
-    /// on top.
+    /// An edge beyond which lies a triangle that has not been looked at. A heap of them has the
+    /// nearest on top.
     struct Front {
         double square = 0;  ///< Of its distance.
         std::uint32_t piece = 0, edge = 0;

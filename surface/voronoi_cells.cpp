@@ -48,7 +48,8 @@ public:
             const auto pieces = unfolding_.around(places_[cell], wide);
             collect_neighbours(cell, position, wide);
             const double farthest = claim_all(cell, pieces, reach, found);
-            if (2 * farthest <= reach || (unfolding_.is_everything() && reach >= 2 * size_of(pieces))) break;
+            if (2 * farthest <= reach) break;
+            if (unfolding_.is_everything() && reach >= 2 * size_of(pieces)) break;
             found.claims.resize(claims);
         }
         const std::size_t walls = found.walls.size();
@@ -210,7 +211,8 @@ const CellWall* wall_to(std::uint32_t neighbour, std::span<const CellWall> walls
 /// `cells` has the walls as they are seen.
 void match_walls(SurfaceCells& cells) {
     SurfaceCells matched;
-    std::vector<std::pair<std::uint32_t, CellWall>> unseen;  // Who does not see it, what it does not see.
+    // Cells and the walls that their neighbours see but they do not.
+    std::vector<std::pair<std::uint32_t, CellWall>> unseen;
     for (std::uint32_t cell = 0; cell < cells.ends.size(); ++cell) {
         for (const CellWall& wall : cells.walls_of(cell)) {
             if (wall_to(cell, cells.walls_of(wall.neighbour))) continue;
@@ -225,8 +227,9 @@ void match_walls(SurfaceCells& cells) {
     auto next = unseen.begin();
     for (std::uint32_t cell = 0; cell < cells.ends.size(); ++cell) {
         const auto take_unseen = [&](std::uint32_t before) {
-            for (; next != unseen.end() && next->first == cell && next->second.neighbour < before; ++next) {
+            for (; next != unseen.end() && next->first == cell; ++next) {
                 const CellWall& wall = next->second;
+                if (wall.neighbour >= before) break;
                 matched.walls.push_back({wall.neighbour, wall.length / 2, wall.distance});
             }
         };

@@ -87,7 +87,8 @@ inline double decay_rate(const SurfaceCells& cells, const std::vector<double>& f
     return above / below;
 }
 
-/// The largest relative error of the rates at which the harmonics of degree 1, 2 and 3 decay, l (l + 1).
+/// The largest relative error of the rates at which the harmonics of degree 1, 2 and 3 decay, l (l
+/// + 1).
 inline double harmonics_error(const SurfaceMesh& unit_sphere, const SurfaceCells& cells) {
     double worst = 0;
     for (int l = 1; l <= 3; ++l) {

@@ -83,8 +83,8 @@ double unevenness_of(const std::vector<double>& nearest) {
     return std::sqrt(squares / count - sum / count * (sum / count)) / (sum / count);
 }
 
-/// The same of points on a periodic square of side 1 that S. Lloyd's method ("Least squares quantization in
-/// PCM", 1982) has moved to the centroids of their Voronoi regions.
+/// The same of points on a periodic square of side 1 that S. Lloyd's method ("Least squares
+/// quantization in PCM", 1982) has moved to the centroids of their Voronoi regions.
 double unevenness_by_lloyd(std::size_t count, int rounds) {
     std::vector<Vector2d> points;
     for (std::uint32_t k = 0; k < count; ++k) {
