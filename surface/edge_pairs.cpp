@@ -1,6 +1,7 @@
 #include "surface/edge_pairs.h"
 
 #include "surface/disjoint_sets.h"
+#include "surface/sort_by_point.h"
 
 #include <algorithm>
 #include <tuple>
@@ -18,6 +19,10 @@ struct HalfEdge {
     std::uint32_t low = 0, high = 0;  ///< Its points in order of their numbers.
     TriangleEdge place;
 
+    friend bool operator<(const HalfEdge& a, const HalfEdge& b) {
+        return std::tie(a.low, a.high, a.place.triangle, a.place.edge) <
+               std::tie(b.low, b.high, b.place.triangle, b.place.edge);
+    }
     bool same_points(const HalfEdge& other) const { return low == other.low && high == other.high; }
 };
 
@@ -64,10 +69,7 @@ public:
                 edges.push_back({std::min(a, b), std::max(a, b), {t, k}});
             }
         }
-        std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-            return std::tie(a.low, a.high, a.place.triangle, a.place.edge) <
-                   std::tie(b.low, b.high, b.place.triangle, b.place.edge);
-        });
+        sort_by_point(edges, points_.size(), [](const HalfEdge& edge) { return edge.low; });
         std::vector<std::span<const HalfEdge>> crowded;
         for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
             while (end < edges.size() && edges[end].same_points(edges[begin])) ++end;

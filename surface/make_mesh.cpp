@@ -3,6 +3,8 @@
 #include "surface/edge_pairs.h"
 #include "surface/exchange_edges.h"
 #include "surface/separate_fans.h"
+#include "surface/place_table.h"
+#include "surface/sort_by_point.h"
 #include "surface/triangulate.h"
 
 #include <fmt/format.h>
@@ -10,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace cascade {
 
@@ -77,23 +78,13 @@ private:
 
     /// Points in the same place become the first of them.
     void join_points() {
-        const auto place = [&](std::uint32_t k) {
-            const Vector3d& p = soup_.points[k];
-            return std::tie(p.x, p.y, p.z);
-        };
-        std::vector<std::uint32_t> order;
-        for (std::uint32_t k = 0; k < soup_.points.size(); ++k) {
-            if (is_used_[k]) order.push_back(k);
-        }
-        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return place(a) != place(b) ? place(a) < place(b) : a < b;
-        });
         joined_.resize(soup_.points.size());
+        PlaceTable places(soup_.points);
         std::size_t count = 0;
-        for (std::size_t k = 0; k < order.size(); ++k) {
-            const bool again = k > 0 && place(order[k]) == place(order[k - 1]);
-            joined_[order[k]] = again ? joined_[order[k - 1]] : order[k];
-            count += again;
+        for (std::uint32_t k = 0; k < soup_.points.size(); ++k) {
+            if (!is_used_[k]) continue;
+            joined_[k] = places.find_or_add(k);
+            count += joined_[k] != k;
         }
         if (count > 0) {
             say(counted(count, "point was", "points were") +
@@ -148,7 +139,7 @@ private:
             std::sort(key.begin(), key.end());
             keys.emplace_back(key, t);
         }
-        std::sort(keys.begin(), keys.end());
+        sort_by_point(keys, soup_.points.size(), [](const auto& key) { return key.first[0]; });
         std::vector<bool> is_double(corners_.size());
         std::size_t count = 0;
         for (std::size_t k = 1; k < keys.size(); ++k) {

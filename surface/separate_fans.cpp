@@ -1,8 +1,8 @@
 #include "surface/separate_fans.h"
 
 #include "surface/disjoint_sets.h"
+#include "surface/sort_by_point.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace cascade {
@@ -23,7 +23,7 @@ std::vector<std::uint32_t> separate_fans(SurfaceMesh& mesh) {
     for (std::uint32_t c = 0; c < corners; ++c) {
         if (fans.find(c) == c) owners.emplace_back(mesh.triangles[c / 3][c % 3], c);
     }
-    std::sort(owners.begin(), owners.end());
+    sort_by_point(owners, mesh.points.size(), [](const auto& owner) { return owner.first; });
     std::vector<std::uint32_t> point_of_fan(corners);
     std::vector<std::uint32_t> sources;
     sources.reserve(owners.size());

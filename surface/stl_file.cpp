@@ -1,13 +1,13 @@
 // STL files (3D Systems, "StereoLithography Interface Specification", 1989), text or binary. Which of them
 // a file is says its size: that of a binary file follows from its number of triangles.
 #include "surface/model_file.h"
+#include "surface/place_table.h"
 #include "surface/text_words.h"
 
 #include <fmt/format.h>
 
 #include <bit>
-#include <cstring>
-#include <unordered_map>
+#include <optional>
 
 namespace cascade {
 
@@ -18,12 +18,15 @@ constexpr std::size_t head_size = 84, triangle_size = 50;  ///< Bytes of a binar
 /// Triangles come with points of their own; those in the same place become one.
 class SoupOfPlaces {
 public:
+    SoupOfPlaces() = default;
+    SoupOfPlaces(const SoupOfPlaces&) = delete;  // The table looks at the points.
+    SoupOfPlaces& operator=(const SoupOfPlaces&) = delete;
+
     void add_corner(Vector3d p) {
-        p = p + Vector3d{0, 0, 0};  // −0 becomes 0.
-        const auto [found, is_new] =
-            numbers_.try_emplace(p, static_cast<std::uint32_t>(soup_.points.size()));
-        if (is_new) soup_.points.push_back(p);
-        soup_.corners.push_back(found->second);
+        soup_.points.push_back(p + Vector3d{0, 0, 0});  // −0 becomes 0.
+        const auto number = static_cast<std::uint32_t>(soup_.points.size() - 1);
+        soup_.corners.push_back(places_.find_or_add(number));
+        if (soup_.corners.back() != number) soup_.points.pop_back();
     }
     void end_polygon() { soup_.ends.push_back(soup_.corners.size()); }
     std::size_t corners_of_last() const {
@@ -32,18 +35,8 @@ public:
     PolygonSoup take() { return std::move(soup_); }
 
 private:
-    struct Hash {
-        std::size_t operator()(const Vector3d& p) const {
-            std::uint64_t hash = 0;
-            for (const double x : {p.x, p.y, p.z}) {
-                hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15;
-                hash ^= hash >> 32;
-            }
-            return hash;
-        }
-    };
     PolygonSoup soup_;
-    std::unordered_map<Vector3d, std::uint32_t, Hash> numbers_;
+    PlaceTable places_{soup_.points};
 };
 
 /// The four bytes from `at` on; STL files have the lowest first.
