@@ -23,8 +23,8 @@ struct ImplicitRequest {
 inline constexpr double most_lattice_points = 3e8;
 inline constexpr std::size_t most_cut_triangles = std::size_t{1} << 24;
 
-/// At how many points the function is looked at to find the surface; as many again, mostly, to
-/// bring the corners of triangles onto it. Grows with the box's volume over the cube of the edge.
+/// At how many points the function is looked at to find the surface: twice the box's volume over the
+/// cube of the edge. Some hundred more are needed for each corner of the triangles, to bring it there.
 double lattice_points(const ImplicitRequest& request);
 
 /// The surface f = 0 as closed pieces of even triangles that face outwards, with corners on it. The
