@@ -122,6 +122,9 @@ private:
                 }
             }
         }
+        if (corners_.size() > TriangleEdge::none / 3) {
+            return failure("the model has more triangles than can be numbered");
+        }
         if (without_area > 0) {
             say(counted(without_area, "face", "faces") +
                 " of fewer than three different corners left out");

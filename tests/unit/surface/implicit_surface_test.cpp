@@ -159,6 +159,16 @@ TEST(ImplicitSurface, SizesAndPlacesOfAllOrders) {
     EXPECT_NEAR(mesh.total_area(), 4 * pi * 0.09, 0.1);
 }
 
+TEST(ImplicitSurface, CellsOfAnyFormClose) {
+    // One cell alone, a box of one layer, and one that is far longer than wide.
+    const SurfaceMesh one = surface(ball, {{-1, -1, -1}, {1, 1, 1}, 5});
+    EXPECT_EQ(facts_of(one).euler_characteristic, 2);
+    const SurfaceMesh flat = surface([](Vector3d p) { return 0.01 - dot(p, p) + 0.99 * p.x * p.x; },
+                                     {{-1.5, -0.15, -0.11}, {1.5, 0.15, 0.11}, 0.2});
+    EXPECT_EQ(facts_of(flat).euler_characteristic, 2);
+    EXPECT_GT(test::volume_of(flat), 0);
+}
+
 TEST(ImplicitSurface, WhatCannotBeDoneIsSaid) {
     EXPECT_THAT(fault([](Vector3d p) { return 1.2 - length(p); }),
                 HasSubstr("the surface leaves the box: its function is "));
