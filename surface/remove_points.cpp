@@ -56,7 +56,7 @@ bool PointRemoval::may_close() {
         if (rim.size() == 2) return fan_.beyond[0].exists();
         if (mesh_.are_neighbours(rim.back(), rim.front())) return false;
     }
-    if (rim.size() != 3) return true;
+    if (rim.size() != 3) return rim.size() > 3 || !fan_.is_closed;
     const TriangleEdge other = fan_.beyond[0];
     return !other.exists() ||
            mesh_.mesh().triangles[other.triangle][corner_before(other.edge)] != rim[2];

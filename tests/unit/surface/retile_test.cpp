@@ -210,6 +210,20 @@ TEST(Retile, TopologyNeedsItsPoints) {
     EXPECT_EQ(retiled->mesh.points.size(), 5u);
 }
 
+TEST(Retile, TwoTrianglesBackToBack) {
+    SurfaceMesh pillow;
+    pillow.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    pillow.triangles = {{0, 1, 2}, {1, 0, 2}};
+    pillow.across = {{TriangleEdge{1, 0}, {1, 2}, {1, 1}}, {TriangleEdge{0, 0}, {0, 2}, {0, 1}}};
+    for (std::size_t count = 0; count < 12; ++count) {
+        std::vector<SurfacePlace> places = scatter(pillow, count, 1);
+        if (count > 5) places[5] = {1, {0, 0.25, 0.75}};
+        const Result<Retiled> retiled = retile(pillow, places, never);
+        ASSERT_TRUE(retiled);
+        expect_same_topology(pillow, *retiled, count);
+    }
+}
+
 TEST(Retile, AttributesGoWithThePoints) {
     SurfaceMesh mesh = fine_square(10);
     PointAttribute height{"height", {}};
