@@ -94,7 +94,7 @@ TEST(Retile, KeepsTopologyPointsAndShape) {
     for (const auto& [mesh, count, distance] :
          {Case{test::sphere(12), 600, 0.1}, Case{torus(40, 20), 700, 0.25},
           Case{test::box(), 500, 0.75}, Case{three_pieces(), 900, 0.6},
-          Case{test::sphere(40), 150, 0.2}}) {
+          Case{test::sphere(24), 150, 0.2}}) {
         const std::vector<SurfacePlace> places = even_places(mesh, count);
         const Result<Retiled> retiled = retile(mesh, places, never);
         ASSERT_TRUE(retiled) << retiled.error().message;
@@ -111,7 +111,7 @@ TEST(Retile, KeepsTopologyPointsAndShape) {
 TEST(Retile, AreaOfASphereComesAtTheSecondOrder) {
     const SurfaceMesh mesh = test::sphere(40);
     std::vector<double> missing;
-    for (const std::size_t count : {250, 1000, 4000}) {
+    for (const std::size_t count : {60, 240, 960}) {
         const Result<Retiled> retiled = retile(mesh, even_places(mesh, count), never);
         ASSERT_TRUE(retiled);
         EXPECT_TRUE(retiled->kept.empty());
@@ -123,8 +123,8 @@ TEST(Retile, AreaOfASphereComesAtTheSecondOrder) {
     }
     // A fourth of the area a triangle misses a fourth; the old mesh itself misses some.
     const double old = 4 * std::numbers::pi - mesh.total_area();
-    EXPECT_NEAR((missing[0] - old) / (missing[1] - old), 4, 0.5);
-    EXPECT_NEAR((missing[1] - old) / (missing[2] - old), 4, 0.5);
+    EXPECT_NEAR((missing[0] - old) / (missing[1] - old), 4, 0.3);
+    EXPECT_NEAR((missing[1] - old) / (missing[2] - old), 4, 0.3);
 }
 
 TEST(Retile, TrianglesOfEvenPlacesAreGood) {
