@@ -2,7 +2,6 @@
 
 #include "core/hash.h"
 #include "surface/place_lattice.h"
-#include "surface/normals.h"
 
 #include <fmt/format.h>
 
@@ -63,7 +62,7 @@ public:
           origins_(old.triangles.size()) {
         for (std::uint32_t t = 0; t < origins_.size(); ++t) origins_[t] = t;
         made_.point_of_place.resize(places.size());
-        made_.normals = point_normals(old);
+        take_normals();
     }
 
     MutualTessellation tessellate(const std::atomic<bool>& cancel) {
@@ -82,6 +81,17 @@ public:
 
 private:
     const SurfaceMesh& now() const { return made_.mesh.mesh(); }
+
+    /// Of the old points, from the triangles around them by their areas.
+    void take_normals() {
+        made_.normals.resize(old_.points.size());
+        for (std::size_t t = 0; t < old_.triangles.size(); ++t) {
+            for (const std::uint32_t point : old_.triangles[t]) {
+                made_.normals[point] = made_.normals[point] + old_.double_area_normal(t);
+            }
+        }
+        for (Vector3d& normal : made_.normals) normal = unit(normal);
+    }
 
     /// In the order of places, which is why their numbers do not depend on that of insertion.
     void add_points() {
@@ -147,7 +157,7 @@ private:
             const std::uint32_t first = pcg4d({step, t, 0, 3})[0] % 3;
             std::uint32_t on = 3, leave = 3;
             for (std::uint32_t k = first; k < first + 3 && leave == 3; ++k) {
-                const std::int64_t side = turn(corners[k % 3], corners[corner_after(k % 3)], point);
+                const std::int64_t side = turn(corners[k % 3], corners[next_corner(k % 3)], point);
                 if (side < 0) leave = k % 3;
                 if (side == 0) on = k % 3;
             }
@@ -171,13 +181,13 @@ private:
         made_.mesh.split_edge({t, found.edge}, point);
         origins_.push_back(origin);
         if (!other.exists()) {
-            restore({{t, corner_before(found.edge)}, {added, 1}}, origin, point);
+            restore({{t, next_corner(next_corner(found.edge))}, {added, 1}}, origin, point);
             return t;
         }
         const std::uint32_t there = origins_[other.triangle];
         origins_.push_back(there);
-        restore({{t, corner_before(found.edge)}, {added, 1}}, origin, point);
-        restore({{other.triangle, corner_before(other.edge)}, {added + 1, 1}}, there, point);
+        restore({{t, next_corner(next_corner(found.edge))}, {added, 1}}, origin, point);
+        restore({{other.triangle, next_corner(next_corner(other.edge))}, {added + 1, 1}}, there, point);
         return t;
     }
 
@@ -198,8 +208,8 @@ private:
             if (!other.exists() || origins_[other.triangle] != origin) continue;
             const auto& corners = now().triangles[edge.triangle];
             const Steps a = steps_in(origin, corners[edge.edge]);
-            const Steps b = steps_in(origin, corners[corner_after(edge.edge)]);
-            const Steps d = steps_in(origin, now().triangles[other.triangle][corner_before(other.edge)]);
+            const Steps b = steps_in(origin, corners[next_corner(edge.edge)]);
+            const Steps d = steps_in(origin, now().triangles[other.triangle][next_corner(next_corner(other.edge))]);
             if (turn(p, d, b) <= 0 || turn(d, p, a) <= 0) continue;
             if (!is_in_circle(flat(a), flat(b), flat(p), flat(d))) continue;
             made_.mesh.exchange(edge);  // To (p, d, b) and (d, p, a).

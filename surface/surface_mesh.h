@@ -23,10 +23,6 @@ struct TriangleEdge {
     friend bool operator==(const TriangleEdge&, const TriangleEdge&) = default;
 };
 
-/// The next and the previous one of the corners or edges 0, 1, 2 of a triangle.
-constexpr std::uint32_t corner_after(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
-constexpr std::uint32_t corner_before(std::uint32_t k) { return k == 0 ? 2 : k - 1; }
-
 struct SurfaceMesh {
     std::vector<Vector3d> points;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Counterclockwise, seen from outside.
