@@ -155,16 +155,14 @@ private:
 
     void raise_row(std::int64_t y, Scratch& own) {
         visit_texels(own, [&](std::int64_t x, std::size_t first, std::size_t last) {
-            float sum = 0;
-            int count = 0;
+            double sum = 0, count = 0;
             for (std::size_t k = first; k < last; ++k) {
-                const float value = own.heights[k];
-                if (!std::isfinite(value)) continue;
-                sum += value;
+                if (!std::isfinite(own.heights[k])) continue;
+                sum += static_cast<double>(own.heights[k]);
                 ++count;
             }
             if (count == 0) return;
-            relief_.texels[texel(x, y)][0] = sum / static_cast<float>(count);
+            relief_.texels[texel(x, y)][0] = static_cast<float>(sum / count);
             relief_.is_filled[texel(x, y)] = 1;
             // That of the middle one stands for all.
             const Vector3 normal = bumped_normal(own.places[(first + last) / 2], own.painter);
@@ -208,7 +206,8 @@ private:
         for (auto& texel : slopes_.texels) {
             Vector3 normal = unit(Vector3{texel[0], texel[1], texel[2]});
             if (length(normal) == 0) normal = {0, 0, 1};
-            texel = {0.5F + 0.5F * normal.x, 0.5F + 0.5F * normal.y, 0.5F + 0.5F * normal.z};
+            const auto stored = [](float part) { return std::clamp(0.5F + 0.5F * part, 0.0F, 1.0F); };
+            texel = {stored(normal.x), stored(normal.y), stored(normal.z)};
         }
         bake.normals = image_of(std::move(slopes_));
         return bake;

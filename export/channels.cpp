@@ -24,7 +24,9 @@ std::vector<std::string> distinct_names(std::span<const Channel> channels,
 Colour shown(const Colour& colour) {
     const bool is_colour =
         !std::isnan(colour[0]) && !std::isnan(colour[1]) && !std::isnan(colour[2]);
-    return is_colour ? colour : colour_of_nan;
+    if (!is_colour) return colour_of_nan;
+    return {std::clamp(colour[0], 0.0F, 1.0F), std::clamp(colour[1], 0.0F, 1.0F),
+            std::clamp(colour[2], 0.0F, 1.0F)};
 }
 
 bool are_single(std::span<const Vector3d> points) {

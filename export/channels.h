@@ -20,7 +20,7 @@ using Channel = PointAttribute;
 std::vector<std::string> distinct_names(std::span<const Channel> channels,
                                         std::initializer_list<std::string_view> reserved);
 
-/// The colour, or that of NaN where a channel of it is none.
+/// The colour, clamped to 0 … 1, or that of NaN where a channel of it is none.
 Colour shown(const Colour& colour);
 
 /// Whether every coordinate of the points is 0 or a normal number of binary32.

@@ -12,19 +12,19 @@ PartialTexture halved(const PartialTexture& fine) {
     PartialTexture coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
     for (std::int64_t y = 0; y < coarse.height; ++y) {
         for (std::int64_t x = 0; x < coarse.width; ++x) {
-            std::array<float, 3> sum{};
-            float count = 0;
+            std::array<double, 3> sum{};  // Of binary32 it could be infinite.
+            double count = 0;
             for (std::int64_t j = 2 * y; j < std::min(2 * y + 2, fine.height); ++j) {
                 for (std::int64_t i = 2 * x; i < std::min(2 * x + 2, fine.width); ++i) {
                     const auto at = static_cast<std::size_t>(j * fine.width + i);
                     if (fine.is_filled[at] == 0) continue;
-                    for (std::size_t c = 0; c < 3; ++c) sum[c] += fine.texels[at][c];
+                    for (std::size_t c = 0; c < 3; ++c) sum[c] += static_cast<double>(fine.texels[at][c]);
                     ++count;
                 }
             }
             if (count == 0) continue;
             const auto at = static_cast<std::size_t>(y * coarse.width + x);
-            for (std::size_t c = 0; c < 3; ++c) coarse.texels[at][c] = sum[c] / count;
+            for (std::size_t c = 0; c < 3; ++c) coarse.texels[at][c] = static_cast<float>(sum[c] / count);
             coarse.is_filled[at] = 1;
         }
     }

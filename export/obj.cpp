@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 
 namespace cascade {
@@ -17,7 +16,7 @@ std::string encode_obj(const SurfaceMesh& mesh, const PointResults& results) {
         fmt::format_to(out, "v {} {} {}", place.x, place.y, place.z);
         if (!results.colours.empty()) {
             for (const float number : shown(results.colours[p])) {
-                fmt::format_to(out, " {:.6g}", std::clamp(number, 0.0F, 1.0F));
+                fmt::format_to(out, " {:.6g}", number);
             }
         }
         text += '\n';

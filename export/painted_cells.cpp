@@ -1,7 +1,6 @@
 #include "export/painted_cells.h"
 
 #include "export/channels.h"
-#include "export/point_values.h"
 
 #include <algorithm>
 
@@ -37,9 +36,8 @@ Vector3d PlacePainter::rise_at(const SurfacePlace& place) {
     return rise;
 }
 
-std::vector<Colour> colours_at_points(const SurfaceMesh& mesh, const CellFilter& filter,
-                                      const PaintedCells& cells, Team& team) {
-    const std::vector<SurfacePlace> places = places_of_points(mesh);
+std::vector<Colour> colours_at(std::span<const SurfacePlace> places, const CellFilter& filter,
+                               const PaintedCells& cells, Team& team) {
     std::vector<Colour> colours(places.size());
     team.run([&](int index) {
         const RowRange mine =

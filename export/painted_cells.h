@@ -52,8 +52,8 @@ private:
     std::vector<SlopedShare> slopes_;
 };
 
-/// The colours of all points of a mesh. The same on any number of threads. Throws std::bad_alloc.
-std::vector<Colour> colours_at_points(const SurfaceMesh& mesh, const CellFilter& filter,
-                                      const PaintedCells& cells, Team& team);
+/// The colours of places. The same on any number of threads. Throws std::bad_alloc.
+std::vector<Colour> colours_at(std::span<const SurfacePlace> places, const CellFilter& filter,
+                               const PaintedCells& cells, Team& team);
 
 }  // namespace cascade

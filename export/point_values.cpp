@@ -15,9 +15,8 @@ std::vector<SurfacePlace> places_of_points(const SurfaceMesh& mesh) {
     return places;
 }
 
-std::vector<Channel> at_points(const SurfaceMesh& mesh, const CellFilter& filter,
+std::vector<Channel> values_at(std::span<const SurfacePlace> places, const CellFilter& filter,
                                std::span<const Channel> cells, Team& team) {
-    const std::vector<SurfacePlace> places = places_of_points(mesh);
     std::vector<Channel> result;
     for (const Channel& channel : cells) {
         result.push_back({channel.name, std::vector<float>(places.size())});

@@ -1,4 +1,4 @@
-// What cells hold, at the points of the mesh.
+// What cells hold, at other places: the points of a mesh.
 #pragma once
 
 #include "core/parallel.h"
@@ -10,12 +10,12 @@
 
 namespace cascade {
 
-/// Per-cell channels filtered at every point of the mesh. Where a cell with a share is NaN the point is.
-/// The same on any number of threads. Throws std::bad_alloc.
-std::vector<Channel> at_points(const SurfaceMesh& mesh, const CellFilter& filter,
-                               std::span<const Channel> cells, Team& team);
-
 /// A place in a triangle for each point.
 std::vector<SurfacePlace> places_of_points(const SurfaceMesh& mesh);
+
+/// Per-cell channels filtered at places. Where a cell with a share is NaN the place is. The same on any number
+/// of threads. Throws std::bad_alloc.
+std::vector<Channel> values_at(std::span<const SurfacePlace> places, const CellFilter& filter,
+                               std::span<const Channel> cells, Team& team);
 
 }  // namespace cascade

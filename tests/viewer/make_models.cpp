@@ -2,6 +2,7 @@
 // in them is known: tests/viewer/view.mjs has it.
 #include "export/bake.h"
 #include "export/model_writer.h"
+#include "export/point_values.h"
 #include "unit/export/example_surfaces.h"
 #include "unit/surface/surfaces.h"
 
@@ -47,7 +48,7 @@ bool write_spheres(Team& team) {
         heights.push_back(static_cast<float>(0.02 * std::sin(20 * p.z)));
     }
     const PaintedCells look{1, values, red_to_blue, heights};
-    const std::vector<Colour> colours = colours_at_points(mesh, filter, look, team);
+    const std::vector<Colour> colours = colours_at(places_of_points(mesh), filter, look, team);
     return report(write_model("points.glb", mesh, {colours, {}})) &&
            write_maps("maps.glb", mesh, filter, look, team);
 }

@@ -1,4 +1,5 @@
 // Textures baked from cells: what is in which texel.
+#include "core/hash.h"
 #include "export/bake.h"
 #include "export/fill_gaps.h"
 #include "export/glb.h"
@@ -345,6 +346,43 @@ TEST(Bake, RefusesWhatCannotBePainted) {
         for (TexturePlace& place : corners) place = {place[0] * 9, place[1] * 9};
     }
     EXPECT_THAT(message(), HasSubstr("cover the texture 81 times over: they are meant for"));
+}
+
+TEST(Bake, AnyTextureCoordinatesAndValuesMakeFilesOrAFault) {
+    const float odd[] = {0, 1, 0.5F, -0.0F, 1e-40F, 300, -7.25F, 1e30F, 3e38F,
+                         std::numeric_limits<float>::quiet_NaN(),
+                         -std::numeric_limits<float>::infinity()};
+    std::size_t painted_ones = 0;
+    const SurfaceCells cells = test::cells_of(test::sphere_with_texture(4), 50);
+    Team team(2);
+    for (std::uint32_t seed = 0; seed < 60; ++seed) {
+        SurfaceMesh mesh = test::sphere_with_texture(4);
+        std::uint32_t drawn = 0;
+        const auto next = [&](std::size_t below) {
+            return pcg4d({seed, drawn++, 0, 0})[0] % static_cast<std::uint32_t>(below);
+        };
+        for (auto& corners : mesh.texture) {
+            for (TexturePlace& place : corners) {
+                for (float& number : place) {
+                    if (next(seed % 20 + 1) == 0) number = odd[next(std::size(odd))];
+                }
+            }
+        }
+        std::vector<float> values(50);
+        for (float& value : values) value = odd[next(std::size(odd))];
+        const CellFilter filter(mesh, cells, team);
+        const PaintedCells look{1, values, grey, values};
+        const Result<Bake> result = bake(mesh, filter, look, size_of_texture(17, 9), team, never);
+        if (!result) continue;
+        ++painted_ones;
+        for (const Image* map : {&result->colour, &result->relief, &result->normals}) {
+            for (const Colour& texel : map->pixels) {
+                for (const float level : texel) EXPECT_TRUE(level >= 0 && level <= 1) << level;
+            }
+        }
+        EXPECT_TRUE(read_gltf(*encode_glb(mesh, {}), {}).has_value());
+    }
+    EXPECT_GT(painted_ones, 20u);
 }
 
 TEST(Bake, FilesAreAModelAndItsMaps) {

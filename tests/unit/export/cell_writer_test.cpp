@@ -171,8 +171,9 @@ TEST(CellWriter, FilesAreTheSameOnAnyNumberOfThreads) {
                                     return {10 * values[0], 0.5F, 0};
                                 },
                                 {}};
-        const std::vector<Colour> colours = colours_at_points(mesh, filter, look, team);
-        const std::vector<Channel> points = at_points(mesh, filter, channels, team);
+        const std::vector<SurfacePlace> places = places_of_points(mesh);
+        const std::vector<Colour> colours = colours_at(places, filter, look, team);
+        const std::vector<Channel> points = values_at(places, filter, channels, team);
         GlbLook glb;
         glb.colours = colours;
         const std::vector<std::string> files = {
@@ -193,8 +194,9 @@ TEST(PaintedCells, PointsHaveTheColourOfTheFilteredValues) {
                                 return {values[0], 0.5F, 1 - values[0]};
                             },
                             {}};
-    const std::vector<Colour> colours = colours_at_points(square.mesh, filter, look, team);
-    const std::vector<Channel> values = at_points(square.mesh, filter, square.channels, team);
+    const std::vector<Colour> colours = colours_at(places_of_points(square.mesh), filter, look, team);
+    const std::vector<Channel> values =
+        values_at(places_of_points(square.mesh), filter, square.channels, team);
     for (std::size_t p = 0; p < colours.size(); ++p) {
         EXPECT_EQ(colours[p], (Colour{values[0].values[p], 0.5F, 1 - values[0].values[p]}));
     }
@@ -204,7 +206,8 @@ TEST(PointValues, AreThoseOfTheCellsAround) {
     const CellsOfSquare square;
     Team one(1), two(2);
     const CellFilter filter(square.mesh, square.cells, one);
-    const std::vector<Channel> values = at_points(square.mesh, filter, square.channels, one);
+    const std::vector<SurfacePlace> places = places_of_points(square.mesh);
+    const std::vector<Channel> values = values_at(places, filter, square.channels, one);
     ASSERT_EQ(values.size(), 2u);
     EXPECT_EQ(values[0].name, "u");
     ASSERT_EQ(values[0].values.size(), square.mesh.points.size());
@@ -213,7 +216,7 @@ TEST(PointValues, AreThoseOfTheCellsAround) {
         const double tolerance = x > 0.3 && x < 0.7 ? 0.1 : 0.25;  // At sides cells are inside.
         EXPECT_NEAR(values[0].values[p], x, tolerance);
     }
-    EXPECT_EQ(at_points(square.mesh, filter, square.channels, two)[0].values, values[0].values);
+    EXPECT_EQ(values_at(places, filter, square.channels, two)[0].values, values[0].values);
 }
 
 }  // namespace
