@@ -21,10 +21,12 @@ struct BakeOptions {
 
 struct Bake {
     Image colour;
-    /// Grey, 0 the smallest and 1 the largest height of a texel, which are `heights`; empty without any.
+    /// Grey, 0 the smallest and 1 the largest height of a texel, which are `heights`; empty without
+    /// any.
     Image relief;
     ValueRange heights;
-    /// Directions relative to the tangents of render_vertices(), −1 … 1 as 0 … 1, y upwards; empty likewise.
+    /// Directions relative to the tangents of render_vertices(), −1 … 1 as 0 … 1, y upwards; empty
+    /// likewise.
     Image normals;
     double covered = 0;       ///< Part of the samples that lie on the surface.
     double overlapping = 0;   ///< Part of the surface in the texture that lies behind another part.

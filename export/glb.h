@@ -20,11 +20,11 @@ struct GlbLook {
     float roughness = 0.6F;               ///< 0 … 1, the same everywhere. Nothing is metal.
 };
 
-/// The file in memory: one mesh, its normals smooth, with the texture coordinates and tangents that the mesh
-/// has. Colours of points (COLOR_0) are amounts of light, as the format wants them, of 16 bits. A surface
-/// with boundaries is seen from both sides. Places are binary32, around the middle of the model where they
-/// are not exact otherwise. Fails on a model larger than 10³⁰ or smaller than 10⁻³⁰, which binary32 does not
-/// hold, and on more than 4 GiB.
+/// The file in memory: one mesh, its normals smooth, with the texture coordinates and tangents that
+/// the mesh has. Colours of points (COLOR_0) are amounts of light, as the format wants them, of 16
+/// bits. A surface with boundaries is seen from both sides. Places are binary32, around the middle of
+/// the model where they are not exact otherwise. Fails on a model larger than 10³⁰ or smaller than
+/// 10⁻³⁰, which binary32 does not hold, and on more than 4 GiB.
 Result<std::string> encode_glb(const SurfaceMesh& mesh, const GlbLook& look);
 
 }  // namespace cascade

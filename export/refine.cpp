@@ -17,8 +17,9 @@ using Part = std::array<std::uint32_t, 3>;
 
 std::uint32_t after(std::uint32_t k) { return (k + 1) % 3; }
 
-/// The parts of a triangle whose edges are halved or not. Of two halved edges next to each other the corner between
-/// them is cut off, and what remains along its diagonal, from the corner before them where `is_first_shorter`.
+/// The parts of a triangle whose edges are halved or not. Of two halved edges the corner between them
+/// is cut off, and what remains along its diagonal, from the corner before them where
+/// `is_first_shorter`.
 std::vector<Part> parts_of(const std::array<bool, 3>& is_halved, bool is_first_shorter) {
     const int count = is_halved[0] + is_halved[1] + is_halved[2];
     if (count == 0) return {{0, 1, 2}};
