@@ -25,9 +25,10 @@ async function validate() {
         const report = await validator.validateBytes(
             new Uint8Array(readFileSync(join(models, file))), { maxIssues: 20 });
         const { numErrors, numWarnings, messages } = report.issues;
-        expect(numErrors + numWarnings === 0, `${file}: ${JSON.stringify(messages, null, 1)}`);
+        const is_valid = numErrors + numWarnings === 0;
+        expect(is_valid, `${file}: ${JSON.stringify(messages, null, 1)}`);
         console.log(`${file}: ${report.info.totalVertexCount} vertices, ` +
-                    `${report.info.totalTriangleCount} triangles, valid`);
+                    `${report.info.totalTriangleCount} triangles, ${is_valid ? "" : "in"}valid`);
     }
 }
 
@@ -142,7 +143,12 @@ function draw() {
     });
 }
 
+function stop_at_faults() {
+    for (const fault of faults) console.log(fault);
+    if (faults.length > 0) process.exit(1);
+}
+
 await validate();
+stop_at_faults();
 look_at(await draw());
-for (const fault of faults) console.log(fault);
-process.exit(faults.length === 0 ? 0 : 1);
+stop_at_faults();
