@@ -10,8 +10,6 @@ namespace cascade {
 
 namespace {
 
-constexpr std::uint32_t after(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
-
 /// From a point to the line between two others, squared.
 template <typename Vector>
 double square_distance(const Vector& p, const Vector& a, const Vector& b) {
@@ -81,9 +79,9 @@ private:
         for (std::uint32_t k = 0; k < 3; ++k) {
             if (k == edge.edge || !mesh_.across[triangle][k].exists()) continue;
             const double along = square_distance(source, frames_[triangle][k],
-                                                 frames_[triangle][after(k)]);
+                                                 frames_[triangle][corner_after(k)]);
             const double in_space = square_distance(position_, mesh_.corner(triangle, k),
-                                                    mesh_.corner(triangle, after(k)));
+                                                    mesh_.corner(triangle, corner_after(k)));
             const double square = std::max(along, in_space);
             if (square >= radius_ * radius_) continue;
             fronts_.push_back({square, number, k});
@@ -108,13 +106,13 @@ private:
     Vector2d carried(TriangleEdge edge, TriangleEdge other, Vector2d point) const {
         const FlatTriangle& from = frames_[edge.triangle];
         const FlatTriangle& into = frames_[other.triangle];
-        const Vector2d here = from[after(edge.edge)] - from[edge.edge];
-        const Vector2d there = into[other.edge] - into[after(other.edge)];
+        const Vector2d here = from[corner_after(edge.edge)] - from[edge.edge];
+        const Vector2d there = into[other.edge] - into[corner_after(other.edge)];
         const double square = dot(here, here);
         if (!(square > 0)) return into[other.edge];
         const double part = dot(point - from[edge.edge], here) / square;
         const double side = cross(here, point - from[edge.edge]) / square;
-        return into[after(other.edge)] + there * part + Vector2d{-there.y, there.x} * side;
+        return into[corner_after(other.edge)] + there * part + Vector2d{-there.y, there.x} * side;
     }
 
     const SurfaceMesh& mesh_;
@@ -132,7 +130,7 @@ private:
 std::uint32_t longest_edge(const SurfaceMesh& mesh, std::uint32_t triangle) {
     std::array<double, 3> lengths;
     for (std::uint32_t k = 0; k < 3; ++k) {
-        lengths[k] = length(mesh.corner(triangle, after(k)) - mesh.corner(triangle, k));
+        lengths[k] = length(mesh.corner(triangle, corner_after(k)) - mesh.corner(triangle, k));
     }
     return static_cast<std::uint32_t>(std::max_element(lengths.begin(), lengths.end()) -
                                       lengths.begin());
@@ -140,7 +138,7 @@ std::uint32_t longest_edge(const SurfaceMesh& mesh, std::uint32_t triangle) {
 
 FlatTriangle longest_edge_frame(const SurfaceMesh& mesh, std::uint32_t triangle) {
     const std::uint32_t k = longest_edge(mesh, triangle);
-    const double size = length(mesh.corner(triangle, after(k)) - mesh.corner(triangle, k));
+    const double size = length(mesh.corner(triangle, corner_after(k)) - mesh.corner(triangle, k));
     return lay_flat(mesh, {triangle, k}, {0, 0}, {size, 0});
 }
 

@@ -8,16 +8,14 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t after(std::size_t k) { return k == 2 ? 0 : k + 1; }
-
 /// Triangles flatter than this part of their longest edge squared say nothing of curvature.
 constexpr double least_shape = 1e-8;
 
 /// The triangle's angle at its corner k, 0 … π.
 double angle_at(const SurfaceMesh& mesh, std::size_t triangle, std::size_t k) {
     const Vector3d here = mesh.corner(triangle, k);
-    const Vector3d a = unit(mesh.corner(triangle, after(k)) - here);
-    const Vector3d b = unit(mesh.corner(triangle, after(after(k))) - here);
+    const Vector3d a = unit(mesh.corner(triangle, corner_after(k)) - here);
+    const Vector3d b = unit(mesh.corner(triangle, corner_before(k)) - here);
     return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
@@ -28,7 +26,7 @@ std::array<double, 3> corner_areas(const SurfaceMesh& mesh, std::size_t triangle
     for (std::size_t k = 0; k < 3; ++k) {
         angles[k] = angle_at(mesh, triangle, k);
         const Vector3d opposite =
-            mesh.corner(triangle, after(after(k))) - mesh.corner(triangle, after(k));
+            mesh.corner(triangle, corner_before(k)) - mesh.corner(triangle, corner_after(k));
         squares[k] = dot(opposite, opposite);
     }
     const auto widest = static_cast<std::size_t>(
@@ -40,7 +38,7 @@ std::array<double, 3> corner_areas(const SurfaceMesh& mesh, std::size_t triangle
     }
     for (std::size_t k = 0; k < 3; ++k) {
         // Of the two edges at the corner, each with the cotangent of the angle opposite.
-        const std::size_t a = after(k), b = after(a);
+        const std::size_t a = corner_after(k), b = corner_after(a);
         shares[k] = (squares[a] / std::tan(angles[a]) + squares[b] / std::tan(angles[b])) / 8;
     }
     if (!std::isfinite(shares[0] + shares[1] + shares[2])) shares.fill(area / 3);
@@ -90,7 +88,7 @@ TriangleForm form_of(const SurfaceMesh& mesh, const std::vector<Vector3d>& norma
     std::array<Vector3d, 3> edges;
     double size = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        edges[k] = mesh.corner(triangle, after(k)) - mesh.corner(triangle, k);
+        edges[k] = mesh.corner(triangle, corner_after(k)) - mesh.corner(triangle, k);
         size = std::max(size, length(edges[k]));
     }
     if (!(size > 0)) return result;
@@ -104,7 +102,7 @@ TriangleForm form_of(const SurfaceMesh& mesh, const std::vector<Vector3d>& norma
     double a = 0, b = 0, c = 0, r = 0, s = 0, t = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const Vector3d change =
-            normals[mesh.triangles[triangle][after(k)]] - normals[mesh.triangles[triangle][k]];
+            normals[mesh.triangles[triangle][corner_after(k)]] - normals[mesh.triangles[triangle][k]];
         const double x = dot(edges[k], u), y = dot(edges[k], v);
         const double dx = dot(change, u), dy = dot(change, v);
         a += x * x;
@@ -141,7 +139,7 @@ void for_each_edge(const SurfaceMesh& mesh, const Visit& visit) {
         for (std::uint32_t k = 0; k < 3; ++k) {
             const TriangleEdge other = mesh.across[t][k];
             if (other.exists() && other.triangle < t) continue;
-            visit(mesh.triangles[t][k], mesh.triangles[t][after(k)]);
+            visit(mesh.triangles[t][k], mesh.triangles[t][corner_after(k)]);
         }
     }
 }
@@ -153,8 +151,8 @@ std::vector<Vector3d> sphere_normals(const SurfaceMesh& mesh) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
             const Vector3d here = mesh.corner(t, k);
-            const Vector3d a = mesh.corner(t, after(k)) - here;
-            const Vector3d b = mesh.corner(t, after(after(k))) - here;
+            const Vector3d a = mesh.corner(t, corner_after(k)) - here;
+            const Vector3d b = mesh.corner(t, corner_before(k)) - here;
             const double size = length(a) * length(b);
             if (!(size > 0)) continue;
             // a × b / (|a|² |b|²)

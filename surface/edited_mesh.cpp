@@ -51,17 +51,17 @@ void EditedMesh::split_edge(TriangleEdge edge, std::uint32_t point) {
     const TriangleEdge other = mesh_.across[edge.triangle][edge.edge];
     const auto halve = [&](TriangleEdge side) {
         const std::uint32_t t = side.triangle, k = side.edge;
-        const std::uint32_t b = mesh_.triangles[t][next_corner(k)], c = mesh_.triangles[t][next_corner(next_corner(k))];
-        const TriangleEdge bc = mesh_.across[t][next_corner(k)];
+        const std::uint32_t b = mesh_.triangles[t][corner_after(k)], c = mesh_.triangles[t][corner_before(k)];
+        const TriangleEdge bc = mesh_.across[t][corner_after(k)];
         const auto added = static_cast<std::uint32_t>(mesh_.triangles.size());
         mesh_.triangles.emplace_back();
         mesh_.across.emplace_back();
         set_triangle(added, {point, b, c});
         std::array<std::uint32_t, 3> corners = mesh_.triangles[t];
-        corners[next_corner(k)] = point;
+        corners[corner_after(k)] = point;
         set_triangle(t, corners);
         link({added, 1}, bc);
-        link({added, 2}, {t, next_corner(k)});
+        link({added, 2}, {t, corner_after(k)});
         return added;
     };
     const std::uint32_t added = halve(edge);
@@ -80,12 +80,12 @@ void EditedMesh::exchange(TriangleEdge edge) {
 
 /// The corner of the next triangle counterclockwise around the same point.
 TriangleEdge EditedMesh::next_around(TriangleEdge corner) const {
-    return mesh_.across[corner.triangle][next_corner(next_corner(corner.edge))];
+    return mesh_.across[corner.triangle][corner_before(corner.edge)];
 }
 
 TriangleEdge EditedMesh::previous_around(TriangleEdge corner) const {
     const TriangleEdge other = mesh_.across[corner.triangle][corner.edge];
-    return other.exists() ? TriangleEdge{other.triangle, next_corner(other.edge)} : other;
+    return other.exists() ? TriangleEdge{other.triangle, corner_after(other.edge)} : other;
 }
 
 void EditedMesh::fan_around(std::uint32_t point, Fan& fan) const {
@@ -104,10 +104,10 @@ void EditedMesh::fan_around(std::uint32_t point, Fan& fan) const {
     do {
         const auto& corners = mesh_.triangles[at.triangle];
         fan.triangles.push_back(at.triangle);
-        fan.rim.push_back(corners[next_corner(at.edge)]);
-        fan.beyond.push_back(mesh_.across[at.triangle][next_corner(at.edge)]);
+        fan.rim.push_back(corners[corner_after(at.edge)]);
+        fan.beyond.push_back(mesh_.across[at.triangle][corner_after(at.edge)]);
         const TriangleEdge next = next_around(at);
-        if (!next.exists()) fan.rim.push_back(corners[next_corner(next_corner(at.edge))]);
+        if (!next.exists()) fan.rim.push_back(corners[corner_before(at.edge)]);
         at = next;
     } while (at.exists() && at != first);
 }
@@ -123,8 +123,8 @@ bool EditedMesh::are_neighbours(std::uint32_t a, std::uint32_t b) const {
     for (;;) {
         for (Walk& walk : walks) {
             const auto& corners = mesh_.triangles[walk.at.triangle];
-            if (corners[next_corner(walk.at.edge)] == walk.wanted ||
-                corners[next_corner(next_corner(walk.at.edge))] == walk.wanted) {
+            if (corners[corner_after(walk.at.edge)] == walk.wanted ||
+                corners[corner_before(walk.at.edge)] == walk.wanted) {
                 return true;
             }
             TriangleEdge next = walk.is_back ? previous_around(walk.at) : next_around(walk.at);

@@ -9,8 +9,6 @@ namespace {
 /// A walk crosses no more triangles than this: rounding could lead it around a point for ever.
 constexpr int most_crossings = 100'000;
 
-constexpr std::uint32_t after(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
-
 /// To the left of an edge, of the edge's length.
 Vector2d left_of(Vector2d edge) { return {-edge.y, edge.x}; }
 
@@ -25,7 +23,7 @@ Crossing first_crossing(const FlatTriangle& flat, Vector2d point, Vector2d step,
     Crossing first;
     for (std::uint32_t k = 0; k < 3; ++k) {
         if (k == entered) continue;
-        const Vector2d edge = flat[after(k)] - flat[k];
+        const Vector2d edge = flat[corner_after(k)] - flat[k];
         const double before = std::max(0.0, cross(edge, point - flat[k]));
         const double behind = cross(edge, point + step - flat[k]);
         if (behind >= 0) continue;
@@ -40,15 +38,15 @@ Crossing first_crossing(const FlatTriangle& flat, Vector2d point, Vector2d step,
 FlatTriangle lay_flat(const SurfaceMesh& mesh, TriangleEdge edge, Vector2d from, Vector2d to) {
     const std::uint32_t k = edge.edge;
     const Vector3d start = mesh.corner(edge.triangle, k);
-    const Vector3d along = mesh.corner(edge.triangle, after(k)) - start;
-    const Vector3d side = mesh.corner(edge.triangle, after(after(k))) - start;
+    const Vector3d along = mesh.corner(edge.triangle, corner_after(k)) - start;
+    const Vector3d side = mesh.corner(edge.triangle, corner_before(k)) - start;
     const double square = dot(along, along);
     const double part = square > 0 ? dot(side, along) / square : 0;
     const double height = square > 0 ? length(cross(along, side)) / square : 0;
     FlatTriangle flat;
     flat[k] = from;
-    flat[after(k)] = to;
-    flat[after(after(k))] = from + (to - from) * part + left_of(to - from) * height;
+    flat[corner_after(k)] = to;
+    flat[corner_before(k)] = from + (to - from) * part + left_of(to - from) * height;
     return flat;
 }
 
@@ -60,7 +58,7 @@ FlatTriangle own_frame(const SurfaceMesh& mesh, std::uint32_t triangle) {
 std::array<double, 3> weights_at(const FlatTriangle& flat, Vector2d point) {
     std::array<double, 3> weights;
     for (std::uint32_t k = 0; k < 3; ++k) {
-        const Vector2d a = flat[after(k)], b = flat[after(after(k))];
+        const Vector2d a = flat[corner_after(k)], b = flat[corner_before(k)];
         weights[k] = std::max(0.0, cross(b - a, point - a));
     }
     const double sum = weights[0] + weights[1] + weights[2];
@@ -86,7 +84,7 @@ WalkEnd walk(const SurfaceMesh& mesh, const SurfacePlace& from, Vector2d step) {
         left *= 1 - crossing.part;
         const TriangleEdge other = mesh.across[triangle][crossing.edge];
         if (!other.exists()) break;
-        flat = lay_flat(mesh, other, flat[after(crossing.edge)], flat[crossing.edge]);
+        flat = lay_flat(mesh, other, flat[corner_after(crossing.edge)], flat[crossing.edge]);
         triangle = other.triangle;
         entered = other.edge;
     }

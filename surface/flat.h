@@ -19,9 +19,6 @@ struct Vector2d {
     friend double length(Vector2d a) { return std::sqrt(dot(a, a)); }
 };
 
-/// Corners and edges of a triangle follow each other: 0, 1, 2, 0.
-constexpr std::uint32_t next_corner(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
-
 using FlatTriangle = std::array<Vector2d, 3>;
 
 /// A point of a triangle as weights of its corners; they are not negative and their sum is 1.

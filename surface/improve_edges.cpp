@@ -59,13 +59,13 @@ double EdgeImprover::openness(const Face& one, TriangleEdge side) const {
 bool EdgeImprover::is_better_exchanged(TriangleEdge edge, TriangleEdge other) const {
     const std::uint32_t t = edge.triangle, k = edge.edge, o = other.triangle, m = other.edge;
     const auto& here = mesh().triangles[t];
-    const std::uint32_t a = here[k], b = here[next_corner(k)], c = here[next_corner(next_corner(k))];
-    const std::uint32_t d = mesh().triangles[o][next_corner(next_corner(m))];
+    const std::uint32_t a = here[k], b = here[corner_after(k)], c = here[corner_before(k)];
+    const std::uint32_t d = mesh().triangles[o][corner_before(m)];
     if (c == d) return false;
     const Face first = face(c, d, b), second = face(d, c, a);
     if (!first.is_upright || !second.is_upright) return false;
-    const TriangleEdge bc{t, next_corner(k)}, ca{t, next_corner(next_corner(k))};
-    const TriangleEdge ad{o, next_corner(m)}, db{o, next_corner(next_corner(m))};
+    const TriangleEdge bc{t, corner_after(k)}, ca{t, corner_before(k)};
+    const TriangleEdge ad{o, corner_after(m)}, db{o, corner_before(m)};
     const double before = std::min(
         {faces_[t].score, faces_[o].score, openness(faces_[t], faces_[o]), openness(faces_[t], bc),
          openness(faces_[t], ca), openness(faces_[o], ad), openness(faces_[o], db)});

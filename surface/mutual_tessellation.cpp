@@ -157,7 +157,7 @@ private:
             const std::uint32_t first = pcg4d({step, t, 0, 3})[0] % 3;
             std::uint32_t on = 3, leave = 3;
             for (std::uint32_t k = first; k < first + 3 && leave == 3; ++k) {
-                const std::int64_t side = turn(corners[k % 3], corners[next_corner(k % 3)], point);
+                const std::int64_t side = turn(corners[k % 3], corners[corner_after(k % 3)], point);
                 if (side < 0) leave = k % 3;
                 if (side == 0) on = k % 3;
             }
@@ -181,13 +181,13 @@ private:
         made_.mesh.split_edge({t, found.edge}, point);
         origins_.push_back(origin);
         if (!other.exists()) {
-            restore({{t, next_corner(next_corner(found.edge))}, {added, 1}}, origin, point);
+            restore({{t, corner_before(found.edge)}, {added, 1}}, origin, point);
             return t;
         }
         const std::uint32_t there = origins_[other.triangle];
         origins_.push_back(there);
-        restore({{t, next_corner(next_corner(found.edge))}, {added, 1}}, origin, point);
-        restore({{other.triangle, next_corner(next_corner(other.edge))}, {added + 1, 1}}, there, point);
+        restore({{t, corner_before(found.edge)}, {added, 1}}, origin, point);
+        restore({{other.triangle, corner_before(other.edge)}, {added + 1, 1}}, there, point);
         return t;
     }
 
@@ -208,8 +208,8 @@ private:
             if (!other.exists() || origins_[other.triangle] != origin) continue;
             const auto& corners = now().triangles[edge.triangle];
             const Steps a = steps_in(origin, corners[edge.edge]);
-            const Steps b = steps_in(origin, corners[next_corner(edge.edge)]);
-            const Steps d = steps_in(origin, now().triangles[other.triangle][next_corner(next_corner(other.edge))]);
+            const Steps b = steps_in(origin, corners[corner_after(edge.edge)]);
+            const Steps d = steps_in(origin, now().triangles[other.triangle][corner_before(other.edge)]);
             if (turn(p, d, b) <= 0 || turn(d, p, a) <= 0) continue;
             if (!is_in_circle(flat(a), flat(b), flat(p), flat(d))) continue;
             made_.mesh.exchange(edge);  // To (p, d, b) and (d, p, a).

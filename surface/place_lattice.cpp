@@ -53,7 +53,7 @@ Key key_of(const SurfaceMesh& mesh, const LatticePlace& place) {
             std::pair(place.triangle, k) < std::pair(other.triangle, other.edge)) {
             return {1, place.triangle, k, place.steps[k], 0};
         }
-        return {1, other.triangle, other.edge, place.steps[next_corner(k)], 0};
+        return {1, other.triangle, other.edge, place.steps[corner_after(k)], 0};
     }
     return {2, place.triangle, 0, place.steps[0], place.steps[1]};
 }
@@ -128,15 +128,15 @@ std::uint32_t LatticePlace::corner() const {
 std::uint32_t LatticePlace::edge() const {
     if (corner() < 3) return 3;
     for (std::uint32_t k = 0; k < 3; ++k) {
-        if (steps[next_corner(next_corner(k))] == 0) return k;
+        if (steps[corner_before(k)] == 0) return k;
     }
     return 3;
 }
 
 Steps steps_across(const Steps& steps, std::uint32_t edge, std::uint32_t edge_there) {
     Steps across{};
-    across[edge_there] = steps[next_corner(edge)];
-    across[next_corner(edge_there)] = steps[edge];
+    across[edge_there] = steps[corner_after(edge)];
+    across[corner_after(edge_there)] = steps[edge];
     return across;
 }
 

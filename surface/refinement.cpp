@@ -7,8 +7,6 @@ namespace cascade {
 
 namespace {
 
-constexpr std::uint32_t after(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
-
 /// An edge that may be cut. It is out of date where its triangle has it no more.
 struct LongEdge {
     double length = 0;
@@ -31,10 +29,10 @@ public:
     void add(std::uint32_t triangle) {
         for (std::uint32_t k = 0; k < 3; ++k) {
             const double size =
-                length(mesh_.corner(triangle, after(k)) - mesh_.corner(triangle, k));
+                length(mesh_.corner(triangle, corner_after(k)) - mesh_.corner(triangle, k));
             if (!(size > longest_)) continue;
             const auto& corners = mesh_.triangles[triangle];
-            heap_.push_back({size, {triangle, k}, corners[k], corners[after(k)]});
+            heap_.push_back({size, {triangle, k}, corners[k], corners[corner_after(k)]});
             std::push_heap(heap_.begin(), heap_.end());
         }
     }
@@ -46,7 +44,7 @@ public:
             const LongEdge edge = heap_.back();
             heap_.pop_back();
             const auto& corners = mesh_.triangles[edge.place.triangle];
-            if (corners[edge.place.edge] == edge.from && corners[after(edge.place.edge)] == edge.to) {
+            if (corners[edge.place.edge] == edge.from && corners[corner_after(edge.place.edge)] == edge.to) {
                 return edge.place;
             }
         }
@@ -72,10 +70,10 @@ std::uint32_t Refinement::cut_triangle(TriangleEdge edge, std::uint32_t middle) 
     // Each part has the middle in the place of the corner that it lost.
     mesh_.triangles.push_back(mesh_.triangles[t]);
     mesh_.triangles[u][k] = middle;
-    mesh_.triangles[t][after(k)] = middle;
+    mesh_.triangles[t][corner_after(k)] = middle;
     mesh_.across.push_back({});
-    link({u, after(k)}, mesh_.across[t][after(k)]);
-    link({t, after(k)}, {u, after(after(k))});
+    link({u, corner_after(k)}, mesh_.across[t][corner_after(k)]);
+    link({t, corner_after(k)}, {u, corner_before(k)});
     const auto number = static_cast<std::uint32_t>(cuts_.size());
     cuts_.push_back({k, u});
     Cuts& cuts = cuts_of_[t];
@@ -89,7 +87,7 @@ void Refinement::cut(TriangleEdge edge) {
     const TriangleEdge other = mesh_.across[edge.triangle][edge.edge];
     const auto middle = static_cast<std::uint32_t>(mesh_.points.size());
     mesh_.points.push_back((mesh_.corner(edge.triangle, edge.edge) +
-                            mesh_.corner(edge.triangle, after(edge.edge))) *
+                            mesh_.corner(edge.triangle, corner_after(edge.edge))) *
                            0.5);
     const std::uint32_t second = cut_triangle(edge, middle);
     if (!other.exists()) return;
@@ -121,7 +119,7 @@ SurfacePlace Refinement::refined(SurfacePlace place) const {
     for (std::uint32_t at = cuts_of_[place.triangle].first; at != none;) {
         const Cut& cut = cuts_[at];
         double& first = place.weights[cut.edge];
-        double& second = place.weights[after(cut.edge)];
+        double& second = place.weights[corner_after(cut.edge)];
         if (first >= second) {
             first -= second;
             second *= 2;

@@ -59,7 +59,7 @@ bool PointRemoval::may_close() {
     if (rim.size() != 3) return rim.size() > 3 || !fan_.is_closed;
     const TriangleEdge other = fan_.beyond[0];
     return !other.exists() ||
-           mesh_.mesh().triangles[other.triangle][next_corner(next_corner(other.edge))] != rim[2];
+           mesh_.mesh().triangles[other.triangle][corner_before(other.edge)] != rim[2];
 }
 
 void PointRemoval::unroll_fan(std::uint32_t point) {

@@ -13,6 +13,10 @@
 
 namespace cascade {
 
+/// Corners and edges of a triangle follow each other: 0, 1, 2, 0.
+constexpr std::uint32_t corner_after(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
+constexpr std::uint32_t corner_before(std::uint32_t k) { return k == 0 ? 2 : k - 1; }
+
 /// Edge k of a triangle goes from its corner k to corner k + 1 (of 0, 1, 2).
 struct TriangleEdge {
     static constexpr std::uint32_t none = 0xffffffff;

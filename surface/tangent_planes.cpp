@@ -9,12 +9,10 @@ namespace cascade {
 
 namespace {
 
-constexpr std::uint32_t after(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
-
 /// The direction of an edge in the frame of its triangle.
 double edge_angle(const SurfaceMesh& mesh, TriangleEdge edge) {
     const FlatTriangle flat = own_frame(mesh, edge.triangle);
-    const Vector2d along = flat[after(edge.edge)] - flat[edge.edge];
+    const Vector2d along = flat[corner_after(edge.edge)] - flat[edge.edge];
     return std::atan2(along.y, along.x);
 }
 
@@ -25,7 +23,7 @@ Vector3d middle_of(const SurfaceMesh& mesh, std::size_t triangle) {
 
 TangentLink link_over(const SurfaceMesh& mesh, TriangleEdge here, TriangleEdge there) {
     const Vector3d from = mesh.corner(here.triangle, here.edge);
-    const Vector3d along = mesh.corner(here.triangle, after(here.edge)) - from;
+    const Vector3d along = mesh.corner(here.triangle, corner_after(here.edge)) - from;
     const Vector3d half_way = from + along * 0.5;
     TangentLink link;
     link.neighbour = there.triangle;
