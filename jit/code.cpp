@@ -1,6 +1,8 @@
 // Building modules and generating machine code.
 #include "jit/code.h"
 
+#include "jit/skeleton_grid.h"
+#include "jit/skeleton_linked.h"
 #include "jit/target_machine.h"
 
 #include <fmt/format.h>
@@ -38,7 +40,7 @@ std::size_t size_of(const CellKernel& kernel) {
     constexpr std::size_t loads_of_neighbour = 2;
     std::size_t size = kernel.code.size();
     for (const Instruction& instruction : kernel.code) {
-        if (instruction.op == Op::laplacian) size += loads_of_laplacian;
+        if (is_link_sum(instruction.op)) size += loads_of_laplacian;
         if (instruction.op == Op::neighbour) size += loads_of_neighbour;
     }
     return size;
@@ -71,7 +73,7 @@ CodeModule make_module(const llvm::TargetMachine& machine) {
     return code;
 }
 
-Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const GridShape& shape,
+Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const KernelShape& shape,
                         const std::string& name, const llvm::TargetMachine& machine) {
     const std::size_t size = size_of(kernel);
     if (size > largest_native_kernel) {
@@ -80,7 +82,8 @@ Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const GridSh
                                    size, largest_native_kernel));
     }
     code.is_large = code.is_large || size > largest_optimised_kernel;
-    llvm::Function* function = build_grid_function(*code.module, kernel, shape, name);
+    const auto build = shape.stencil.links ? build_linked_function : build_grid_function;
+    llvm::Function* function = build(*code.module, kernel, shape, name);
     set_target(*function, machine, shape.lanes * static_cast<int>(bytes_of(kernel.precision)));
 
     std::string fault;
@@ -91,7 +94,7 @@ Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const GridSh
     return {};
 }
 
-Result<CodeModule> make_code(const CellKernel& kernel, const GridShape& shape,
+Result<CodeModule> make_code(const CellKernel& kernel, const KernelShape& shape,
                              const std::string& name, const llvm::TargetMachine& machine) {
     CodeModule code = make_module(machine);
     if (auto added = add_kernel(code, kernel, shape, name, machine); !added) {

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "core/result.h"
-#include "jit/skeleton_grid.h"
+#include "jit/kernel_shape.h"
 
 #include <llvm/ADT/SmallVector.h>
 #include <llvm/IR/LLVMContext.h>
@@ -39,11 +39,11 @@ CodeModule make_module(const llvm::TargetMachine& machine);
 /// Adds the kernel as a function `name`. Fails if the kernel is larger than `largest_native_kernel`
 /// or if LLVM finds fault with the code (our own mistake, but one that the caller can survive by
 /// interpreting).
-Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const GridShape& shape,
+Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const KernelShape& shape,
                         const std::string& name, const llvm::TargetMachine& machine);
 
 /// A module of one kernel.
-Result<CodeModule> make_code(const CellKernel& kernel, const GridShape& shape,
+Result<CodeModule> make_code(const CellKernel& kernel, const KernelShape& shape,
                              const std::string& name, const llvm::TargetMachine& machine);
 
 /// Machine code as the bytes of an object file, or as assembly text.

@@ -25,7 +25,13 @@ public:
           masks_(kernel.mask_names.size()),
           uniforms_(kernel.uniform_names.size()),
           results_(kernel.results.size()),
-          function_(std::move(function)) {}
+          function_(std::move(function)) {
+        for (const Instruction& instruction : kernel.code) {
+            const Op op = instruction.op;
+            has_link_sums_ |= stencil.links && is_link_sum(op);
+            has_gradients_ |= op >= Op::gradient_x && op <= Op::gradient_z;
+        }
+    }
 
     using Kernel::run;
     void run(const KernelArgumentsOf<Number>& arguments, RowRange rows) const override {
@@ -38,6 +44,7 @@ public:
         if (layout.width <= 0) return;
         CHECK(stencil_.z == (layout.depth > 1), "a kernel runs on grids of its stencil");
         if (stencil_.z) return run_slices(arguments, rows);
+        if (stencil_.links) return run_linked(arguments, rows);
         function_->template as<GridFunction<Number>>()(
             arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
             arguments.results.data(), layout.width, layout.stride, rows.begin, rows.end);
@@ -60,8 +67,21 @@ private:
         }
     }
 
+    void run_linked(const KernelArgumentsOf<Number>& arguments, RowRange rows) const {
+        const PlaneLayout& layout = arguments.layout;
+        const LinkTable<Number>& links = arguments.links;
+        CHECK(!has_link_sums_ || links.starts, "a kernel that sums over links is given them");
+        CHECK(!has_gradients_ || links.gradients[2], "and gradients, where it asks for them");
+        function_->template as<LinkedFunction<Number>>()(
+            arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
+            arguments.results.data(), layout.width, layout.stride, rows.begin, rows.end,
+            links.starts, links.targets, links.weights, links.gradients[0], links.gradients[1],
+            links.gradients[2]);
+    }
+
     Stencil stencil_;
     std::size_t fields_, masks_, uniforms_, results_;
+    bool has_link_sums_ = false, has_gradients_ = false;
     std::unique_ptr<LoadedFunction> function_;
 };
 
@@ -110,7 +130,7 @@ public:
 private:
     Result<KernelPointer> make(const CellKernel& kernel, Stencil stencil) {
         const std::string function_name = fmt::format("kernel{}", next_number_++);
-        const GridShape shape = shape_for(kernel, stencil, lanes_);
+        const KernelShape shape = shape_for(kernel, stencil, lanes_);
         auto code = make_code(kernel, shape, function_name, *machine_);
         if (!code) return tl::unexpected(code.error());
         const auto object = generate(*code, *machine_, CodeForm::object);

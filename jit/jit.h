@@ -62,7 +62,8 @@ struct ObjectContent {
 /// code and ABI as the JIT's own kernels. It calls nothing. Planes are laid out as in PlaneLayout: pointers are to cell (0, 0), of numbers
 /// aligned to 64 bytes and of masks to 16; `stride` is a multiple of 16 elements, with 16 or more
 /// in front of and behind each row; `width` is at least 1. The bits are those of a run if the
-/// processor flushes denormal inputs and results meanwhile (FTZ and DAZ on x86).
+/// processor flushes denormal inputs and results meanwhile (FTZ and DAZ on x86). Kernels for linked
+/// cells are refused.
 Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, Stencil stencil,
                                                  const std::string& target);
 

@@ -66,6 +66,7 @@ Result<void> check_names(const ObjectContent& content) {
 Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, Stencil stencil,
                                                  const std::string& cpu) {
     if (auto good = check_names(content); !good) return tl::unexpected(good.error());
+    if (stencil.links) return failure("no object files of kernels for linked cells yet");
     auto target = choose_target(cpu, {});
     if (!target) return tl::unexpected(target.error());
     CodeModule code = make_module(*target->machine);

@@ -1,8 +1,8 @@
 // The time loop of one stage: takes a step again and again.
 //
 // Simultaneous update: a step reads the old planes and writes new ones, then the two change places.
-// Between steps the halo of every species that is read at neighbours is filled, but for linked cells. Rows are shared by
-// a team of threads; results do not depend on how many.
+// Between steps the halo of every species that is read at neighbours is filled, but for linked
+// cells. Rows are shared by a team of threads; results do not depend on how many.
 #pragma once
 
 #include "core/parallel.h"

@@ -3,6 +3,7 @@
 
 #include "core/check.h"
 #include "core/floating_point.h"
+#include "tests/support/random_links.h"
 #include "tests/support/random_stream.h"
 
 #include <fmt/format.h>
@@ -59,7 +60,7 @@ Field hostile_field(RandomStream& stream, const Grid& grid) {
                 is_trouble ? hostile_number<Number>(stream) : ordinary_number<Number>(stream) * 8;
         }
     }
-    fill_halo(field.origin(), field.layout(), grid.boundary);
+    if (!grid.linked) fill_halo(field.origin(), field.layout(), grid.boundary);
     return Field(std::move(field));
 }
 
@@ -77,6 +78,10 @@ HostileInputs::HostileInputs(const CellKernel& kernel, const Grid& grid, std::ui
     : grid_(grid), precision_(kernel.precision), result_count_(kernel.results.size()) {
     RandomStream stream(seed);
     with_number(precision_, [&](auto zero) { fill<decltype(zero)>(kernel, stream); });
+    if (!grid.linked) return;
+    const auto in_last_row = static_cast<std::int64_t>(stream.below(static_cast<std::uint64_t>(grid.width)));
+    const auto cells = static_cast<std::size_t>(grid.cell_count() - in_last_row);
+    links_ = Links(random_links(cells, seed, 2), PlaneLayout(grid), precision_);
 }
 
 template <typename Number>
@@ -120,7 +125,8 @@ std::vector<Field> HostileInputs::run_as(const Kernel& kernel, RowRange rows) co
         uniforms.push_back(std::bit_cast<Number>(static_cast<WordOf<Number>>(word)));
     }
     const FlushDenormals environment;
-    kernel.run({fields, masks, uniforms, targets, PlaneLayout(grid_)}, rows);
+    const LinkTable<Number> links = grid_.linked ? links_.table<Number>() : LinkTable<Number>{};
+    kernel.run({fields, masks, uniforms, targets, PlaneLayout(grid_), links}, rows);
     return results;
 }
 
@@ -200,6 +206,12 @@ std::string stray_writes(const std::vector<Field>& results, RowRange rows) {
         }
     }
     return "";
+}
+
+Grid random_linked_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t max_height) {
+    Grid grid = random_grid(seed, max_width, max_height);
+    grid.linked = true;
+    return grid;
 }
 
 Grid random_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t max_height,

@@ -1,6 +1,7 @@
 // Runs kernels on hostile inputs and compares what executors make of them.
 #pragma once
 
+#include "core/links.h"
 #include "core/plane.h"
 #include "ir/backend.h"
 #include "tests/support/random_stream.h"
@@ -13,7 +14,8 @@ namespace cascade::testing {
 
 /// Arguments for a kernel on a grid, made from a seed: ordinary numbers, and among them NaN,
 /// infinities, zeros of both signs, denormals and huge numbers. Halos of fields are filled; memory
-/// that kernels have no business with holds NaN.
+/// that kernels have no business with holds NaN. A linked grid gets random links, in which its last row
+/// may be filled up.
 class HostileInputs {
 public:
     HostileInputs(const CellKernel& kernel, const Grid& grid, std::uint64_t seed);
@@ -32,6 +34,7 @@ private:
     Precision precision_;
     std::size_t result_count_;
     std::vector<Field> fields_;
+    Links links_;  ///< Of a linked grid.
     std::vector<Mask> masks_;
     std::vector<std::uint64_t> uniforms_;  ///< Words.
 };
@@ -48,6 +51,9 @@ std::string same_bits(const std::vector<Field>& a, const std::vector<Field>& b);
 /// of these up to the next multiple of row_pad. Else the first place that was touched. Only for planes
 /// made by HostileInputs::run.
 std::string stray_writes(const std::vector<Field>& results, RowRange rows);
+
+/// Linked cells in 1 … max_height rows of 1 … max_width.
+Grid random_linked_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t max_height);
 
 /// A grid of 1 … max_width × 1 … max_height cells, more than half of the time of up to max_depth
 /// slices, with any boundary along each axis.

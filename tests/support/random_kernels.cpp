@@ -92,12 +92,25 @@ private:
                 return keep(builder_.laplacian(builder_.field_slot(fmt::format("f{}", which))),
                             false);
             case Op::neighbour: {
-                if (!options_.laplacians) return keep(field(which), false);
+                if (!options_.laplacians || options_.links) return keep(field(which), false);
                 const auto offset = [&] { return static_cast<int>(stream_.below(3)) - 1; };
                 const int dx = offset(), dy = offset(), dz = offset();
                 return keep(builder_.neighbour(builder_.field_slot(fmt::format("f{}", which)), dx,
                                                dy, dz),
                             false);
+            }
+            case Op::link_squares:
+            case Op::gradient_x:
+            case Op::gradient_y:
+            case Op::gradient_z:
+                if (!options_.links) return keep(trouble(), true);
+                return keep(builder_.over_links(op, builder_.field_slot(fmt::format("f{}", which))),
+                            false);
+            case Op::link_flow: {
+                if (!options_.links) return keep(trouble(), true);
+                const std::uint32_t factor = builder_.field_slot(fmt::format("f{}", stream_.below(3)));
+                const std::uint32_t of = builder_.field_slot(fmt::format("f{}", which));
+                return keep(builder_.link_flow({factor, of}), false);
             }
             case Op::mask:
                 return keep(builder_.mask(builder_.mask_slot(fmt::format("m{}", which))), true);
@@ -234,12 +247,12 @@ void OperationCounts::add(const CellKernel& kernel) {
     }
 }
 
-std::string OperationCounts::missing() const {
+std::string OperationCounts::missing(bool links) const {
     std::string names;
     for (std::size_t k = 0; k < counts.size(); ++k) {
         const Op op = static_cast<Op>(k);
-        // Sums over links have kernels of their own: see link_sums_test.cpp.
-        if (counts[k] != 0 || (is_link_sum(op) && op != Op::laplacian)) continue;
+        const bool is_foreign = links ? op == Op::neighbour : is_link_sum(op) && op != Op::laplacian;
+        if (counts[k] != 0 || is_foreign) continue;
         names += fmt::format("{}{}", names.empty() ? "" : " ", info(static_cast<Op>(k)).name);
     }
     return names;

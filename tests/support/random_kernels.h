@@ -14,6 +14,7 @@ struct RandomKernelOptions {
     int results = 4;
     Precision precision = Precision::single;
     bool laplacians = true;      ///< And neighbours.
+    bool links = false;          ///< For linked cells: sums over links, and no neighbours.
     int composed_percent = 5;    ///< Share of elementary functions, clamps, random numbers.
 };
 
@@ -27,8 +28,9 @@ struct OperationCounts {
     std::array<std::uint64_t, static_cast<std::size_t>(op_count)> counts{};
 
     void add(const CellKernel& kernel);
-    /// Names of the operations that never occurred, separated by spaces.
-    std::string missing() const;
+    /// Names of the operations that never occurred in kernels for a grid, or for linked cells,
+    /// separated by spaces.
+    std::string missing(bool links = false) const;
     /// A line an operation: its count and its name.
     std::string report() const;
 };

@@ -2,6 +2,7 @@
 #include "core/links.h"
 #include "ir/builder.h"
 #include "ir/interpreter.h"
+#include "tests/support/random_links.h"
 #include "tests/support/random_stream.h"
 
 #include <gtest/gtest.h>
@@ -10,22 +11,6 @@
 
 namespace cascade {
 namespace {
-
-/// Cells with 0 to 9 links to any others.
-LinkList random_links(std::size_t cells, std::uint64_t seed) {
-    testing::RandomStream random(seed);
-    LinkList list;
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-        for (auto count = random.below(10); count > 0; --count) {
-            list.neighbours.push_back(static_cast<std::uint32_t>(random.below(static_cast<std::uint32_t>(cells))));
-            const auto number = [&] { return random.below(2000) / 1000.0 - 1; };
-            list.weights.push_back(number());
-            list.gradients.push_back({number(), number(), number()});
-        }
-        list.ends.push_back(list.neighbours.size());
-    }
-    return list;
-}
 
 constexpr std::array sums{Op::laplacian,  Op::link_squares, Op::link_flow,
                           Op::gradient_x, Op::gradient_y,   Op::gradient_z};
@@ -49,7 +34,7 @@ TEST_P(LinkSums, AreThoseOfTheList) {
     grid.width = std::min<std::int64_t>(static_cast<std::int64_t>(cells), 40);
     grid.height = (static_cast<std::int64_t>(cells) + grid.width - 1) / grid.width;
     const PlaneLayout layout(grid);
-    const LinkList list = random_links(cells, cells);
+    const LinkList list = testing::random_links(cells, cells);
     const Links links(list, layout, Precision::single);
 
     testing::RandomStream random(7);

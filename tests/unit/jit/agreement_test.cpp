@@ -46,30 +46,69 @@ struct Backends {
 };
 
 // Each kernel is compiled twice, in two widths; all combinations come round.
-void compare_random_kernels(Precision precision, std::uint64_t count) {
+void compare_random_kernels(Precision precision, std::uint64_t count, bool links = false) {
     Backends backends;
     OperationCounts hit;
     for (std::uint64_t seed = 1; seed <= count; ++seed) {
         RandomKernelOptions options;
         options.precision = precision;
+        options.links = links;
         options.operations = 6 + static_cast<int>(seed % 20);
         options.results = 1 + static_cast<int>(seed % 3);
         options.composed_percent = seed % 8 == 0 ? 8 : 0;
         const CellKernel kernel = random_kernel(seed, options);
         hit.add(kernel);
-        const Grid grid = random_grid(seed, 67, 5, 3);
+        const Grid grid = links ? random_linked_grid(seed, 67, 5) : random_grid(seed, 67, 5, 3);
         SCOPED_TRACE(fmt::format("seed {}, grid {}", seed, describe(grid)));
         ASSERT_EQ(difference(*backends.plain[seed % 3], kernel, grid, seed), "")
             << "without optimisation\n" << print(kernel);
         ASSERT_EQ(difference(*backends.optimised[(seed / 3) % 3], kernel, grid, seed), "")
             << "optimised\n" << print(kernel);
     }
-    EXPECT_EQ(hit.missing(), "") << "operations that were never tried";
+    EXPECT_EQ(hit.missing(links), "") << "operations that were never tried";
     std::printf("operations in %d kernels:\n%s", static_cast<int>(count), hit.report().c_str());
 }
 
 TEST(JitAgreement, RandomKernels) { compare_random_kernels(Precision::single, 2400); }
 TEST(JitAgreement, RandomKernelsOfBinary64) { compare_random_kernels(Precision::binary64, 2400); }
+TEST(JitAgreement, RandomKernelsOfLinkedCells) {
+    compare_random_kernels(Precision::single, 800, true);
+    compare_random_kernels(Precision::binary64, 800, true);
+}
+
+/// All sums over links, of two fields, and what depends on a cell's own place.
+CellKernel kernel_of_links(Precision precision) {
+    KernelBuilder builder(precision);
+    const std::uint32_t a = builder.field_slot("a"), b = builder.field_slot("b");
+    builder.result("heat", builder.add(builder.field(a), builder.laplacian(a)));
+    builder.result("flow", builder.add(builder.link_flow({b, a}), builder.link_flow({a, b})));
+    builder.result("squares", builder.over_links(Op::link_squares, b));
+    const ValueId x = builder.over_links(Op::gradient_x, a);
+    const ValueId y = builder.over_links(Op::gradient_y, a);
+    builder.result("slope", builder.multiply(x, y));
+    const ValueId column = builder.apply(Op::bits_to_number, builder.cell_column());
+    builder.result("place", builder.select(builder.mask(builder.mask_slot("m")), column,
+                                           builder.over_links(Op::gradient_z, b)));
+    return std::move(builder).finish();
+}
+
+// One cell, rows of one cell, slices filled in part: links to all of them.
+TEST(JitAgreement, EveryShapeOfRowsOfLinkedCells) {
+    Backends backends;
+    for (const Precision precision : {Precision::single, Precision::binary64}) {
+        const CellKernel kernel = kernel_of_links(precision);
+        for (std::int64_t width = 1; width <= 50; ++width) {
+            for (std::int64_t height = 1; height <= 4; ++height) {
+                Grid grid{width, height};
+                grid.linked = true;
+                const auto seed = static_cast<std::uint64_t>(width * height);
+                for (const auto& backend : backends.optimised) {
+                    ASSERT_EQ(difference(*backend, kernel, grid, seed), "") << describe(grid);
+                }
+            }
+        }
+    }
+}
 
 TEST(JitAgreement, LargeKernels) {
     Backends backends;

@@ -1,4 +1,5 @@
 // Object files: a symbol of the name that was asked for, and nothing that would have to be linked.
+#include "ir/builder.h"
 #include "ir/interpreter.h"
 #include "jit/jit.h"
 #include "jit/native_session.h"
@@ -178,6 +179,14 @@ TEST(JitObject, TargetsAreNamed) {
         EXPECT_THAT(known_targets(), Contains(target));
     }
     EXPECT_THAT(known_targets(), ::testing::Not(Contains("i386")));
+}
+
+TEST(JitObject, KernelsForLinkedCellsAreRefused) {
+    KernelBuilder builder;
+    builder.result("r", builder.laplacian(builder.field_slot("a")));
+    const auto made = compile_object({{{"r", std::move(builder).finish()}}}, Stencil::linked, "");
+    ASSERT_FALSE(made);
+    EXPECT_NE(made.error().message.find("linked cells"), std::string::npos);
 }
 
 }  // namespace

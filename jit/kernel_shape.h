@@ -1,0 +1,21 @@
+// What decides the code of a kernel besides the kernel.
+//
+// Internal to jit/.
+#pragma once
+
+#include "core/grid.h"
+#include "ir/cell_kernel.h"
+
+namespace cascade {
+
+struct KernelShape {
+    Stencil stencil = Stencil::plane;
+    int lanes = 16;  ///< Cells per vector: 4, 8 or 16; half as many of kernels of binary64.
+};
+
+/// The shape with vectors as wide as `lanes` cells of binary32.
+inline KernelShape shape_for(const CellKernel& kernel, Stencil stencil, int lanes) {
+    return {stencil, kernel.precision == Precision::single ? lanes : lanes / 2};
+}
+
+}  // namespace cascade

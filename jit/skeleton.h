@@ -1,0 +1,195 @@
+// What the functions of all kernels have in common: their arguments, the loops over rows and over
+// the vectors of a row, loads of own cells and stores. What cells read of others is the lanes' of
+// skeleton_grid.cpp and skeleton_linked.cpp.
+//
+// Internal to jit/*.cpp. All functions begin with these arguments, of kernels of binary64 with double
+// for float:
+//
+//     const float *const *fields, const unsigned char *const *masks,
+//     const float *uniforms, float *const *results,
+//     int64_t width, int64_t stride, int64_t row_begin, int64_t row_end
+//
+// Pointers are to cell (0, 0, 0) of planes in the layout of PlaneLayout. Rows are rows of memory.
+// Rows [row_begin, row_end) are computed in vectors of `lanes` cells; the last vector of a row may
+// run into its padding, at most to the next multiple of PlaneLayout::row_pad.
+#pragma once
+
+#include "jit/alias_scopes.h"
+#include "jit/emit_body.h"
+#include "jit/kernel_shape.h"
+
+#include <llvm/ADT/STLFunctionalExtras.h>
+#include <llvm/IR/Module.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cascade {
+
+inline llvm::Align alignment(int bytes) { return llvm::Align(static_cast<std::uint64_t>(bytes)); }
+
+/// What all rows and vectors share: the arguments, the planes' addresses and the way to reach them.
+class KernelFrame {
+public:
+    /// `builder` writes in front of the loops.
+    KernelFrame(llvm::Function& function, const CellKernel& kernel, const KernelShape& shape,
+                Builder& builder)
+        : function_(function),
+          kernel_(kernel),
+          shape_(shape),
+          builder_(builder),
+          aliases_(function.getContext(), kernel.results.size()) {}
+
+    llvm::Function& function() { return function_; }
+    const CellKernel& kernel() const { return kernel_; }
+    Stencil stencil() const { return shape_.stencil; }
+    int lanes() const { return shape_.lanes; }
+    int number_bytes() const { return static_cast<int>(bytes_of(kernel_.precision)); }
+    int vector_bytes() const { return lanes() * number_bytes(); }
+    llvm::Type* number() const { return number_type(builder_, kernel_.precision); }
+    llvm::Type* word() const { return word_type(builder_, kernel_.precision); }
+    Builder& builder() { return builder_; }
+    const AliasScopes& aliases() const { return aliases_; }
+
+    llvm::Value* width() { return function_.getArg(4); }
+    llvm::Value* stride() { return function_.getArg(5); }
+    llvm::Value* row_begin() { return function_.getArg(6); }
+    llvm::Value* row_end() { return function_.getArg(7); }
+    /// One of those behind the arguments that all functions have, from 0 on.
+    llvm::Value* further_argument(unsigned number) {
+        return function_.getArg(shared_arguments + number);
+    }
+    bool has_slices() const { return stencil().z; }
+    llvm::Value* slice_rows() { return further_argument(0); }
+    llvm::Value* slice() { return further_argument(1); }
+
+    // Addresses of planes, loaded once.
+    llvm::Value* field_plane(std::size_t slot) { return plane(0, slot); }
+    llvm::Value* mask_plane(std::size_t slot) { return plane(1, slot); }
+    llvm::Value* result_plane(std::size_t slot) { return plane(3, slot); }
+
+    llvm::Type* vector_of(llvm::Type* element) const {
+        return llvm::FixedVectorType::get(element, static_cast<unsigned>(lanes()));
+    }
+    llvm::Value* splat(Builder& builder, llvm::Value* element) const {
+        return builder.CreateVectorSplat(static_cast<unsigned>(lanes()), element);
+    }
+
+    /// Says that no result is written to the field that is read, where that is so.
+    template <typename Load>
+    Load* mark(Load* load, std::uint32_t slot) const {
+        return kernel_.reads_neighbours(slot) ? aliases_.mark(load, 0) : load;
+    }
+
+    llvm::Value* uniform(std::size_t slot);
+    /// A variable of the module that nobody changes; the code generator does not know that.
+    llvm::Value* hidden(std::uint64_t word);
+
+    llvm::BasicBlock* new_block(const char* name) {
+        return llvm::BasicBlock::Create(function_.getContext(), name, &function_);
+    }
+    llvm::InstSimplifyFolder folder() {
+        return llvm::InstSimplifyFolder(function_.getDataLayout());
+    }
+
+private:
+    static constexpr unsigned shared_arguments = 8;
+
+    llvm::Value* plane(unsigned table, std::size_t slot);
+
+    llvm::Function& function_;
+    const CellKernel& kernel_;
+    KernelShape shape_;
+    Builder& builder_;
+    AliasScopes aliases_;
+    std::map<std::pair<unsigned, std::size_t>, llvm::Value*> planes_;
+};
+
+/// Where the cells of a vector lie. All planes share one layout, so an element number serves them
+/// all: an access is a plane's address plus this number, which is an addressing mode of the
+/// processor.
+struct VectorPlace {
+    llvm::Value* row = nullptr;        ///< Its number.
+    llvm::Value* row_start = nullptr;  ///< Element number of its first cell.
+    llvm::Value* element = nullptr;    ///< Of the vector's first cell.
+};
+
+/// The vector of cells of one execution of the innermost loop: what its own cells hold.
+class CellLane : public Lane {
+public:
+    CellLane(KernelFrame& frame, Builder& builder, const VectorPlace& place)
+        : frame_(frame), builder_(builder), place_(place), element_(opaque(place.element)) {}
+
+    llvm::Value* field(std::uint32_t slot) override;
+    llvm::Value* mask(std::uint32_t slot) override;
+    llvm::Value* cell_column() override;
+    void store(std::size_t result, llvm::Value* number);
+
+protected:
+    // Hides from LLVM's strength reduction how an element number came about. It would replace base
+    // plus number by one pointer for each plane and row, run out of registers and load the pointers
+    // from the stack again and again (1.2 to 1.5 times slower with five species).
+    llvm::Value* opaque(llvm::Value* element) { return builder_.CreateFreeze(element); }
+
+    KernelFrame& frame_;
+    Builder& builder_;
+    VectorPlace place_;
+    llvm::Value* element_;  ///< Of the vector's first cell.
+
+private:
+    std::map<std::uint32_t, llvm::Value*> loads_;
+};
+
+/// Builds loops around the bodies of cells.
+class KernelLoops {
+public:
+    /// The vector at a place: makes a lane, emits the body, and leaves `builder` in an open block.
+    using Cells =
+        llvm::function_ref<void(const VectorPlace& place, Builder& builder, BodyScope& row_scope)>;
+
+    explicit KernelLoops(KernelFrame& frame);
+
+    /// All rows, one after the other. The code begins where `place` writes and leaves it behind
+    /// the loop.
+    void rows(Builder& place, Cells cells);
+    /// All values of the cells, and their results stored.
+    void body(CellLane& lane, Builder& builder, BodyScope& row_scope);
+
+private:
+    /// What the cells of a call and of a row have in common.
+    class OuterLane final : public Lane {
+    public:
+        OuterLane(KernelFrame& frame, Builder& builder, llvm::Value* row)
+            : frame_(frame), builder_(builder), row_(row) {}
+
+        llvm::Value* uniform(std::uint32_t slot) override { return frame_.uniform(slot); }
+        llvm::Value* hidden(std::uint64_t word) override { return frame_.hidden(word); }
+        llvm::Value* cell_row() override;
+        llvm::Value* cell_slice() override;
+
+    private:
+        llvm::Value* word(llvm::Value* count);
+
+        KernelFrame& frame_;
+        Builder& builder_;
+        llvm::Value* row_;  ///< Null in front of the rows.
+    };
+
+    void columns(llvm::Value* row, Builder& place, llvm::BasicBlock* next, Cells cells);
+
+    KernelFrame& frame_;
+    std::vector<Level> levels_;
+    OuterLane lane_;
+    BodyScope scope_;
+};
+
+/// Adds a function to `module`, whose data layout is already that of the target: the arguments that
+/// all have and `further` ones, and what `loops` writes, which ends with a return.
+llvm::Function* build_function(
+    llvm::Module& module, const CellKernel& kernel, const KernelShape& shape,
+    const std::string& name, llvm::ArrayRef<llvm::Type*> further,
+    llvm::function_ref<void(KernelFrame& frame, KernelLoops& loops, Builder& place)> loops);
+
+}  // namespace cascade

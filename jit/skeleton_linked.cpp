@@ -1,0 +1,236 @@
+// Sums over links.
+//
+// For each vector of cells one loop over the entries of its slice computes all sums of the kernel
+// together: targets and weights are loaded once, and what a field holds at the targets is read once,
+// however many sums ask for it.
+#include "jit/skeleton_linked.h"
+
+#include "core/links.h"
+#include "jit/skeleton.h"
+
+#include <cstdlib>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace cascade {
+namespace {
+
+using llvm::Value;
+
+/// A sum of a kernel, by what tells it from others.
+using SumKey = std::pair<Op, std::uint64_t>;
+SumKey key_of(const Instruction& instruction) { return {instruction.op, instruction.payload}; }
+
+/// Where the arrays of a LinkTable stand among the further arguments.
+enum Array : unsigned { starts, targets, weights, gradients, array_count = gradients + 3 };
+
+constexpr auto slice_cells = static_cast<std::uint64_t>(LinkTable<float>::slice_cells);
+
+/// What one entry of a slice holds for a vector of cells.
+class LinkEntry {
+public:
+    /// `link` is the number of the vector's first link; `cells` have loaded their own values.
+    LinkEntry(KernelFrame& frame, Builder& builder, Value* link, CellLane& cells)
+        : frame_(frame), builder_(builder), link_(link), cells_(cells) {}
+
+    /// What it adds to a sum.
+    Value* term(SumKey sum);
+
+private:
+    /// f_j − f_i.
+    Value* difference(std::uint32_t slot);
+    Value* at_targets(std::uint32_t slot);
+    Value* gathered(std::uint32_t slot);
+    Value* loaded_one_by_one(std::uint32_t slot);
+    Value* numbers(unsigned array);
+    Value* address(unsigned array, llvm::Type* element, int lane = 0) {
+        Value* place = builder_.CreateAdd(link_, builder_.getInt64(lane));
+        return builder_.CreateInBoundsGEP(element, frame_.further_argument(array), place);
+    }
+
+    KernelFrame& frame_;
+    Builder& builder_;
+    Value* link_;
+    CellLane& cells_;
+    std::map<unsigned, Value*> numbers_;               ///< By array.
+    std::map<std::uint32_t, Value*> fields_, differences_;  ///< By slot.
+    std::vector<Value*> targets_;
+};
+
+Value* LinkEntry::term(SumKey sum) {
+    const auto [op, payload] = sum;
+    const Flow flow = Flow::with(payload);
+    Value* change = difference(flow.of);
+    switch (op) {
+        case Op::link_squares: change = builder_.CreateFMul(change, change); break;
+        case Op::link_flow:
+            change = builder_.CreateFMul(
+                builder_.CreateFAdd(at_targets(flow.factor), cells_.field(flow.factor)), change);
+            break;
+        default: break;
+    }
+    const auto axis = static_cast<unsigned>(op) - static_cast<unsigned>(Op::gradient_x);
+    const bool is_gradient = op >= Op::gradient_x && op <= Op::gradient_z;
+    return builder_.CreateFMul(numbers(is_gradient ? gradients + axis : weights), change);
+}
+
+Value* LinkEntry::difference(std::uint32_t slot) {
+    Value*& value = differences_[slot];
+    if (!value) value = builder_.CreateFSub(at_targets(slot), cells_.field(slot));
+    return value;
+}
+
+Value* LinkEntry::at_targets(std::uint32_t slot) {
+    Value*& value = fields_[slot];
+    if (!value) value = std::getenv("CASCADE_SCALAR") ? loaded_one_by_one(slot) : gathered(slot);
+    return value;
+}
+
+Value* LinkEntry::gathered(std::uint32_t slot) {
+    llvm::Type* index = builder_.getInt32Ty();
+    if (targets_.empty()) {
+        llvm::LoadInst* load = builder_.CreateAlignedLoad(
+            frame_.vector_of(index), address(targets, index), alignment(4 * frame_.lanes()));
+        targets_.push_back(frame_.aliases().mark(load, 0));
+    }
+    Value* places = builder_.CreateInBoundsGEP(frame_.number(), frame_.field_plane(slot), targets_[0]);
+    return frame_.aliases().mark(
+        builder_.CreateMaskedGather(frame_.vector_of(frame_.number()), places,
+                                    alignment(frame_.number_bytes())), 0);
+}
+
+Value* LinkEntry::loaded_one_by_one(std::uint32_t slot) {
+    llvm::Type* index = builder_.getInt32Ty();
+    if (targets_.empty()) {
+        for (int lane = 0; lane < frame_.lanes(); ++lane) {
+            llvm::LoadInst* load =
+                builder_.CreateAlignedLoad(index, address(targets, index, lane), alignment(4));
+            targets_.push_back(
+                builder_.CreateSExt(frame_.aliases().mark(load, 0), builder_.getInt64Ty()));
+        }
+    }
+    Value* all = llvm::PoisonValue::get(frame_.vector_of(frame_.number()));
+    for (std::size_t lane = 0; lane < targets_.size(); ++lane) {
+        Value* place =
+            builder_.CreateInBoundsGEP(frame_.number(), frame_.field_plane(slot), targets_[lane]);
+        llvm::LoadInst* load = builder_.CreateAlignedLoad(frame_.number(), place,
+                                                          alignment(frame_.number_bytes()));
+        all = builder_.CreateInsertElement(all, frame_.aliases().mark(load, 0), lane);
+    }
+    return all;
+}
+
+Value* LinkEntry::numbers(unsigned array) {
+    Value*& value = numbers_[array];
+    if (!value) {
+        llvm::LoadInst* load = builder_.CreateAlignedLoad(frame_.vector_of(frame_.number()),
+                                                          address(array, frame_.number()),
+                                                          alignment(frame_.vector_bytes()));
+        value = frame_.aliases().mark(load, 0);
+    }
+    return value;
+}
+
+class LinkedLane final : public CellLane {
+public:
+    LinkedLane(KernelFrame& frame, Builder& builder, const VectorPlace& place)
+        : CellLane(frame, builder, place) {
+        for (const Instruction& instruction : frame.kernel().code) {
+            if (is_link_sum(instruction.op)) sums_.emplace(key_of(instruction), nullptr);
+        }
+        if (!sums_.empty()) add_up();
+    }
+
+    Value* laplacian(std::uint32_t slot) override { return sums_.at({Op::laplacian, slot}); }
+    Value* link_sum(const Instruction& sum) override { return sums_.at(key_of(sum)); }
+
+private:
+    void add_up();
+    void load_own();
+    Value* start_of(Value* slice);
+
+    std::map<SumKey, Value*> sums_;
+};
+
+/// Loads what the loop needs of the cells themselves in front of it.
+void LinkedLane::load_own() {
+    for (const auto& [key, value] : sums_) {
+        const Flow flow = Flow::with(key.second);
+        field(flow.of);
+        if (key.first == Op::link_flow) field(flow.factor);
+    }
+}
+
+/// The number of the first link of a slice.
+Value* LinkedLane::start_of(Value* slice) {
+    llvm::Type* index = builder_.getInt32Ty();
+    Value* address = builder_.CreateInBoundsGEP(index, frame_.further_argument(starts), slice);
+    llvm::LoadInst* entry =
+        frame_.aliases().mark(builder_.CreateAlignedLoad(index, address, alignment(4)), 0);
+    return builder_.CreateMul(builder_.CreateZExt(entry, builder_.getInt64Ty()),
+                              builder_.getInt64(slice_cells));
+}
+
+/// Writes the loop, and goes on behind it. A slice may have no entries.
+void LinkedLane::add_up() {
+    load_own();
+    const auto count = [&](std::uint64_t number) { return builder_.getInt64(number); };
+    Value* slices = builder_.CreateUDiv(
+        builder_.CreateAdd(frame_.width(), count(slice_cells - 1)), count(slice_cells));
+    Value* column = builder_.CreateSub(element_, place_.row_start);
+    Value* slice = builder_.CreateAdd(builder_.CreateMul(place_.row, slices),
+                                      builder_.CreateUDiv(column, count(slice_cells)));
+    Value* lane = builder_.CreateAnd(column, count(slice_cells - 1));
+    Value* first = builder_.CreateAdd(start_of(slice), lane);
+    Value* end = start_of(builder_.CreateAdd(slice, count(1)));
+
+    llvm::BasicBlock* before = builder_.GetInsertBlock();
+    llvm::BasicBlock* entries = frame_.new_block("entries");
+    llvm::BasicBlock* after = frame_.new_block("entries_done");
+    builder_.CreateCondBr(builder_.CreateICmpULT(first, end), entries, after);
+
+    builder_.SetInsertPoint(entries);
+    llvm::PHINode* link = builder_.CreatePHI(builder_.getInt64Ty(), 2, "link");
+    llvm::Type* vector = frame_.vector_of(frame_.number());
+    std::map<SumKey, llvm::PHINode*> sums_before;
+    for (const auto& [key, value] : sums_) sums_before[key] = builder_.CreatePHI(vector, 2);
+    LinkEntry entry(frame_, builder_, link, *this);
+    for (auto& [key, value] : sums_) {
+        value = builder_.CreateFAdd(sums_before[key], entry.term(key));
+    }
+    Value* next = builder_.CreateAdd(link, count(slice_cells));
+    builder_.CreateCondBr(builder_.CreateICmpULT(next, end), entries, after);
+    link->addIncoming(first, before);
+    link->addIncoming(next, entries);
+
+    builder_.SetInsertPoint(after);
+    llvm::Constant* zero = llvm::ConstantFP::getZero(vector);
+    for (auto& [key, value] : sums_) {
+        sums_before[key]->addIncoming(zero, before);
+        sums_before[key]->addIncoming(value, entries);
+        llvm::PHINode* sum = builder_.CreatePHI(vector, 2);
+        sum->addIncoming(zero, before);
+        sum->addIncoming(value, entries);
+        value = sum;
+    }
+}
+
+}  // namespace
+
+llvm::Function* build_linked_function(llvm::Module& module, const CellKernel& kernel,
+                                      const KernelShape& shape, const std::string& name) {
+    const std::vector<llvm::Type*> further(array_count,
+                                           llvm::PointerType::getUnqual(module.getContext()));
+    return build_function(module, kernel, shape, name, further,
+                          [](KernelFrame& frame, KernelLoops& loops, Builder& place) {
+                              loops.rows(place, [&](const VectorPlace& at, Builder& builder,
+                                                    BodyScope& row_scope) {
+                                  LinkedLane lane(frame, builder, at);
+                                  loops.body(lane, builder, row_scope);
+                              });
+                              place.CreateRetVoid();
+                          });
+}
+
+}  // namespace cascade
