@@ -1,0 +1,214 @@
+#include "surface/cell_order.h"
+
+#include "core/check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace cascade {
+namespace {
+
+constexpr int bits = 21;  // An axis; three fit into a key.
+
+/// How far along the curve a box lies.
+std::uint64_t curve_key(std::array<std::uint32_t, 3> box) {
+    // Undoes the rotations and reflections of each level, from the coarsest on.
+    for (std::uint32_t bit = 1U << (bits - 1); bit > 1; bit >>= 1) {
+        const std::uint32_t below = bit - 1;
+        for (std::uint32_t& axis : box) {
+            if ((axis & bit) != 0) {
+                box[0] ^= below;
+            } else {
+                const std::uint32_t swapped = (box[0] ^ axis) & below;
+                box[0] ^= swapped;
+                axis ^= swapped;
+            }
+        }
+    }
+    // Octants are numbered by Gray's code.
+    box[1] ^= box[0];
+    box[2] ^= box[1];
+    std::uint32_t inverted = 0;
+    for (std::uint32_t bit = 1U << (bits - 1); bit > 1; bit >>= 1) {
+        if ((box[2] & bit) != 0) inverted ^= bit - 1;
+    }
+    std::uint64_t key = 0;
+    for (int bit = bits - 1; bit >= 0; --bit) {
+        for (const std::uint32_t axis : box) key = key << 1 | (((axis ^ inverted) >> bit) & 1);
+    }
+    return key;
+}
+
+std::size_t link_count(const LinkList& links, std::uint32_t cell) {
+    return links.ends[cell] - (cell == 0 ? 0 : links.ends[cell - 1]);
+}
+
+/// The boxes of all positions.
+class Cube {
+public:
+    explicit Cube(std::span<const Vector3d> positions) {
+        Vector3d high{-infinity, -infinity, -infinity};
+        for (const Vector3d& p : positions) {
+            low_ = {std::fmin(low_.x, p.x), std::fmin(low_.y, p.y), std::fmin(low_.z, p.z)};
+            high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y), std::fmax(high.z, p.z)};
+        }
+        const Vector3d size = high - low_;
+        scale_ = 1 / std::fmax(size.x, std::fmax(size.y, size.z));
+    }
+
+    std::array<std::uint32_t, 3> box_of(Vector3d p) const {
+        return {part(p.x, low_.x), part(p.y, low_.y), part(p.z, low_.z)};
+    }
+
+private:
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    static constexpr double last = (1U << bits) - 1;
+
+    std::uint32_t part(double value, double low) const {
+        const double place = (value - low) * scale_ * last;
+        // NaN, of places that are none and of cubes without extent, is 0 as well.
+        return place > 0 ? static_cast<std::uint32_t>(std::fmin(place, last)) : 0;
+    }
+
+    Vector3d low_{infinity, infinity, infinity};
+    double scale_ = 0;
+};
+
+/// Walks from cell to cell along links, over cells that are not ordered yet.
+class LevelWalk {
+public:
+    explicit LevelWalk(const LinkList& links)
+        : links_(links), seen_(links.ends.size(), 0), is_ordered_(links.ends.size(), false) {}
+
+    struct Reached {
+        std::vector<std::uint32_t> cells;  ///< Level by level, those of a cell that has few links first.
+        std::size_t levels = 0;
+        std::size_t last_level = 0;        ///< Where it begins.
+    };
+    Reached from(std::uint32_t start) {
+        ++round_;
+        seen_[start] = round_;
+        Reached reached{{start}, 0, 0};
+        for (std::size_t place = 0; place < reached.cells.size();) {
+            ++reached.levels;
+            reached.last_level = place;
+            for (const std::size_t end = reached.cells.size(); place < end; ++place) {
+                add_neighbours(reached.cells[place], reached.cells);
+            }
+        }
+        return reached;
+    }
+
+    /// From a cell at the rim of what `start` reaches: each is one of the farthest from the one before.
+    Reached from_rim(std::uint32_t start) {
+        constexpr int most_trials = 8;  // Two or three do.
+        Reached best = from(start);
+        for (int trial = 1; trial < most_trials; ++trial) {
+            const auto rim = best.cells.begin() + static_cast<std::ptrdiff_t>(best.last_level);
+            Reached other = from(*std::min_element(
+                rim, best.cells.end(), [&](auto a, auto b) { return has_fewer_links(a, b); }));
+            if (other.levels <= best.levels) break;
+            best = std::move(other);
+        }
+        return best;
+    }
+
+    bool is_ordered(std::uint32_t cell) const { return is_ordered_[cell]; }
+    void add_to(std::vector<std::uint32_t>& order, const Reached& reached) {
+        for (const std::uint32_t cell : reached.cells) is_ordered_[cell] = true;
+        order.insert(order.end(), reached.cells.begin(), reached.cells.end());
+    }
+
+private:
+    bool has_fewer_links(std::uint32_t a, std::uint32_t b) const {
+        return std::pair(link_count(links_, a), a) < std::pair(link_count(links_, b), b);
+    }
+
+    void add_neighbours(std::uint32_t cell, std::vector<std::uint32_t>& cells) {
+        const auto added = static_cast<std::ptrdiff_t>(cells.size());
+        for (std::size_t k = link_count(links_, cell); k > 0; --k) {
+            const std::uint32_t neighbour = links_.neighbours[links_.ends[cell] - k];
+            if (seen_[neighbour] == round_ || is_ordered_[neighbour]) continue;
+            seen_[neighbour] = round_;
+            cells.push_back(neighbour);
+        }
+        std::sort(cells.begin() + added, cells.end(),
+                  [&](auto a, auto b) { return has_fewer_links(a, b); });
+    }
+
+    const LinkList& links_;
+    std::vector<std::uint32_t> seen_;  ///< In which walk last.
+    std::vector<bool> is_ordered_;
+    std::uint32_t round_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> order_along_curve(std::span<const Vector3d> positions) {
+    const Cube cube(positions);
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
+    keys.reserve(positions.size());
+    for (const Vector3d& position : positions) {
+        keys.emplace_back(curve_key(cube.box_of(position)), static_cast<std::uint32_t>(keys.size()));
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<std::uint32_t> order;
+    order.reserve(keys.size());
+    for (const auto& [key, cell] : keys) order.push_back(cell);
+    return order;
+}
+
+std::vector<std::uint32_t> order_by_levels(const LinkList& links) {
+    std::vector<std::uint32_t> order;
+    order.reserve(links.ends.size());
+    LevelWalk walk(links);
+    for (std::uint32_t cell = 0; cell < links.ends.size(); ++cell) {
+        if (walk.is_ordered(cell)) continue;
+        walk.add_to(order, walk.from_rim(cell));
+        // Where links go one way only, the rim need not reach the cell.
+        if (!walk.is_ordered(cell)) walk.add_to(order, walk.from(cell));
+    }
+    return order;
+}
+
+void group_by_links(std::vector<std::uint32_t>& order, const LinkList& links, std::size_t window) {
+    CHECK(window > 0, "a window has cells");
+    for (std::size_t first = 0; first < order.size(); first += window) {
+        const std::size_t end = std::min(order.size(), first + window);
+        std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(first),
+                         order.begin() + static_cast<std::ptrdiff_t>(end),
+                         [&](std::uint32_t a, std::uint32_t b) {
+                             return link_count(links, a) < link_count(links, b);
+                         });
+    }
+}
+
+LinkList renumbered(const LinkList& links, std::span<const std::uint32_t> order) {
+    std::vector<std::uint32_t> numbers(order.size());
+    for (std::size_t k = 0; k < order.size(); ++k) numbers[order[k]] = static_cast<std::uint32_t>(k);
+    LinkList result;
+    result.ends.reserve(order.size());
+    result.neighbours.reserve(links.neighbours.size());
+    result.weights.reserve(links.weights.size());
+    result.gradients.reserve(links.gradients.size());
+    std::vector<std::size_t> of_cell;
+    for (const std::uint32_t cell : order) {
+        of_cell.resize(link_count(links, cell));
+        std::iota(of_cell.begin(), of_cell.end(), links.ends[cell] - of_cell.size());
+        std::stable_sort(of_cell.begin(), of_cell.end(), [&](std::size_t a, std::size_t b) {
+            return numbers[links.neighbours[a]] < numbers[links.neighbours[b]];
+        });
+        for (const std::size_t link : of_cell) {
+            result.neighbours.push_back(numbers[links.neighbours[link]]);
+            result.weights.push_back(links.weights[link]);
+            if (!links.gradients.empty()) result.gradients.push_back(links.gradients[link]);
+        }
+        result.ends.push_back(result.neighbours.size());
+    }
+    return result;
+}
+
+}  // namespace cascade

@@ -1,0 +1,181 @@
+// Orders of cells: each cell once, neighbours near each other, links as they were.
+#include "surface/cell_order.h"
+
+#include "tests/support/random_links.h"
+#include "tests/support/random_stream.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+
+namespace cascade {
+namespace {
+
+using Order = std::vector<std::uint32_t>;
+
+bool has_each_once(Order order, std::size_t cells) {
+    std::sort(order.begin(), order.end());
+    Order all(cells);
+    std::iota(all.begin(), all.end(), 0U);
+    return order == all;
+}
+
+std::size_t link_count(const LinkList& links, std::uint32_t cell) {
+    return links.ends[cell] - (cell == 0 ? 0 : links.ends[cell - 1]);
+}
+
+/// A square of side² cells in random order, linked to those beside, above and below.
+struct Square {
+    explicit Square(std::size_t side) : numbers(side * side) {
+        std::iota(numbers.begin(), numbers.end(), 0U);
+        testing::RandomStream random(side);
+        for (std::size_t k = numbers.size(); k > 1; --k) {
+            std::swap(numbers[k - 1], numbers[random.below(k)]);
+        }
+        positions.resize(numbers.size());
+        std::vector<std::set<std::uint32_t>> neighbours(numbers.size());
+        for (std::size_t j = 0; j < side; ++j) {
+            for (std::size_t i = 0; i < side; ++i) {
+                const std::uint32_t cell = numbers[j * side + i];
+                positions[cell] = {static_cast<double>(i), static_cast<double>(j), 0};
+                for (const std::size_t other : {j * side + i + 1, (j + 1) * side + i}) {
+                    const bool is_beside = other == j * side + i + 1;
+                    if (other >= numbers.size() || (is_beside && i + 1 == side)) continue;
+                    neighbours[cell].insert(numbers[other]);
+                    neighbours[numbers[other]].insert(cell);
+                }
+            }
+        }
+        for (const auto& of_cell : neighbours) {
+            for (const std::uint32_t neighbour : of_cell) {
+                links.neighbours.push_back(neighbour);
+                links.weights.push_back(1);
+            }
+            links.ends.push_back(links.neighbours.size());
+        }
+    }
+    std::vector<std::uint32_t> numbers;
+    std::vector<Vector3d> positions;
+    LinkList links;
+};
+
+double distance(std::uint32_t a, std::uint32_t b) { return a > b ? a - b : b - a; }
+
+/// The largest and the mean difference of numbers over links.
+struct Spread {
+    double largest = 0, mean = 0;
+    explicit Spread(const LinkList& links) {
+        for (std::uint32_t cell = 0; cell < links.ends.size(); ++cell) {
+            for (std::size_t k = link_count(links, cell); k > 0; --k) {
+                const double apart = distance(cell, links.neighbours[links.ends[cell] - k]);
+                largest = std::max(largest, apart);
+                mean += apart / static_cast<double>(links.neighbours.size());
+            }
+        }
+    }
+};
+
+TEST(CellOrder, LevelsPutNeighboursIntoBands) {
+    constexpr std::size_t side = 60;
+    const Square square(side);
+    const Order order = order_by_levels(square.links);
+    ASSERT_TRUE(has_each_once(order, side * side));
+    // From a corner the levels are diagonals of at most `side` cells.
+    const Spread spread(renumbered(square.links, order));
+    EXPECT_LE(spread.largest, side + 1);
+    EXPECT_GT(Spread(square.links).mean, 900) << "before";
+}
+
+// A curve that fills space visits near places soon after each other: boxes of 4^k cells one after
+// the other, so that most links stay within the smallest of them.
+TEST(CellOrder, TheCurveKeepsNeighboursNear) {
+    constexpr std::size_t side = 64;
+    const Square square(side);
+    const Order order = order_along_curve(square.positions);
+    ASSERT_TRUE(has_each_once(order, side * side));
+    const LinkList links = renumbered(square.links, order);
+    std::size_t near = 0;
+    for (std::uint32_t cell = 0; cell < links.ends.size(); ++cell) {
+        for (std::size_t k = link_count(links, cell); k > 0; --k) {
+            near += distance(cell, links.neighbours[links.ends[cell] - k]) < 16;
+        }
+    }
+    EXPECT_GT(static_cast<double>(near), 0.8 * static_cast<double>(links.neighbours.size()));
+}
+
+/// Hilbert's curve goes on to a box that touches the one before, which no other of these orders does.
+TEST(CellOrder, TheCurveIsConnected) {
+    constexpr std::int64_t side = 16;
+    std::vector<Vector3d> positions;
+    for (std::int64_t k = 0; k < side * side * side; ++k) {
+        const auto number = [](std::int64_t part) { return static_cast<double>(part); };
+        positions.push_back({number(k % side), number(k / side % side), number(k / side / side)});
+    }
+    const Order order = order_along_curve(positions);
+    ASSERT_TRUE(has_each_once(order, positions.size()));
+    for (std::size_t k = 1; k < order.size(); ++k) {
+        ASSERT_EQ(length(positions[order[k]] - positions[order[k - 1]]), 1) << k;
+    }
+}
+
+TEST(CellOrder, PlacesThatAreNoneAreOrderedToo) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(order_along_curve({}), Order{});
+    const std::vector<Vector3d> same(5, {1, 2, 3});
+    EXPECT_EQ(order_along_curve(same), (Order{0, 1, 2, 3, 4}));
+    const std::vector<Vector3d> strange{{nan, nan, nan}, {1, 0, 0}, {0, infinity, 1}, {0, 0, 0},
+                                        {1e308, -1e308, 0}, {nan, 1, -infinity}};
+    EXPECT_TRUE(has_each_once(order_along_curve(strange), strange.size()));
+    const std::vector<Vector3d> one_is_none{{2, 0, 0}, {nan, nan, nan}, {1, 0, 0}};
+    EXPECT_EQ(order_along_curve(one_is_none), (Order{1, 2, 0}));
+}
+
+TEST(CellOrder, GroupsAreSortedByLinksWithinWindows) {
+    constexpr std::size_t cells = 1000, window = 128;
+    const LinkList links = testing::random_links(cells, 5);
+    Order order(cells);
+    std::iota(order.begin(), order.end(), 0U);
+    group_by_links(order, links, window);
+    for (std::size_t k = 0; k < cells; ++k) {
+        EXPECT_EQ(order[k] / window, k / window);
+        if (k % window == 0) continue;
+        const std::size_t before = link_count(links, order[k - 1]), now = link_count(links, order[k]);
+        EXPECT_TRUE(before < now || (before == now && order[k - 1] < order[k])) << k;
+    }
+}
+
+// Links of random cells go one way, and some cells have none.
+TEST(CellOrder, LevelsReachEveryCell) {
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        const std::size_t cells = 1 + 17 * (seed - 1);
+        const LinkList links = testing::random_links(cells, seed);
+        const Order order = order_by_levels(links);
+        ASSERT_TRUE(has_each_once(order, cells)) << seed;
+        const LinkList renamed = renumbered(links, order);
+        ASSERT_EQ(renamed.ends.size(), cells);
+        for (std::uint32_t cell = 0; cell < cells; ++cell) {
+            // The same links of the same weights, by other names.
+            std::multiset<std::pair<std::uint32_t, double>> before, after;
+            for (std::size_t k = link_count(links, order[cell]); k > 0; --k) {
+                const std::size_t link = links.ends[order[cell]] - k;
+                before.insert({links.neighbours[link], links.weights[link]});
+            }
+            std::uint32_t last = 0;
+            for (std::size_t k = link_count(renamed, cell); k > 0; --k) {
+                const std::size_t link = renamed.ends[cell] - k;
+                after.insert({order[renamed.neighbours[link]], renamed.weights[link]});
+                ASSERT_GE(renamed.neighbours[link], last);
+                last = renamed.neighbours[link];
+            }
+            ASSERT_EQ(before, after) << seed;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace cascade
