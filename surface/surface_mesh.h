@@ -8,14 +8,21 @@
 #include "surface/polygon_soup.h"
 
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <vector>
 
 namespace cascade {
 
 /// Corners and edges of a triangle follow each other: 0, 1, 2, 0.
-constexpr std::uint32_t corner_after(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
-constexpr std::uint32_t corner_before(std::uint32_t k) { return k == 0 ? 2 : k - 1; }
+template <std::unsigned_integral Index>
+constexpr Index corner_after(Index k) {
+    return k == 2 ? 0 : k + 1;
+}
+template <std::unsigned_integral Index>
+constexpr Index corner_before(Index k) {
+    return k == 0 ? 2 : k - 1;
+}
 
 /// Edge k of a triangle goes from its corner k to corner k + 1 (of 0, 1, 2).
 struct TriangleEdge {

@@ -1,0 +1,346 @@
+// cascade_linked_bench: Turing's step over linked cells, one core: native code through the solver's
+// stepper against straight C++ over the same slices, and over compressed rows in the cells' own order.
+//
+// --order=curve|levels|own, --window=CELLS (0 groups nothing), --width=CELLS of a row and --lanes=4|8|16
+// come first; then flags of Google Benchmark.
+#include "bench/linked_cells.h"
+#include "bench/straight_links.h"
+#ifdef CASCADE_BENCH_EIGEN
+#include "bench/straight_eigen.h"
+#endif
+#include "core/floating_point.h"
+#include "ir/builder.h"
+#include "jit/jit.h"
+#include "solvers/stepper.h"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade::bench {
+namespace {
+
+constexpr LinkedTuring parameters{1.0f, 0.05f / 16, 0.125f, 0.03125f};
+constexpr std::int64_t steps = 16;  // Of one iteration of a benchmark.
+
+struct Choices {
+    std::string order = "curve";
+    std::size_t window = 256;
+    std::int64_t width = 512;
+    int lanes = 0;
+};
+
+double start_value(std::size_t cell, int which) {
+    return 4 + 0.3 * std::sin(0.01 * static_cast<double>(cell) + which);
+}
+double beta_value(std::size_t cell) { return 12 + 0.1 * std::sin(static_cast<double>(cell)); }
+
+CellKernel turing_kernel() {
+    KernelBuilder b;
+    const std::uint32_t u_slot = b.field_slot("u"), v_slot = b.field_slot("v");
+    const ValueId u = b.field(u_slot), v = b.field(v_slot), uv = b.multiply(u, v);
+    const auto uniform = [&](const char* name) { return b.uniform(b.uniform_slot(name)); };
+    const ValueId step = uniform("step"), s = uniform("s");
+    const ValueId du = uniform("diff_u"), dv = uniform("diff_v");
+    const ValueId eaten =
+        b.subtract(b.subtract(uv, v), b.field(b.field_slot("beta")));
+    const auto next = [&](ValueId value, ValueId reaction, ValueId diffusion, std::uint32_t slot) {
+        const ValueId rate =
+            b.add(b.multiply(s, reaction), b.multiply(diffusion, b.laplacian(slot)));
+        return b.add(value, b.multiply(step, rate));
+    };
+    b.result("u", next(u, b.subtract(b.number(16), uv), du, u_slot));
+    b.result("v", next(v, eaten, dv, v_slot));
+    return std::move(b).finish();
+}
+
+/// Cells in rows, on our side and on that of the slices.
+class Sliced {
+public:
+    Sliced(const LinkedCells& cells, std::int64_t width, Backend& backend)
+        : grid_(grid_of(cells, width)),
+          layout_(grid_),
+          links_(cells.links, layout_, Precision::single),
+          beta_(plane([](std::size_t cell) { return beta_value(cell); })) {
+        for (int which = 0; which < 2; ++which) {
+            const auto value = [&](std::size_t cell) { return start_value(cell, which); };
+            theirs_.push_back(plane(value));
+            theirs_next_.emplace_back(layout_);
+            ours_.push_back(Field(plane(value)));
+        }
+        const auto kernel = backend.compile(turing_kernel(), Stencil::linked);
+        if (!kernel) std::abort();
+        StepProblem::Pass& pass = problem_.passes.emplace_back();
+        using Kind = StepProblem::PlaneRef::Kind;
+        pass.kernel = *kernel;
+        pass.fields = {{Kind::species, 0, 0}, {Kind::species, 1, 0},
+                       {Kind::fixed, 0, 0, beta_.origin()}};
+        pass.results = {{{Kind::species, 0, 1}}, {{Kind::species, 1, 1}}};
+        pass.uniforms = {double{parameters.step}, double{parameters.s},
+                         double{parameters.diffusion_u}, double{parameters.diffusion_v}};
+        problem_.grid = grid_;
+        problem_.links = &links_;
+        problem_.species_needs_halo.assign(2, true);
+        stepper_.emplace(problem_, std::move(ours_), 1);
+    }
+
+    void advance(std::int64_t count) {
+        stepper_->advance(taken_, count, false);
+        taken_ += count;
+    }
+    void advance(decltype(&sliced_by_loads) step, std::int64_t count) {
+        const LinkTable<float> table = links_.table<float>();
+        const SlicedLinks links{table.starts, table.targets,  table.weights,
+                                grid_.width,  grid_.height, layout_.stride};
+        for (; count > 0; --count) {
+            step(parameters, links,
+                 {{theirs_[0].origin(), theirs_[1].origin()},
+                  {theirs_next_[0].origin(), theirs_next_[1].origin()},
+                  beta_.origin()});
+            std::swap(theirs_, theirs_next_);
+        }
+    }
+    double ours(std::size_t cell) {
+        return (stepper_->current()[0].plane<float>().origin())[place(cell)];
+    }
+    double theirs(std::size_t cell) const { return theirs_[0].origin()[place(cell)]; }
+    /// Entries of all slices over links: how much is filled up.
+    double filling(const LinkedCells& cells) const {
+        const auto slices = static_cast<std::size_t>(grid_.cell_count() / 16);
+        return 16.0 * links_.table<float>().starts[slices] /
+               static_cast<double>(cells.links.neighbours.size());
+    }
+
+private:
+    static Grid grid_of(const LinkedCells& cells, std::int64_t width) {
+        Grid grid;
+        grid.linked = true;
+        grid.width = width;
+        grid.height = (static_cast<std::int64_t>(cells.positions.size()) + width - 1) / width;
+        return grid;
+    }
+    std::int64_t place(std::size_t cell) const {
+        const auto number = static_cast<std::int64_t>(cell);
+        return layout_.row_start(number / grid_.width) + number % grid_.width;
+    }
+    Plane<float> plane(auto value) const {
+        Plane<float> plane(layout_);
+        for (std::size_t cell = 0; cell < static_cast<std::size_t>(grid_.cell_count()); ++cell) {
+            plane.origin()[place(cell)] = static_cast<float>(value(cell));
+        }
+        return plane;
+    }
+
+    Grid grid_;
+    PlaneLayout layout_;
+    Links links_;
+    Plane<float> beta_;
+    std::vector<Plane<float>> theirs_, theirs_next_;
+    std::vector<Field> ours_;
+    StepProblem problem_;
+    std::optional<Stepper> stepper_;
+    std::int64_t taken_ = 0;
+};
+
+/// Compressed rows.
+class Rows {
+public:
+    explicit Rows(const LinkedCells& cells)
+        : ends_(cells.links.ends.begin(), cells.links.ends.end()),
+          targets_(cells.links.neighbours.begin(), cells.links.neighbours.end()),
+          weights_(cells.links.weights.begin(), cells.links.weights.end()) {
+        for (std::size_t cell = 0; cell < ends_.size(); ++cell) {
+            for (int which = 0; which < 2; ++which) {
+                now_[which].push_back(static_cast<float>(start_value(cell, which)));
+            }
+            beta_.push_back(static_cast<float>(beta_value(cell)));
+        }
+        next_[0] = next_[1] = now_[0];
+    }
+    RowLinks links() const {
+        return {ends_.data(), targets_.data(), weights_.data(),
+                static_cast<std::int64_t>(ends_.size())};
+    }
+    template <typename Step>
+    void advance(const Step& step, std::int64_t count) {
+        for (; count > 0; --count) {
+            step(LinkedPlanes{{now_[0].data(), now_[1].data()},
+                              {next_[0].data(), next_[1].data()},
+                              beta_.data()});
+            std::swap(now_, next_);
+        }
+    }
+    double value(std::size_t cell) const { return now_[0][cell]; }
+
+private:
+    std::vector<std::uint32_t> ends_;
+    std::vector<std::int32_t> targets_;
+    std::vector<float> weights_, beta_;
+    std::vector<float> now_[2], next_[2];
+};
+
+struct Contest {
+    Contest(std::size_t side, const Choices& choices, Backend& backend)
+        : cells(cells_of_torus(side)),
+          ordered(in_order(cells, choices.order, choices.window)),
+          sliced(ordered, choices.width, backend),
+          rows(cells),
+          ordered_rows(ordered)
+#ifdef CASCADE_BENCH_EIGEN
+          ,
+          eigen(rows.links())
+#endif
+    {
+    }
+    LinkedCells cells, ordered;
+    Sliced sliced;
+    Rows rows, ordered_rows;
+#ifdef CASCADE_BENCH_EIGEN
+    EigenLinks eigen;
+#endif
+};
+
+using Advance = void (*)(Contest&);
+const std::vector<std::pair<std::string, Advance>> contestants{
+    {"jit", [](Contest& c) { c.sliced.advance(steps); }},
+    {"gathers", [](Contest& c) { c.sliced.advance(sliced_by_gathers, steps); }},
+    {"loads", [](Contest& c) { c.sliced.advance(sliced_by_loads, steps); }},
+    {"rows in our order",
+     [](Contest& c) {
+         c.ordered_rows.advance([&](const auto& p) { by_rows(parameters, c.ordered_rows.links(), p); },
+                                steps);
+     }},
+    {"rows",
+     [](Contest& c) {
+         c.rows.advance([&](const auto& p) { by_rows(parameters, c.rows.links(), p); }, steps);
+     }},
+#ifdef CASCADE_BENCH_EIGEN
+    {"Eigen",
+     [](Contest& c) {
+         c.rows.advance([&](const auto& p) { c.eigen.step(parameters, p); }, steps);
+     }},
+#endif
+};
+
+/// A contest between different computations would be worth nothing.
+void check_agreement(const Choices& choices, Backend& backend) {
+    Contest contest(64, choices, backend);
+    contest.sliced.advance(100);
+    contest.ordered_rows.advance(
+        [&](const auto& p) { by_rows(parameters, contest.ordered_rows.links(), p); }, 100);
+    contest.sliced.advance(sliced_by_gathers, 50);
+    contest.sliced.advance(sliced_by_loads, 50);
+    for (std::size_t cell = 0; cell < 64 * 64; ++cell) {
+        const double expected = contest.ordered_rows.value(cell);
+        const double worst = std::max(std::abs(contest.sliced.ours(cell) - expected),
+                                      std::abs(contest.sliced.theirs(cell) - expected));
+        if (worst < 1e-4) continue;
+        fmt::print(stderr, "cascade_linked_bench: cell {} differs by {}\n", cell, worst);
+        std::exit(1);
+    }
+}
+
+/// Keeps the time of every repetition.
+class Collector : public benchmark::BenchmarkReporter {
+public:
+    bool ReportContext(const Context&) override { return true; }
+    void ReportRuns(const std::vector<Run>& runs) override {
+        for (const Run& run : runs) {
+            if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+            seconds_[run.run_name.function_name].push_back(
+                run.cpu_accumulated_time / static_cast<double>(run.iterations * steps));
+        }
+    }
+    double median(const std::string& name) {
+        std::vector<double>& times = seconds_[name];
+        if (times.empty()) return 0;
+        std::sort(times.begin(), times.end());
+        return times[times.size() / 2];
+    }
+    double least(const std::string& name) {
+        std::vector<double>& times = seconds_[name];
+        return times.empty() ? 0 : *std::min_element(times.begin(), times.end());
+    }
+
+private:
+    std::map<std::string, std::vector<double>> seconds_;
+};
+
+int run(int argc, char** argv) {
+    const FlushDenormals environment;
+    Choices choices;
+    for (; argc > 1; ++argv, --argc) {
+        const std::string_view word(argv[1]);
+        if (word.starts_with("--order=")) choices.order = word.substr(8);
+        else if (word.starts_with("--window=")) choices.window = static_cast<std::size_t>(std::atoi(argv[1] + 9));
+        else if (word.starts_with("--width=")) choices.width = std::atoi(argv[1] + 8);
+        else if (word.starts_with("--lanes=")) choices.lanes = std::atoi(argv[1] + 8);
+        else break;
+        argv[1] = argv[0];
+    }
+    auto backend = make_jit({choices.lanes, 2});
+    if (!backend || choices.width < 16 || choices.width % 16 != 0) return 64;
+    check_agreement(choices, **backend);
+
+    std::vector<std::string> words = {argv[0], "--benchmark_repetitions=9",
+                                      "--benchmark_min_time=0.05",
+                                      "--benchmark_enable_random_interleaving=true"};
+    words.insert(words.end(), argv + 1, argv + argc);
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    int count = static_cast<int>(pointers.size());
+    benchmark::Initialize(&count, pointers.data());
+    if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 64;
+
+    std::map<std::size_t, std::unique_ptr<Contest>> contests;
+    for (const std::size_t side : {256, 1024}) {
+        for (const auto& contestant : contestants) {
+            benchmark::RegisterBenchmark(
+                fmt::format("{}/{}", side * side, contestant.first).c_str(),
+                [&, side, advance = contestant.second](benchmark::State& state) {
+                    auto& contest = contests[side];
+                    if (!contest) {
+                        contest = std::make_unique<Contest>(side, choices, **backend);
+                    }
+                    for (auto _ : state) advance(*contest);
+                });
+        }
+    }
+    Collector times;
+    benchmark::RunSpecifiedBenchmarks(&times);
+    fmt::print("order {}, windows of {}, rows of {}\n{:>9}  {:<18}{:>12}{:>9}{:>16}{:>16}\n",
+               choices.order, choices.window, choices.width, "cells", "", "ns a cell", "least",
+               "time over ours", "by the least");
+    for (const auto& [side, contest] : contests) {
+        const auto name = [cells = side * side](const std::string& who) {
+            return fmt::format("{}/{}", cells, who);
+        };
+        const auto cells = static_cast<double>(side * side);
+        for (const auto& contestant : contestants) {
+            const double median = times.median(name(contestant.first));
+            const double least = times.least(name(contestant.first));
+            if (median <= 0) continue;
+            fmt::print("{:>9}  {:<18}{:>12.2f}{:>9.2f}{:>16.2f}{:>16.2f}\n", side * side,
+                       contestant.first, median / cells * 1e9, least / cells * 1e9,
+                       median / times.median(name("jit")), least / times.least(name("jit")));
+        }
+        fmt::print("{:>9}  entries of slices over links: {:.3f}\n", side * side,
+                   contest->sliced.filling(contest->ordered));
+    }
+    return 0;
+}
+
+}  // namespace
+}  // namespace cascade::bench
+
+int main(int argc, char** argv) { return cascade::bench::run(argc, argv); }

@@ -1,0 +1,43 @@
+// Turing's step over linked cells as a good programmer would write it: the opponent.
+#pragma once
+
+#include <cstdint>
+
+namespace cascade::bench {
+
+/// u' = u + step (s (16 − u v) + diffusion_u lap u), v' = v + step (s (u v − v − beta) +
+/// diffusion_v lap v).
+struct LinkedTuring {
+    float step, s, diffusion_u, diffusion_v;
+};
+
+/// Planes of cells, from cell 0 on; `now` and `next` are u and v.
+struct LinkedPlanes {
+    const float* now[2];
+    float* next[2];
+    const float* beta;
+};
+
+/// Slices of sixteen cells as core/links.h has them, for rows of `width` cells, a multiple of 16.
+struct SlicedLinks {
+    const std::uint32_t* starts;
+    const std::int32_t* targets;
+    const float* weights;
+    std::int64_t width, height, stride;
+};
+
+/// Links of cell i are those before ends[i]: compressed sparse rows.
+struct RowLinks {
+    const std::uint32_t* ends;
+    const std::int32_t* targets;
+    const float* weights;
+    std::int64_t cells;
+};
+
+/// With the processor's gathers, where it has AVX-512.
+void sliced_by_gathers(const LinkedTuring&, const SlicedLinks&, const LinkedPlanes&);
+/// A loop over sixteen cells that loads one after the other.
+void sliced_by_loads(const LinkedTuring&, const SlicedLinks&, const LinkedPlanes&);
+void by_rows(const LinkedTuring&, const RowLinks&, const LinkedPlanes&);
+
+}  // namespace cascade::bench
