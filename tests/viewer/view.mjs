@@ -152,3 +152,5 @@ await validate();
 stop_at_faults();
 look_at(await draw());
 stop_at_faults();
+// Something of the closed connections may still be waited for.
+process.exit(0);
