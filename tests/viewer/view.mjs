@@ -120,7 +120,7 @@ function draw() {
             server.closeAllConnections();
             shell.removeAllListeners("exit");
             shell.once("exit", action);
-            shell.kill("SIGKILL");
+            process.kill(-shell.pid, "SIGKILL");  // The group: the command may be a script.
         };
         const limit = setTimeout(
             () => finish(() => reject(new Error("the browser drew nothing in 4 minutes"))), 240000);
@@ -130,7 +130,7 @@ function draw() {
                 "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
                 "--enable-unsafe-swiftshader", "--no-first-run", "--disable-background-networking",
                 `--user-data-dir=${join(here, "profile")}`, `http://127.0.0.1:${server.address().port}/`,
-            ], { stdio: ["ignore", "ignore", "pipe"] });
+            ], { stdio: ["ignore", "ignore", "pipe"], detached: true });
             let said = "";
             shell.stderr.on("data", (part) => (said = (said + part).slice(-4000)));
             shell.once("error", (error) => reject(error));
