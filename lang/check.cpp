@@ -1,6 +1,8 @@
 // The checker: systems first, then stages in order, then the domain and the picture.
 #include "lang/check.h"
 
+#include "lang/models.h"
+
 #include "core/check.h"
 #include "lang/check_blocks.h"
 #include "lang/check_semi_implicit.h"
@@ -100,6 +102,7 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
     scope.last_stage = last_stage;
     auto checked = checking::check_expression(work, script, expression, scope);
     if (!checked) return std::nullopt;
+    if (program.domain.model && !has_meaning_on_model(checked->formula, diagnostics)) return std::nullopt;
     return std::move(checked->formula);
 }
 

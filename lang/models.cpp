@@ -52,16 +52,7 @@ public:
     }
 
 private:
-    void check_formula(const Formula& formula) {
-        for (const Node& node : formula.nodes) {
-            if (node.kind != NodeKind::call) continue;
-            const std::string_view reason = reason_against(node.function);
-            if (reason.empty()) continue;
-            diagnostics_.error(node.span,
-                               fmt::format("{} cannot be used on a model", info(node.function).spelling),
-                               std::string(reason));
-        }
-    }
+    void check_formula(const Formula& formula) { (void)has_meaning_on_model(formula, diagnostics_); }
 
     void check_system(const System& system) {
         for (const Formula& rate : system.rates) check_formula(rate);
@@ -124,6 +115,20 @@ std::optional<ModelShape> shape_named(std::string_view word) {
     if (word == "box") return ModelShape::box;
     if (word == "creature") return ModelShape::creature;
     return std::nullopt;
+}
+
+bool has_meaning_on_model(const Formula& formula, Diagnostics& diagnostics) {
+    bool has_meaning = true;
+    for (const Node& node : formula.nodes) {
+        if (node.kind != NodeKind::call) continue;
+        const std::string_view reason = reason_against(node.function);
+        if (reason.empty()) continue;
+        has_meaning = false;
+        diagnostics.error(node.span,
+                          fmt::format("{} cannot be used on a model", info(node.function).spelling),
+                          std::string(reason));
+    }
+    return has_meaning;
 }
 
 void check_on_model(Program& program, Diagnostics& diagnostics) {

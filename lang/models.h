@@ -24,4 +24,7 @@ std::optional<ModelShape> shape_named(std::string_view word);
 /// aside (the sides of the plane). Of a program whose domain is a model.
 void check_on_model(Program& program, Diagnostics& diagnostics);
 
+/// Adds an error for every function of a formula that has no meaning on a model; true where there is none.
+bool has_meaning_on_model(const Formula& formula, Diagnostics& diagnostics);
+
 }  // namespace cascade

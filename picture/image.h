@@ -50,6 +50,10 @@ struct ValueRange {
 /// Smallest and largest finite value of the cells; [0, 0] where there is none.
 ValueRange value_range(const Field& field);
 
+/// Where a value lies between the ends of a range: 0 at the low one, 1 at the high one, and ½ in a range of
+/// no width. NaN stays NaN.
+double position_in(ValueRange range, float value);
+
 /// A field through a palette. A range of no width gives the palette's middle, a range whose ends
 /// are swapped the palette from its end to its start. Values beyond the range get the colour of
 /// its end, NaN magenta.

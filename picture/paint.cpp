@@ -8,9 +8,7 @@
 #include <limits>
 
 namespace cascade {
-namespace {
-
-/// Where a value lies between the ends of a range, in double so that no float range overflows.
+/// In double, so that no float range overflows.
 double position_in(ValueRange range, float value) {
     if (std::isnan(value)) return std::numeric_limits<double>::quiet_NaN();
     const double low = static_cast<double>(range.low);
@@ -18,8 +16,6 @@ double position_in(ValueRange range, float value) {
     if (width == 0) return 0.5;
     return (static_cast<double>(value) - low) / width;
 }
-
-}  // namespace
 
 ValueRange value_range(const Field& field) {
     float low = std::numeric_limits<float>::infinity();

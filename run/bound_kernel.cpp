@@ -62,7 +62,7 @@ public:
         problem_.grid = context_.grid;
         problem_.cells_inside = context_.mask ? context_.mask->cells : 0;
         problem_.precision = context_.precision;
-        if (context_.model != nullptr) problem_.links = &context_.model->links;
+        if (context_.grid.linked) problem_.links = &context_.model->links;
         problem_.temporaries = plan_.temporaries;
         problem_.aggregates = plan_.aggregates;
         for (const Pass& pass : plan_.passes) {
@@ -125,7 +125,7 @@ private:
 
     void find_halos(const Pass& pass) {
         for (std::size_t slot = 0; slot < pass.bound.fields.size(); ++slot) {
-            if (context_.model != nullptr) continue;  // Links need no halo.
+            if (context_.grid.linked) continue;  // Links need no halo.
             if (!pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) continue;
             const PlaneRef plane = bind_plane(pass.bound.fields[slot]);
             switch (plane.kind) {
@@ -291,7 +291,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     whole.grid = context.grid;
     whole.cells_inside = context.mask ? context.mask->cells : 0;
     whole.precision = context.precision;
-    if (context.model != nullptr) whole.links = &context.model->links;
+    if (context.grid.linked) whole.links = &context.model->links;
     whole.registers = scheme.registers;
     whole.error_register = scheme.error_register;
     whole.sides = context.states[stage].sides;

@@ -267,6 +267,32 @@ Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& progra
     return ModelCellMaker(program, team, control).make(access);
 }
 
+Field in_one_row(const Field& field, const ModelCells& model) {
+    const auto count = static_cast<std::int64_t>(model.count());
+    Field row(PlaneLayout(Grid{count, 1}), field.precision());
+    field.visit([&]<typename Number>(const Plane<Number>& from) {
+        Plane<Number>& to = row.plane<Number>();
+        for (std::int64_t k = 0; k < count; ++k) {
+            to.row(0)[k] = from.row(k / model.grid.width)[k % model.grid.width];
+        }
+    });
+    return row;
+}
+
+Field in_rows(const Field& one_row, const ModelCells& model) {
+    const auto last = static_cast<std::int64_t>(model.count()) - 1;
+    Field field(PlaneLayout(model.grid), one_row.precision());
+    one_row.visit([&]<typename Number>(const Plane<Number>& from) {
+        Plane<Number>& to = field.plane<Number>();
+        for (std::int64_t j = 0; j < model.grid.height; ++j) {
+            for (std::int64_t i = 0; i < model.grid.width; ++i) {
+                to.row(j)[i] = from.row(0)[std::min(j * model.grid.width + i, last)];
+            }
+        }
+    });
+    return field;
+}
+
 std::vector<double> cell_values(const Field& field, const ModelCells& model) {
     std::vector<double> values(model.count());
     for (std::size_t k = 0; k < model.count(); ++k) {

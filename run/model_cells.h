@@ -45,6 +45,10 @@ Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& progra
                                                            const ModelAccess& access, Team& team,
                                                            RunControl& control);
 
+/// A plane's cells in one row, as files have them, and back, with those that fill the last row.
+Field in_one_row(const Field& field, const ModelCells& model);
+Field in_rows(const Field& one_row, const ModelCells& model);
+
 /// The values of a plane's cells in their order, without those that fill the last row.
 std::vector<double> cell_values(const Field& field, const ModelCells& model);
 

@@ -1,5 +1,7 @@
 #include "run/picture_request.h"
 
+#include "run/model_picture.h"
+
 #include "core/near_name.h"
 #include "lang/check.h"
 #include "lang/parse.h"
@@ -151,6 +153,7 @@ Canvas Painter::values(const Simulation& simulation) {
 
 Canvas Painter::canvas(const Simulation& simulation) {
     Canvas canvas = values(simulation);
+    model_ = simulation.model();
     for (Field& field : canvas.fields) field = shown(std::move(field), request_);
     if (const DomainMask* mask = simulation.mask()) {
         outside_ = as_shown(Field(PlaneLayout(simulation.grid())), mask, request_);
@@ -158,10 +161,13 @@ Canvas Painter::canvas(const Simulation& simulation) {
     return canvas;
 }
 
+ValueRange Painter::range_of(const Canvas& canvas, std::optional<ValueRange> range) const {
+    if (request_.range) return *request_.range;
+    return range ? *range : value_range(canvas.fields[0]);
+}
+
 Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range) const {
-    const ValueRange used = request_.range ? *request_.range
-                            : range        ? *range
-                                           : value_range(canvas.fields[0]);
+    const ValueRange used = range_of(canvas, range);
     Image image = canvas.is_colour()
                       ? paint(canvas.fields[0], canvas.fields[1], canvas.fields[2])
                       : paint(canvas.fields[0], used, *palette_);
@@ -169,7 +175,18 @@ Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range) co
     return image;
 }
 
+Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) const {
+    if (!drawer_) drawer_ = std::make_shared<const ModelDrawer>(model_);
+    DrawOptions options;
+    options.width *= request_.scale;
+    options.height *= request_.scale;
+    options.view = request_.view;
+    options.view.up = {0, 1, 0};
+    return drawer_->draw(ModelLook(*model_, canvas, range_of(canvas, range), *palette_), options);
+}
+
 Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) const {
+    if (model_) return on_model(canvas, range);
     const Image flat = texture(canvas, range);
     const DomainSettings& domain = script_->program->domain;
     if (!domain.surface || request_.flat) return enlarge(flat, request_.scale);

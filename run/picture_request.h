@@ -7,6 +7,7 @@
 #include "render/camera.h"
 #include "run/simulation.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,8 @@ struct Canvas {
     bool is_colour() const { return fields.size() == 3; }
 };
 
+class ModelDrawer;
+
 /// Computes what the request shows, for whatever stage the simulation has reached.
 class Painter {
 public:
@@ -59,6 +62,8 @@ public:
 
 private:
     Image texture(const Canvas& canvas, std::optional<ValueRange> range) const;
+    ValueRange range_of(const Canvas& canvas, std::optional<ValueRange> range) const;
+    Image on_model(const Canvas& canvas, std::optional<ValueRange> range) const;
     std::optional<Formula> formula_for(std::uint32_t stage, std::uint32_t last_stage);
 
     Script* script_ = nullptr;
@@ -66,6 +71,8 @@ private:
     std::optional<ast::Expression> show_;
     const Palette* palette_ = nullptr;
     bool fell_back_ = false;
+    std::shared_ptr<const ModelCells> model_;          ///< Of the last canvas; none on grids.
+    mutable std::shared_ptr<const ModelDrawer> drawer_;  ///< Made when a picture is first drawn.
     Field outside_;  ///< Of the last canvas: NaN where there is no domain; empty without a mask.
 };
 

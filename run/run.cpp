@@ -110,10 +110,26 @@ void check_picture(Script& script, const PictureRequest& picture) {
     if (picture.slice != Slice{} && domain.grid.depth == 1) {
         refuse("--slice", "a plane has no slices", "grid: W, H, D makes a volume");
     }
+    if (domain.model) {
+        if (picture.flat) refuse("--flat", "the cells of a model have no rows and columns", "-o model.ply, or --bake, has the pattern without light");
+        return;
+    }
     if (domain.surface) return;
     constexpr std::string_view hint = "surface: x, y, z in the domain makes one";
     if (picture.flat) refuse("--flat", "the domain is no surface", hint);
     if (picture.is_turned()) refuse("--view", "the domain is no surface", hint);
+}
+
+/// Outputs of rows and columns, which a model does not have.
+void check_on_model(Script& script, const RunRequest& request) {
+    const auto refuse = [&](bool is_asked_for, const char* option, const char* hint) {
+        if (!is_asked_for) return;
+        script.diagnostics.error(option_span(script.sources, option, option),
+                                 "the cells of a model have no rows and columns", hint);
+    };
+    refuse(!request.sheet.empty(), "--sheet", "--show a draws another species");
+    refuse(!request.volume.empty(), "--volume", "");
+    refuse(request.features, "--features", "");
 }
 
 /// What is asked for must fit the script; where it does not, the script's diagnostics say so.
@@ -126,6 +142,7 @@ Result<void> check_request(Script& script, const RunRequest& request) {
             "for a plane, --frames writes a picture each interval");
     }
     check_picture(script, request.picture);
+    if (script.program->domain.model) check_on_model(script, request);
     if (request.stop_at) check_stop_at(script, *request.stop_at);
     if (script.diagnostics.has_errors()) return failure("the request does not fit the script");
     return {};

@@ -73,7 +73,8 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
     std::vector<Field> species;
     const Program& program = simulation.program();
     const System& system = program.system_of(stage);
-    const Grid& grid = program.domain.grid;
+    const auto model = simulation.model();
+    const Grid grid = model ? Grid{static_cast<std::int64_t>(model->count()), 1} : program.domain.grid;
     for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
         if (!system.is_species(item)) continue;
         const auto path = array_path(folder, program.stages[stage],
@@ -85,6 +86,7 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
                 damaged(folder, fmt::format("{} has another shape", path.filename().string())));
         }
         Field field = to_field(*array, program.domain.precision);
+        if (model) field = in_rows(field, *model);
         // Outside of the mask files have NaN and runs have 0.
         if (simulation.mask()) field = with_outside(field, *simulation.mask(), 0);
         if (first_not_finite(field)) {
@@ -112,6 +114,7 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
     const auto write = [&](const std::filesystem::path& path, const Field& field) {
         const DomainMask* mask = simulation.mask();
         if (mask) return write_npy(path, with_outside(field, *mask, nothing_outside));
+        if (simulation.model()) return write_npy(path, in_one_row(field, *simulation.model()));
         return write_npy(path, field);
     };
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {

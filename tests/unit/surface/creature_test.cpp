@@ -1,5 +1,6 @@
 // The animal is one closed piece that stands on the ground.
 #include "surface/creature.h"
+#include "surface/normals.h"
 
 #include "surface/even_triangles.h"
 #include "unit/surface/measures.h"

@@ -1,6 +1,7 @@
 // Surfaces whose geometry is known, and cells on them.
 #pragma once
 
+#include "surface/relax.h"
 #include "surface/scatter.h"
 #include "surface/voronoi_cells.h"
 #include "unit/surface/soups.h"

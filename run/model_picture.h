@@ -1,0 +1,44 @@
+// What has grown on a model, as numbers and colours at its cells, and drawn.
+#pragma once
+
+#include "core/palette.h"
+#include "picture/image.h"
+#include "render/camera.h"
+#include "run/cell_picture.h"
+#include "run/model_cells.h"
+#include "run/picture_request.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace cascade {
+
+/// What a canvas shows on the cells of a model: a number each, or red, green and blue.
+struct ModelLook {
+    std::size_t channels = 1;
+    std::vector<float> values;   ///< `channels` a cell, cell after cell.
+    CellColour colour;
+
+    /// `range` and `palette` are those of numbers.
+    ModelLook(const ModelCells& model, const Canvas& canvas, ValueRange range, const Palette& palette);
+};
+
+/// Draws one model again and again.
+class ModelDrawer {
+public:
+    /// Throws std::bad_alloc.
+    explicit ModelDrawer(std::shared_ptr<const ModelCells> model);
+
+    Image draw(const ModelLook& look, const DrawOptions& options) const;
+    const ModelCells& model() const { return *model_; }
+    const CellFilter& filter() const { return scene_.filter(); }
+
+private:
+    std::shared_ptr<const ModelCells> model_;
+    mutable Team team_;   ///< Of one picture at a time.
+    CellScene scene_;
+};
+
+}  // namespace cascade
