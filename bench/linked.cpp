@@ -34,8 +34,8 @@ constexpr LinkedTuring parameters{1.0f, 0.05f / 16, 0.125f, 0.03125f};
 constexpr std::int64_t steps = 16;  // Of one iteration of a benchmark.
 
 struct Choices {
-    std::string order = "curve";
-    std::size_t window = 256;
+    std::string order = "levels";
+    std::size_t window = 64;
     std::int64_t width = 512;
     int lanes = 0;
 };
@@ -281,11 +281,18 @@ int run(int argc, char** argv) {
     Choices choices;
     for (; argc > 1; ++argv, --argc) {
         const std::string_view word(argv[1]);
-        if (word.starts_with("--order=")) choices.order = word.substr(8);
-        else if (word.starts_with("--window=")) choices.window = static_cast<std::size_t>(std::atoi(argv[1] + 9));
-        else if (word.starts_with("--width=")) choices.width = std::atoi(argv[1] + 8);
-        else if (word.starts_with("--lanes=")) choices.lanes = std::atoi(argv[1] + 8);
-        else break;
+        const auto number = [&] { return std::atoi(argv[1] + word.find('=') + 1); };
+        if (word.starts_with("--order=")) {
+            choices.order = word.substr(word.find('=') + 1);
+        } else if (word.starts_with("--window=")) {
+            choices.window = static_cast<std::size_t>(std::max(number(), 0));
+        } else if (word.starts_with("--width=")) {
+            choices.width = number();
+        } else if (word.starts_with("--lanes=")) {
+            choices.lanes = number();
+        } else {
+            break;
+        }
         argv[1] = argv[0];
     }
     auto backend = make_jit({choices.lanes, 2});

@@ -21,6 +21,12 @@ Value* KernelFrame::hidden(std::uint64_t word) {
                  builder_.CreateAlignedLoad(number(), variable, alignment(number_bytes())));
 }
 
+void KernelFrame::prefetch(Builder& builder, Value* address) const {
+    const auto word = [&](unsigned value) { return builder.getInt32(value); };
+    builder.CreateIntrinsic(llvm::Intrinsic::prefetch, {builder.getPtrTy()},
+                            {address, word(0), word(3), word(1)});  // To read, to L1, data.
+}
+
 // Loaded once, in front of the loops. `table` is the number of the argument.
 Value* KernelFrame::plane(unsigned table, std::size_t slot) {
     Value*& address = planes_[{table, slot}];

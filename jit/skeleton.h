@@ -30,6 +30,8 @@ namespace cascade {
 
 inline llvm::Align alignment(int bytes) { return llvm::Align(static_cast<std::uint64_t>(bytes)); }
 
+constexpr int cache_line = 64;  ///< Bytes.
+
 /// What all rows and vectors share: the arguments, the planes' addresses and the way to reach them.
 class KernelFrame {
 public:
@@ -86,6 +88,9 @@ public:
     llvm::Value* uniform(std::size_t slot);
     /// A variable of the module that nobody changes; the code generator does not know that.
     llvm::Value* hidden(std::uint64_t word);
+
+    /// Asks for a cache line that will be read. Any address will do: a prefetch never faults.
+    void prefetch(Builder& builder, llvm::Value* address) const;
 
     llvm::BasicBlock* new_block(const char* name) {
         return llvm::BasicBlock::Create(function_.getContext(), name, &function_);

@@ -18,7 +18,6 @@ using llvm::Value;
 // Rows of at least this width are computed while the rows behind them are prefetched. On narrower
 // ones the processor sees far enough ahead by itself, and prefetching costs 5 to 10 %. Vectors of
 // half a cache line prefetch each line twice, which pays only for planes that leave the caches.
-constexpr int cache_line = 64;
 std::int64_t least_width_to_prefetch(int vector_bytes) {
     return vector_bytes == cache_line ? 128 : 1024;
 }
@@ -123,12 +122,10 @@ Value* GridLane::neighbour(Neighbour at) {
     return beside(at.slot, stencil.y ? at.dy : 0, stencil.x ? at.dx : 0, stencil.z ? at.dz : 0);
 }
 
-// The place may lie behind the plane: a prefetch never faults.
+// The place may lie behind the plane.
 void GridLane::prefetch(std::uint32_t slot, int row) {
-    Value* address = builder_.CreateGEP(frame_.number(), frame_.field_plane(slot), element(row));
-    const auto word = [&](unsigned value) { return builder_.getInt32(value); };
-    builder_.CreateIntrinsic(llvm::Intrinsic::prefetch, {builder_.getPtrTy()},
-                             {address, word(0), word(3), word(1)});  // To read, to L1, data.
+    frame_.prefetch(builder_,
+                    builder_.CreateGEP(frame_.number(), frame_.field_plane(slot), element(row)));
 }
 
 /// All rows, with or without what the next row will be the first to touch: its own cells, or those

@@ -45,6 +45,8 @@ public:
 
     /// What it adds to a sum.
     Value* term(SumKey sum);
+    /// Asks for targets and weights of later entries.
+    void prefetch_ahead();
 
 private:
     /// f_j − f_i.
@@ -113,6 +115,20 @@ Value* LinkEntry::at_targets(std::uint32_t slot) {
         value = builder_.CreateInsertElement(value, frame_.aliases().mark(load, 0), lane);
     }
     return value;
+}
+
+// Links are the most of what a step reads: a million cells take 0.92 of the time, cells that fit into
+// the cache the same. The place may lie behind the arrays.
+void LinkEntry::prefetch_ahead() {
+    constexpr int entries = 16;
+    const auto prefetch = [&](unsigned array, llvm::Type* element) {
+        Value* place = builder_.CreateAdd(
+            link_, builder_.getInt64(entries * static_cast<std::int64_t>(slice_cells)));
+        frame_.prefetch(builder_,
+                        builder_.CreateGEP(element, frame_.further_argument(array), place));
+    };
+    prefetch(targets, builder_.getInt32Ty());
+    for (const auto& [array, value] : numbers_) prefetch(array, frame_.number());
 }
 
 Value* LinkEntry::numbers(unsigned array) {
@@ -193,6 +209,7 @@ void LinkedLane::add_up() {
     for (auto& [key, value] : sums_) {
         value = builder_.CreateFAdd(sums_before[key], entry.term(key));
     }
+    if (frame_.vector_bytes() == cache_line) entry.prefetch_ahead();
     Value* next = builder_.CreateAdd(link, count(slice_cells));
     builder_.CreateCondBr(builder_.CreateICmpULT(next, end), entries, after);
     link->addIncoming(first, before);
