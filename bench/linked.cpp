@@ -1,7 +1,7 @@
 // cascade_linked_bench: Turing's step over linked cells, one core: native code through the solver's
 // stepper against straight C++ over the same slices, and over compressed rows in the cells' own order.
 //
-// --order=curve|levels|own, --window=CELLS (0 groups nothing), --width=CELLS of a row and --lanes=4|8|16
+// --order=steps|curve|levels|own, --window=CELLS (0 groups nothing), --width=CELLS of a row and --lanes=4|8|16
 // come first; then flags of Google Benchmark.
 #include "bench/linked_cells.h"
 #include "bench/straight_links.h"
@@ -34,8 +34,8 @@ constexpr LinkedTuring parameters{1.0f, 0.05f / 16, 0.125f, 0.03125f};
 constexpr std::int64_t steps = 16;  // Of one iteration of a benchmark.
 
 struct Choices {
-    std::string order = "levels";
-    std::size_t window = 64;
+    std::string order = "steps";
+    std::size_t window = 0;
     std::int64_t width = 512;
     int lanes = 0;
 };

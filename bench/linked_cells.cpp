@@ -82,6 +82,8 @@ LinkedCells in_order(const LinkedCells& cells, const std::string& order, std::si
     std::vector<std::uint32_t> chosen;
     if (order == "curve") {
         chosen = order_along_curve(cells.positions);
+    } else if (order == "steps") {
+        chosen = order_for_steps(cells.links);
     } else if (order == "levels") {
         chosen = order_by_levels(cells.links);
     } else {

@@ -19,8 +19,8 @@ struct LinkedCells {
 /// side² cells in random order, as a model's own order may be.
 LinkedCells cells_of_torus(std::size_t side);
 
-/// The same cells along a curve ("curve"), by levels ("levels") or as they are ("own"), then grouped
-/// by their number of links in windows of so many cells, if that is not 0.
+/// The same cells as steps are fastest ("steps"), along a curve ("curve"), by levels ("levels") or as they
+/// are ("own"), then grouped by their number of links in windows of so many cells, if that is not 0.
 LinkedCells in_order(const LinkedCells& cells, const std::string& order, std::size_t window);
 
 }  // namespace cascade::bench

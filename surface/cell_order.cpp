@@ -174,6 +174,13 @@ std::vector<std::uint32_t> order_by_levels(const LinkList& links) {
     return order;
 }
 
+std::vector<std::uint32_t> order_for_steps(const LinkList& links) {
+    constexpr std::size_t window = 64;
+    std::vector<std::uint32_t> order = order_by_levels(links);
+    group_by_links(order, links, window);
+    return order;
+}
+
 void group_by_links(std::vector<std::uint32_t>& order, const LinkList& links, std::size_t window) {
     CHECK(window > 0, "a window has cells");
     for (std::size_t first = 0; first < order.size(); first += window) {

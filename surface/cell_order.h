@@ -23,6 +23,10 @@ std::vector<std::uint32_t> order_along_curve(std::span<const Vector3d> positions
 /// as by A. George and J. Liu, ACM TOMS 5(3), 1979). Pieces that no link connects follow each other. O(n).
 std::vector<std::uint32_t> order_by_levels(const LinkList& links);
 
+/// The order in which steps are fastest, as measured (docs/performance.md): by levels, grouped in
+/// windows of 64 cells. Depends on the links only.
+std::vector<std::uint32_t> order_for_steps(const LinkList& links);
+
 /// Sorts each stretch of `window` cells by their number of links, the fewest first; equals keep
 /// their order. A slice is as long as its longest list, so that what fills up shrinks.
 void group_by_links(std::vector<std::uint32_t>& order, const LinkList& links, std::size_t window);

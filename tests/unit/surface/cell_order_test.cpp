@@ -90,6 +90,28 @@ TEST(CellOrder, LevelsPutNeighboursIntoBands) {
     EXPECT_GT(Spread(square.links).mean, 900) << "before";
 }
 
+/// What steps go through: slices as long as their longest list of links, near each other.
+TEST(CellOrder, StepsHaveBandsAndLittleToFillUp) {
+    constexpr std::size_t side = 60;
+    const Square square(side);
+    const LinkList links = renumbered(square.links, order_for_steps(square.links));
+    EXPECT_LE(Spread(links).largest, side + 1 + 2 * 64);
+    const auto entries = [](const LinkList& list) {
+        std::size_t sum = 0;
+        for (std::uint32_t first = 0; first < list.ends.size(); first += 16) {
+            std::size_t most = 0;
+            for (std::uint32_t cell = first; cell < first + 16; ++cell) {
+                most = std::max(most, link_count(list, cell));
+            }
+            sum += 16 * most;
+        }
+        return static_cast<double>(sum) / static_cast<double>(list.neighbours.size());
+    };
+    const LinkList by_levels = renumbered(square.links, order_by_levels(square.links));
+    EXPECT_LT(entries(links), entries(by_levels));
+    EXPECT_LT(entries(links), 1.02);
+}
+
 // A curve that fills space visits near places soon after each other: boxes of 4^k cells one after
 // the other, so that most links stay within the smallest of them.
 TEST(CellOrder, TheCurveKeepsNeighboursNear) {
