@@ -3,6 +3,7 @@
 #include "surface/disjoint_sets.h"
 #include "surface/sort_by_point.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace cascade {
@@ -23,7 +24,9 @@ std::vector<std::uint32_t> separate_fans(SurfaceMesh& mesh) {
     for (std::uint32_t c = 0; c < corners; ++c) {
         if (fans.find(c) == c) owners.emplace_back(mesh.triangles[c / 3][c % 3], c);
     }
-    sort_by_point(owners, mesh.points.size(), [](const auto& owner) { return owner.first; });
+    std::size_t points = 0;  // Those of the mesh may still be in another place.
+    for (const auto& owner : owners) points = std::max<std::size_t>(points, owner.first + std::size_t{1});
+    sort_by_point(owners, points, [](const auto& owner) { return owner.first; });
     std::vector<std::uint32_t> point_of_fan(corners);
     std::vector<std::uint32_t> sources;
     sources.reserve(owners.size());
