@@ -15,8 +15,6 @@ using Weights = std::array<double, 3>;
 /// Corners of parts of a triangle: 0 … 2 are its own, 3 + k is the middle of its edge k.
 using Part = std::array<std::uint32_t, 3>;
 
-std::uint32_t after(std::uint32_t k) { return (k + 1) % 3; }
-
 /// The parts of a triangle whose edges are halved or not. Of two halved edges the corner between them
 /// is cut off, and what remains along its diagonal, from the corner before them where
 /// `is_first_shorter`.
@@ -25,8 +23,8 @@ std::vector<Part> parts_of(const std::array<bool, 3>& is_halved, bool is_first_s
     if (count == 0) return {{0, 1, 2}};
     if (count == 3) return {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
     std::uint32_t a = 0;  // The first halved edge goes from a to b.
-    while (!is_halved[a] || (count == 2 && !is_halved[after(a)])) ++a;
-    const std::uint32_t b = after(a), c = after(b);
+    while (!is_halved[a] || (count == 2 && !is_halved[corner_after(a)])) ++a;
+    const std::uint32_t b = corner_after(a), c = corner_after(b);
     if (count == 1) return {{a, 3 + a, c}, {3 + a, b, c}};
     if (is_first_shorter) return {{3 + a, b, 3 + b}, {a, 3 + a, 3 + b}, {a, 3 + b, c}};
     return {{3 + a, b, 3 + b}, {a, 3 + a, c}, {3 + a, 3 + b, c}};
@@ -100,7 +98,7 @@ private:
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const TriangleEdge other = across_[t][k];
                 if (middles_[t][k] != none) continue;
-                const std::uint32_t a = triangles_[t][k], b = triangles_[t][after(k)];
+                const std::uint32_t a = triangles_[t][k], b = triangles_[t][corner_after(k)];
                 if (!(length_between(a, b) > longest)) continue;
                 middles_[t][k] = static_cast<std::uint32_t>(points_.size());
                 if (other.exists()) middles_[other.triangle][other.edge] = middles_[t][k];
@@ -120,7 +118,7 @@ private:
                 if (middles_[t][k] == none) continue;
                 places_[middles_[t][k]] = {sources_[t].triangle,
                                            between(sources_[t].corners[k],
-                                                   sources_[t].corners[after(k)])};
+                                                   sources_[t].corners[corner_after(k)])};
             }
         }
     }
@@ -142,7 +140,7 @@ private:
                     corners[k] = label < 3 ? triangles_[t][label] : middles_[t][edge];
                     source.corners[k] = label < 3 ? sources_[t].corners[label]
                                                   : between(sources_[t].corners[edge],
-                                                            sources_[t].corners[after(edge)]);
+                                                            sources_[t].corners[corner_after(edge)]);
                 }
                 triangles.push_back(corners);
                 sources.push_back(source);
@@ -173,7 +171,7 @@ private:
                                                middles[2] != none};
         bool is_first_shorter = true;
         for (std::uint32_t a = 0; a < 3; ++a) {
-            const std::uint32_t b = after(a), c = after(b);
+            const std::uint32_t b = corner_after(a), c = corner_after(b);
             if (!is_halved[a] || !is_halved[b] || is_halved[c]) continue;
             is_first_shorter = length_between(triangles_[t][a], middles[b]) <=
                                length_between(middles[a], triangles_[t][c]);
@@ -188,7 +186,7 @@ private:
         const auto find = [&](std::uint32_t from, std::uint32_t to) -> std::optional<TriangleEdge> {
             for (std::uint32_t p = 0; p < parts.size(); ++p) {
                 for (std::uint32_t k = 0; k < 3; ++k) {
-                    if (parts[p][k] == from && parts[p][after(k)] == to) {
+                    if (parts[p][k] == from && parts[p][corner_after(k)] == to) {
                         return TriangleEdge{first + p, k};
                     }
                 }
@@ -197,7 +195,7 @@ private:
         };
         for (std::uint32_t p = 0; p < parts.size(); ++p) {
             for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t from = parts[p][k], to = parts[p][after(k)];
+                const std::uint32_t from = parts[p][k], to = parts[p][corner_after(k)];
                 if (const auto beyond = find(to, from)) across[first + p][k] = *beyond;
                 else pieces[from % 3][from < 3 ? 0 : 1] = {first + p, k};  // The whole is a first.
             }

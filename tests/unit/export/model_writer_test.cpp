@@ -84,8 +84,8 @@ TEST(ModelWriter, ObjIsReadBackExactly) {
     const SurfaceMesh mesh = sphere_with_texture(10);
     const std::vector<Colour> colours = place_colours(mesh);
     const std::string text = encode_obj(mesh, {colours, {}});
-    const SurfaceMesh read = read_back(read_by_openmesh(text, "obj"));
-    expect_same(read, mesh, 1e-7);  // OpenMesh reads binary32.
+    const SurfaceMesh read = read_back(read_obj(text));
+    expect_same(read, mesh, 1e-7);
     expect_same_texture(read, mesh, 1e-7F);
     for (std::size_t p = 0; p < mesh.points.size(); ++p) {
         EXPECT_NEAR(attribute(read, "green").values[p], colours[p][1], 0.003F);

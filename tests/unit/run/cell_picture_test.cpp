@@ -1,7 +1,7 @@
 // Pictures of cells on surfaces.
 #include "run/cell_picture.h"
 
-#include "render/srgb.h"
+#include "picture/srgb.h"
 #include "unit/surface/shapes.h"
 
 #include <gtest/gtest.h>
