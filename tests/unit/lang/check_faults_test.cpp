@@ -304,8 +304,32 @@ TEST(CheckFaults, Domains) {
                 ElementsAre("1:16: seed must be a whole number from 0 to 4294967295"));
     EXPECT_THAT(faults("domain { seed: 1; seed: 2 }"),
                 ElementsAre("1:19: 'seed' is given a value twice"));
-    EXPECT_THAT(faults("domain { mesh: \"horse.ply\" }"),
-                ElementsAre("1:10: 'mesh' is not in this version of the language"));
+}
+
+TEST(CheckFaults, Models) {
+    EXPECT_THAT(faults("domain { mesh: horse }"),
+                ElementsAre("1:16: a mesh is the name of a file in quotes | "
+                            "mesh: \"horse.ply\""));
+    EXPECT_THAT(faults("domain { mesh: \"horse.ply\"; grid: 20, 20 }"),
+                ElementsAre("1:29: a model has no grid | its cells are spread over it: cells: 20000"));
+    EXPECT_THAT(faults("domain { mesh: \"horse.ply\"; surface: sphere }"),
+                ElementsAre("1:29: a domain has a mesh or a surface, not both"));
+    EXPECT_THAT(faults("domain { surface: torus(1) }"),
+                ElementsAre("1:19: torus takes its two radii in brackets | surface: torus(1, 0.4)"));
+    EXPECT_THAT(faults("domain { surface: torus(0.4, 1) }"),
+                ElementsAre("1:19: the tube of a torus is thinner than its ring | "
+                            "surface: torus(1, 0.4)"));
+    EXPECT_THAT(faults("domain { surface: sphere; cells: 2.5 }"),
+                ElementsAre("1:34: cells must be a whole number from 1 to 268435456 | cells: 20000"));
+    EXPECT_THAT(faults("domain { surface: sphere; cells: edges }"),
+                ElementsAre("1:34: cells are a number, faces or vertices"));
+    EXPECT_THAT(faults("domain { surface: sphere; laplacian: cotan }"),
+                ElementsAre("1:38: the laplacian of a model is fv or turk"));
+    EXPECT_THAT(faults("domain { surface: sphere; unit: 0 }"),
+                ElementsAre("1:33: the unit of length must be above 0"));
+    EXPECT_THAT(faults("domain { cells: 100 }"),
+                ElementsAre("1:10: only a domain with a model has this setting | "
+                            "mesh: \"horse.ply\" or surface: sphere"));
 }
 
 TEST(CheckFaults, Pictures) {
