@@ -79,13 +79,7 @@ public:
         if (const auto* cells = find("cells")) check_cells(*cells);
         if (const auto* laplacian = find("laplacian")) check_laplacian(*laplacian);
         if (const auto* unit = find("unit")) check_unit(*unit);
-        for (const char* word : {"grid", "boundary", "spacing", "metric"}) {
-            const ast::Sentence* other = find(word);
-            if (other == nullptr) continue;
-            work_.diagnostics.error(other->name.span,
-                                    fmt::format("a model has no {}", word),
-                                    "its cells are spread over it: cells: 20000");
-        }
+        for (const ast::Sentence& other : domain_.sentences) refuse(other);
         set_model(work_.program, *std::move(model_));
     }
 
@@ -95,6 +89,17 @@ private:
             if (sentence.name.text == name && !sentence.values.empty()) return &sentence;
         }
         return nullptr;
+    }
+
+    /// Settings of rows and columns.
+    void refuse(const ast::Sentence& sentence) {
+        const std::string_view word = sentence.name.text;
+        const bool is_shape = word == "grid" || word == "spacing" || word == "metric";
+        const bool is_border = word == "boundary" || word == "mask" || is_side_word(word);
+        if (!is_shape && !is_border) return;
+        work_.diagnostics.error(sentence.name.span, fmt::format("a model has no {}", word),
+                                is_shape ? "its cells are spread over it: cells: 20000"
+                                         : "it ends where its surface ends, and nothing flows out");
     }
 
     Span span_of(const ast::Sentence& sentence) const { return value_of(script_, sentence).span; }

@@ -61,7 +61,7 @@ private:
 
     void check_time(const Stage& stage) {
         if (is_semi_implicit(stage.time.solver)) {
-            diagnostics_.error(stage.time.solver_span.source ? stage.time.solver_span : stage.span,
+            diagnostics_.error(stage.time.solver_span.end > 0 ? stage.time.solver_span : stage.span,
                                fmt::format("stage '{}': the solver {} needs the waves of a grid, which "
                                            "a model does not have", stage.name, name_of(stage.time.solver)),
                                "rkl1 takes long steps on models");
