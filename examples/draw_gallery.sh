@@ -16,6 +16,9 @@ draw_one() {
     case $1 in
         pearson_map) draw "$1" ;;
         witkin_kass/* | surfaces/*) draw "$1" ;;
+        on_models/torus) draw "$1" --view 30,40 ;;
+        on_models/fingerprint | on_models/dart_frog) draw "$1" ;;
+        on_models/*) draw "$1" --view 55,15 ;;  # Animals, from the side.
         models/kdv) "$program" run -q lang/systems/kdv.cascade -o examples/models/kdv.png --space-time ;;
         models/*) "$program" run -q "lang/systems/${1#*/}.cascade" -o "examples/$1.png" ;;
         figure_3_2) draw "$1" --space-time --scale 4 ;;
@@ -45,6 +48,9 @@ else
     done
     for script in examples/surfaces/*.cascade; do
         draw_one "surfaces/$(basename "$script" .cascade)"
+    done
+    for script in examples/on_models/*.cascade; do
+        draw_one "on_models/$(basename "$script" .cascade)"
     done
     for script in examples/*.cascade; do draw_one "$(basename "$script" .cascade)"; done
     sweep_gray_scott

@@ -80,7 +80,7 @@ Result<MadeMesh> make_surface(const ModelSettings& settings, const ModelAccess& 
             mesh = box_mesh(sides, edge * std::max({sides.x, sides.y, sides.z}));
             break;
         }
-        case ModelShape::creature: mesh = creature_mesh(0.04, cancel); break;
+        case ModelShape::creature: mesh = creature_mesh(0.025, cancel); break;
         case ModelShape::implicit: mesh = implicit_mesh(settings, cancel); break;
     }
     if (!mesh) return tl::unexpected(mesh.error());

@@ -13,7 +13,7 @@ again() {
 }
 
 count=0
-for picture in "$SOURCE"/examples/*.png "$SOURCE"/examples/{witkin_kass,surfaces}/*.png; do
+for picture in "$SOURCE"/examples/*.png "$SOURCE"/examples/{witkin_kass,surfaces,on_models}/*.png; do
     if [ "$CASCADE_JIT" != 1 ] && [ "$(stat -c %s "$picture")" -gt 5300 ]; then continue; fi
     again "$picture"
     count=$((count + 1))
@@ -24,7 +24,7 @@ if [ "$CASCADE_JIT" = 1 ]; then
         cmp "$sheet" swept/sheet.png && cmp "${sheet%.png}.csv" swept/features.csv || failed=1
     done
 fi
-for script in "$SOURCE"/examples/*.cascade "$SOURCE"/examples/{witkin_kass,surfaces}/*.cascade; do
+for script in "$SOURCE"/examples/*.cascade "$SOURCE"/examples/{witkin_kass,surfaces,on_models}/*.cascade; do
     if [ ! -f "${script%.cascade}.png" ]; then
         echo "gallery: $script has no picture beside it"
         failed=1
