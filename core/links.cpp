@@ -1,5 +1,7 @@
 #include "core/links.h"
 
+#include "core/check.h"
+
 #include <algorithm>
 
 namespace cascade {
@@ -8,85 +10,119 @@ namespace {
 
 constexpr std::int64_t slice_cells = LinkTable<float>::slice_cells;
 
-/// Which cell of the list stands at a place of the plane, or −1 in the padding of a row.
-std::int64_t cell_at(std::int64_t row, std::int64_t column, const PlaneLayout& layout,
-                     std::int64_t cells) {
-    if (column >= layout.width) return -1;
-    return std::min(row * layout.width + column, cells - 1);
-}
+/// Where the cells of a list, whose links end at `ends`, lie in the rows of a plane.
+class Placing {
+public:
+    Placing(std::span<const std::size_t> ends, const PlaneLayout& layout,
+            std::span<const std::uint32_t> order)
+        : ends_(ends), layout_(layout), order_(order) {
+        CHECK(order.empty() || order.size() == ends.size(), "an order has all cells");
+    }
 
-template <typename Number>
-void fill(AlignedArray<Number>& array, std::size_t entries, const auto& of_link,
-          const std::vector<std::int64_t>& links) {
-    array = AlignedArray<Number>(entries);
-    for (std::size_t k = 0; k < entries; ++k) {
-        if (links[k] >= 0) {
-            array.data()[k] = static_cast<Number>(of_link(static_cast<std::size_t>(links[k])));
+    struct Range {
+        std::size_t first = 0, count = 0;
+    };
+    /// The links of the cell at a place; none in the padding of a row.
+    Range links_at(std::int64_t row, std::int64_t column) const {
+        if (column >= layout_.width) return {};
+        const auto last = static_cast<std::int64_t>(ends_.size()) - 1;
+        const auto k = static_cast<std::size_t>(std::min(row * layout_.width + column, last));
+        const std::size_t cell = order_.empty() ? k : order_[k];
+        const std::size_t first = cell == 0 ? 0 : ends_[cell - 1];
+        return {first, ends_[cell] - first};
+    }
+
+    /// Of each cell of the list, elements from cell (0, 0).
+    std::vector<std::int32_t> offsets() const {
+        std::vector<std::int32_t> result(ends_.size());
+        for (std::size_t k = 0; k < result.size(); ++k) {
+            const auto place = static_cast<std::int64_t>(k);
+            result[order_.empty() ? k : order_[k]] = static_cast<std::int32_t>(
+                layout_.row_start(place / layout_.width) + place % layout_.width);
+        }
+        return result;
+    }
+
+    std::int64_t slices_of_row() const { return (layout_.width + slice_cells - 1) / slice_cells; }
+
+    /// Calls `use(at, link)` for each link, `at` being its element in slices that begin at `starts`, and
+    /// `fill_up(at, row, column)` for the elements between them.
+    void for_each(const std::vector<std::uint32_t>& starts, const auto& use,
+                  const auto& fill_up) const {
+        for (std::int64_t row = 0; row < layout_.height; ++row) {
+            for (std::int64_t column = 0; column < slices_of_row() * slice_cells; ++column) {
+                const auto slice =
+                    static_cast<std::size_t>(row * slices_of_row() + column / slice_cells);
+                const auto lane = static_cast<std::size_t>(column % slice_cells);
+                const Range links = links_at(row, column);
+                for (std::uint32_t entry = starts[slice]; entry < starts[slice + 1]; ++entry) {
+                    const std::size_t at = std::size_t{entry} * slice_cells + lane;
+                    const std::size_t k = entry - starts[slice];
+                    if (k < links.count) {
+                        use(at, links.first + k);
+                    } else {
+                        fill_up(at, row, column);
+                    }
+                }
+            }
         }
     }
-}
+
+private:
+    std::span<const std::size_t> ends_;
+    const PlaneLayout& layout_;
+    std::span<const std::uint32_t> order_;
+};
 
 }  // namespace
 
-Links::Links(const LinkList& list, const PlaneLayout& layout, Precision precision) {
-    const auto cells = static_cast<std::int64_t>(list.ends.size());
-    const std::int64_t slices = (layout.width + slice_cells - 1) / slice_cells;
-    const auto first_of = [&](std::int64_t cell) {
-        return cell == 0 ? std::size_t{0} : list.ends[static_cast<std::size_t>(cell - 1)];
-    };
-    const auto count_of = [&](std::int64_t cell) {
-        return cell < 0 ? 0 : list.ends[static_cast<std::size_t>(cell)] - first_of(cell);
-    };
+Links::Links(const LinkList& list, const PlaneLayout& layout, Precision precision,
+             std::span<const std::uint32_t> order) {
+    const Placing placing(list.ends, layout, order);
     starts_.assign(1, 0);
     for (std::int64_t row = 0; row < layout.height; ++row) {
-        for (std::int64_t slice = 0; slice < slices; ++slice) {
+        for (std::int64_t slice = 0; slice < placing.slices_of_row(); ++slice) {
             std::size_t most = 0;
             for (std::int64_t lane = 0; lane < slice_cells; ++lane) {
-                most = std::max(most, count_of(cell_at(row, slice * slice_cells + lane, layout, cells)));
+                most = std::max(most, placing.links_at(row, slice * slice_cells + lane).count);
             }
             starts_.push_back(starts_.back() + static_cast<std::uint32_t>(most));
         }
     }
     const std::size_t size = std::size_t{starts_.back()} * static_cast<std::size_t>(slice_cells);
     targets_ = AlignedArray<std::int32_t>(size);
-    std::vector<std::int64_t> link_at(size, -1);  // The number of the link in the list.
-    const auto place_of = [&](std::int64_t cell) {
-        return static_cast<std::int32_t>(layout.row_start(cell / layout.width) +
-                                         cell % layout.width);
-    };
-    for (std::int64_t row = 0; row < layout.height; ++row) {
-        for (std::int64_t slice = 0; slice < slices; ++slice) {
-            const auto number = static_cast<std::size_t>(row * slices + slice);
-            for (std::int64_t lane = 0; lane < slice_cells; ++lane) {
-                const std::int64_t column = slice * slice_cells + lane;
-                const std::int64_t cell = cell_at(row, column, layout, cells);
-                const std::size_t count = count_of(cell);
-                for (std::uint32_t entry = starts_[number]; entry < starts_[number + 1]; ++entry) {
-                    const std::size_t k = entry - starts_[number];
-                    const std::size_t at =
-                        std::size_t{entry} * slice_cells + static_cast<std::size_t>(lane);
-                    if (k < count) {
-                        const std::size_t link = first_of(cell) + k;
-                        link_at[at] = static_cast<std::int64_t>(link);
-                        targets_.data()[at] = place_of(list.neighbours[link]);
-                    } else {
-                        targets_.data()[at] = static_cast<std::int32_t>(
-                            layout.row_start(row) + std::min(column, layout.width - 1));
-                    }
-                }
-            }
-        }
-    }
+    const std::vector<std::int32_t> offsets = placing.offsets();
     const auto make = [&]<typename Number>(Weights<Number> weights) {
-        fill(weights.laplacian, size, [&](std::size_t link) { return list.weights[link]; }, link_at);
-        if (!list.gradients.empty()) {
-            fill(weights.gradients[0], size, [&](auto link) { return list.gradients[link].x; }, link_at);
-            fill(weights.gradients[1], size, [&](auto link) { return list.gradients[link].y; }, link_at);
-            fill(weights.gradients[2], size, [&](auto link) { return list.gradients[link].z; }, link_at);
-        }
+        weights.laplacian = AlignedArray<Number>(size);
+        const auto put = [&](std::size_t at, std::size_t link) {
+            targets_.data()[at] = offsets[list.neighbours[link]];
+            weights.laplacian.data()[at] = static_cast<Number>(list.weights[link]);
+        };
+        const auto put_itself = [&](std::size_t at, std::int64_t row, std::int64_t column) {
+            targets_.data()[at] = static_cast<std::int32_t>(layout.row_start(row) +
+                                                            std::min(column, layout.width - 1));
+        };
+        placing.for_each(starts_, put, put_itself);
         weights_ = std::move(weights);
     };
     with_number(precision, [&](auto zero) { make(Weights<decltype(zero)>{}); });
+    if (!list.gradients.empty()) add_gradients(list.gradients, list.ends, layout, order);
+}
+
+void Links::add_gradients(std::span<const Vector3d> gradients, std::span<const std::size_t> ends,
+                          const PlaneLayout& layout, std::span<const std::uint32_t> order) {
+    const Placing placing(ends, layout, order);
+    const std::size_t size = std::size_t{starts_.back()} * static_cast<std::size_t>(slice_cells);
+    const auto add = [&]<typename Number>(Weights<Number>& weights) {
+        for (auto& component : weights.gradients) component = AlignedArray<Number>(size);
+        const auto put = [&](std::size_t at, std::size_t link) {
+            weights.gradients[0].data()[at] = static_cast<Number>(gradients[link].x);
+            weights.gradients[1].data()[at] = static_cast<Number>(gradients[link].y);
+            weights.gradients[2].data()[at] = static_cast<Number>(gradients[link].z);
+        };
+        placing.for_each(starts_, put, [](auto...) {});
+    };
+    std::visit(add, weights_);
 }
 
 template <typename Number>

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -65,9 +66,16 @@ private:
 class Links {
 public:
     Links() = default;
-    /// Cell i of the list lies at column i mod width of row i / width. The cells behind the last one,
-    /// which fill the last row, are given links like it, so that they have its values. Throws std::bad_alloc.
-    Links(const LinkList& list, const PlaneLayout& layout, Precision precision);
+    /// Cell order[k] of the list, or k where no order is given, lies at column k mod width of row
+    /// k / width. The cells behind the last one, which fill the last row, are given links like it,
+    /// so that they have its values. The order of sums is that of the list. Throws std::bad_alloc.
+    Links(const LinkList& list, const PlaneLayout& layout, Precision precision,
+          std::span<const std::uint32_t> order = {});
+
+    /// Adds the weights of gradients, one for each link of the list that these links were made of,
+    /// whose cells end at `ends`; layout and order are the same. Throws std::bad_alloc.
+    void add_gradients(std::span<const Vector3d> gradients, std::span<const std::size_t> ends,
+                       const PlaneLayout& layout, std::span<const std::uint32_t> order = {});
 
     Precision precision() const {
         return weights_.index() == 0 ? Precision::single : Precision::binary64;

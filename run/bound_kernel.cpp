@@ -31,6 +31,14 @@ void fill_halo_of(const Field& field, const SideRules& sides) {
     fill_halo(const_cast<Field&>(field), sides);
 }
 
+/// Does it ask for a component of a gradient on a model?
+bool reads_gradients(const CellKernel& kernel) {
+    return std::any_of(kernel.code.begin(), kernel.code.end(), [](const Instruction& instruction) {
+        const Op op = instruction.op;
+        return op == Op::gradient_x || op == Op::gradient_y || op == Op::gradient_z;
+    });
+}
+
 /// Binds the slots of a plan's passes.
 class Binder {
 public:
@@ -66,6 +74,7 @@ public:
         problem_.temporaries = plan_.temporaries;
         problem_.aggregates = plan_.aggregates;
         for (const Pass& pass : plan_.passes) {
+            if (reads_gradients(pass.bound.kernel)) context_.model->need_gradients();
             problem_.passes.push_back(bind_pass(pass));
             problem_.passes.back().kernel = compile(pass.bound.kernel);
         }

@@ -5,6 +5,7 @@
 #include "lang/evaluate.h"
 #include "lang/models.h"
 #include "surface/cell_gradient.h"
+#include "surface/cell_order.h"
 #include "surface/creature.h"
 #include "surface/curvature.h"
 #include "surface/implicit_surface.h"
@@ -171,19 +172,17 @@ private:
         for (double& area : areas) {
             area = std::max(area, least_area * mean) / (model_->unit * model_->unit);
         }
-        const std::vector<double> weights =
+        std::vector<double> weights =
             weights_of(cells, settings_.laplacian, areas, model_->unit, mean);
-        link(weights);
+        link(std::move(weights));
         make_planes(areas);
     }
 
-    void link(const std::vector<double>& weights) {
+    void link(std::vector<double> weights) {
         const SurfaceCells& cells = model_->cells;
         LinkList list;
         list.ends = cells.ends;
-        list.weights = weights;
-        list.gradients = cell_gradient_weights(model_->mesh, cells, team_, control_.cancel);
-        for (Vector3d& gradient : list.gradients) gradient = gradient * model_->unit;
+        list.neighbours.reserve(cells.walls.size());
         std::size_t wall = 0;
         for (std::size_t cell = 0; cell < model_->count(); ++cell) {
             double sum = 0;
@@ -193,10 +192,12 @@ private:
             }
             model_->largest_weight = std::max(model_->largest_weight, sum);
         }
-        model_->links = Links(list, PlaneLayout(model_->grid), program_.domain.precision);
+        list.weights = std::move(weights);
+        model_->order = order_for_steps(list);
+        model_->links = Links(list, PlaneLayout(model_->grid), program_.domain.precision, model_->order);
     }
 
-    /// `value(k)` in cell k; the cells behind the last one are like it.
+    /// `value(k)` in cell k; the places behind the last one are like it.
     template <typename Value>
     void put(ModelPlane plane, const Value& value) {
         Field& field = model_->planes[static_cast<std::size_t>(plane)];
@@ -206,13 +207,13 @@ private:
             for (std::int64_t row = 0; row < model_->grid.height; ++row) {
                 for (std::int64_t i = 0; i < model_->grid.width; ++i) {
                     const auto k = static_cast<std::size_t>(row * model_->grid.width + i);
-                    if constexpr (std::is_same_v<decltype(value(k)), std::uint32_t>) {
-                        const WordOf<Number> word = value(std::min(k, count - 1));
+                    const std::size_t cell = model_->order[std::min(k, count - 1)];
+                    if constexpr (std::is_same_v<decltype(value(cell)), std::uint32_t>) {
+                        const WordOf<Number> word = value(cell);
                         std::memcpy(cells.row(row) + i, &word, sizeof word);
                     } else {
                         const bool fills_up = k >= count && plane == ModelPlane::area;
-                        cells.row(row)[i] =
-                            fills_up ? Number{0} : static_cast<Number>(value(std::min(k, count - 1)));
+                        cells.row(row)[i] = fills_up ? Number{0} : static_cast<Number>(value(cell));
                     }
                 }
             }
@@ -267,13 +268,23 @@ Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& progra
     return ModelCellMaker(program, team, control).make(access);
 }
 
+void ModelCells::need_gradients() const {
+    if (has_gradients_) return;
+    const std::atomic<bool> never = false;
+    Team team(hardware_threads());
+    std::vector<Vector3d> gradients = cell_gradient_weights(mesh, cells, team, never);
+    for (Vector3d& gradient : gradients) gradient = gradient * unit;
+    links.add_gradients(gradients, cells.ends, PlaneLayout(grid), order);
+    has_gradients_ = true;
+}
+
 Field in_one_row(const Field& field, const ModelCells& model) {
     const auto count = static_cast<std::int64_t>(model.count());
     Field row(PlaneLayout(Grid{count, 1}), field.precision());
     field.visit([&]<typename Number>(const Plane<Number>& from) {
         Plane<Number>& to = row.plane<Number>();
         for (std::int64_t k = 0; k < count; ++k) {
-            to.row(0)[k] = from.row(k / model.grid.width)[k % model.grid.width];
+            to.row(0)[model.cell_at(k)] = from.row(k / model.grid.width)[k % model.grid.width];
         }
     });
     return row;
@@ -286,7 +297,8 @@ Field in_rows(const Field& one_row, const ModelCells& model) {
         Plane<Number>& to = field.plane<Number>();
         for (std::int64_t j = 0; j < model.grid.height; ++j) {
             for (std::int64_t i = 0; i < model.grid.width; ++i) {
-                to.row(j)[i] = from.row(0)[std::min(j * model.grid.width + i, last)];
+                const std::int64_t k = std::min(j * model.grid.width + i, last);
+                to.row(j)[i] = from.row(0)[model.cell_at(k)];
             }
         }
     });
@@ -295,9 +307,9 @@ Field in_rows(const Field& one_row, const ModelCells& model) {
 
 std::vector<double> cell_values(const Field& field, const ModelCells& model) {
     std::vector<double> values(model.count());
-    for (std::size_t k = 0; k < model.count(); ++k) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
         const auto place = static_cast<std::int64_t>(k);
-        values[k] =
+        values[model.order[k]] =
             field.number_at(place % model.grid.width, place / model.grid.width);
     }
     return values;

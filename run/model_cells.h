@@ -21,14 +21,28 @@ namespace cascade {
 struct ModelCells {
     SurfaceMesh mesh;
     std::vector<std::string> repairs;  ///< What was done to the model, a sentence each.
-    SurfaceCells cells;                ///< Cell k lies at column k mod W of row k / W.
+    SurfaceCells cells;
+    /// Cells lie in memory as steps are fastest (surface/cell_order.h): order[k] is the cell at
+    /// column k mod W of row k / W. Only planes and links do; whatever leaves a run, and random numbers,
+    /// have the cells in their own order.
+    std::vector<std::uint32_t> order;
     Grid grid;
     double unit = 1;                   ///< In lengths of the model.
     double largest_weight = 0;         ///< The largest sum of the weights of a cell's links.
     std::vector<Field> planes;         ///< By ModelPlane.
-    Links links;
+    /// Without weights of gradients until need_gradients() has been called: few scripts ask for them.
+    mutable Links links;
+
+    /// Gives the links the weights of gradients, on the first call. From one thread at a time.
+    /// Throws std::bad_alloc.
+    void need_gradients() const;
 
     std::size_t count() const { return cells.places.size(); }
+    /// The cell at place k of the rows, k below their number.
+    std::uint32_t cell_at(std::int64_t k) const { return order[static_cast<std::size_t>(k)]; }
+
+private:
+    mutable bool has_gradients_ = false;
 };
 
 /// Where the file of a model may lie.
@@ -45,11 +59,12 @@ Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& progra
                                                            const ModelAccess& access, Team& team,
                                                            RunControl& control);
 
-/// A plane's cells in one row, as files have them, and back, with those that fill the last row.
+/// A plane's cells in one row and in their own order, as files have them, and back, with those that
+/// fill the last row.
 Field in_one_row(const Field& field, const ModelCells& model);
 Field in_rows(const Field& one_row, const ModelCells& model);
 
-/// The values of a plane's cells in their order, without those that fill the last row.
+/// The values of a plane's cells in their own order, without those that fill the last row.
 std::vector<double> cell_values(const Field& field, const ModelCells& model);
 
 }  // namespace cascade

@@ -51,18 +51,17 @@ double largest_magnitude(const std::vector<Field>& species) {
 }
 
 Failure describe(const NotFiniteReport& report) {
-    const NotFinite& found = report.found;
     Failure failure;
     if (report.starting) {
         failure.message =
-            fmt::format("stage '{}' ({}): the starting value of {} is not finite at column {}, row {}",
-                        report.stage, report.system, report.species, found.column, found.row);
+            fmt::format("stage '{}' ({}): the starting value of {} is not finite at {}",
+                        report.stage, report.system, report.species, report.place);
         failure.hint = "look for a division by zero, or a logarithm or root of a negative number";
         return failure;
     }
-    failure.message = fmt::format(
-        "stage '{}' ({}): {} is not finite any more at column {}, row {}, after step {}",
-        report.stage, report.system, report.species, found.column, found.row, found.step);
+    failure.message =
+        fmt::format("stage '{}' ({}): {} is not finite any more at {}, after step {}", report.stage,
+                    report.system, report.species, report.place, report.found.step);
     if (!report.semi_implicit.empty()) {
         failure.hint = fmt::format("{} takes diffusion alone for a step of any length, the reaction not; "
                                    "try 'speed: {:.2g}'", report.semi_implicit, report.speed / 2);

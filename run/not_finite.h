@@ -13,6 +13,7 @@ namespace cascade {
 struct NotFiniteReport {
     std::string stage, system, species;
     NotFinite found;
+    std::string place;                     ///< Of the cell, in words.
     bool starting = false;                 ///< It was so before the first step.
     double speed = 0;                      ///< NaN where it varies by cell.
     std::string semi_implicit;             ///< The solver's name, if it is such a one.

@@ -4,13 +4,20 @@
 
 namespace cascade {
 
+std::string Simulation::Implementation::place_in_words(std::int64_t column, std::int64_t row) const {
+    if (!model) return fmt::format("column {}, row {}", column, row);
+    // The places behind the last one are like it.
+    const auto last = static_cast<std::int64_t>(model->count()) - 1;
+    return fmt::format("cell {}", model->cell_at(std::min(row * grid.width + column, last)));
+}
+
 Failure Simulation::Implementation::explain(const StepTooShort& place, std::uint32_t k) const {
     Failure failure;
     failure.message = fmt::format(
         "stage '{}' ({}): steps shrink to nothing: at t = {:.6g} one of {:.2g} is too long still, for "
-        "{} at column {}, row {}",
+        "{} at {}",
         stage(k).name, program->system_of(k).name, place.t, place.step,
-        species_name(program->system_of(k), place.species), place.column, place.row);
+        species_name(program->system_of(k), place.species), place_in_words(place.column, place.row));
     failure.hint = "something jumps or grows without bound there; a larger tolerance or euler may pass it";
     return failure;
 }
@@ -22,6 +29,7 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
     report.system = system.name;
     report.species = species_name(system, outcome.not_finite->species);
     report.found = *outcome.not_finite;
+    report.place = place_in_words(report.found.column, report.found.row);
     report.speed = speed_number(k);
     report.starting = outcome.last_checked.empty();
     if (const Solver solver = stage(k).time.solver; is_semi_implicit(solver)) {
@@ -43,7 +51,8 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
 
 void Simulation::Implementation::warn_of_chequerboard(std::uint32_t k,
                                                       RunControl& control) const {
-    if (!control.warn || states[k].steps == 0) return;
+    // Cells of a model that lie beside each other in memory need be no neighbours.
+    if (!control.warn || states[k].steps == 0 || model) return;
     const System& system = program->system_of(k);
     for (std::size_t s = 0; s < states[k].species.size(); ++s) {
         const Mask* counted = mask ? &mask->inside : nullptr;

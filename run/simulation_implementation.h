@@ -137,6 +137,8 @@ struct Simulation::Implementation {
 
     // Why a run failed (simulation_failures.cpp).
 
+    /// The column and row of a cell, or the number of one of a model.
+    std::string place_in_words(std::int64_t column, std::int64_t row) const;
     Failure explain(const StageOutcome& outcome, std::uint32_t k);
     Failure explain(const StepTooShort& place, std::uint32_t k) const;
     void warn_of_chequerboard(std::uint32_t k, RunControl& control) const;

@@ -13,12 +13,16 @@ namespace cascade {
 namespace {
 
 /// Fewer values than this per thread and step cost more in meeting than they save in work (a
-/// thread computes them in about 10 µs, a meeting takes about 1).
+/// thread computes them in about 10 µs, a meeting takes about 1). Where cells have links they take
+/// longer.
 constexpr std::int64_t least_values_per_thread = 16384;
+constexpr std::int64_t least_linked_values_per_thread = 4096;
 
 int worthwhile_threads(const Grid& grid, std::size_t species, int most) {
     const std::int64_t values = grid.cell_count() * static_cast<std::int64_t>(species);
-    const std::int64_t worth = std::min(values / least_values_per_thread, grid.height * grid.depth);
+    const std::int64_t least =
+        grid.linked ? least_linked_values_per_thread : least_values_per_thread;
+    const std::int64_t worth = std::min(values / least, grid.height * grid.depth);
     return static_cast<int>(std::clamp<std::int64_t>(worth, 1, std::max(most, 1)));
 }
 
