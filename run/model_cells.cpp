@@ -30,6 +30,9 @@ namespace {
 
 // Cells that are so much smaller than the mean are taken for no smaller: a step would have to be as short.
 constexpr double least_area = 1e-3;
+// Of spread cells few of some thousand are so tight that their links weigh more than this over the mean
+// area: they are taken for larger, lest all others have to take shorter steps. Regular hexagons have 3.46.
+constexpr double most_weight = 7.5;
 
 Result<MadeMesh> read_mesh(const ModelSettings& settings, const ModelAccess& access) {
     std::filesystem::path path = settings.path;
@@ -172,10 +175,21 @@ private:
         for (double& area : areas) {
             area = std::max(area, least_area * mean) / (model_->unit * model_->unit);
         }
+        if (settings_.cells == ModelCellKind::spread) widen_tight_cells(areas);
         std::vector<double> weights =
             weights_of(cells, settings_.laplacian, areas, model_->unit, mean);
         link(std::move(weights));
         make_planes(areas);
+    }
+
+    void widen_tight_cells(std::vector<double>& areas) const {
+        const double mean = std::accumulate(areas.begin(), areas.end(), 0.0) /
+                            static_cast<double>(areas.size());
+        for (std::size_t cell = 0; cell < areas.size(); ++cell) {
+            double sum = 0;
+            for (const CellWall& wall : model_->cells.walls_of(cell)) sum += wall.weight();
+            areas[cell] = std::max(areas[cell], sum * mean / most_weight);
+        }
     }
 
     void link(std::vector<double> weights) {

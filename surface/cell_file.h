@@ -15,7 +15,7 @@ namespace cascade {
 
 /// Raised when the file's form changes, or when the same surface and options give other cells than
 /// before.
-inline constexpr std::uint32_t cell_file_version = 1;
+inline constexpr std::uint32_t cell_file_version = 2;
 
 /// A hash of the surface and of all that decides what cells it gets. Cells may be used again if and
 /// only if it is the same; two different ones agree once in 2¹²⁸.

@@ -21,6 +21,12 @@ double ConvexRegion::area() const {
     return twice / 2;
 }
 
+Vector2d ConvexRegion::middle() const {
+    Vector2d sum;
+    for (const Edge& edge : edges_) sum = sum + edge.from;
+    return edges_.empty() ? sum : sum * (1 / static_cast<double>(edges_.size()));
+}
+
 double ConvexRegion::farthest() const {
     double square = 0;
     for (const Edge& edge : edges_) square = std::max(square, dot(edge.from, edge.from));

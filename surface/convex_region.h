@@ -23,6 +23,8 @@ public:
     bool empty() const { return edges_.empty(); }
     void clear() { edges_.clear(); }
     double area() const;
+    /// The mean of the corners; of none the origin.
+    Vector2d middle() const;
     /// Of the corner farthest from the origin.
     double farthest() const;
 

@@ -18,11 +18,17 @@ constexpr double skin = 0.25;
 /// A place moves no farther than this in a round, in radii. Where a surface is folded a place has
 /// so many others that they would throw it to and fro.
 constexpr double longest_step = 0.06;
+/// Two places as near as this, in radii, are pushed apart so much harder: a force that grows towards 0 no
+/// more than linearly lets the others press them together for good. Even places are 0.54 apart.
+constexpr float core = 0.35F, core_strength = 4;
 /// Lists are made anew when more than one place in so many has moved half the skin: few are always
 /// thrown about, and evenness is no better for knowing them exactly.
 constexpr std::size_t places_per_far_one = 100;
 /// … and no sooner than after one round in so many of those done: the first ones move places farthest.
 constexpr int rounds_per_age = 4;
+/// In the end those that have another nearer than `crowd` radii are pushed in rounds of their own.
+constexpr int settling_rounds = 12;
+constexpr double crowd = 0.4;
 
 struct Vector2f {
     float x = 0, y = 0;
@@ -65,6 +71,7 @@ public:
             far_moved = 0;
             for (const Part& part : parts_) far_moved += part.far_moved;
         }
+        settle();
     }
 
 private:
@@ -85,7 +92,25 @@ private:
         return anisotropy_ ? anisotropy_->of(mesh_, place.triangle) : Stretch{};
     }
 
-    void find_others() {
+    /// Those that old lists let run into others come apart, the rest standing still.
+    void settle() {
+        for (int round = 0; round < settling_rounds && !cancel_; ++round) {
+            find_others(true);
+            team_.run([&](int thread) { push(part_of(thread)); });
+            moved_.swap(moving_);
+        }
+    }
+
+    /// Whether another place may be so near that no even places are.
+    bool is_crowded(std::size_t k, std::span<const Vector3d> positions,
+                    const PointIndex& index) const {
+        bool crowded = false;
+        index.near(positions[k], crowd * radius_, [&](std::uint32_t other) { crowded |= other != k; });
+        return crowded;
+    }
+
+    /// Makes the lists anew; with `only_crowded` those of all other places are empty.
+    void find_others(bool only_crowded = false) {
         std::vector<Vector3d> positions;
         positions.reserve(places_.size());
         for (const SurfacePlace& place : places_) positions.push_back(position_of(mesh_, place));
@@ -97,24 +122,35 @@ private:
             Unfolding unfolding(mesh_, shapes_);
             for (std::int64_t row = part.range.begin; row < part.range.end && !cancel_; ++row) {
                 const auto k = static_cast<std::size_t>(row);
+                if (only_crowded && !is_crowded(k, positions, index)) {
+                    stand_still(k, part);
+                    continue;
+                }
                 const double ratio = anisotropy_ ? anisotropy_->ratio_of(places_[k].triangle) : 1;
-                find_others_of(k, positions[k], index, reach * std::sqrt(ratio), unfolding, part);
+                find_others_of(k, positions, index, reach * std::sqrt(ratio), unfolding, part);
             }
         });
     }
 
-    void find_others_of(std::size_t k, Vector3d position, const PointIndex& index, double reach,
-                        Unfolding& unfolding, Part& part) {
+    void find_others_of(std::size_t k, std::span<const Vector3d> positions, const PointIndex& index,
+                        double reach, Unfolding& unfolding, Part& part) {
         unfolding.around(places_[k], reach);
-        index.near(position, reach, [&](std::uint32_t number) {
+        index.near(positions[k], reach, [&](std::uint32_t number) {
             const FlatTriangle* flat = unfolding.flat_of(places_[number].triangle);
             if (number == k || !flat) return;
             const Vector2d stood = position_of(*flat, places_[number].weights);
-            if (dot(stood, stood) > reach * reach) return;
+            const double square = dot(stood, stood);
+            const Vector3d apart = positions[number] - positions[k];
+            if (square > reach * reach || !Unfolding::is_image(square, dot(apart, apart))) return;
             const Vector2d base = (*flat)[1] - (*flat)[0];
             part.others.push_back({number, in_float(stood * (1 / radius_)),
                                    in_float(base * (1 / length(base)))});
         });
+        stand_still(k, part);
+    }
+
+    /// As a place stands when its list has been made.
+    void stand_still(std::size_t k, const Part& part) {
         ends_[k] = part.others.size();
         turns_[k] = {1, 0};
         moved_[k] = {};
@@ -161,8 +197,9 @@ private:
             const float distance = std::sqrt(square);
             Vector2f away = {-u / distance, -v / distance};
             if (distance < 1e-7F) away = in_float(own_direction(static_cast<std::uint32_t>(k)));
-            push.x += away.x * (1 - distance);
-            push.y += away.y * (1 - distance);
+            const float size = 1 - distance + core_strength * std::max(0.0F, core - distance);
+            push.x += away.x * size;
+            push.y += away.y * size;
         }
         return {push.x, push.y};
     }

@@ -39,13 +39,23 @@ void Unfolding::add(std::uint32_t triangle, const FlatTriangle& flat, std::uint3
         const TriangleEdge other = mesh_.across[triangle][k];
         if (k == entered || !other.exists() || flat_of(other.triangle)) continue;
         const double distance = square_to(flat[corner_after(k)], flat[k]);
-        if (distance > square) {
+        if (distance > square || square_in_space(triangle, k) > square) {
             is_everything_ = false;
             continue;
         }
         fronts_.push_back({distance, piece, k});
         std::push_heap(fronts_.begin(), fronts_.end());
     }
+}
+
+/// The square of the distance from the place to an edge in space.
+double Unfolding::square_in_space(std::uint32_t triangle, std::uint32_t edge) const {
+    const Vector3d a = mesh_.corner(triangle, edge) - position_;
+    const Vector3d along = mesh_.corner(triangle, corner_after(edge)) - position_ - a;
+    const double square = dot(along, along);
+    const double part = square > 0 ? std::clamp(-dot(a, along) / square, 0.0, 1.0) : 0;
+    const Vector3d nearest = a + along * part;
+    return dot(nearest, nearest);
 }
 
 std::span<const Unfolding::Piece> Unfolding::around(const SurfacePlace& place, double radius) {
@@ -57,6 +67,7 @@ std::span<const Unfolding::Piece> Unfolding::around(const SurfacePlace& place, d
     pieces_.clear();
     fronts_.clear();
     is_everything_ = true;
+    position_ = position_of(mesh_, place);
     FlatTriangle flat = own_frame(mesh_, place.triangle);
     const Vector2d origin = position_of(flat, place.weights);
     for (Vector2d& corner : flat) corner = corner - origin;

@@ -30,6 +30,10 @@ private:
 /// "Texturing Surfaces Using Reaction-Diffusion" (1992), section 4.3.2, unfolds adjacent polygons
 /// exactly and others approximately. One object serves one thread at a time; it keeps four bytes a
 /// triangle.
+///
+/// No way along a surface is shorter than the straight one, but an image in the plane may be nearer,
+/// where the straight line to it leaves the unfolded triangles: `is_image` tells those that mean
+/// nothing, and what lies out of reach in space is not unfolded at all.
 class Unfolding {
 public:
     /// The surface and its shapes must stay as long as the unfolding is used.
@@ -41,7 +45,14 @@ public:
         FlatTriangle flat;
     };
 
-    /// All triangles within `radius` of the place, which is the origin; directions are those of the
+    /// Can what lies at this distance in the plane from the place be the image of what lies in space
+    /// where the square of the distance from it is `square_in_space`? A tenth is allowed for, as unfolding
+    /// is not exact.
+    static bool is_image(double square_in_plane, double square_in_space) {
+        return square_in_plane >= 0.81 * square_in_space;
+    }
+
+    /// All triangles that a way no longer than `radius` reaches from the place, which is the origin; directions are those of the
     /// frame of its triangle. Valid until the next call.
     std::span<const Piece> around(const SurfacePlace& place, double radius);
 
@@ -63,11 +74,13 @@ private:
         friend bool operator<(const Front& a, const Front& b) { return a.square > b.square; }
     };
     void add(std::uint32_t triangle, const FlatTriangle& flat, std::uint32_t entered, double square);
+    double square_in_space(std::uint32_t triangle, std::uint32_t edge) const;
 
     const SurfaceMesh& mesh_;
     const EdgeShapes& shapes_;
     std::vector<Piece> pieces_;
     std::vector<Front> fronts_;
+    Vector3d position_;                   ///< Of the place.
     std::vector<std::uint32_t> marks_;    ///< first_mark_ + 1 + its piece for triangles in the patch.
     std::uint32_t first_mark_ = 0;
     bool is_everything_ = false;

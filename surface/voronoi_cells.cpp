@@ -29,13 +29,14 @@ struct Found {
 class RegionFinder {
 public:
     RegionFinder(const SurfaceMesh& mesh, const EdgeShapes& shapes,
-                 const std::vector<SurfacePlace>& places, const PointIndex& index,
-                 const Anisotropy* anisotropy)
-        : mesh_(mesh), places_(places), index_(index), anisotropy_(anisotropy),
+                 const std::vector<SurfacePlace>& places, const std::vector<Vector3d>& positions,
+                 const PointIndex& index, const Anisotropy* anisotropy)
+        : mesh_(mesh), places_(places), positions_(positions), index_(index), anisotropy_(anisotropy),
           unfolding_(mesh, shapes) {}
 
     /// Unfolds as much of the surface as the region of a cell depends on, `reach` at least.
-    void find(std::uint32_t cell, Vector3d position, double reach, Found& found) {
+    void find(std::uint32_t cell, double reach, Found& found) {
+        position_ = positions_[cell];
         double ratio = 1;
         if (anisotropy_) {
             stretch_ = anisotropy_->of(mesh_, places_[cell].triangle);
@@ -46,7 +47,7 @@ public:
             // Within `reach` as lengths count lies what is within `wide` on the surface.
             const double wide = reach * std::sqrt(ratio);
             const auto pieces = unfolding_.around(places_[cell], wide);
-            collect_neighbours(cell, position, wide);
+            collect_neighbours(cell, wide);
             const double farthest = claim_all(cell, pieces, reach, found);
             if (2 * farthest <= reach) break;
             if (unfolding_.is_everything() && reach >= 2 * size_of(pieces)) break;
@@ -77,12 +78,15 @@ private:
         return size;
     }
 
-    void collect_neighbours(std::uint32_t cell, Vector3d position, double wide) {
+    void collect_neighbours(std::uint32_t cell, double wide) {
         neighbours_.clear();
-        index_.near(position, wide, [&](std::uint32_t other) {
+        index_.near(position_, wide, [&](std::uint32_t other) {
             const FlatTriangle* flat = unfolding_.flat_of(places_[other].triangle);
             if (other == cell || !flat) return;
-            const Vector2d place = stretch_(position_of(*flat, places_[other].weights));
+            const Vector2d image = position_of(*flat, places_[other].weights);
+            const Vector3d apart = positions_[other] - position_;
+            if (!Unfolding::is_image(dot(image, image), dot(apart, apart))) return;
+            const Vector2d place = stretch_(image);
             const double distance = length(place);
             if (distance > 0) neighbours_.push_back({distance, other, place});
         });
@@ -124,7 +128,7 @@ private:
             part_.cut(flat[k], flat[corner_after(k)], ConvexRegion::nothing);
         }
         const double area = part_.area();
-        if (area <= 0) {
+        if (area <= 0 || !is_image(part_.middle(), piece, flat)) {
             part_.clear();
             return;
         }
@@ -137,12 +141,22 @@ private:
         }
     }
 
+    /// Whether a stretched point of a piece can be what lies there on the surface.
+    bool is_image(Vector2d point, const Unfolding::Piece& piece, const FlatTriangle& flat) const {
+        const SurfacePlace place = {piece.triangle, weights_at(flat, point)};
+        const Vector2d image = position_of(piece.flat, place.weights);
+        const Vector3d apart = position_of(mesh_, place) - position_;
+        return Unfolding::is_image(dot(image, image), dot(apart, apart));
+    }
+
     const SurfaceMesh& mesh_;
     const std::vector<SurfacePlace>& places_;
+    const std::vector<Vector3d>& positions_;
     const PointIndex& index_;
     const Anisotropy* anisotropy_;
     Unfolding unfolding_;
-    Stretch stretch_;  ///< At the cell.
+    Vector3d position_;  ///< Of the cell.
+    Stretch stretch_;    ///< At the cell.
     std::vector<Neighbour> neighbours_;
     std::vector<double> lengths_;  ///< Of the walls to the neighbours.
     ConvexRegion part_;
@@ -266,11 +280,11 @@ SurfaceCells voronoi_cells(const SurfaceMesh& mesh, std::vector<SurfacePlace> pl
     team.run([&](int thread) {
         const RowRange part =
             split_rows(static_cast<std::int64_t>(cells.places.size()), thread, team.size());
-        RegionFinder finder(mesh, shapes, cells.places, index, anisotropy);
+        RegionFinder finder(mesh, shapes, cells.places, positions, index, anisotropy);
         Found& own = found[static_cast<std::size_t>(thread)];
         for (std::int64_t k = part.begin; k < part.end && !cancel; ++k) {
             const auto cell = static_cast<std::size_t>(k);
-            finder.find(static_cast<std::uint32_t>(cell), positions[cell], reach, own);
+            finder.find(static_cast<std::uint32_t>(cell), reach, own);
             cells.ends[cell] = own.walls.size();
         }
     });

@@ -1,5 +1,6 @@
 // Cells of surfaces that are unlike an animal: fins, slivers, wires, parts, and very large or small.
 #include "surface/make_cells.h"
+#include "surface/shapes.h"
 #include "unit/surface/cell_checks.h"
 
 #include <gtest/gtest.h>
@@ -66,6 +67,31 @@ TEST(HardCells, AWireLongerThanCellsReach) {
     }
     const SurfaceMesh mesh = mesh_of(std::move(soup));
     for (const std::uint64_t count : {1, 4, 30, 2000}) expect_fine(mesh, count);
+}
+
+/// The largest sum of the weights of a cell's walls over its share of the mean area: 3.46 of regular
+/// hexagons. A step of diffusion has to be so much shorter.
+double largest_weight(const SurfaceCells& cells) {
+    double total = 0, largest = 0;
+    for (const double area : cells.areas) total += area;
+    for (std::size_t k = 0; k < cells.places.size(); ++k) {
+        double sum = 0;
+        for (const CellWall& wall : cells.walls_of(k)) sum += wall.weight();
+        largest = std::max(largest, sum / cells.areas[k] * total / static_cast<double>(cells.places.size()));
+    }
+    return largest;
+}
+
+TEST(HardCells, ThinPartsHaveNoWeightyCells) {
+    // Bars three to twelve cells around: unfolded, their sides overlap.
+    for (const double width : {0.02, 0.04, 0.08}) {
+        const SurfaceMesh mesh = *box_mesh({1, width, width}, width / 4);
+        for (const std::uint64_t count : {100, 400}) {
+            expect_fine(mesh, count);
+            EXPECT_LT(largest_weight(*cells_of(mesh, count)), 12) << width << ' ' << count;
+        }
+    }
+    EXPECT_LT(largest_weight(*cells_of(*box_mesh({1, 1, 1}, 0.05), 4000)), 6.5);
 }
 
 TEST(HardCells, AFinOnABox) {
