@@ -210,7 +210,8 @@ Slope SlopeRules::of_divergence(const Slopes& flux) {
             slope.diffusion[k] = sum(slope.diffusion[k], product(gain, along.diffusion[k]));
         }
     }
-    if (changes) slope.own = builder_.call(Function::div, {builder_.part(vector)});
+    // On a model components make no flux: that of the cell itself is bounded as those of neighbours are.
+    if (changes && !links_) slope.own = builder_.call(Function::div, {builder_.part(vector)});
     return slope;
 }
 
