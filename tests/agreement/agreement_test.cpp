@@ -114,7 +114,7 @@ TEST(Agreement, HoweverOperandsComeToNeighbours) {
             return *backend->compile(kernel, grid.stencil());
         };
         const BindingContext context{{&simulation->state(0), 1}, no_files, 3, grid, Precision::single, 0, {},
-                                     nullptr, simulation->mask()};
+                                     simulation->model().get(), simulation->mask()};
         std::vector<std::vector<Field>> found;
         std::size_t passes = 0;
         for (const Bringing bringing :
