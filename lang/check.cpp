@@ -102,7 +102,7 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
     scope.last_stage = last_stage;
     auto checked = checking::check_expression(work, script, expression, scope);
     if (!checked) return std::nullopt;
-    if (program.domain.model && !has_meaning_on_model(checked->formula, diagnostics)) return std::nullopt;
+    if (!has_meaning_on_domain(program, checked->formula, diagnostics)) return std::nullopt;
     return std::move(checked->formula);
 }
 
@@ -122,7 +122,9 @@ std::vector<std::string> known_names(const Program& program) {
     std::set<std::string> names{"system", "stage", "domain", "picture", "system_name", "grid",
                                 "boundary", "seed", "mask", "mesh", "cells", "laplacian", "color", "periodic", "noflux",
                                 "auto", "steady", "coarse",
-                                "x", "y", "z", "sx", "sy", "sz", "nx", "ny", "nz", "curvature", "t", "step", "pi", "and", "or", "not"};
+                                "directions", "stretch", "axis", "gradient",
+                                "pi", "and", "or", "not"};
+    names.insert(builtin_names.begin(), builtin_names.end());
     names.insert(checking::setting_names().begin(), checking::setting_names().end());
     for (std::string& solver : solver_names()) names.insert(std::move(solver));
     for (std::size_t i = 0; i < function_count; ++i) {

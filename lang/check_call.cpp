@@ -14,7 +14,8 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> later_functions{"attr", "integral"};
+constexpr std::array<std::string_view, 1> later_functions{"integral"};
+constexpr double largest_of_points = 1e15;
 /// What is taken over something, as in sum(e over i).
 constexpr std::array<std::string_view, 3> only_over{"sum", "mean", "product"};
 
@@ -31,6 +32,10 @@ std::string hint_of_word(std::string_view word) {
 }
 
 std::string number_of_values(Arity arity) {
+    if (arity.is_groups) {
+        return fmt::format("groups of {} values{}", arity.least,
+                           arity.most > arity.least ? ", and perhaps one more" : "");
+    }
     if (arity.least != arity.most) {
         return fmt::format("{} or {} values", arity.least, arity.most);
     }
@@ -46,11 +51,44 @@ void ExpressionChecker::visit(const ast::Call& call) {
         return wrong_count(*function, call.argument_count);
     }
     if (!belongs_here(*function, call.function.span)) return;
+    if (info(*function).arity.is_groups) return take_surface_value(*function, call);
     Operands operands{};
     for (std::uint32_t i = 0; i < call.argument_count; ++i) {
         operands[i] = part_of(script_.arguments[call.first_argument + i]);
     }
     apply(*function, operands, call.argument_count);
+}
+
+/// distance(…) and keys(…): their numbers are known now, so that cells get their values once.
+void ExpressionChecker::take_surface_value(Function function, const ast::Call& call) {
+    SurfaceValue value{function, {}};
+    for (std::uint32_t k = 0; k < call.argument_count; ++k) {
+        const std::uint32_t part = part_of(script_.arguments[call.first_argument + k]);
+        if (parts_[part].faulty) parts_.back().faulty = true;
+        if (parts_.back().faulty) return;
+        if (parts_[part].constant && !(std::abs(parts_[part].value) <= largest_of_points)) {
+            return fault(formula_.nodes[part].span, "this number is too large",
+                         "coordinates are 0..1 along the longest side");
+        }
+        if (!parts_[part].constant) {
+            return fault(formula_.nodes[part].span,
+                         fmt::format("{} takes numbers that are known before the run",
+                                     info(function).spelling),
+                         "the points stay where they are");
+        }
+        value.numbers.push_back(parts_[part].value);
+    }
+    const bool has_smoothing = value.numbers.size() % 4 == 1;
+    if (function == Function::keys && has_smoothing && value.numbers.back() < 0) {
+        const ast::ExprId last = script_.arguments[call.first_argument + call.argument_count - 1];
+        return fault(formula_.nodes[part_of(last)].span, "a length of smoothing is not below 0");
+    }
+    Node& node = formula_.nodes.back();
+    node.kind = NodeKind::surface_value;
+    std::vector<SurfaceValue>& known = work_.program.surface_values;
+    const auto found = std::find(known.begin(), known.end(), value);
+    node.index = static_cast<std::uint32_t>(found - known.begin());
+    if (found == known.end()) known.push_back(std::move(value));
 }
 
 /// mean(e over domain). Aggregates over an index have been written out before.
@@ -145,6 +183,9 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
     if (place == Place::mask && (row.is_aggregate || differentiates(function))) {
         return refuse("a mask says which cells the domain has, and reads no others");
     }
+    if (place == Place::mask && needs_model(function)) {
+        return refuse("a mask is that of a plane; it belongs to the cells of a model");
+    }
     if (work_.on_surface && is_grid_derivative(function)) {
         return refuse("second derivatives by name have no meaning on a surface; lap and div have");
     }
@@ -208,7 +249,9 @@ void ExpressionChecker::check_types(const Node& node) {
             return check_choice(formula_.nodes.back(), operands[0], operands[1]);
         case Function::palette: return check_palette(node);
         case Function::field:
-        case Function::image: return need(operands[0], ValueType::text);
+        case Function::image:
+        case Function::attr:
+        case Function::uvimage: return need(operands[0], ValueType::text);
         case Function::noise:
         case Function::lattice:
         case Function::diamond: check_lattice(formula_.nodes.back()); break;

@@ -106,8 +106,7 @@ void ExpressionChecker::find_text_places() {
                 wants_text_[part_of(argument)] =
                     std::holds_alternative<ast::Text>(script_.expressions[argument].node);
             }
-        } else if (function == Function::palette || function == Function::field ||
-                   function == Function::image) {
+        } else if (function == Function::palette || reads_file(*function)) {
             wants_text_[part_of(script_.arguments[end - 1])] = true;
         }
     }

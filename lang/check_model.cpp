@@ -1,5 +1,7 @@
 // The settings of a domain that is a model: mesh, cells, laplacian, unit, and surfaces by name.
 #include "lang/check_blocks.h"
+#include "lang/check_directions.h"
+#include "lang/setting_words.h"
 #include "lang/models.h"
 
 #include <fmt/format.h>
@@ -12,6 +14,7 @@ namespace cascade::checking {
 
 namespace {
 
+constexpr double most_stretched = 100;
 constexpr double most_cells = 268435456;  // 2^28: elements of a plane are numbered by 32-bit words.
 
 struct ShapeName {
@@ -35,31 +38,6 @@ const ShapeName* shape_of(std::string_view word) {
     return nullptr;
 }
 
-const ast::Expr& value_of(const ast::Script& script, const ast::Sentence& sentence) {
-    return script.expressions[sentence.values[0].root];
-}
-
-/// A word that stands alone or with arguments in brackets; "" for all else.
-std::string_view word_of(const ast::Expr& value) {
-    if (const auto* name = std::get_if<ast::Name>(&value.node)) return name->name;
-    if (const auto* call = std::get_if<ast::Call>(&value.node)) return call->function.text;
-    return {};
-}
-
-/// The arguments of a call, whose parts stand one behind the other in front of it.
-std::vector<ast::Expression> arguments_of(const ast::Script& script, ast::Expression written) {
-    std::vector<ast::Expression> arguments;
-    const auto* call = std::get_if<ast::Call>(&script.expressions[written.root].node);
-    if (call == nullptr) return arguments;
-    ast::ExprId first = written.first;
-    for (std::uint32_t k = 0; k < call->argument_count; ++k) {
-        const ast::ExprId root = script.arguments[call->first_argument + k];
-        arguments.push_back({first, root});
-        first = root + 1;
-    }
-    return arguments;
-}
-
 class ModelChecker {
 public:
     ModelChecker(Workspace& work, const ast::Script& script, const ast::Block& domain)
@@ -79,6 +57,7 @@ public:
         if (const auto* cells = find("cells")) check_cells(*cells);
         if (const auto* laplacian = find("laplacian")) check_laplacian(*laplacian);
         if (const auto* unit = find("unit")) check_unit(*unit);
+        check_anisotropy(find("directions"), find("stretch"));
         for (const ast::Sentence& other : domain_.sentences) refuse(other);
         set_model(work_.program, *std::move(model_));
     }
@@ -212,6 +191,25 @@ private:
         model_->unit = *unit;
     }
 
+    void check_anisotropy(const ast::Sentence* directions, const ast::Sentence* stretch) {
+        if (directions != nullptr) model_->directions = check_directions(work_, script_, *directions);
+        if (stretch == nullptr) return;
+        if (directions == nullptr) {
+            work_.diagnostics.error(stretch->name.span, "cells are stretched along directions",
+                                    "directions: axis(0, 1, 0)");
+            return;
+        }
+        if (!has_one_value(work_, script_, *stretch)) return;
+        const auto ratio = check_constant(work_, script_, stretch->values[0], "stretch");
+        if (!ratio) return;
+        if (!(*ratio >= 1 && *ratio <= most_stretched)) {
+            work_.diagnostics.error(span_of(*stretch), "stretch is from 1 to 100",
+                                    "cells are so many times as long as wide");
+            return;
+        }
+        model_->stretch = *ratio;
+    }
+
     Workspace& work_;
     const ast::Script& script_;
     const ast::Block& domain_;
@@ -221,7 +219,8 @@ private:
 }  // namespace
 
 bool is_model_setting(std::string_view name) {
-    return name == "mesh" || name == "cells" || name == "laplacian";
+    return name == "mesh" || name == "cells" || name == "laplacian" || name == "directions" ||
+           name == "stretch";
 }
 
 bool is_model_surface(const ast::Script& script, const ast::Sentence& surface) {

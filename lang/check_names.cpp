@@ -39,8 +39,9 @@ bool is_constant(const Scope& scope) {
            scope.place == Place::mask;
 }
 
-bool is_of_model(std::string_view builtin) {
-    return builtin == "nx" || builtin == "ny" || builtin == "nz" || builtin == "curvature";
+bool is_of_model(std::string_view name) {
+    const auto builtin = builtin_named(name);
+    return builtin && is_of_model(*builtin);
 }
 
 bool varies_by_cell(std::string_view builtin) { return builtin != "t" && builtin != "step"; }
@@ -65,20 +66,6 @@ void report_constant(Workspace& work, const Scope& scope, std::string_view name,
     }
     report(work, span, fmt::format("{} must be one number", scope.subject),
            "only numbers, operators and functions of them can stand here");
-}
-
-Builtin builtin_of(std::string_view name) {
-    if (name == "x") return Builtin::x;
-    if (name == "y") return Builtin::y;
-    if (name == "z") return Builtin::z;
-    if (name == "sz") return Builtin::sz;
-    if (name == "sx") return Builtin::sx;
-    if (name == "sy") return Builtin::sy;
-    if (name == "nx") return Builtin::nx;
-    if (name == "ny") return Builtin::ny;
-    if (name == "nz") return Builtin::nz;
-    if (name == "curvature") return Builtin::curvature;
-    return name == "t" ? Builtin::t : Builtin::step;
 }
 
 std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::string_view name,
@@ -113,7 +100,7 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
                "it can be read in rates, definitions and pictures");
         return std::nullopt;
     }
-    const auto index = static_cast<std::uint32_t>(builtin_of(name));
+    const auto index = static_cast<std::uint32_t>(*builtin_named(name));
     return make_node(NodeKind::builtin, span, index);
 }
 
@@ -136,7 +123,10 @@ std::vector<std::string> readable_names(const System& system, const Scope& scope
     if (scope.place == Place::rate) {
         for (const Definition& definition : system.definitions) names.push_back(definition.name);
     }
-    for (const char* name : {"x", "y", "z", "sx", "sy", "sz", "nx", "ny", "nz", "curvature", "pi", "frozen", "speed"}) names.push_back(name);
+    for (const std::string_view name : builtin_names) {
+        if (varies_by_cell(name)) names.emplace_back(name);
+    }
+    for (const char* name : {"pi", "frozen", "speed"}) names.push_back(name);
     return names;
 }
 

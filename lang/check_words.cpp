@@ -28,10 +28,8 @@ bool among(const std::array<std::string_view, count>& words, std::string_view wo
 }  // namespace
 
 Reserved reserved(std::string_view name) {
-    static constexpr std::array<std::string_view, 13> builtins{
-        "x", "y", "z", "sx", "sy", "sz", "nx", "ny", "nz", "curvature", "t", "step", "pi"};
     if (among(settings, name)) return Reserved::setting;
-    if (among(builtins, name)) return Reserved::builtin;
+    if (name == "pi" || builtin_named(name)) return Reserved::builtin;
     return Reserved::no;
 }
 

@@ -65,6 +65,7 @@ private:
 
     void take(std::optional<Node> node);
     void apply(Function function, const Operands& operands, std::size_t count);
+    void take_surface_value(Function function, const ast::Call& call);
     void unknown_function(const ast::Word& name);
     void wrong_count(Function function, std::size_t count);
     bool belongs_here(Function function, Span span);

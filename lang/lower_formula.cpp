@@ -15,6 +15,7 @@ Value KernelAssembly::part(const Cursor& cursor) {
         case NodeKind::builtin: return {builtin(static_cast<Builtin>(node.index))};
         case NodeKind::metric: return {beside(metric_slot(node.index))};
         case NodeKind::model: return {of_model(static_cast<ModelPlane>(node.index))};
+        case NodeKind::surface_value: return {beside(surface_value_slot(node.index))};
         case NodeKind::inside: return {inside(at_)};
         case NodeKind::call: return call(node, cursor);
         case NodeKind::definition:
@@ -42,6 +43,8 @@ Value KernelAssembly::call(const Node& node, const Cursor& cursor) {
         case Function::stripe: return {shape(node, cursor)};
         case Function::field:
         case Function::image:
+        case Function::attr:
+        case Function::uvimage:
             return {beside(file_slot(node.function, cursor.operand(0).index))};
         case Function::clamp:
             return {builder_.minimum(

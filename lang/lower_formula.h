@@ -79,6 +79,7 @@ private:
     std::string slot_name(std::uint32_t stage, std::uint32_t item) const;
     std::uint32_t input_slot(std::uint32_t input, std::uint32_t item);
     std::uint32_t file_slot(Function function, std::uint32_t text);
+    std::uint32_t surface_value_slot(std::uint32_t number);
     std::uint32_t metric_slot(std::uint32_t plane);
     std::uint32_t model_slot(ModelPlane plane);
     ValueId of_model(ModelPlane plane);

@@ -5,6 +5,19 @@
 
 #include <fmt/format.h>
 
+namespace cascade {
+
+SlotSource::Kind slot_of_text(Function function) {
+    switch (function) {
+        case Function::image: return SlotSource::Kind::image;
+        case Function::attr: return SlotSource::Kind::attribute;
+        case Function::uvimage: return SlotSource::Kind::texture;
+        default: return SlotSource::Kind::file;
+    }
+}
+
+}  // namespace cascade
+
 namespace cascade::lowering {
 
 std::uint64_t random_key(std::uint32_t seed, std::string_view stage, std::string_view origin,
@@ -34,13 +47,21 @@ std::uint32_t KernelAssembly::field_slot(std::uint32_t stage, std::uint32_t item
     return slot;
 }
 
+std::uint32_t KernelAssembly::surface_value_slot(std::uint32_t number) {
+    // The numbers of a long list would not fit into a name; this one is as unlike the others.
+    const std::uint32_t slot = builder_.field_slot(
+        fmt::format("({} {})", info(program_.surface_values[number].function).spelling, number));
+    if (slot == bound_.fields.size()) {
+        bound_.fields.push_back({SlotSource::Kind::surface_value, 0, number});
+    }
+    return slot;
+}
+
 std::uint32_t KernelAssembly::file_slot(Function function, std::uint32_t text) {
-    const bool is_image = function == Function::image;
     const std::uint32_t slot = builder_.field_slot(
         fmt::format("{}(\"{}\")", info(function).spelling, program_.texts[text]));
     if (slot == bound_.fields.size()) {
-        const auto kind = is_image ? SlotSource::Kind::image : SlotSource::Kind::file;
-        bound_.fields.push_back({kind, 0, text});
+        bound_.fields.push_back({slot_of_text(function), 0, text});
     }
     return slot;
 }
@@ -59,7 +80,8 @@ std::uint32_t KernelAssembly::metric_slot(std::uint32_t plane) {
 std::uint32_t KernelAssembly::model_slot(ModelPlane plane) {
     static constexpr std::array<const char*, model_plane_count> names{
         "(number)", "(area)", "(x)", "(y)", "(z)", "(sx)", "(sy)", "(sz)",
-        "(nx)", "(ny)", "(nz)", "(curvature)"};
+        "(nx)", "(ny)", "(nz)", "(curvature)",
+        "(curvature_mean)", "(curvature_high)", "(curvature_low)", "(curvature_gauss)"};
     const auto number = static_cast<std::uint32_t>(plane);
     const std::uint32_t slot = builder_.field_slot(names[number]);
     if (slot == bound_.fields.size()) {
@@ -147,6 +169,7 @@ std::uint32_t KernelAssembly::plane_slot(const PartGraph& graph, PartId id) {
     if (part.node.kind == NodeKind::earlier) return field_slot(part.node.stage, part.node.index);
     if (part.node.kind == NodeKind::metric) return metric_slot(part.node.index);
     if (part.node.kind == NodeKind::model) return model_slot(static_cast<ModelPlane>(part.node.index));
+    if (part.node.kind == NodeKind::surface_value) return surface_value_slot(part.node.index);
     CHECK(part.node.kind == NodeKind::call && reads_file(part.node.function),
           "lowering: a plane is an item or a file");
     return file_slot(part.node.function, graph[part.operands[0]].node.index);
@@ -238,7 +261,11 @@ ValueId KernelAssembly::make_builtin(Builtin builtin) {
         // A plane lies flat, and looks up.
         case Builtin::nx:
         case Builtin::ny:
-        case Builtin::curvature: return builder_.number(0);
+        case Builtin::curvature:
+        case Builtin::curvature_mean:
+        case Builtin::curvature_gauss:
+        case Builtin::curvature_high:
+        case Builtin::curvature_low: return builder_.number(0);
         case Builtin::nz: return builder_.number(1);
     }
     CHECK(false, "lowering: every built-in value has a meaning");

@@ -24,6 +24,10 @@ std::optional<ModelPlane> model_plane_of(Builtin builtin) {
         case Builtin::ny: return ModelPlane::ny;
         case Builtin::nz: return ModelPlane::nz;
         case Builtin::curvature: return ModelPlane::curvature;
+        case Builtin::curvature_mean: return ModelPlane::curvature_mean;
+        case Builtin::curvature_gauss: return ModelPlane::curvature_gauss;
+        case Builtin::curvature_high: return ModelPlane::curvature_high;
+        case Builtin::curvature_low: return ModelPlane::curvature_low;
         case Builtin::t:
         case Builtin::step: break;
     }

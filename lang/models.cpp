@@ -29,64 +29,73 @@ std::string_view reason_against(Function function) {
         case Function::vector:
             return "a flux on a model is made of gradients, as in div(a * grad(e))";
         case Function::field:
+            return "rows and columns of a file have no meaning on a model; "
+                   "attr(\"name\") reads what its points have";
         case Function::image:
-            return "rows and columns of a file have no meaning on a model";
+            return "rows and columns of a picture have no meaning on a model; "
+                   "uvimage(\"f.png\") is a picture painted on it";
         default: return "";
     }
 }
 
-class ModelProgramChecker {
-public:
-    ModelProgramChecker(Program& program, Diagnostics& diagnostics)
-        : program_(program), diagnostics_(diagnostics) {}
+/// What a value is of that only a model has; nothing for all else.
+std::optional<Function> of_model_only(const Program& program, const Node& node) {
+    if (node.kind == NodeKind::surface_value) return program.surface_values[node.index].function;
+    if (node.kind == NodeKind::call && needs_model(node.function)) return node.function;
+    return std::nullopt;
+}
 
-    void check() {
-        for (Stage& stage : program_.stages) {
-            check_system(program_.systems[stage.system]);
-            for (const Formula& formula : stage.items) check_formula(formula);
-            check_formula(stage.show);
-            if (stage.time.until) check_formula(*stage.time.until);
-            check_time(stage);
-            leave_sides(stage);
+bool has_meaning_on_model(const Formula& formula, Diagnostics& diagnostics) {
+    bool has_meaning = true;
+    for (const Node& node : formula.nodes) {
+        if (node.kind != NodeKind::call) continue;
+        const std::string_view reason = reason_against(node.function);
+        if (reason.empty()) continue;
+        has_meaning = false;
+        diagnostics.error(node.span,
+                          fmt::format("{} cannot be used on a model", info(node.function).spelling),
+                          std::string(reason));
+    }
+    return has_meaning;
+}
+
+bool has_meaning_on_plane(const Program& program, const Formula& formula, Diagnostics& diagnostics) {
+    bool has_meaning = true;
+    for (const Node& node : formula.nodes) {
+        const auto function = of_model_only(program, node);
+        if (!function) continue;
+        has_meaning = false;
+        diagnostics.error(node.span,
+                          fmt::format("{} has a meaning on models only", info(*function).spelling),
+                          "domain { mesh: \"horse.ply\" } or { surface: creature } is one");
+    }
+    return has_meaning;
+}
+
+void check_time(const Stage& stage, Diagnostics& diagnostics) {
+    if (is_semi_implicit(stage.time.solver)) {
+        diagnostics.error(stage.time.solver_span.end > 0 ? stage.time.solver_span : stage.span,
+                          fmt::format("stage '{}': the solver {} needs the waves of a grid, which "
+                                      "a model does not have", stage.name, name_of(stage.time.solver)),
+                          "rkl1 takes long steps on models");
+    }
+    if (stage.time.coarse > 1) {
+        diagnostics.error(stage.time.coarse_span,
+                          fmt::format("stage '{}' starts on a coarser grid, which a model does "
+                                      "not have", stage.name));
+    }
+}
+
+/// Boundaries of a model have no flux through them.
+void leave_sides(Stage& stage, Diagnostics& diagnostics) {
+    for (const auto& sides : stage.sides) {
+        for (const SideSetting& side : sides) {
+            if (!takes_value(side.kind)) continue;
+            diagnostics.warning(side.span, "a model has no sides: this is left aside");
         }
     }
-
-private:
-    void check_formula(const Formula& formula) { (void)has_meaning_on_model(formula, diagnostics_); }
-
-    void check_system(const System& system) {
-        for (const Formula& rate : system.rates) check_formula(rate);
-        for (const Definition& definition : system.definitions) check_formula(definition.formula);
-    }
-
-    void check_time(const Stage& stage) {
-        if (is_semi_implicit(stage.time.solver)) {
-            diagnostics_.error(stage.time.solver_span.end > 0 ? stage.time.solver_span : stage.span,
-                               fmt::format("stage '{}': the solver {} needs the waves of a grid, which "
-                                           "a model does not have", stage.name, name_of(stage.time.solver)),
-                               "rkl1 takes long steps on models");
-        }
-        if (stage.time.coarse > 1) {
-            diagnostics_.error(stage.time.coarse_span,
-                               fmt::format("stage '{}' starts on a coarser grid, which a model does "
-                                           "not have", stage.name));
-        }
-    }
-
-    /// Boundaries of a model have no flux through them.
-    void leave_sides(Stage& stage) {
-        for (const auto& sides : stage.sides) {
-            for (const SideSetting& side : sides) {
-                if (!takes_value(side.kind)) continue;
-                diagnostics_.warning(side.span, "a model has no sides: this is left aside");
-            }
-        }
-        stage.sides.clear();
-    }
-
-    Program& program_;
-    Diagnostics& diagnostics_;
-};
+    stage.sides.clear();
+}
 
 }  // namespace
 
@@ -117,22 +126,50 @@ std::optional<ModelShape> shape_named(std::string_view word) {
     return std::nullopt;
 }
 
-bool has_meaning_on_model(const Formula& formula, Diagnostics& diagnostics) {
-    bool has_meaning = true;
-    for (const Node& node : formula.nodes) {
-        if (node.kind != NodeKind::call) continue;
-        const std::string_view reason = reason_against(node.function);
-        if (reason.empty()) continue;
-        has_meaning = false;
-        diagnostics.error(node.span,
-                          fmt::format("{} cannot be used on a model", info(node.function).spelling),
-                          std::string(reason));
-    }
-    return has_meaning;
+bool has_meaning_on_domain(const Program& program, const Formula& formula, Diagnostics& diagnostics) {
+    if (program.domain.model) return has_meaning_on_model(formula, diagnostics);
+    return has_meaning_on_plane(program, formula, diagnostics);
 }
 
-void check_on_model(Program& program, Diagnostics& diagnostics) {
-    ModelProgramChecker(program, diagnostics).check();
+std::vector<const Formula*> formulas_of(const Program& program) {
+    std::vector<const Formula*> formulas;
+    const auto add = [&](const Formula& formula) {
+        if (!formula.nodes.empty()) formulas.push_back(&formula);
+    };
+    std::vector<bool> used(program.systems.size());
+    for (const Stage& stage : program.stages) {
+        if (!used[stage.system]) {
+            used[stage.system] = true;
+            const System& system = program.systems[stage.system];
+            for (const Formula& rate : system.rates) add(rate);
+            for (const Definition& definition : system.definitions) add(definition.formula);
+        }
+        for (const Formula& formula : stage.items) add(formula);
+        add(stage.show);
+        if (stage.time.until) add(*stage.time.until);
+        for (const auto& sides : stage.sides) {
+            for (const SideSetting& side : sides) add(side.value);
+        }
+    }
+    return formulas;
+}
+
+void check_on_domain(Program& program, Diagnostics& diagnostics) {
+    auto& model = program.domain.model;
+    if (model) {
+        for (Stage& stage : program.stages) {
+            check_time(stage, diagnostics);
+            leave_sides(stage, diagnostics);
+        }
+        if (model->directions && model->cells != ModelCellKind::spread) {
+            diagnostics.error(model->directions->span,
+                              "only cells that are spread over a model can be stretched",
+                              "cells: 20000");
+        }
+    }
+    for (const Formula* formula : formulas_of(program)) {
+        (void)has_meaning_on_domain(program, *formula, diagnostics);
+    }
 }
 
 }  // namespace cascade

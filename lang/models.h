@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace cascade {
 
@@ -20,11 +21,15 @@ void set_model(Program& program, ModelSettings model);
 /// The shape of a surface that has a name, such as sphere; nothing for other words.
 std::optional<ModelShape> shape_named(std::string_view word);
 
-/// Adds an error for whatever of the program cannot be done on its model, and a warning for what is left
-/// aside (the sides of the plane). Of a program whose domain is a model.
-void check_on_model(Program& program, Diagnostics& diagnostics);
+/// Adds an error for whatever of the program cannot be done on its domain, a model or a plane, and on a
+/// model a warning for what is left aside (the sides of the plane).
+void check_on_domain(Program& program, Diagnostics& diagnostics);
 
-/// Adds an error for every function of a formula that has no meaning on a model; true where there is none.
-bool has_meaning_on_model(const Formula& formula, Diagnostics& diagnostics);
+/// Adds an error for every function of a formula that has no meaning on the domain, such as second
+/// derivatives by name on a model and distances along it on a plane; true where there is none.
+bool has_meaning_on_domain(const Program& program, const Formula& formula, Diagnostics& diagnostics);
+
+/// Every formula that the stages of a program compute, those of their systems once.
+std::vector<const Formula*> formulas_of(const Program& program);
 
 }  // namespace cascade

@@ -36,10 +36,6 @@ bool is_same(const Part& a, const Part& b) {
 
 }  // namespace
 
-bool reads_file(Function function) {
-    return function == Function::field || function == Function::image;
-}
-
 bool is_stencil(Function function) {
     switch (function) {
         case Function::lap:
@@ -84,6 +80,7 @@ bool PartGraph::is_lasting(const Part& part) const {
         case NodeKind::earlier:
         case NodeKind::metric:
         case NodeKind::model:
+        case NodeKind::surface_value:
         case NodeKind::inside: return true;
         case NodeKind::call: break;
     }
@@ -102,6 +99,7 @@ bool PartGraph::is_plane(PartId id) const {
             return part.node.index != program_.system_of(stage_).frozen_item();
         case NodeKind::earlier:
         case NodeKind::metric:
+        case NodeKind::surface_value:
         case NodeKind::model: return true;
         case NodeKind::call: return reads_file(part.node.function);
         default: return false;

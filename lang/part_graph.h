@@ -66,8 +66,6 @@ enum class Extent : std::uint8_t {
     grid,    ///< All, whatever the mask.
 };
 
-/// Does it read a file, which lies in a plane of its own?
-bool reads_file(Function function);
 /// The plane that has a built-in value on a model; nothing of t and step.
 std::optional<ModelPlane> model_plane_of(Builtin builtin);
 /// Is it an operator that reads its last operand at neighbours? (`div` reads at faces instead.)

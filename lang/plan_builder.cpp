@@ -118,12 +118,13 @@ private:
             return {SlotSource::Kind::temporary, 0, storage_.temporary[id]};
         }
         if (part.node.kind == NodeKind::call) {
-            const auto kind = part.calls(Function::image) ? SlotSource::Kind::image
-                                                          : SlotSource::Kind::file;
-            return {kind, 0, graph_[part.operands[0]].node.index};
+            return {slot_of_text(part.node.function), 0, graph_[part.operands[0]].node.index};
         }
         if (part.node.kind == NodeKind::metric) {
             return {SlotSource::Kind::metric, 0, part.node.index};
+        }
+        if (part.node.kind == NodeKind::surface_value) {
+            return {SlotSource::Kind::surface_value, 0, part.node.index};
         }
         if (part.node.kind == NodeKind::model) return {SlotSource::Kind::model, 0, part.node.index};
         const bool is_own = part.node.kind == NodeKind::own;

@@ -2,6 +2,7 @@
 #include "lang/print_formula.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <variant>
 
@@ -119,9 +120,6 @@ private:
     }
 
     std::string leaf(const Node& node) const {
-        static constexpr const char* builtins[] = {"x",  "y",  "z", "sx",
-                                                   "sy", "sz", "t", "step",
-                                                   "nx", "ny", "nz", "curvature"};
         switch (node.kind) {
             case NodeKind::number: return fmt::format("{}", node.number);
             case NodeKind::text: return fmt::format("\"{}\"", program_.texts[node.index]);
@@ -131,7 +129,8 @@ private:
             case NodeKind::earlier:
                 return fmt::format("{}.{}", program_.stages[node.stage].name,
                                    program_.system_of(node.stage).item_name(node.index));
-            case NodeKind::builtin: return builtins[node.index];
+            case NodeKind::builtin: return std::string(builtin_names[node.index]);
+            case NodeKind::surface_value: return text_of(program_.surface_values[node.index]);
             case NodeKind::definition: return system_.definitions[node.index].name;
             case NodeKind::rate: return system_.quantities[node.index].name + "'";
             case NodeKind::metric:
@@ -152,6 +151,10 @@ private:
 };
 
 }  // namespace
+
+std::string text_of(const SurfaceValue& value) {
+    return fmt::format("{}({})", info(value.function).spelling, fmt::join(value.numbers, ", "));
+}
 
 std::string print_formula(const Program& program, const System& system, const Formula& formula,
                           std::optional<std::uint32_t> stage) {

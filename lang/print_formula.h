@@ -8,6 +8,9 @@
 
 namespace cascade {
 
+/// A value of places on a model, as a script has it.
+std::string text_of(const SurfaceValue& value);
+
 /// The formula in the language itself, except that own items of a stage are [p], as in a stage's
 /// sentences, and items of other stages always stage.p. In formulas of a system (no `stage`) own
 /// names are bare.

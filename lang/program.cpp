@@ -48,6 +48,12 @@ std::optional<Function> function_named(std::string_view name) {
     return std::nullopt;
 }
 
+std::optional<Builtin> builtin_named(std::string_view name) {
+    const auto found = std::find(builtin_names.begin(), builtin_names.end(), name);
+    if (found == builtin_names.end()) return std::nullopt;
+    return static_cast<Builtin>(found - builtin_names.begin());
+}
+
 bool is_random(Function function) {
     switch (function) {
         case Function::random:
@@ -63,6 +69,26 @@ bool is_random(Function function) {
 bool varies_by_cell(Function function) {
     const Places places = info(function).places;
     return places != Places::any && places != Places::picture;
+}
+
+bool reads_file(Function function) {
+    switch (function) {
+        case Function::field:
+        case Function::image:
+        case Function::attr:
+        case Function::uvimage: return true;
+        default: return false;
+    }
+}
+
+bool needs_model(Function function) {
+    switch (function) {
+        case Function::attr:
+        case Function::uvimage:
+        case Function::distance:
+        case Function::keys: return true;
+        default: return false;
+    }
 }
 
 bool differentiates(Function function) {
@@ -96,6 +122,7 @@ bool differs_by_cell(const Node& node, bool operand_differs, const Program& prog
         case NodeKind::rate:
         case NodeKind::metric:
         case NodeKind::model:
+        case NodeKind::surface_value:
         case NodeKind::inside: return true;
         case NodeKind::call: break;
     }

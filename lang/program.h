@@ -32,18 +32,27 @@ inline constexpr std::size_t function_count = 0
 
 enum class Places : std::uint8_t { any, cells, rates, values, noisy, picture };
 
-/// How many values a function takes: one number, or one of two.
+/// How many values a function takes: one number, one of two, or groups of values.
 struct Arity {
     int least;
     int most;
+    bool is_groups = false;  ///< `least` values, once or more often; most − least may follow.
 
     constexpr Arity(int count) : least(count), most(count) {}
     constexpr Arity(int fewer, int more) : least(fewer), most(more) {}
     constexpr bool takes(std::size_t count) const {
-        return count == static_cast<std::size_t>(least) || count == static_cast<std::size_t>(most);
+        const auto fewer = static_cast<std::size_t>(least), more = static_cast<std::size_t>(most);
+        if (!is_groups) return count == fewer || count == more;
+        return count >= fewer && (count % fewer == 0 || count % fewer == more - fewer);
     }
 };
 constexpr Arity either(int fewer, int more) { return {fewer, more}; }
+/// Groups of so many values; behind them there may be so many more.
+constexpr Arity groups_of(int size, int behind = 0) {
+    Arity arity{size, size + behind};
+    arity.is_groups = true;
+    return arity;
+}
 
 /// The most values that a function takes.
 inline constexpr std::size_t most_operands = 6;
@@ -68,13 +77,29 @@ bool is_random(Function function);
 /// Whether the value differs from cell to cell whatever the operands are.
 bool varies_by_cell(Function function);
 
+/// Does it read what a text names (a file, an attribute of a model), which lies in a plane of its own?
+bool reads_file(Function function);
+
+/// Is it about places on the surface of a model, which a plane does not have?
+bool needs_model(Function function);
+
 /// Is it an operator of derivatives, or a vector that one takes? Such a function differs from cell
 /// to cell only where an operand does.
 bool differentiates(Function function);
 
 /// Values that every expression may read. `pi` is folded into a number.
-enum class Builtin : std::uint8_t { x, y, z, sx, sy, sz, t, step, nx, ny, nz, curvature };
-inline constexpr std::size_t builtin_count = 12;
+enum class Builtin : std::uint8_t {
+    x, y, z, sx, sy, sz, t, step, nx, ny, nz,
+    curvature, curvature_mean, curvature_gauss, curvature_high, curvature_low,
+};
+inline constexpr std::size_t builtin_count = 16;
+/// How they are written, by Builtin.
+inline constexpr std::array<std::string_view, builtin_count> builtin_names{
+    "x", "y", "z", "sx", "sy", "sz", "t", "step", "nx", "ny", "nz",
+    "curvature", "curvature_mean", "curvature_gauss", "curvature_high", "curvature_low"};
+std::optional<Builtin> builtin_named(std::string_view name);
+/// Does only a model tell one cell from another by it? On a plane it is a number.
+constexpr bool is_of_model(Builtin builtin) { return builtin >= Builtin::nx; }
 
 /// What operators read of the surface, a plane each (surface/parameter_surface.h).
 enum class MetricPlane : std::uint8_t {
@@ -91,9 +116,14 @@ enum class ModelPlane : std::uint8_t {
     x, y, z,     ///< Its place in the model's box, whose longest side is 1 …
     sx, sy, sz,  ///< … and with every side 1.
     nx, ny, nz,  ///< The outward normal, of length 1.
-    curvature,   ///< In 1 / unit.
+    curvature,   ///< Turk's estimate, in 1 / unit.
+    // What is found when it is first read (run/surface_values.h).
+    curvature_mean, curvature_high, curvature_low,  ///< In 1 / unit.
+    curvature_gauss,                                ///< In 1 / unit².
 };
-inline constexpr std::size_t model_plane_count = 12;
+inline constexpr std::size_t model_plane_count = 16;
+/// Is the plane made only for those who read it?
+constexpr bool is_made_when_read(ModelPlane plane) { return plane >= ModelPlane::curvature_mean; }
 
 enum class NodeKind : std::uint8_t {
     number,      ///< `number`
@@ -104,6 +134,7 @@ enum class NodeKind : std::uint8_t {
     definition,  ///< definition `index` of the stage's system
     rate,        ///< rate of species item `index`
     call,        ///< `function` of `operands`
+    surface_value,  ///< Program::surface_values[index]
     metric,      ///< MetricPlane `index`; only lowering makes such nodes
     model,       ///< ModelPlane `index`; only lowering makes such nodes
     inside,      ///< true where the cell is inside the mask; only lowering makes such nodes
@@ -306,6 +337,17 @@ enum class ModelLaplacian : std::uint8_t {
     turk,            ///< Lengths of walls, so scaled that their sum is 4.
 };
 
+/// In which direction cells, and what grows over them, are stretched.
+struct DirectionSettings {
+    enum class Kind : std::uint8_t { axis, gradient, curvature_high, curvature_low, keys };
+    Kind kind = Kind::axis;
+    /// Of an axis its vector; of keys groups of a position and a vector.
+    std::vector<double> numbers;
+    std::optional<Formula> height;  ///< Of a gradient: of numbers and x, y and z.
+    double smoothing = 0;           ///< Standard deviation, in longest sides of the model.
+    Span span;
+};
+
 /// A surface in space whose cells are the domain: the file of a model, or a shape.
 struct ModelSettings {
     ModelShape shape = ModelShape::file;
@@ -316,10 +358,21 @@ struct ModelSettings {
     std::int64_t count = 16384;   ///< Of cells that are spread.
     ModelLaplacian laplacian = ModelLaplacian::finite_volumes;
     std::optional<double> unit;   ///< Length of one unit; empty: the mean cell has area 1.
+    std::optional<DirectionSettings> directions;
+    double stretch = 2;           ///< How many times as long as wide cells are along the directions.
     Span span;                    ///< Of what names the model.
     Span cells_span;              ///< Of the number of cells; empty where it is not written.
     /// The largest sum of the weights of a cell's links: known when the cells are made.
     double largest_weight = 12;
+};
+
+/// What is known of the cells of a model from places on it: distance(…) and keys(…), whose values are
+/// numbers.
+struct SurfaceValue {
+    Function function = Function::distance;
+    std::vector<double> numbers;  ///< As written.
+
+    friend bool operator==(const SurfaceValue&, const SurfaceValue&) = default;
 };
 
 struct DomainSettings {
@@ -338,6 +391,7 @@ struct Program {
     std::vector<Stage> stages;
     DomainSettings domain;
     std::vector<std::string> texts;  ///< Texts in quotes: palette names, paths.
+    std::vector<SurfaceValue> surface_values;  ///< Each different one once.
 
     const System& system_of(std::uint32_t stage) const { return systems[stages[stage].system]; }
 };

@@ -22,6 +22,9 @@ struct SlotSource {
         item,       ///< Item `item` of stage `stage` (a field slot, a mask slot or a uniform slot).
         file,       ///< The array named Program::texts[item], as a field slot.
         image,      ///< The picture named Program::texts[item], as a field slot.
+        attribute,  ///< The model's attribute Program::texts[item], as a field slot.
+        texture,    ///< The picture painted on the model Program::texts[item], as a field slot.
+        surface_value,  ///< Program::surface_values[item], as a field slot.
         metric,     ///< MetricPlane `item` of the surface, as a field slot.
         model,      ///< ModelPlane `item` of the cells of a model, as a field slot.
         neighbourhood,  ///< Which cells around are inside the mask, as a field slot of words.
@@ -38,6 +41,14 @@ struct SlotSource {
     std::uint32_t stage = 0;
     std::uint32_t item = 0;
 };
+
+/// The kind of slot for what a function reads by the name of a text (field, image, attr, uvimage).
+SlotSource::Kind slot_of_text(Function function);
+
+/// Is it the kind of a slot for what a text names?
+constexpr bool is_of_text(SlotSource::Kind kind) {
+    return kind >= SlotSource::Kind::file && kind <= SlotSource::Kind::texture;
+}
 
 /// A kernel, and what to put into its slots and where its results go.
 struct BoundKernel {

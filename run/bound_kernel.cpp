@@ -13,10 +13,16 @@
 namespace cascade {
 
 const Field& plane_of(const SlotSource& source, const BindingContext& context) {
-    if (source.kind == SlotSource::Kind::image) return context.files.image(source.item);
-    if (source.kind == SlotSource::Kind::file) return context.files.plane(source.item);
+    if (is_of_text(source.kind)) return context.files.plane(source.kind, source.item);
     if (source.kind == SlotSource::Kind::metric) return context.metric[source.item];
-    if (source.kind == SlotSource::Kind::model) return context.model->planes[source.item];
+    if (source.kind == SlotSource::Kind::model) {
+        const auto plane = static_cast<ModelPlane>(source.item);
+        return is_made_when_read(plane) ? context.surface_values->plane(plane)
+                                        : context.model->planes[source.item];
+    }
+    if (source.kind == SlotSource::Kind::surface_value) {
+        return context.surface_values->value(source.item);
+    }
     if (source.kind == SlotSource::Kind::neighbourhood) return context.mask->neighbourhood;
     if (source.kind == SlotSource::Kind::lasting) {
         return context.states[source.stage].lasting[source.item];

@@ -9,6 +9,7 @@
 #include "run/input_files.h"
 #include "run/model_cells.h"
 #include "run/simulation.h"
+#include "run/surface_values.h"
 #include "solvers/advance.h"
 #include "solvers/scheme.h"
 
@@ -30,6 +31,7 @@ struct BindingContext {
     std::span<const Field> metric = {};  ///< By MetricPlane; empty without a surface.
     const ModelCells* model = nullptr;   ///< None on grids.
     const DomainMask* mask = nullptr;    ///< None where all cells belong to the domain.
+    SurfaceValues* surface_values = nullptr;  ///< Of a model.
 };
 
 /// The plane of a slot that lies in one and is no temporary.

@@ -113,9 +113,7 @@ void CTables::add_plane(const SlotSource& source) {
         case SlotSource::Kind::image:
             plane.meaning = fmt::format("\"{}\"", program_.texts[source.item]);
             name = fmt::format("file{}", planes_.size());
-            plane.data = add_data(source.kind == SlotSource::Kind::file
-                                      ? request_.files.plane(source.item)
-                                      : request_.files.image(source.item));
+            plane.data = add_data(request_.files.plane(source.kind, source.item));
             break;
         case SlotSource::Kind::metric:
             plane.meaning = "how the cells lie on the surface";

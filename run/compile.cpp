@@ -120,6 +120,10 @@ Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
         return failure("a stage in double precision is not compiled to an object file",
                        "'cascade run' compiles it in memory; --precision single is compiled");
     }
+    if (program.domain.model) {
+        return failure("a stage on a model is not compiled to an object file",
+                       "'cascade run' compiles it in memory");
+    }
     for (const auto& sides : program.stages[stage].sides) {
         for (std::size_t side = 0; side < side_count; ++side) {
             if (!takes_value(sides[side].kind)) continue;
@@ -151,7 +155,7 @@ Result<CompiledStep> compile_step(Script& script, const CompileRequest& request)
     const auto scheme = fixed_scheme(program, *stage, request.stages,
                                       script.overrides.solver.has_value());
     if (!scheme) return tl::unexpected(scheme.error());
-    const auto files = read_input_files(script);
+    const auto files = read_input_files(script, nullptr);
     if (!files) return tl::unexpected(files.error());
     const auto metric = metric_planes(program);
     if (!metric) return tl::unexpected(metric.error());

@@ -1,11 +1,13 @@
 #include "run/input_files.h"
 
+#include "core/check.h"
 #include "picture/grey_picture.h"
 #include "picture/npy.h"
+#include "run/surface_values.h"
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -37,37 +39,67 @@ void read_one(Script& script, const Node& node, InputFiles& files) {
                 : fmt::format("a grid of {}, {}, {} would fit", array->columns, array->rows,
                               array->slices));
     } else {
-        files.add(node.index, to_field(*array, precision));
+        files.add(SlotSource::Kind::file, node.index, to_field(*array, precision));
     }
 }
 
-void read_image(Script& script, const Node& node, InputFiles& files) {
+/// The pixels of a PNG; nothing with a diagnostic.
+std::optional<GreyPicture> read_picture(Script& script, const Node& node) {
     const std::string& name = script.program->texts[node.index];
-    const Grid& grid = script.program->domain.grid;
     const auto path = readable_path(script.folder, name, script.overrides.reads);
-    if (!path) return script.diagnostics.error(node.span, path.error().message, path.error().hint);
-    const auto picture = read_grey_picture(*path);
-    if (!picture) {
-        return script.diagnostics.error(node.span, picture.error().message, picture.error().hint);
+    if (!path) {
+        script.diagnostics.error(node.span, path.error().message, path.error().hint);
+        return std::nullopt;
     }
+    auto picture = read_grey_picture(*path);
+    if (picture) return *std::move(picture);
+    script.diagnostics.error(node.span, picture.error().message, picture.error().hint);
+    return std::nullopt;
+}
+
+void read_image(Script& script, const Node& node, InputFiles& files) {
+    const Grid& grid = script.program->domain.grid;
+    const auto picture = read_picture(script, node);
+    if (!picture) return;
     const Field plane = to_field(resized(*picture, grid.width, grid.height), grid);
-    files.add_image(node.index, plane.converted(script.program->domain.precision));
+    files.add(SlotSource::Kind::image, node.index, plane.converted(script.program->domain.precision));
+}
+
+/// What the model has in its points, or in a picture painted on it.
+void read_of_model(Script& script, const Node& node, SlotSource::Kind kind, const ModelCells& model,
+                   InputFiles& files) {
+    const Precision precision = script.program->domain.precision;
+    Result<Field> plane;
+    if (kind == SlotSource::Kind::attribute) {
+        plane = attribute_plane(script.program->texts[node.index], model, precision);
+    } else {
+        const auto picture = read_picture(script, node);
+        if (!picture) return;
+        plane = painted_plane(*picture, model, precision);
+    }
+    if (!plane) return script.diagnostics.error(node.span, plane.error().message, plane.error().hint);
+    files.add(kind, node.index, *std::move(plane));
 }
 
 }  // namespace
 
-Result<InputFiles> read_input_files(Script& script) {
+Result<InputFiles> read_input_files(Script& script, const ModelCells* model) {
     InputFiles files;
-    std::set<std::uint32_t> arrays, images;  // A file is read, and its fault told, once.
+    // A text is looked up, and its fault told, once.
+    std::set<std::pair<SlotSource::Kind, std::uint32_t>> known;
     const auto read_of = [&](const Formula& formula) {
         for (const Node& node : formula.nodes) {
-            if (node.kind != NodeKind::call) continue;
-            const Node& path = formula.nodes[node.operands[0]];
-            if (node.function == Function::field && arrays.insert(path.index).second) {
-                read_one(script, path, files);
-            }
-            if (node.function == Function::image && images.insert(path.index).second) {
-                read_image(script, path, files);
+            if (node.kind != NodeKind::call || !reads_file(node.function)) continue;
+            const Node& text = formula.nodes[node.operands[0]];
+            const SlotSource::Kind kind = slot_of_text(node.function);
+            if (!known.insert({kind, text.index}).second) continue;
+            if (kind == SlotSource::Kind::file) {
+                read_one(script, text, files);
+            } else if (kind == SlotSource::Kind::image) {
+                read_image(script, text, files);
+            } else {
+                CHECK(model != nullptr, "only scripts on models read what points and textures have");
+                read_of_model(script, text, kind, *model, files);
             }
         }
     };

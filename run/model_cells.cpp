@@ -10,6 +10,7 @@
 #include "surface/curvature.h"
 #include "surface/implicit_surface.h"
 #include "run/memory.h"
+#include "run/model_directions.h"
 #include "surface/make_cells.h"
 #include "surface/make_mesh.h"
 #include "surface/model_file.h"
@@ -23,6 +24,7 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <optional>
 
 namespace cascade {
 
@@ -153,6 +155,13 @@ private:
         options.kind = kind_of(settings_.cells);
         options.count = static_cast<std::uint64_t>(settings_.count);
         options.seed = program_.domain.seed;
+        std::optional<Anisotropy> anisotropy;
+        if (settings_.directions) {
+            anisotropy = anisotropy_of(*settings_.directions, settings_.stretch, model_->mesh, team_,
+                                       control_.cancel);
+            if (control_.cancel) return {};
+            options.anisotropy = &*anisotropy;
+        }
         const double bytes = memory_of_cells(model_->mesh, options);
         if (bytes > static_cast<double>(available_memory())) {
             return failure(fmt::format("making these cells takes {}, more than is free",
@@ -290,6 +299,26 @@ void ModelCells::need_gradients() const {
     for (Vector3d& gradient : gradients) gradient = gradient * unit;
     links.add_gradients(gradients, cells.ends, PlaneLayout(grid), order);
     has_gradients_ = true;
+}
+
+ModelBox::ModelBox(const SurfaceMesh& mesh) {
+    const SurfaceMesh::Box box = mesh.box();
+    const Vector3d size = box.high - box.low;
+    low = box.low;
+    longest = std::max({size.x, size.y, size.z});
+}
+
+Field field_of_cells(std::span<const double> values, const ModelCells& model, Precision precision) {
+    Field field(PlaneLayout(model.grid), precision);
+    field.visit([&]<typename Number>(Plane<Number>& cells) {
+        const auto width = static_cast<std::size_t>(model.grid.width);
+        const std::size_t places = width * static_cast<std::size_t>(model.grid.height);
+        for (std::size_t k = 0; k < places; ++k) {
+            cells.row(static_cast<std::int64_t>(k / width))[k % width] =
+                static_cast<Number>(values[model.order[std::min(k, values.size() - 1)]]);
+        }
+    });
+    return field;
 }
 
 Field in_one_row(const Field& field, const ModelCells& model) {

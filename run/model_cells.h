@@ -13,6 +13,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,20 @@ struct ModelAccess {
 Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& program,
                                                            const ModelAccess& access, Team& team,
                                                            RunControl& control);
+
+/// Coordinates of scripts, 0 … 1 along the longest side of the model's box and in the same scale along
+/// the others, and those of the model.
+struct ModelBox {
+    Vector3d low;
+    double longest = 0;  ///< In lengths of the model.
+
+    explicit ModelBox(const SurfaceMesh& mesh);
+    Vector3d in_model(Vector3d place) const { return low + place * longest; }
+    Vector3d in_script(Vector3d place) const { return (place - low) * (1 / longest); }
+};
+
+/// One value for each cell as a plane; what fills the last row is like the last cell.
+Field field_of_cells(std::span<const double> values, const ModelCells& model, Precision precision);
 
 /// A plane's cells in one row and in their own order, as files have them, and back, with those that
 /// fill the last row.

@@ -138,7 +138,7 @@ void apply_model(Script& script) {
         set_cells(model, *overrides.cells, span, script.diagnostics);
         set_model(*script.program, std::move(model));
     }
-    if (domain.model) check_on_model(*script.program, script.diagnostics);
+    check_on_domain(*script.program, script.diagnostics);
 }
 
 void apply_solver(Script& script) {

@@ -72,7 +72,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     if (auto enough = check_memory(self.grid, self.memory, options.memory_limit); !enough) {
         return tl::unexpected(enough.error());
     }
-    auto files = read_input_files(script);
+    auto files = read_input_files(script, self.model.get());
     if (!files) return tl::unexpected(files.error());
     self.files = std::move(*files);
     auto metric = metric_planes(*self.program);
@@ -88,6 +88,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     }
     self.team = std::make_unique<Team>(self.is_small() ? 1 : self.threads);
     self.states.resize(self.program->stages.size());
+    if (auto made = self.make_surface_values(options); !made) return tl::unexpected(made.error());
     if (auto found = self.find_mask(); !found) return tl::unexpected(found.error());
     return simulation;
 }

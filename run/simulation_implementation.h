@@ -33,6 +33,7 @@ struct Simulation::Implementation {
     std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
     std::optional<DomainMask> mask;
     std::shared_ptr<const ModelCells> model;  ///< None on grids.
+    std::unique_ptr<SurfaceValues> surface_values;  ///< None on grids.
     /// Values of sides follow the time of their stage whenever they are looked at.
     mutable std::vector<StageState> states;
     std::optional<Program> own_program;  ///< Of a coarser grid.
@@ -45,7 +46,7 @@ struct Simulation::Implementation {
     BindingContext context(std::uint32_t stage) const {
         for (StageState& state : states) set_sides_of_now(state);
         return {states, files, states[stage].steps, grid, precision(), states[stage].t, metric,
-                model.get(), inside()};
+                model.get(), inside(), surface_values.get()};
     }
 
     void set_sides_of_now(StageState& state) const {
@@ -75,6 +76,8 @@ struct Simulation::Implementation {
 
     /// Of a model: known before anything that depends on their number.
     Result<void> make_cells(const SimulationOptions& options);
+    /// What formulas of the program read of places on a model.
+    Result<void> make_surface_values(const SimulationOptions& options);
     /// Which cells belong to the domain: evaluated once, before any stage.
     Result<void> find_mask();
     /// Items that are the same in all cells, on a grid of one cell.

@@ -1,5 +1,6 @@
 // What a run and its stages start with: the mask of the domain, starting values, sides, and what no
 // step changes.
+#include "lang/models.h"
 #include "run/bind_side.h"
 #include "run/memory.h"
 #include "run/simulation_implementation.h"
@@ -29,6 +30,16 @@ Result<void> Simulation::Implementation::make_cells(const SimulationOptions& opt
     }
     domain.grid = grid = model->grid;
     domain.model->largest_weight = model->largest_weight;
+    return {};
+}
+
+Result<void> Simulation::Implementation::make_surface_values(const SimulationOptions& options) {
+    if (!model) return {};
+    RunControl nobody;
+    const std::atomic<bool>& cancel = (options.control != nullptr ? *options.control : nobody).cancel;
+    surface_values = std::make_unique<SurfaceValues>(*program, *model, *team);
+    surface_values->make(formulas_of(*program), cancel);
+    if (cancel) return failure("stopped while distances on the model were found");
     return {};
 }
 

@@ -160,6 +160,9 @@ std::string beginning_of_row(Function function) {
 
 std::string words_of(Arity arity) {
     const std::string least = std::to_string(arity.least);
+    if (arity.is_groups) {
+        return "groups of " + least + (arity.most > arity.least ? ", or one more" : "");
+    }
     return arity.least == arity.most ? least : least + " or " + std::to_string(arity.most);
 }
 

@@ -162,8 +162,8 @@ TEST(CheckFaults, ArgumentsAndTypes) {
                 ElementsAre("2:11: a text in quotes is expected here | \"leopard\""));
     EXPECT_THAT(system_faults("a' += field(\"a.npy\")"),
                 ElementsAre("2:7: field cannot stand here | it belongs in values (name: …)"));
-    EXPECT_THAT(stage_faults("ka: attr(1)"),
-                ElementsAre("2:5: 'attr' is not in this version of the language"));
+    EXPECT_THAT(stage_faults("ka: integral(1)"),
+                ElementsAre("2:5: 'integral' is not in this version of the language"));
 }
 
 TEST(CheckFaults, TimeBelongsInSteps) {
