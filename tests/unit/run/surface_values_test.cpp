@@ -108,10 +108,12 @@ TEST_F(SurfaceValuesTest, KeysGoOverIntoEachOther) {
         EXPECT_GE(found[cell], 3);
         EXPECT_LE(found[cell], 7);
         if (std::abs(place(cell).y - 0.5) < 0.03) {
-            EXPECT_NEAR(found[cell], 5, 0.8);
+            EXPECT_NEAR(found[cell], 5, 1.5);
             ++between;
         }
-        if (place(cell).y > 0.95) EXPECT_GT(found[cell], 6.5);
+        if (place(cell).y > 0.95) {
+            EXPECT_GT(found[cell], 6.5);
+        }
     }
     EXPECT_GT(between, 5u);
 }
@@ -179,7 +181,9 @@ TEST_F(SurfaceValuesTest, APaintedPictureLiesWhereTheTextureSays) {
         if (at.x > 0.625 && at.x < 0.875 && at.y > 0.625 && at.y < 0.875) {
             EXPECT_NEAR(found[k], 1, 1e-5);
         }
-        if (at.x > 0.125 && at.x < 0.375) EXPECT_NEAR(found[k], 0, 1e-5);
+        if (at.x > 0.125 && at.x < 0.375) {
+            EXPECT_NEAR(found[k], 0, 1e-5);
+        }
         if (at.y > 0.625 && at.y < 0.875 && at.x > 0.4 && at.x < 0.6) {
             EXPECT_NEAR(found[k], 4 * (at.x - 0.375), 1e-4);
         }
@@ -219,7 +223,7 @@ double speed_along_y(const ModelCells& model) {
 }
 
 // A tower: nearly all of it is four upright walls.
-const std::string tower = "surface: box(1, 8, 1); cells: 1500; ";
+const std::string tower = "surface: box(1, 8, 1); cells: 700; ";
 
 TEST_F(SurfaceValuesTest, HeatGoesFasterAlongTheDirections) {
     const auto speed = [&](const std::string& settings) {
@@ -244,25 +248,24 @@ TEST_F(SurfaceValuesTest, SpotsAreStretchedAlongTheDirections) {
     // three times as long as wide a tenth.
     const auto upright_part = [&](const std::string& settings) {
         const auto simulation = start(
-            tower + settings, "iterations: 3000\nka: 1/20\nbeta: random(12, 0.5)\n"
-                              "show: mean(dy(b)^2 over domain) / mean(grad2(b) over domain)\n");
+            "surface: box(4, 8, 0.5); cells: 2500; " + settings,
+            "iterations: 1000\nka: 1/20\nbeta: random(12, 0.5)\n"
+            "show: mean(dy(b)^2 over domain) / mean(dx(b)^2 + dy(b)^2 + dz(b)^2 over domain)\n");
         if (!simulation) return 0.0;
         RunControl control;
-        EXPECT_TRUE(simulation->advance_stage(0, 3000, control, [] {}, 3000));
+        EXPECT_TRUE(simulation->advance_stage(0, 1000, control, [] {}, 1000));
         const Field part = std::move(simulation->evaluate(script_.program->stages[0].show, 0)[0]);
         return part.number_at(0, 0);
     };
     const double round = upright_part("");
-    EXPECT_GT(round, 0.35);
-    EXPECT_LT(round, 0.6);
+    EXPECT_NEAR(round, 0.5, 0.08);
     const double along = upright_part("directions: axis(0, 1, 0); stretch: 3");
-    EXPECT_GT(along, 0.03);
-    EXPECT_LT(along, 0.22);
+    EXPECT_NEAR(along, 0.1, 0.04);
 }
 
 TEST_F(SurfaceValuesTest, CurvatureSaysADirection) {
     const auto speed = [&](const std::string& settings) {
-        const auto simulation = start("surface: torus(1, 0.15); cells: 1500; " + settings);
+        const auto simulation = start("surface: torus(1, 0.15); cells: 700; " + settings);
         if (!simulation) return 0.0;
         const ModelCells& model = *simulation->model();
         double along = 0, all = 0;
