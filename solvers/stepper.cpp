@@ -16,7 +16,7 @@ namespace {
 /// thread computes them in about 10 µs, a meeting takes about 1). Where cells have links they take
 /// longer.
 constexpr std::int64_t least_values_per_thread = 16384;
-constexpr std::int64_t least_linked_values_per_thread = 4096;
+constexpr std::int64_t least_linked_values_per_thread = 8192;
 
 int worthwhile_threads(const Grid& grid, std::size_t species, int most) {
     const std::int64_t values = grid.cell_count() * static_cast<std::int64_t>(species);
