@@ -116,6 +116,10 @@ Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
 
 /// What the header cannot describe is refused.
 Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
+    if (program.domain.model) {
+        return failure("a stage on a model is not compiled to an object file",
+                       "'cascade run' compiles it in memory; --grid makes its domain a plane");
+    }
     if (program.domain.precision != Precision::single) {
         return failure("a stage in double precision is not compiled to an object file",
                        "'cascade run' compiles it in memory; --precision single is compiled");

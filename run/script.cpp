@@ -126,6 +126,9 @@ void apply_model(Script& script) {
             script.diagnostics.error(model.span, "a run has a model or a grid, not both",
                                      "--cells is the number of cells on a model");
         }
+        if (domain.mask) {
+            script.diagnostics.warning(domain.mask->span, "a model has no mask: this is left aside");
+        }
         set_model(*script.program, std::move(model));
     }
     if (overrides.cells) {
