@@ -12,10 +12,15 @@
 #include "support/kernel_comparison.h"
 #include "support/random_kernels.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #if CASCADE_HAS_JIT
 
@@ -149,6 +154,54 @@ TEST(Agreement, HoweverStepsArePlanned) {
         }
     }
     EXPECT_GT(kept, 100u);
+}
+
+/// A torus of 16 by 8 quadrilaterals, whose triangles are quickly covered with cells.
+std::filesystem::path small_torus() {
+    std::string text;
+    for (int i = 0; i < 16; ++i) {
+        for (int j = 0; j < 8; ++j) {
+            const double a = i * std::numbers::pi / 8, b = j * std::numbers::pi / 4, r = 1 + 0.4 * std::cos(b);
+            text += fmt::format("v {} {} {}\n", r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b));
+        }
+    }
+    for (int i = 0; i < 16; ++i) {
+        for (int j = 0; j < 8; ++j) {
+            const int right = (i + 1) % 16 * 8 + 1, here = 8 * i + 1, up = (j + 1) % 8;
+            text += fmt::format("f {} {} {} {}\n", here + j, right + j, right + up, here + up);
+        }
+    }
+    const auto path = std::filesystem::path(::testing::TempDir()) / fmt::format("small_torus_{}.obj", getpid());
+    EXPECT_TRUE(write_file(path, text));
+    return path;
+}
+
+TEST(Agreement, RandomScriptsOnModels) {
+    static constexpr std::array<const char*, 5> domains = {"cells: 530", "cells: faces", "cells: 37; unit: 0.1",
+                                                           "cells: 1030; laplacian: turk", "cells: vertices"};
+    Overrides overrides;
+    overrides.model = small_torus().string();
+    overrides.model_is_asked_for = true;
+    int scripts = 0, failed = 0;
+    for (std::uint64_t seed = 0; seed < 20000 && scripts < 100; ++seed) {
+        std::string text = random_script(seed);
+        text.replace(0, text.find('\n'), fmt::format("domain {{ surface: sphere; {}; seed: {} }}",
+                                                     domains[seed % domains.size()], seed));
+        overrides.precision = seed % 3 == 0 ? Precision::binary64 : Precision::single;
+        // What has no meaning on a model is refused; of the rest those that read neighbours.
+        if (!load_script("random", text, ".", overrides).program) continue;
+        const bool reads_neighbours = text.find("lap(") != text.npos || text.find("grad") != text.npos;
+        if (!reads_neighbours) continue;
+        ++scripts;
+        const Outcome expected = run_script("random", text, overrides, interpreted());
+        const int lanes = 4 << (scripts % 3), threads = 1 + scripts % 2;
+        expect_same(expected, run_script("random", text, overrides, compiled(lanes, threads)), text);
+        failed += expected.failure.empty() ? 0 : 1;
+        if (::testing::Test::HasFailure()) break;
+    }
+    std::filesystem::remove(*overrides.model);
+    EXPECT_EQ(scripts, 100);
+    EXPECT_LT(failed, 70);
 }
 
 std::vector<std::filesystem::path> examples() {
