@@ -1,0 +1,74 @@
+// The library of systems on a small model, and stopped runs on one.
+#include "lang/library.h"
+#include "resumed_run.h"
+#include "run/simulation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace cascade {
+namespace {
+
+class ModelLibraryTest : public ResumedRunTest {
+protected:
+    void SetUp() override {
+        ResumedRunTest::SetUp();
+        std::string text;
+        for (int i = 0; i < 16; ++i) {
+            for (int j = 0; j < 8; ++j) {
+                const double a = i * std::numbers::pi / 8, b = j * std::numbers::pi / 4, r = 1 + 0.4 * std::cos(b);
+                text += fmt::format("v {} {} {}\n", r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b));
+            }
+        }
+        for (int i = 0; i < 16; ++i) {
+            for (int j = 0; j < 8; ++j) {
+                const int right = (i + 1) % 16 * 8 + 1, here = 8 * i + 1, up = (j + 1) % 8;
+                text += fmt::format("f {} {} {} {}\n", here + j, right + j, right + up, here + up);
+            }
+        }
+        ASSERT_TRUE(write_file(path("torus.obj"), text));
+    }
+};
+
+TEST_F(ModelLibraryTest, EverySystemTakesStepsOrIsRefusedInWords) {
+    std::size_t run = 0;
+    for (const LibraryText& each : library_texts()) {
+        Script script = load(fmt::format("domain {{ mesh: \"torus.obj\"; cells: 300 }}\n"
+                                         "stage only: {} {{ iterations: 20 }}\n", each.system_name()));
+        if (!script.program) {
+            EXPECT_NE(script.messages(false).find("on a model"), std::string::npos) << script.messages(false);
+            continue;
+        }
+        ++run;
+        auto simulation = Simulation::create(script, {BackendKind::interpreter, 0, 1});
+        ASSERT_TRUE(simulation) << each.system_name() << simulation.error().message;
+        const auto started = (*simulation)->start_stage(0);
+        ASSERT_TRUE(started) << each.system_name() << started.error().message;
+        RunControl control;
+        const auto end = (*simulation)->advance_stage(0, 20, control, {});
+        EXPECT_TRUE(end) << each.system_name() << ": " << (end ? "" : end.error().message);
+    }
+    EXPECT_GT(run, library_texts().size() / 2);
+}
+
+TEST_F(ModelLibraryTest, StoppedRunsEndInTheSameBits) {
+    const std::string text = "domain { mesh: \"torus.obj\"; cells: 700; seed: 3 }\n"
+                             "stage one: turing_spots { iterations: 300 }\n"
+                             "stage two: gray_scott { iterations: 100; solver: rkl1 }\n";
+    run_whole(text);
+    run_in_two_parts(text, "two", 40);
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(path("whole"))) {
+        if (entry.path().extension() != ".npy") continue;
+        ++files;
+        EXPECT_EQ(read_file(entry.path(), 1u << 30).value(),
+                  read_file(path("rest") / entry.path().filename(), 1u << 30).value_or(""))
+            << entry.path().filename();
+    }
+    EXPECT_GT(files, 2u);
+}
+
+}  // namespace
+}  // namespace cascade
