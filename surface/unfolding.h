@@ -45,15 +45,14 @@ public:
         FlatTriangle flat;
     };
 
-    /// Can what lies at this distance in the plane from the place be the image of what lies in space
-    /// where the square of the distance from it is `square_in_space`? A tenth is allowed for, as unfolding
-    /// is not exact.
+    /// Whether what lies in the plane at a distance of this square from the place can be the image of what
+    /// lies in space at one of that square. A tenth is allowed for, as unfolding is not exact.
     static bool is_image(double square_in_plane, double square_in_space) {
         return square_in_plane >= 0.81 * square_in_space;
     }
 
-    /// All triangles that a way no longer than `radius` reaches from the place, which is the origin; directions are those of the
-    /// frame of its triangle. Valid until the next call.
+    /// All triangles that a way no longer than `radius` reaches from the place, which is the origin;
+    /// directions are those of the frame of its triangle. Valid until the next call.
     std::span<const Piece> around(const SurfacePlace& place, double radius);
 
     /// Of the patch that was unfolded last: is it all that hangs together with the place?
