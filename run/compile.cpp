@@ -138,6 +138,10 @@ Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
                            "'cascade run' compiles it in memory");
         }
     }
+    if (program.domain.model) {
+        return failure("a stage on a model is not compiled to an object file",
+                       "'cascade run' compiles it in memory");
+    }
     if (program.domain.mask) {
         return failure("a domain with a mask is not compiled to an object file",
                        "'cascade run' compiles it in memory");

@@ -191,7 +191,8 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             if (!species) return tl::unexpected(species.error());
             simulation.set_species(k, std::move(*species), steps, done);
             if (!stages[k].contains("time")) continue;
-            const auto time = saved_time_from(stages[k].at("time"));
+            const auto time = saved_time_from(
+                stages[k].at("time"), script.program->stages[k].time.solver);
             if (!time) return tl::unexpected(damaged(folder, "its time makes no sense"));
             SteadyWatch watch;
             if (time->last_look) {

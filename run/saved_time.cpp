@@ -1,6 +1,7 @@
 #include "run/saved_time.h"
 
 #include "ir/solver.h"
+#include "run/stage_time.h"
 
 #include <nlohmann/json.hpp>
 
@@ -19,13 +20,18 @@ bool makes_sense(const Formation& formation) {
            is_length(formation.speed);
 }
 
-bool makes_sense(const SavedTime& saved) {
+/// Stages of a stabilised solver are odd; steps of others on models are split into any number of parts.
+bool makes_sense(std::uint32_t stages, Solver solver) {
+    if (!is_stabilised(solver)) return stages <= most_substeps;
+    return stages <= most_stages && (stages == 0 || stages % 2 == 1);
+}
+
+bool makes_sense(const SavedTime& saved, Solver solver) {
     const StageClock& clock = saved.state.clock;
     const StepControl::State& control = saved.state.control;
     return is_length(saved.t) && is_length(clock.base_time) && is_length(clock.step) &&
            clock.base_step >= 0 && is_length(control.step) && is_length(control.error_before) &&
-           control.error_before > 0 && saved.state.stages <= most_stages &&
-           (saved.state.stages == 0 || saved.state.stages % 2 == 1) &&
+           control.error_before > 0 && makes_sense(saved.state.stages, solver) &&
            (!saved.last_look || is_length(*saved.last_look)) &&
            std::all_of(saved.formations.begin(), saved.formations.end(),
                        [](const Formation& formation) { return makes_sense(formation); });
@@ -69,7 +75,7 @@ nlohmann::json to_json(const StageState& state) {
     return json;
 }
 
-std::optional<SavedTime> saved_time_from(const nlohmann::json& json) {
+std::optional<SavedTime> saved_time_from(const nlohmann::json& json, Solver solver) {
     SavedTime saved;
     json.at("t").get_to(saved.t);
     json.at("base_step").get_to(saved.state.clock.base_step);
@@ -85,7 +91,7 @@ std::optional<SavedTime> saved_time_from(const nlohmann::json& json) {
             saved.formations.push_back(formation_from(each));
         }
     }
-    if (!makes_sense(saved)) return std::nullopt;
+    if (!makes_sense(saved, solver)) return std::nullopt;
     return saved;
 }
 

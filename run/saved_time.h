@@ -19,7 +19,7 @@ struct SavedTime {
 
 nlohmann::json to_json(const StageState& state);
 
-/// Throws what the JSON library throws; empty where a number cannot be meant.
-std::optional<SavedTime> saved_time_from(const nlohmann::json& json);
+/// Of a stage with this solver. Throws what the JSON library throws; empty where a number cannot be meant.
+std::optional<SavedTime> saved_time_from(const nlohmann::json& json, Solver solver);
 
 }  // namespace cascade

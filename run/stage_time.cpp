@@ -71,7 +71,7 @@ bool StageTimer::chooses() const {
 /// script that is stable on the plane has to be so there. Explicit Euler is stable up to 2 over the largest
 /// eigenvalue.
 std::uint32_t StageTimer::substeps(const Program& program, std::uint32_t stage) const {
-    constexpr double most = 10000, safety = 0.95;
+    constexpr double safety = 0.95;
     const bool is_split = stage_.time.solver == Solver::euler && !stage_.time.automatic_speed &&
                           uniform_speed_;
     if (!is_split) return state_.time.stages;
@@ -83,7 +83,7 @@ std::uint32_t StageTimer::substeps(const Program& program, std::uint32_t stage) 
     }
     if (!std::isfinite(decay)) return state_.time.stages;
     const double parts = std::ceil(speed_ * decay / (2 * safety));
-    return parts > 1 && parts <= most ? static_cast<std::uint32_t>(parts) : 0;
+    return parts > 1 && parts <= most_substeps ? static_cast<std::uint32_t>(parts) : 0;
 }
 
 const StepProblem& StageTimer::problem() { return problem_of(state_.time.stages); }

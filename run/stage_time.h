@@ -14,6 +14,9 @@
 
 namespace cascade {
 
+/// Into how many a step on a model is split at most.
+inline constexpr std::uint32_t most_substeps = 10000;
+
 /// Computes some numbers from the present values.
 using NumberSource = std::function<std::vector<double>()>;
 

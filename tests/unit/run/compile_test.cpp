@@ -342,6 +342,11 @@ TEST_F(CompileTest, WrongRequestsAreRefusedInWords) {
     EXPECT_NE(refused(two_stages, {.target = "pentium-of-sorts"}).message, "");
 }
 
+TEST_F(CompileTest, ModelsAreRefused) {
+    EXPECT_EQ(refused("domain { surface: sphere; cells: 50 }\nstage one: turing_spots { }").message,
+              "a stage on a model is not compiled to an object file");
+}
+
 TEST_F(CompileTest, SidesOfAnotherStageAreRefused) {
     const std::string text = "system s { u: x; u' = lap(u); u.left: fixed(1) }\n"
                              "stage one: s { speed: 0.1 }\n"

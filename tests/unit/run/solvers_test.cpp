@@ -277,6 +277,19 @@ TEST_F(SolversRun, ResumeWithTheSameBits) {
     }
 }
 
+TEST_F(SolversRun, StepsThatAreSplitOnAModelResumeWithTheSameBits) {
+    // Weights sum to 4, so that what decays most does so at 8 * 0.4.
+    for (const auto& [speed, parts] : {std::pair{1, 2}, {2, 4}, {4, 7}}) {
+        const std::string text = fmt::format(
+            "system heat {{ u: sx; u' = 0.4 * lap(u) }}\ndomain {{ surface: box; cells: 60; laplacian: turk }}\n"
+            "stage one: heat {{ speed: {}; iterations: 9 }}", speed);
+        run_whole(text);
+        EXPECT_THAT(bytes("whole/run.json"), HasSubstr(fmt::format("\"stages\": {},", parts)));
+        run_in_two_parts(text, "one", 4);
+        EXPECT_EQ(bytes("whole/one.u.npy"), bytes("rest/one.u.npy")) << speed;
+    }
+}
+
 TEST(Solvers, LegendreGrowsTheSameSpotsAsEuler) {
     const auto spots = [](const Overrides& overrides) {
         SimulationOptions options;
