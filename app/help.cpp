@@ -42,6 +42,7 @@ const std::string_view run_examples = R"(Examples:
   cascade run --resume half                          the same bits as without the stop
   cascade run line.cascade --space-time              one dimension, time runs downwards
   cascade run coral.cascade --log 'mean(v over domain)' --features
+  cascade run coral.cascade --mesh horse.ply --up z -o coral.png -o coral.glb
 
 Ctrl-C stops at a complete step and writes what there is; a second one leaves at once.)";
 

@@ -122,6 +122,15 @@ void add_picture_options(CLI::App& app, PictureChanges& picture) {
               "Of a surface: from where it is seen, in degrees around\nit and above the horizon",
               parse_view, [&](auto view) { picture.view = view; })
         ->group(group);
+    add_value(app, "--up", "x|y|z", "Of a model: what points upwards; without it y",
+              one_of({"x", "y", "z"}),
+              [&](const std::string& up) { picture.up = static_cast<Axis>(up[0] - 'x'); })
+        ->group(group);
+    add_value(app, "--bump", "S",
+              "Of a model: what is shown stands out, by up to S times\nthe model's longest side, "
+              "such as 0.02",
+              parse_bump, [&](float bump) { picture.bump = bump; })
+        ->group(group);
     app.add_flag("--space-time", picture.space_time,
                  "A line of cells over time: a row of pixels for each\ninterval")
         ->group(group);
@@ -129,8 +138,18 @@ void add_picture_options(CLI::App& app, PictureChanges& picture) {
 
 void add_files(CLI::App& app, RunRequest& run) {
     const std::string group = "Files";
-    add_value(app, "-o,--output", "FILE.png", "The picture; without it SCRIPT.png in this folder",
-              parse_png_path, [&](auto path) { run.output = path; })
+    app.add_option_function<std::vector<std::string>>(
+           "-o,--output",
+           [&](const std::vector<std::string>& paths) {
+               for (const std::string& path : paths) {
+                   run.outputs.emplace_back(value_or_throw(parse_output_path(path), "--output"));
+               }
+           },
+           "The picture, .png; without it SCRIPT.png in this\nfolder; of a model also .ply, .obj, "
+           ".glb, .vtp, and its\ncells .npz, .cells.vtp; may be given again")
+        ->allow_extra_args(false)
+        ->trigger_on_parse()
+        ->type_name("FILE")
         ->group(group);
     add_value(app, "--sheet", "FILE.png", "All species of all stages in one labelled picture",
               parse_png_path, [&](auto path) { run.sheet = path; })
@@ -143,6 +162,21 @@ void add_files(CLI::App& app, RunRequest& run) {
         ->group(group);
     add_value(app, "--save", "FOLDER", "Every field as STAGE.NAME.npy, to read or to resume",
               any_text, [&](auto path) { run.save = path; })
+        ->group(group);
+    add_value(app, "--turntable", "N", "Pictures from N places around, as NAME-001.png, …",
+              whole_number(1, 9999), [&](auto count) { run.turntable = static_cast<int>(count); })
+        ->group(group);
+    app.add_flag("--retile", run.model_files.retile,
+                 "Models as triangles between their cells, instead of\ntheir own triangles refined")
+        ->group(group);
+    add_value(app, "--bake", "N",
+              "A model .glb with maps of N x N texels, which are\nwritten beside it too; by the "
+              "model's texture coordinates",
+              whole_number(1, ModelFileOptions::most_texels),
+              [&](auto texels) { run.model_files.bake = texels; })
+        ->group(group);
+    add_value(app, "--cache", "FOLDER", "Keep the cells of models there, for the next run",
+              any_text, [&](auto path) { run.simulation.cell_cache = path; })
         ->group(group);
     add_value(app, "--resume", "FOLDER", "Go on with a run that --save wrote", any_text,
               [&](auto path) { run.resume = path; })

@@ -184,6 +184,19 @@ Result<std::string> parse_choice(std::string_view text, std::span<const std::str
                    near.empty() ? "" : fmt::format("did you mean '{}'?", near));
 }
 
+Result<float> parse_bump(std::string_view text) {
+    float bump = 0;
+    if (read_all(text, bump) && std::abs(bump) <= 1) return bump;
+    return failure(fmt::format("'{}' is not a number from -1 to 1", text),
+                   "it is a part of the model's longest side, as in --bump 0.02");
+}
+
+Result<std::string> parse_output_path(std::string_view text) {
+    if (output_kind(std::filesystem::path(text))) return std::string(text);
+    return failure(fmt::format("'{}' does not end in .png", text),
+                   "on models .ply, .obj, .glb and .vtp are models, .npz and .cells.vtp their cells");
+}
+
 Result<std::string> parse_png_path(std::string_view text) {
     return path_with_ending(text, ".png", "pictures are written as PNG files");
 }

@@ -51,6 +51,11 @@ Result<std::vector<std::string>> parse_names(std::string_view text);
 /// One of `choices`; a failure lists them and names the nearest.
 Result<std::string> parse_choice(std::string_view text, std::span<const std::string> choices);
 
+/// "0.02": how far bumps stand out, −1 … 1.
+Result<float> parse_bump(std::string_view text);
+
+/// The path of what `run -o` writes: see output_kind.
+Result<std::string> parse_output_path(std::string_view text);
 /// The path of a picture to be written: it must end in .png.
 Result<std::string> parse_png_path(std::string_view text);
 /// The path of a volume to be written: it must end in .vti.

@@ -32,6 +32,8 @@ struct PictureChanges {
     std::optional<Slice> slice;
     bool flat = false;
     std::optional<View> view;
+    std::optional<Axis> up;
+    std::optional<float> bump;
 };
 
 PictureRequest apply(const PictureChanges& changes, PictureRequest request);

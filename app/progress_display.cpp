@@ -128,6 +128,13 @@ ProgressDisplay::ProgressDisplay(Kind kind, Output output)
 
 void ProgressDisplay::show(const Progress& progress) {
     if (kind_ == Kind::none) return;
+    if (!progress.doing.empty()) {
+        // Lines are for what has an end in sight; this is over before the first of them.
+        if (kind_ != Kind::bar || width_of(progress.doing) + 2 >= output_.columns()) return;
+        output_.write("\r\x1b[2K" + progress.doing + " …");
+        drawn_ = true;
+        return;
+    }
     if (progress.stage_number != stage_) {
         stage_ = progress.stage_number;
         stage_begun_ = last_line_ = output_.now();

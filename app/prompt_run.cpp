@@ -1,6 +1,7 @@
 // What the prompt does with a run: starting, stepping, showing, saving.
 #include "app/prompt_session.h"
 
+#include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/option_values.h"
 #include "app/progress_display.h"
@@ -28,6 +29,42 @@ bool same_species(const System& first, const System& second) {
     return names[0] == names[1];
 }
 
+/// Are two domains the same cells of a model, or both no model?
+bool same_cells(const std::shared_ptr<const ModelCells>& first,
+                const std::shared_ptr<const ModelCells>& second) {
+    if (!first || !second) return !first && !second;
+    return first->mesh.triangles == second->mesh.triangles && first->cells.areas == second->cells.areas &&
+           first->cells.ends == second->cells.ends;
+}
+
+/// A run that the user sees and can stop.
+struct WatchedRun {
+    RunControl control;
+    ProgressDisplay display;
+    InterruptGuard interrupt{control.cancel};
+
+    explicit WatchedRun(Console& console)
+        : display(make_progress_display(console, !console.error().is_terminal)) {
+        control.report = [this](const Progress& progress) { display.show(progress); };
+        control.warn = [this, &console](const std::string& message) {
+            display.clear();
+            console.warn(message);
+        };
+    }
+    WatchedRun(const WatchedRun&) = delete;
+    WatchedRun& operator=(const WatchedRun&) = delete;
+};
+
+/// The cells of a model may take a while.
+Result<std::unique_ptr<Simulation>> create_simulation(Script& script, SimulationOptions options,
+                                                      Console& console) {
+    WatchedRun watched(console);
+    options.control = &watched.control;
+    auto created = Simulation::create(script, options);
+    watched.display.clear();
+    return created;
+}
+
 std::vector<Field> copies(const std::vector<Field>& fields) {
     std::vector<Field> result;
     for (const Field& field : fields) result.push_back(field.clone());
@@ -39,11 +76,12 @@ std::vector<Field> copies(const std::vector<Field>& fields) {
 /// A simulation of a changed script that goes on where the present one is. Parameters are computed
 /// anew; species and steps are kept for the first stages that are alike.
 Result<std::unique_ptr<Simulation>> PromptSession::carry_over(Script& script) const {
-    auto created = Simulation::create(script, options_);
+    auto created = create_simulation(script, options_, console_);
     if (!created) return created;
     Simulation& simulation = **created;
     const Program& before = *script_->program;
     const Program& after = *script.program;
+    if (!same_cells(simulation_->model(), simulation.model())) return created;
     if (!(before.domain.grid == after.domain.grid) || before.domain.seed != after.domain.seed ||
         before.domain.precision != after.domain.precision) {
         return created;
@@ -74,7 +112,7 @@ bool PromptSession::has_something_to_run() {
 bool PromptSession::make_simulation() {
     if (simulation_) return true;
     if (!has_something_to_run()) return false;
-    auto simulation = Simulation::create(*script_, options_);
+    auto simulation = create_simulation(*script_, options_, console_);
     Result<void> started;
     if (simulation) started = (*simulation)->start_stage(0);
     if (!simulation || !started) {
@@ -110,18 +148,7 @@ void PromptSession::run(const std::string& count) {
 
 /// Goes on for so many steps, from stage to stage. False where a run failed.
 bool PromptSession::advance(std::int64_t steps) {
-    RunControl control;
-    const Stream stream = console_.error();
-    ProgressDisplay display(
-        stream.is_terminal ? ProgressDisplay::Kind::bar : ProgressDisplay::Kind::none,
-        {[stream](std::string_view text) { (void)stream.write(text); },
-         [stream] { return stream.columns(); }, [] { return std::chrono::steady_clock::now(); }});
-    control.report = [&](const Progress& progress) { display.show(progress); };
-    control.warn = [&](const std::string& message) {
-        display.clear();
-        console_.warn(message);
-    };
-    const InterruptGuard interrupt(control.cancel);
+    WatchedRun watched(console_);
     for (std::uint32_t k = 0; k < script_->stage_count() && steps > 0; ++k) {
         if (simulation_->state(k).done) continue;
         Result<StageEnd> end = StageEnd::finished;
@@ -133,8 +160,8 @@ bool PromptSession::advance(std::int64_t steps) {
         const std::int64_t before = simulation_->state(k).steps;
         const std::int64_t iterations = script_->program->stages[k].iterations;
         const std::int64_t last = before + std::min(steps, iterations - before);
-        if (end) end = simulation_->advance_stage(k, last, control, {});
-        display.clear();
+        if (end) end = simulation_->advance_stage(k, last, watched.control, {});
+        watched.display.clear();
         if (!end) {
             console_.fail(end.error());
             return false;

@@ -75,14 +75,14 @@ int tell(const RunReport& report, const Options& options, int signal, bool limit
         console.say(fmt::format("stopped at {}\n", report.where));
     }
     if (report.status != RunStatus::cancelled) return exit_status::success;
+    const char* const written =
+        report.has_begun ? "what there is has been written" : "nothing has been written";
     if (limit_reached) {
-        console.say(fmt::format("cascade: the limit of {} is reached at {}; what there is has been "
-                                "written\n",
-                                describe_duration(options.limit_seconds), report.where));
+        console.say(fmt::format("cascade: the limit of {} is reached at {}; {}\n",
+                                describe_duration(options.limit_seconds), report.where, written));
         return exit_status::time_limit;
     }
-    console.say(fmt::format("cascade: interrupted at {}; what there is has been written\n",
-                            report.where));
+    console.say(fmt::format("cascade: interrupted at {}; {}\n", report.where, written));
     return exit_status::signal_base + signal;
 }
 
@@ -117,7 +117,7 @@ int run_command(const Options& options, Console& console) {
         request.picture = std::move(*stored);
     }
     request.picture = apply(options.picture, std::move(request.picture));
-    if (request.output.empty() && script.name.starts_with("<")) request.output = "cascade.png";
+    if (request.outputs.empty() && script.name.starts_with("<")) request.outputs = {"cascade.png"};
 
     RunControl control;
     ProgressDisplay display = make_progress_display(console, options.quiet);
@@ -125,6 +125,10 @@ int run_command(const Options& options, Console& console) {
     control.warn = [&](const std::string& message) {
         display.clear();
         if (!options.quiet) console.warn(message);
+    };
+    control.note = [&](const std::string& message) {
+        display.clear();
+        if (!options.quiet) console.say(message + "\n");
     };
     const InterruptGuard interrupt(control.cancel);
     const TimeLimit limit(options.limit_seconds, control.cancel);

@@ -10,6 +10,7 @@ namespace cascade {
 
 /// How far a stage is. Sent now and then (some ten times a second), and at a stage's end.
 struct Progress {
+    std::string doing;           ///< What goes on where no stage runs; then nothing else means anything.
     std::string stage;           ///< The stage's name.
     std::string note;            ///< What is to be said behind it; mostly nothing.
     int stage_number = 1;        ///< From 1.
@@ -30,6 +31,8 @@ struct RunControl {
     std::function<void(const Progress&)> report;
     /// Remarks that do not stop the run (the chequerboard warning, a kernel that is interpreted).
     std::function<void(const std::string& message)> warn;
+    /// What is good to know, and nothing is wrong with.
+    std::function<void(const std::string& message)> note;
 };
 
 }  // namespace cascade

@@ -43,13 +43,6 @@ public:
           slopes_(relief_.width, relief_.height) {}
 
     Result<Bake> run(Team& team, const std::atomic<bool>& cancel) {
-        if (layout_.covered_area() > most_covered_area) {
-            return failure(fmt::format("the model's texture coordinates cover the texture {:.0f} "
-                                       "times over",
-                                       layout_.covered_area()),
-                           "they are meant for a picture that repeats; give every part of the model "
-                           "a place of its own");
-        }
         std::vector<Scratch> scratch;
         for (int k = 0; k < team.size(); ++k) scratch.push_back(make_scratch());
         const std::int64_t bands = (options_.height + rows_of_band - 1) / rows_of_band;
@@ -275,6 +268,19 @@ private:
 
 }  // namespace
 
+Result<void> check_bakeable(const SurfaceMesh& mesh) {
+    if (mesh.texture.empty()) {
+        return failure("the model has no texture coordinates to paint by",
+                       "give it some in a modeller, or write colours of its points");
+    }
+    const double covered = TextureLayout(mesh, 1, 1).covered_area();
+    if (covered <= most_covered_area) return {};
+    return failure(fmt::format("the model's texture coordinates cover the texture {:.0f} times over",
+                               covered),
+                   "they are meant for a picture that repeats; give every part of the model a place "
+                   "of its own");
+}
+
 Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel) {
     const auto is_side = [](std::int64_t side) {
@@ -283,11 +289,8 @@ Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const Paint
     CHECK(is_side(options.width) && is_side(options.height) && options.samples >= 1 &&
               options.samples <= 8,
           "the size of a texture is checked where it is given");
-    if (mesh.texture.empty()) {
-        return failure("the model has no texture coordinates to paint by",
-                       "give it some in a modeller, or write colours of its points");
-    }
     try {
+        if (auto good = check_bakeable(mesh); !good) return tl::unexpected(good.error());
         return TextureBaker(mesh, filter, cells, options).run(team, cancel);
     } catch (const std::bad_alloc&) {
         return failure(fmt::format("there is not enough memory for a texture of {} × {}",

@@ -33,11 +33,14 @@ struct Bake {
     std::vector<std::string> warnings;  ///< A sentence each.
 };
 
+/// Has the model texture coordinates to paint by? Fails, with a hint, where it has none, and where they
+/// cover the texture again and again, as those of pictures that repeat do.
+Result<void> check_bakeable(const SurfaceMesh& mesh);
+
 /// Paints every texel with the mean, as amounts of light, over its samples on the surface, and all others by
 /// going on from those. Texture coordinates beyond 0 … 1 repeat the picture. Heights that are not finite are
-/// taken from around. The same on any number of threads. Fails, with a hint, on a model without texture
-/// coordinates and on coordinates that are of no use, and where memory is short; gives what means nothing if
-/// `cancel` became true.
+/// taken from around. The same on any number of threads. Fails as check_bakeable does, on coordinates that
+/// have no area, and where memory is short; gives what means nothing if `cancel` became true.
 Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel);
 

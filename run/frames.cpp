@@ -40,16 +40,16 @@ Result<FrameRecorder> FrameRecorder::create(const std::filesystem::path& folder,
 void FrameRecorder::record(const Canvas& canvas, const std::string& stage, std::int64_t step) {
     if (failure_) return;
     layout_ = canvas.fields[0].layout();
-    if (!canvas.is_colour()) range_ = join(range_, value_range(canvas.fields[0]));
-    frames_.push_back({stage, step, canvas.fields.size()});
+    if (const Field* number = canvas.number()) range_ = join(range_, value_range(*number));
+    frames_.push_back({stage, step, canvas.fields.size(), !canvas.relief.empty()});
     if (file_) {
-        for (const Field& field : canvas.fields) {
-            const std::size_t count = plane_size(layout_);
-            if (std::fwrite(storage(field), sizeof(float), count, file_.get()) != count) {
-                failure_ = Failure{"the frames do not fit into the folder for temporary files",
-                                   "ask for a larger interval"};
-                return;
-            }
+        bool is_kept = true;
+        for (const Field& field : canvas.fields) is_kept = is_kept && keep(field);
+        if (!canvas.relief.empty()) is_kept = is_kept && keep(canvas.relief);
+        if (!is_kept) {
+            failure_ = Failure{"the frames do not fit into the folder for temporary files",
+                               "ask for a larger interval"};
+            return;
         }
     }
     if (keep_rows_) {
@@ -59,15 +59,21 @@ void FrameRecorder::record(const Canvas& canvas, const std::string& stage, std::
     }
 }
 
+bool FrameRecorder::keep(const Field& field) {
+    const std::size_t count = plane_size(layout_);
+    return std::fwrite(storage(field), sizeof(float), count, file_.get()) == count;
+}
+
 Result<Canvas> FrameRecorder::read_back(const Frame& frame) {
     Canvas canvas;
-    for (std::size_t plane = 0; plane < frame.planes; ++plane) {
+    for (std::size_t plane = 0; plane < frame.planes + (frame.has_relief ? 1 : 0); ++plane) {
         Field field(layout_);
         const std::size_t count = plane_size(layout_);
         if (std::fread(storage(field), sizeof(float), count, file_.get()) != count) {
             return cascade::failure("the frames cannot be read back");
         }
-        canvas.fields.push_back(std::move(field));
+        if (plane < frame.planes) canvas.fields.push_back(std::move(field));
+        else canvas.relief = std::move(field);
     }
     return canvas;
 }

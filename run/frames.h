@@ -38,11 +38,13 @@ private:
         std::string stage;
         std::int64_t step = 0;
         std::size_t planes = 1;
+        bool has_relief = false;   ///< In one more plane.
     };
     struct CloseFile {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
 
+    bool keep(const Field& field);
     Result<Canvas> read_back(const Frame& frame);
 
     std::filesystem::path folder_;

@@ -1,9 +1,12 @@
 #include "run/model_cells.h"
 
 #include "core/check.h"
+#include "core/file.h"
+#include "core/with_commas.h"
 #include "ir/word_format.h"
 #include "lang/evaluate.h"
 #include "lang/models.h"
+#include "surface/cell_file.h"
 #include "surface/cell_gradient.h"
 #include "surface/cell_order.h"
 #include "surface/creature.h"
@@ -128,12 +131,13 @@ public:
         : program_(program), settings_(*program.domain.model), team_(team), control_(control) {}
 
     Result<std::shared_ptr<const ModelCells>> make(const ModelAccess& access) {
-        report("reading");
+        report("making the surface");
         Result<MadeMesh> made = make_surface(settings_, access, control_.cancel);
         if (!made) return tl::unexpected(made.error());
+        if (control_.cancel) return std::shared_ptr<const ModelCells>();
         model_->mesh = std::move(made->mesh);
         model_->repairs = std::move(made->repairs);
-        if (auto spread = spread_cells(); !spread) return tl::unexpected(spread.error());
+        if (auto spread = spread_cells(access.cache); !spread) return tl::unexpected(spread.error());
         if (control_.cancel) return std::shared_ptr<const ModelCells>();
         model_->grid = rows_of_cells(static_cast<std::int64_t>(model_->count()));
         measure();
@@ -141,16 +145,14 @@ public:
     }
 
 private:
-    void report(const char* what) {
+    void report(std::string what) {
         if (!control_.report) return;
         Progress progress;
-        progress.stage = what;
-        progress.note = "cells";
+        progress.doing = std::move(what);
         control_.report(progress);
     }
 
-    Result<void> spread_cells() {
-        report("spreading");
+    Result<void> spread_cells(const std::filesystem::path& cache) {
         CellOptions options;
         options.kind = kind_of(settings_.cells);
         options.count = static_cast<std::uint64_t>(settings_.count);
@@ -167,11 +169,34 @@ private:
             return failure(fmt::format("making these cells takes {}, more than is free",
                                        describe_bytes(bytes)), "fewer cells: --cells");
         }
-        auto made = make_cells(model_->mesh, options, team_, control_.cancel);
+        report(fmt::format("spreading {} cells", with_commas(static_cast<std::int64_t>(
+                                                     count_cells(model_->mesh, options)))));
+        const bool is_kept = !cache.empty() && options.kind == CellKind::places;
+        auto made = is_kept ? cells_kept_in(cache, options)
+                            : make_cells(model_->mesh, options, team_, control_.cancel);
         if (!made) return tl::unexpected(made.error());
-        if (control_.cancel) return {};
         model_->cells = *std::move(made);
         return {};
+    }
+
+    /// From a file in the folder, or made and written there. Results are the same either way, so that
+    /// a file which cannot be written is no reason to stop.
+    Result<SurfaceCells> cells_kept_in(const std::filesystem::path& cache,
+                                       const CellOptions& options) {
+        const auto path = cache / (key_of(model_->mesh, options).text() + ".cells");
+        const auto folder = make_folder(cache);
+        auto kept = kept_cells(path, model_->mesh, options, team_, control_.cancel);
+        if (!kept) return tl::unexpected(kept.error());
+        if (control_.cancel) return std::move(kept->cells);
+        const std::string why = folder ? kept->not_kept : folder.error().message;
+        if (kept->were_kept) {
+            if (control_.note) control_.note("took the cells from " + path.string());
+        } else if (why.empty()) {
+            if (control_.note) control_.note("kept the cells in " + path.string());
+        } else if (control_.warn) {
+            control_.warn("the cells are not kept: " + why);
+        }
+        return std::move(kept->cells);
     }
 
     /// Planes and links.

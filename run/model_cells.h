@@ -51,10 +51,11 @@ struct ModelAccess {
     std::filesystem::path folder;  ///< Paths are relative to it.
     ReadAccess reads;
     bool is_asked_for = false;     ///< On the command line: the file may lie anywhere.
+    std::filesystem::path cache;   ///< Where cells that are spread are kept; empty: nowhere.
 };
 
 /// Reads or makes the model, spreads its cells and links them. Fails, in words, on a file that cannot be
-/// used, on more cells than memory and on fewer than pieces; the result is empty where it was cancelled.
+/// used, on more cells than memory and on fewer than pieces; what it returns means nothing if it was cancelled.
 /// The same on any number of threads.
 Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& program,
                                                            const ModelAccess& access, Team& team,

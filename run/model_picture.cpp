@@ -25,13 +25,24 @@ ModelLook::ModelLook(const ModelCells& model, const Canvas& canvas, ValueRange r
     };
 }
 
+void ModelLook::raise(const ModelCells& model, const Field& number, ValueRange range, float bump) {
+    const MeshFacts facts = facts_of(model.mesh);
+    const Vector3d size = facts.high - facts.low;
+    const double most = static_cast<double>(bump) * std::max({size.x, size.y, size.z});
+    heights.clear();
+    for (const double value : cell_values(number, model)) {
+        const double part = position_in(range, static_cast<float>(value));
+        heights.push_back(static_cast<float>(most * std::clamp(part, 0.0, 1.0)));
+    }
+}
+
 ModelDrawer::ModelDrawer(std::shared_ptr<const ModelCells> model)
     : model_(std::move(model)),
       team_(hardware_threads()),
       scene_(model_->mesh, model_->cells, team_) {}
 
 Image ModelDrawer::draw(const ModelLook& look, const DrawOptions& options) const {
-    return scene_.draw({look.channels, look.values, look.colour, {}}, options, team_);
+    return scene_.draw({look.channels, look.values, look.colour, look.heights}, options, team_);
 }
 
 }  // namespace cascade

@@ -20,9 +20,18 @@ struct ModelLook {
     std::size_t channels = 1;
     std::vector<float> values;   ///< `channels` a cell, cell after cell.
     CellColour colour;
+    std::vector<float> heights;  ///< One a cell, in lengths of the model; empty: none.
 
     /// `range` and `palette` are those of numbers.
     ModelLook(const ModelCells& model, const Canvas& canvas, ValueRange range, const Palette& palette);
+
+    /// Sets the heights: a number stands out by its place in the range times `bump` times the model's
+    /// longest side.
+    void raise(const ModelCells& model, const Field& number, ValueRange range, float bump);
+    /// What is seen of cell k, which lies at `place`.
+    Colour colour_of(std::size_t k, const SurfacePlace& place) const {
+        return colour(std::span(values).subspan(k * channels, channels), place);
+    }
 };
 
 /// Draws one model again and again.

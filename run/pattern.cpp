@@ -24,6 +24,9 @@ struct Pattern::Implementation {
     bool failed = false;
     std::map<std::string, Formula> formulas;  ///< Checked expressions of values(), by their text.
 
+    std::shared_ptr<const ModelCells> model() const {
+        return simulation ? simulation->model() : nullptr;
+    }
     bool running() const { return simulation && !failed; }
 
     void fail(const Failure& failure) {
@@ -103,9 +106,11 @@ std::string Pattern::messages() const { return self_->script.messages(false); }
 std::string Pattern::error() const { return self_->error; }
 
 std::int64_t Pattern::width() const {
+    if (const auto model = self_->model()) return static_cast<std::int64_t>(model->count());
     return self_->script.program ? self_->script.program->domain.grid.width : 0;
 }
 std::int64_t Pattern::height() const {
+    if (self_->model()) return 1;
     return self_->script.program ? self_->script.program->domain.grid.height : 0;
 }
 std::int64_t Pattern::depth() const {
@@ -181,7 +186,8 @@ std::vector<float> Pattern::values(const std::string& text) {
     self_->error.clear();
     const Formula* formula = self_->formula(text);
     if (!formula) return {};
-    const Field field = std::move(self_->simulation->evaluate(*formula, self_->stage)[0]);
+    Field field = std::move(self_->simulation->evaluate(*formula, self_->stage)[0]);
+    if (const auto model = self_->model()) field = in_one_row(field, *model);
     std::vector<float> values;
     field.visit([&](const auto& plane) {
         for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {

@@ -29,11 +29,27 @@ bool makes_sense(const PictureRequest& request) {
                           request.range->low == request.range->high)) {
         return false;
     }
+    if (!(std::abs(request.bump) <= 1)) return false;
     if (!(request.slice.place >= 0 && request.slice.place <= 1)) return false;
     return find_palette(request.palette) != nullptr;
 }
 
 constexpr std::string_view axis_letters = "xyz";
+
+std::string letter_of(Axis axis) {
+    return std::string(1, axis_letters[static_cast<std::size_t>(axis)]);
+}
+
+Result<Axis> axis_of(const std::string& letter) {
+    const std::size_t axis = letter.size() == 1 ? axis_letters.find(letter) : std::string::npos;
+    if (axis == std::string::npos) return failure("the stored picture options make no sense");
+    return static_cast<Axis>(axis);
+}
+
+Vector3 direction_of(Axis axis) {
+    return {axis == Axis::x ? 1.0F : 0.0F, axis == Axis::y ? 1.0F : 0.0F,
+            axis == Axis::z ? 1.0F : 0.0F};
+}
 
 /// A field as it is painted: in binary32, and of a volume the slice that the request shows.
 Field shown(Field field, const PictureRequest& request) {
@@ -62,10 +78,12 @@ std::string to_json(const PictureRequest& request) {
     // same bytes.
     if (request.flat) json["flat"] = true;
     if (request.is_turned()) json["view"] = {request.view.azimuth, request.view.elevation};
+    if (request.view.is_turning) json["turning"] = true;
+    if (request.up != PictureRequest().up) json["up"] = letter_of(request.up);
+    if (request.bump != 0) json["bump"] = request.bump;
     if (!request.show.empty()) json["show"] = request.show;
     if (request.slice != Slice{}) {
-        json["slice"] = {std::string(1, axis_letters[static_cast<std::size_t>(request.slice.axis)]),
-                         request.slice.place};
+        json["slice"] = {letter_of(request.slice.axis), request.slice.place};
     }
     if (request.range) json["range"] = {request.range->low, request.range->high};
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -82,15 +100,22 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
         request.space_time = json.value("space_time", request.space_time);
         request.show = json.value("show", request.show);
         if (json.contains("slice")) {
-            const std::size_t axis = axis_letters.find(json.at("slice").at(0).get<std::string>());
-            if (axis >= axis_letters.size()) return failure("the stored picture options make no sense");
-            request.slice = {static_cast<Axis>(axis), json.at("slice").at(1).get<double>()};
+            const auto axis = axis_of(json.at("slice").at(0).get<std::string>());
+            if (!axis) return tl::unexpected(axis.error());
+            request.slice = {*axis, json.at("slice").at(1).get<double>()};
         }
         request.flat = json.value("flat", request.flat);
         if (json.contains("view")) {
             request.view.azimuth = json.at("view").at(0).get<float>();
             request.view.elevation = json.at("view").at(1).get<float>();
         }
+        request.view.is_turning = json.value("turning", false);
+        if (json.contains("up")) {
+            const auto up = axis_of(json.at("up").get<std::string>());
+            if (!up) return tl::unexpected(up.error());
+            request.up = *up;
+        }
+        request.bump = json.value("bump", request.bump);
         if (json.contains("range")) {
             request.range = ValueRange{json.at("range").at(0).get<float>(),
                                        json.at("range").at(1).get<float>()};
@@ -100,6 +125,11 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     } catch (const nlohmann::json::exception&) {
         return failure("the stored picture options cannot be read");
     }
+}
+
+const Field* Canvas::number() const {
+    if (!is_colour()) return &fields[0];
+    return relief.empty() ? nullptr : &relief;
 }
 
 Result<Painter> Painter::create(Script& script, const PictureRequest& request) {
@@ -155,6 +185,11 @@ Canvas Painter::canvas(const Simulation& simulation) {
     Canvas canvas = values(simulation);
     model_ = simulation.model();
     for (Field& field : canvas.fields) field = shown(std::move(field), request_);
+    if (model_ && request_.bump != 0 && canvas.is_colour()) {
+        const std::uint32_t stage = simulation.shown_stage().value_or(0);
+        auto usual = simulation.evaluate(simulation.program().stages[stage].show, stage);
+        if (usual.size() == 1) canvas.relief = shown(std::move(usual[0]), request_);
+    }
     if (const DomainMask* mask = simulation.mask()) {
         outside_ = as_shown(Field(PlaneLayout(simulation.grid())), mask, request_);
     }
@@ -163,7 +198,9 @@ Canvas Painter::canvas(const Simulation& simulation) {
 
 ValueRange Painter::range_of(const Canvas& canvas, std::optional<ValueRange> range) const {
     if (request_.range) return *request_.range;
-    return range ? *range : value_range(canvas.fields[0]);
+    if (range) return *range;
+    const Field* number = canvas.number();
+    return number != nullptr ? value_range(*number) : ValueRange();
 }
 
 Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range) const {
@@ -175,14 +212,23 @@ Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range) co
     return image;
 }
 
+ModelLook Painter::look(const Canvas& canvas, std::optional<ValueRange> range) const {
+    const ValueRange used = range_of(canvas, range);
+    ModelLook look(*model_, canvas, used, *palette_);
+    if (request_.bump != 0 && canvas.number() != nullptr) {
+        look.raise(*model_, *canvas.number(), used, request_.bump);
+    }
+    return look;
+}
+
 Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) const {
     if (!drawer_) drawer_ = std::make_shared<const ModelDrawer>(model_);
     DrawOptions options;
     options.width *= request_.scale;
     options.height *= request_.scale;
     options.view = request_.view;
-    options.view.up = {0, 1, 0};
-    return drawer_->draw(ModelLook(*model_, canvas, range_of(canvas, range), *palette_), options);
+    options.view.up = direction_of(request_.up);
+    return drawer_->draw(look(canvas, range), options);
 }
 
 Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) const {

@@ -25,6 +25,10 @@ struct PictureRequest {
     Slice slice;                       ///< 3-D grids: what a picture shows of them.
     bool flat = false;                 ///< Of a surface: the texture alone.
     View view;                         ///< Of a surface: from where it is seen.
+    Axis up = Axis::y;                 ///< Of a model: what points upwards.
+    /// Of a model: how far the largest number stands out before the smallest one, in sides of the
+    /// model, −1 … 1.
+    float bump = 0;
 
     /// Is the surface seen from another place than usual?
     bool is_turned() const;
@@ -37,10 +41,14 @@ Result<PictureRequest> picture_request_from_json(const std::string& json);
 /// in binary32.
 struct Canvas {
     std::vector<Field> fields;
+    Field relief = {};   ///< Of a colour that has bumps: the number of their heights.
     bool is_colour() const { return fields.size() == 3; }
+    /// What heights and the range are of; nullptr where there are colours alone.
+    const Field* number() const;
 };
 
 class ModelDrawer;
+struct ModelLook;
 
 /// Computes what the request shows, for whatever stage the simulation has reached.
 class Painter {
@@ -59,6 +67,10 @@ public:
     /// overrides the automatic one.
     Image image(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
     const PictureRequest& request() const { return request_; }
+    /// From where pictures are taken from now on.
+    void set_view(const View& view) { request_.view = view; }
+    /// What the last canvas shows on its model.
+    ModelLook look(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
 
 private:
     Image texture(const Canvas& canvas, std::optional<ValueRange> range) const;

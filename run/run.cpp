@@ -1,16 +1,20 @@
 #include "run/run.h"
 
-#include "core/file.h"
+#include "export/bake.h"
 #include "picture/vti.h"
 #include "run/frames.h"
 #include "run/measured.h"
-#include "run/memory.h"
+#include "run/model_files.h"
+#include "run/model_picture.h"
 #include "run/png_texts.h"
+#include "run/run_checks.h"
 #include "run/stage_time.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <deque>
 #include <numeric>
 #include <utility>
@@ -20,133 +24,6 @@ namespace cascade {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-std::filesystem::path default_output(const Script& script) {
-    auto stem = std::filesystem::path(script.name).stem();
-    if (stem.empty()) stem = "cascade";
-    return stem.replace_extension(".png");
-}
-
-/// The log of a run goes beside its picture.
-std::filesystem::path log_path(const RunRequest& request, const std::filesystem::path& output) {
-    if (!request.log.file.empty()) return request.log.file;
-    return std::filesystem::path(output).replace_extension(".csv");
-}
-
-/// Everything that could fail at the end of a long run is tried at its beginning.
-Result<void> check_outputs(const RunRequest& request, const std::filesystem::path& output) {
-    if (auto good = check_writable(output); !good) return good;
-    if (!request.sheet.empty()) {
-        if (request.sheet.lexically_normal() == output.lexically_normal()) {
-            return failure(fmt::format("the picture and --sheet are both to be written to {}",
-                                       output.string()));
-        }
-        if (auto good = check_writable(request.sheet); !good) return good;
-    }
-    if (!request.log.expressions.empty()) {
-        if (auto good = check_writable(log_path(request, output)); !good) return good;
-    }
-    if (!request.volume.empty()) {
-        if (auto good = check_writable(request.volume); !good) return good;
-    }
-    for (const auto& folder : {request.frames, request.save}) {
-        if (folder.empty()) continue;
-        if (auto made = make_folder(folder); !made) return made;
-        if (auto good = check_writable(folder / "run.json"); !good) return good;
-    }
-    return {};
-}
-
-/// A picture larger than memory is refused before the run, not behind it. `memory` is what the run
-/// takes without it.
-Result<void> check_picture_size(const Grid& domain, const PictureRequest& picture, double memory,
-                                std::uint64_t memory_limit) {
-    constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
-    const Grid grid =
-        domain.depth > 1 ? slice_grid(PlaneLayout(domain), picture.slice) : domain;
-    const std::int64_t pixels_per_cell = std::int64_t{picture.scale} * picture.scale;
-    if (grid.cell_count() > most_pixels / pixels_per_cell) {
-        return failure(fmt::format("a picture of {} × {} cells at scale {} has more than {} pixels",
-                                   grid.width, grid.height, picture.scale, most_pixels),
-                       "use a smaller grid or --scale");
-    }
-    // Painted, and then enlarged.
-    const auto pixels = static_cast<double>(grid.cell_count() * (1 + pixels_per_cell));
-    const double bytes = memory + pixels * sizeof(Colour);
-    if (memory_limit == 0 || bytes <= static_cast<double>(memory_limit)) return {};
-    return failure(fmt::format("with a picture at scale {} this run needs {}, but {} are the limit "
-                               "(--limit-memory)",
-                               picture.scale, describe_bytes(bytes),
-                               describe_bytes(static_cast<double>(memory_limit))),
-                   "use a smaller grid or --scale");
-}
-
-/// A place to stop at that the run never comes to would let it run on to its end.
-void check_stop_at(Script& script, const StopAt& stop_at) {
-    const std::string text = fmt::format("{}:{}", stop_at.stage, stop_at.step);
-    Span span = option_span(script.sources, "--stop-at", text);
-    const auto length = static_cast<std::uint32_t>(stop_at.stage.size());
-    const auto stage =
-        find_stage_of_option(script, stop_at.stage, {span.source, span.begin, span.begin + length});
-    if (!stage) return;
-    if (*stage >= script.stage_count()) {
-        script.diagnostics.error(span, fmt::format("stage '{}' does not run", stop_at.stage),
-                                 "--until-stage ends the run before it");
-        return;
-    }
-    const std::int64_t iterations = script.program->stages[*stage].iterations;
-    if (stop_at.step <= iterations) return;
-    span.begin = length + 1;
-    script.diagnostics.error(span, fmt::format("stage '{}' has {} steps", stop_at.stage, iterations));
-}
-
-/// Options of pictures that mean nothing for the domain.
-void check_picture(Script& script, const PictureRequest& picture) {
-    const DomainSettings& domain = script.program->domain;
-    const auto refuse = [&](std::string_view option, std::string_view message, std::string_view hint) {
-        script.diagnostics.error(option_span(script.sources, std::string(option), std::string(option)),
-                                 std::string(message), std::string(hint));
-    };
-    if (picture.slice != Slice{} && domain.grid.depth == 1) {
-        refuse("--slice", "a plane has no slices", "grid: W, H, D makes a volume");
-    }
-    if (domain.model) {
-        if (picture.flat) refuse("--flat", "the cells of a model have no rows and columns", "-o model.ply, or --bake, has the pattern without light");
-        return;
-    }
-    if (domain.surface) return;
-    constexpr std::string_view hint = "surface: x, y, z in the domain makes one";
-    if (picture.flat) refuse("--flat", "the domain is no surface", hint);
-    if (picture.is_turned()) refuse("--view", "the domain is no surface", hint);
-}
-
-/// Outputs of rows and columns, which a model does not have.
-void check_on_model(Script& script, const RunRequest& request) {
-    const auto refuse = [&](bool is_asked_for, const char* option, const char* hint) {
-        if (!is_asked_for) return;
-        script.diagnostics.error(option_span(script.sources, option, option),
-                                 "the cells of a model have no rows and columns", hint);
-    };
-    refuse(!request.sheet.empty(), "--sheet", "--show a draws another species");
-    refuse(!request.volume.empty(), "--volume", "");
-    refuse(request.features, "--features", "");
-}
-
-/// What is asked for must fit the script; where it does not, the script's diagnostics say so.
-Result<void> check_request(Script& script, const RunRequest& request) {
-    const std::int64_t rows = script.program->domain.grid.height * script.program->domain.grid.depth;
-    if (request.picture.space_time && rows != 1) {
-        script.diagnostics.error(
-            option_span(script.sources, "--space-time", "--space-time"),
-            fmt::format("a space-time picture is drawn of a grid of one row, not of {}", rows),
-            "for a plane, --frames writes a picture each interval");
-    }
-    check_picture(script, request.picture);
-    if (script.program->domain.model) check_on_model(script, request);
-    if (request.stop_at) check_stop_at(script, *request.stop_at);
-    if (script.diagnostics.has_errors()) return failure("the request does not fit the script");
-    return {};
-}
 
 PngDepth depth_of(const PictureRequest& request) {
     return request.depth == 16 ? PngDepth::sixteen : PngDepth::eight;
@@ -162,6 +39,7 @@ public:
 
 private:
     Result<void> prepare();
+    Result<void> make_simulation();
     Result<void> run_stages();
     Result<StageEnd> run_stage(std::uint32_t stage);
     void look();
@@ -170,7 +48,13 @@ private:
     double tenths_behind(std::uint32_t stage) const;
     std::int64_t observation_interval(const Stage& stage) const;
     Result<void> write_results();
-    Result<void> write_final_picture();
+    Result<void> write_outputs();
+    Result<void> write_final_picture(const std::filesystem::path& path, const Canvas& canvas);
+    Result<void> write_turntable(const std::filesystem::path& path, const Canvas& canvas);
+    Result<void> write_model_files(const Canvas& canvas);
+    std::vector<Channel> channels(const Canvas& canvas) const;
+    bool has(OutputKind kind) const;
+    void say(std::string what) const;
     Result<void> write_frames();
     Result<void> write_saved_run();
     Result<void> write_log();
@@ -182,7 +66,7 @@ private:
     const RunRequest& request_;
     RunControl& control_;
     RunReport report_;
-    std::filesystem::path output_;
+    std::vector<std::filesystem::path> outputs_;
     std::unique_ptr<Simulation> simulation_;
     std::optional<Painter> painter_;
     std::optional<FrameRecorder> frames_;
@@ -197,26 +81,24 @@ Result<void> Runner::prepare() {
                                   "add one, as in 'stage spots: turing_spots { }'");
         return failure("nothing to run");
     }
-    output_ = request_.output.empty() ? default_output(script_) : request_.output;
+    outputs_ = outputs_of(script_, request_);
     if (auto good = check_request(script_, request_); !good) return good;
     auto painter = Painter::create(script_, request_.picture);
     if (!painter) return tl::unexpected(painter.error());
     painter_ = std::move(*painter);
-    auto simulation = Simulation::create(script_, request_.simulation);
-    if (!simulation) return tl::unexpected(simulation.error());
-    simulation_ = std::move(*simulation);
-    if (auto good = check_picture_size(simulation_->grid(), request_.picture, simulation_->memory(),
-                                       request_.simulation.memory_limit);
-        !good) {
-        return good;
+    // Cells of a model take a while.
+    if (script_.program->domain.model) {
+        if (auto good = check_outputs(request_, outputs_); !good) return good;
     }
+    if (auto made = make_simulation(); !made || !simulation_) return made;
     if (!request_.log.expressions.empty()) {
         auto log = RunLog::create(script_, request_.log);
         if (!log) return tl::unexpected(log.error());
         log_ = std::move(*log);
     }
     // Folders are made last, so that a run that is refused leaves none behind.
-    if (auto good = check_outputs(request_, output_); !good) return good;
+    if (auto good = check_outputs(request_, outputs_); !good) return good;
+    if (auto good = check_folders(request_); !good) return good;
     if (!request_.frames.empty() || request_.picture.space_time) {
         auto frames = FrameRecorder::create(request_.frames, request_.picture.space_time);
         if (!frames) return tl::unexpected(frames.error());
@@ -224,6 +106,25 @@ Result<void> Runner::prepare() {
     }
     if (request_.resume.empty()) return {};
     return restore_run(request_.resume, script_, *simulation_);
+}
+
+/// There is none where the user has stopped it.
+Result<void> Runner::make_simulation() {
+    SimulationOptions options = request_.simulation;
+    options.control = &control_;
+    auto made = Simulation::create(script_, options);
+    if (!made && control_.cancel && !script_.diagnostics.has_errors()) {
+        report_.status = RunStatus::cancelled;
+        report_.where = "the making of the model's cells";
+        return {};
+    }
+    if (!made) return tl::unexpected(made.error());
+    simulation_ = std::move(*made);
+    if (request_.model_files.bake > 0) {
+        if (auto good = check_bakeable(simulation_->model()->mesh); !good) return good;
+    }
+    return check_picture_size(script_.program->domain, request_.picture, simulation_->memory(),
+                              request_.simulation.memory_limit);
 }
 
 Result<StageEnd> Runner::run_stage(std::uint32_t k) {
@@ -311,15 +212,97 @@ std::string Runner::place() const {
 
 Result<void> Runner::write_picture(const std::filesystem::path& path, const Image& image) {
     auto done = write_png(path, image, depth_of(request_.picture),
-                          embed_script(script_, request_.picture));
+                          embed_script(script_, painter_->request()));
     if (done) report_.written.push_back(path);
     return done;
 }
 
-Result<void> Runner::write_final_picture() {
-    return write_picture(output_, request_.picture.space_time
-                                      ? frames_->space_time(*painter_)
-                                      : painter_->image(painter_->canvas(*simulation_)));
+bool Runner::has(OutputKind kind) const {
+    return std::any_of(outputs_.begin(), outputs_.end(), [&](const auto& output) {
+        return output_kind(output).value_or(OutputKind::picture) == kind;
+    });
+}
+
+void Runner::say(std::string what) const {
+    if (!control_.report) return;
+    Progress progress;
+    progress.doing = std::move(what);
+    control_.report(progress);
+}
+
+Result<void> Runner::write_final_picture(const std::filesystem::path& path, const Canvas& canvas) {
+    if (request_.turntable > 0) return write_turntable(path, canvas);
+    return write_picture(path, request_.picture.space_time ? frames_->space_time(*painter_)
+                                                           : painter_->image(canvas));
+}
+
+Result<void> Runner::write_turntable(const std::filesystem::path& path, const Canvas& canvas) {
+    View view = request_.picture.view;
+    view.is_turning = true;
+    const float first = view.azimuth;
+    Result<void> done;
+    const auto paths = turntable_paths(path, request_.turntable);
+    for (std::size_t k = 0; k < paths.size() && done; ++k) {
+        say(fmt::format("drawing {} of {}", k + 1, paths.size()));
+        const double turn = 360.0 * static_cast<double>(k) / static_cast<double>(paths.size());
+        view.azimuth = static_cast<float>(std::remainder(static_cast<double>(first) + turn, 360.0));
+        painter_->set_view(view);
+        done = write_picture(paths[k], painter_->image(canvas));
+    }
+    painter_->set_view(request_.picture.view);
+    return done;
+}
+
+/// The numbers that go into files of models: the species of the stage that is shown, and what --show
+/// asks for.
+std::vector<Channel> Runner::channels(const Canvas& canvas) const {
+    const ModelCells& model = *simulation_->model();
+    std::vector<Channel> channels;
+    const auto add = [&](std::string name, const Field& field) {
+        const std::vector<double> values = cell_values(field, model);
+        channels.push_back({std::move(name), std::vector<float>(values.begin(), values.end())});
+    };
+    const std::uint32_t stage = simulation_->shown_stage().value_or(0);
+    const System& system = script_.program->system_of(stage);
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        if (!system.is_species(item)) continue;
+        add(std::string(system.item_name(item)), simulation_->state(stage).field(item));
+    }
+    if (!request_.picture.show.empty() && !canvas.is_colour()) add("shown", canvas.fields[0]);
+    return channels;
+}
+
+Result<void> Runner::write_model_files(const Canvas& canvas) {
+    const ModelLook look = painter_->look(canvas);
+    ModelFileWriter writer(*simulation_->model(), look, channels(canvas), request_.model_files,
+                           embed_script(script_, request_.picture));
+    std::optional<Failure> first;
+    for (const auto& output : outputs_) {
+        if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
+        say(fmt::format("writing {}", output.filename().string()));
+        auto written = writer.write(output);
+        if (written) report_.written.insert(report_.written.end(), written->begin(), written->end());
+        else if (!first) first = written.error();
+    }
+    for (const std::string& warning : writer.warnings()) {
+        if (control_.warn) control_.warn(warning);
+    }
+    if (first) return tl::unexpected(*first);
+    return {};
+}
+
+/// What -o asks for.
+Result<void> Runner::write_outputs() {
+    const Canvas canvas = painter_->canvas(*simulation_);
+    Result<void> result;
+    for (const auto& output : outputs_) {
+        if (output_kind(output).value_or(OutputKind::picture) != OutputKind::picture) continue;
+        auto done = write_final_picture(output, canvas);
+        if (result) result = done;
+    }
+    if (!has(OutputKind::model) && !has(OutputKind::cells)) return result;
+    auto done = write_model_files(canvas);
+    return result ? done : result;
 }
 
 Result<void> Runner::write_frames() {
@@ -332,7 +315,7 @@ Result<void> Runner::write_frames() {
 }
 
 Result<void> Runner::write_log() {
-    const auto path = log_path(request_, output_);
+    const auto path = log_path(request_, outputs_[0]);
     auto written = log_->write(path);
     if (written) report_.written.push_back(path);
     return written;
@@ -370,7 +353,7 @@ Result<void> Runner::write_results() {
     const auto attempt = [&](const Result<void>& done) {
         if (!done && !first) first = done.error();
     };
-    attempt(write_final_picture());
+    attempt(write_outputs());
     if (log_) attempt(write_log());
     if (!request_.frames.empty()) attempt(write_frames());
     if (!request_.sheet.empty()) {
@@ -392,6 +375,8 @@ Result<void> Runner::write_results() {
 
 Result<RunReport> Runner::run() {
     if (auto ready = prepare(); !ready) return tl::unexpected(ready.error());
+    if (!simulation_) return std::move(report_);
+    report_.has_begun = true;
     if (auto done = run_stages(); !done) {
         // What led to a blow-up is what one wants to see of it.
         if (log_) (void)write_log();

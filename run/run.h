@@ -4,6 +4,7 @@
 #include "core/result.h"
 #include "core/run_control.h"
 #include "measure/features.h"
+#include "run/model_files.h"
 #include "run/picture_request.h"
 #include "run/run_log.h"
 #include "run/script.h"
@@ -25,7 +26,11 @@ struct StopAt {
 struct RunRequest {
     SimulationOptions simulation;
     PictureRequest picture;
-    std::filesystem::path output;      ///< The picture; empty: SCRIPT.png in the current folder.
+    /// Pictures, models and cells, by their endings (output_kind); empty: SCRIPT.png in the current
+    /// folder.
+    std::vector<std::filesystem::path> outputs;
+    ModelFileOptions model_files;
+    int turntable = 0;                 ///< Pictures from so many places around; 0: from one.
     std::filesystem::path sheet;       ///< `--sheet FILE`; empty: none.
     std::filesystem::path frames;      ///< `--frames DIR`; empty: none.
     std::filesystem::path save;        ///< `--save DIR`; empty: none.
@@ -45,6 +50,7 @@ enum class RunStatus {
 struct RunReport {
     RunStatus status = RunStatus::finished;
     std::string where;                           ///< "stage 'small', step 312 of 7000".
+    bool has_begun = false;                      ///< There is something to write.
     std::vector<std::filesystem::path> written;  ///< In order.
     std::int64_t steps = 0;                      ///< Taken by this run.
     double seconds = 0;                          ///< Of stepping.

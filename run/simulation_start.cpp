@@ -17,13 +17,13 @@ Result<void> Simulation::Implementation::make_cells(const SimulationOptions& opt
     RunControl nobody;
     RunControl& control = options.control != nullptr ? *options.control : nobody;
     const ModelAccess access{script->folder, script->overrides.reads,
-                             script->overrides.model_is_asked_for};
+                             script->overrides.model_is_asked_for, options.cell_cache};
     auto made = make_model_cells(*program, access, makers, control);
+    if (control.cancel) return failure("stopped while the cells of the model were made");
     if (!made) {
         script->diagnostics.error(domain.model->span, made.error().message, made.error().hint);
         return failure("the model cannot be used");
     }
-    if (!*made) return failure("stopped while the cells of the model were made");
     model = std::move(*made);
     if (control.warn) {
         for (const std::string& repair : model->repairs) control.warn("the model was repaired: " + repair);

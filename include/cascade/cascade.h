@@ -58,7 +58,8 @@ public:
     /// Why a run failed (values that are not finite, no memory); empty while it has not.
     std::string error() const;
 
-    std::int64_t width() const;    ///< Columns of the grid; 0 if the script is wrong.
+    /// Columns of the grid; 0 if the script is wrong. The cells of a model are one row of them.
+    std::int64_t width() const;
     std::int64_t height() const;   ///< Rows.
     std::int64_t depth() const;    ///< Slices; 1 for a plane.
 

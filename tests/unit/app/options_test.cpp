@@ -75,6 +75,21 @@ TEST(Options, run_takes_logs_and_limits) {
     EXPECT_EQ(left({"run", "a.cascade", "--log-every", "0"}).status, exit_status::wrong_use);
 }
 
+TEST(Options, run_takes_what_models_have) {
+    const Options options =
+        parsed({"run", "a.cascade", "--mesh", "sphere", "--cells", "500", "-o", "a.png", "-o", "b.PLY",
+                "--output", "c.cells.vtp", "--retile", "--bake", "256", "--bump", "-0.02", "--up", "z",
+                "--turntable", "12", "--cache", "kept"});
+    EXPECT_THAT(options.run.outputs, ElementsAre("a.png", "b.PLY", "c.cells.vtp"));
+    EXPECT_TRUE(options.run.model_files.retile);
+    EXPECT_EQ(options.run.model_files.bake, 256);
+    EXPECT_EQ(options.run.turntable, 12);
+    EXPECT_EQ(options.run.simulation.cell_cache, "kept");
+    const PictureRequest picture = apply(options.picture, {});
+    EXPECT_EQ(picture.bump, -0.02F);
+    EXPECT_EQ(picture.up, Axis::z);
+}
+
 TEST(Options, run_takes_everything) {
     const Options options = parsed(
         {"run",        "a.cascade",  "-o",        "out.png",   "--grid",  "32x16",     "--seed",
@@ -85,7 +100,7 @@ TEST(Options, run_takes_everything) {
          "film",       "--sheet",    "all.png",   "--stop-at", "s:50",    "--quiet"});
     EXPECT_EQ(options.command, Command::run);
     EXPECT_THAT(options.scripts, ElementsAre("a.cascade"));
-    EXPECT_EQ(options.run.output, "out.png");
+    EXPECT_THAT(options.run.outputs, ElementsAre("out.png"));
     EXPECT_EQ(options.overrides.grid, (GridSize{32, 16}));
     EXPECT_EQ(options.overrides.seed, 7U);
     EXPECT_THAT(options.overrides.sets, ElementsAre("ka=1/80", "s.b=2"));
@@ -217,6 +232,10 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{"run", "a", "--range", "3,3"}, "'3,3' is not a range"},
         WrongUse{{"run", "a", "--range", "nan,1"}, "'nan,1' is not a range"},
         WrongUse{{"run", "a", "-o", "a.jpg"}, "'a.jpg' does not end in .png"},
+        WrongUse{{"run", "a", "-o", "a.png", "-o", "a.vti"}, ".npz and .cells.vtp their cells"},
+        WrongUse{{"run", "a", "--bump", "-1.5"}, "'-1.5' is not a number from -1 to 1"},
+        WrongUse{{"run", "a", "--up", "xy"}, "'xy' is none of x, y, z"},
+        WrongUse{{"run", "a", "--turntable", "0"}, "whole number from 1 to 9999"},
         WrongUse{{"run", "a", "--stop-at", "9"}, "'9' is not a place to stop at"},
         WrongUse{{"run", "a", "--dump", "irr"}, "did you mean 'ir'?"},
         WrongUse{{"run", "a", "--save", ""}, "--save: it must not be empty"},

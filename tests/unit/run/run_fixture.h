@@ -51,7 +51,7 @@ protected:
         RunRequest request;
         request.simulation.backend = BackendKind::interpreter;
         request.simulation.threads = 1;
-        request.output = path("picture.png");
+        request.outputs = {path("picture.png")};
         return request;
     }
 

@@ -62,7 +62,7 @@ TEST_F(RunTest, APictureRunsAgain) {
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_EQ(again->script.overrides, overrides);
     RunRequest repeated = request();
-    repeated.output = path("again.png");
+    repeated.outputs = {path("again.png")};
     repeated.picture = *picture_request_from_json(again->picture_options);
     run_well(again->script, repeated);
     ASSERT_FALSE(bytes("picture.png").empty());
@@ -186,7 +186,7 @@ TEST_F(RunTest, FramesComeAtTheInterval) {
 TEST_F(RunTest, AnOutputThatCannotBeWrittenIsFoundBeforeTheFirstStep) {
     Script script = load(two_stages);
     RunRequest wanted = request();
-    wanted.output = path("no/such/folder/picture.png");
+    wanted.outputs = {path("no/such/folder/picture.png")};
     bool stepped = false;
     RunControl control;
     control.report = [&](const Progress& progress) { stepped = stepped || progress.step > 0; };
@@ -202,7 +202,7 @@ TEST_F(RunTest, CancelKeepsTheLastCompleteStep) {
     const auto report = run(script, wanted, control);
     ASSERT_TRUE(report);
     EXPECT_EQ(report->status, RunStatus::cancelled);
-    EXPECT_TRUE(std::filesystem::exists(wanted.output));
+    EXPECT_TRUE(std::filesystem::exists(wanted.outputs[0]));
 }
 
 TEST_F(RunTest, ThePictureBlockFallsBackWhereItsStageHasNotRun) {

@@ -1,0 +1,206 @@
+#!/bin/bash
+# Runs on models, from the command line: every file that can come of one, read back.
+set -u
+about=model_run
+. "$SOURCE/tests/support/program_runs.bash"
+
+# Reads arrays with NumPy, where there is one; the rest of the test does without.
+numpy() {
+    local name
+    for name in python3 /usr/bin/python3; do
+        if $name -c 'import numpy' 2>/dev/null; then
+            $name -
+            return
+        fi
+    done
+}
+
+cat > spots.cascade <<'END'
+stage spots: gray_scott { iterations: 40 }
+END
+# A square with texture coordinates, which fill the texture.
+cat > square.obj <<'END'
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+f 1/1 2/2 3/3 4/4
+END
+model="run -q spots.cascade --mesh creature --cells 600"
+
+# Several outputs of one run; a name's ending says what it is.
+run 0 ${model/-q /} -o one.png -o m.ply -o m.obj -o m.glb -o m.vtp -o m.cells.vtp -o m.npz
+for name in one.png m.ply m.obj m.glb m.vtp m.cells.vtp m.npz; do
+    says out "wrote $name"
+    [ -s $name ] || fail "$name is not there"
+done
+for name in m.ply m.obj m.glb; do
+    cp out before
+    run 0 mesh $name
+    says out "closed like a sphere"
+done
+numpy <<'END' || fail "m.npz or m.cells.vtp is wrong"
+import numpy
+a = numpy.load("m.npz")
+n = len(a["points"])
+assert n == 600 and a["areas"].shape == (n,) and a["normals"].shape == (n, 3)
+assert set(["u", "v", "colors"]) <= set(a.files) and "shown" not in a.files, a.files
+assert a["links"].max() < n and len(a["weights"]) == len(a["links"])
+assert 0 <= a["v"].min() < a["v"].max() < 1
+assert abs(numpy.linalg.norm(a["normals"], axis=1) - 1).max() < 1e-6
+head = open("m.cells.vtp", "rb").read(2000)
+assert b'NumberOfPoints="600"' in head and b'NumberOfPolys="0"' in head, head
+END
+
+# A finer model than its cells: as many points as colours need. Tiled anew the points are the cells.
+run 0 $model -o tiled.ply --retile --show 'u - v'
+run 0 mesh tiled.ply
+says out "600 points,"
+numpy <<'END' || fail "the points of the re-tiled model are not the cells"
+import numpy
+data = open("tiled.ply", "rb").read()
+head, body = data.split(b"end_header\n", 1)
+sizes = {"float": "<f4", "double": "<f8", "uchar": "u1"}
+fields, count = [], 0
+for line in head.decode().split("\n"):
+    words = line.split()
+    if words[:2] == ["element", "vertex"]: count = int(words[2])
+    elif words[:1] == ["element"]: break
+    elif words[:1] == ["property"]: fields.append((words[2], sizes[words[1]]))
+points = numpy.frombuffer(body, numpy.dtype(fields), count)
+a = numpy.load("m.npz")
+at = numpy.stack([points[c] for c in "xyz"], 1)
+assert numpy.abs(at - a["points"]).max() < 1e-5
+assert numpy.array_equal(points["v_"] if "v_" in points.dtype.names else points["v"], a["v"])
+assert numpy.allclose(points["shown"], a["u"] - a["v"], atol=1e-6)
+assert len(set(points["red"])) > 20
+END
+
+# Baked maps, in the model and beside it.
+run 0 run -q spots.cascade --mesh square.obj --cells 300 --bake 64 -o square.glb
+[ ! -e square_height.png ] || fail "heights without --bump"
+run 0 run spots.cascade --mesh square.obj --cells 300 --bake 64 --bump 0.05 -o square.glb
+for name in square.glb square_color.png square_height.png square_normal.png; do
+    says out "wrote $name"
+done
+run 0 mesh square.glb
+says out "4 points, 2 triangles"
+run 3 $model --bake 64 -o creature.glb
+says err "the model has no texture coordinates to paint by"
+[ ! -e creature.glb ] || fail "a model that cannot be baked was written"
+
+# Pictures: options travel inside them, and change them.
+run 0 $model -o plain.png --view 40,10
+run 0 $model -o turned.png --view 40,10 --up z --bump 0.03 --palette viridis
+cmp -s plain.png turned.png && fail "--up and --bump change nothing"
+run 0 run -q turned.png -o again.png
+cmp -s turned.png again.png || fail "a picture of a model is not drawn again byte for byte"
+run 0 $model -o flat.png --view 40,10 --up z --palette viridis
+cmp -s flat.png turned.png && fail "--bump changes nothing"
+run 0 $model -o round.png --turntable 3
+[ ! -e round.png ] || fail "a turntable has no picture without a number"
+run 0 run -q round-002.png -o again.png
+cmp -s round-002.png again.png || fail "a picture of a turntable is not drawn again"
+cmp -s round-001.png round-002.png && fail "the turntable does not turn"
+[ "$(ls round-*.png | wc -l)" = 3 ] || fail "a turntable of 3"
+run 0 $model --set spots.interval=20 --frames film --bump 0.02 -o end.png
+[ "$(ls film | grep -c png)" = 3 ] || fail "frames on a model"
+
+# Results do not depend on threads.
+run 0 $model --threads 1 -o t1.npz -o t1.glb
+run 0 $model --threads 3 -o t3.npz -o t3.glb
+cmp -s t1.npz t3.npz && cmp -s t1.glb t3.glb || fail "files depend on the number of threads"
+
+# Cells that are kept.
+run 0 ${model/-q /} --cache kept -o a.npz
+says err "kept the cells in kept/"
+run 0 ${model/-q /} --cache kept -o b.npz
+says err "took the cells from kept/"
+cmp -s a.npz b.npz && cmp -s a.npz t1.npz || fail "kept cells give other results"
+[ "$(ls kept | wc -l)" = 1 ] || fail "one file of cells"
+printf x >> "$(echo kept/*)"
+run 0 ${model/-q /} --cache kept -o b.npz
+says err "kept the cells in kept/"
+run 0 ${model/-q /} --cache spots.cascade -o b.npz
+says err "the cells are not kept: "
+cmp -s a.npz b.npz || fail "cells that cannot be kept give other results"
+
+# What does not go together is said before anything is computed.
+refused() {
+    local message=$1
+    shift
+    rm -f refused.*
+    run 2 "$@"
+    says err "$message"
+    [ "$(grep -c 'error:' err)" = 1 ] || fail "one message for $*"
+    ls refused.* >/dev/null 2>&1 && fail "something was written by $*"
+}
+for name in refused.ply refused.obj refused.glb refused.vtp refused.npz refused.cells.vtp; do
+    refused "only what grows on a model is written so" run -q spots.cascade -o $name
+done
+for option in "--retile" "--bake 64" "--bump 0.1" "--up z" "--cache kept2"; do
+    refused "the domain is no model" run -q spots.cascade -o refused.png $option
+done
+refused "the domain is no surface" run -q spots.cascade -o refused.png --turntable 4
+[ ! -e kept2 ] || fail "a folder was made for a plane"
+refused "no model is written that it could tile" $model -o refused.png --retile
+refused "no model is written that it could tile" $model -o refused.npz --retile
+refused "no model is written with its maps" $model -o refused.ply --bake 64
+refused "no picture is drawn" $model -o refused.ply --turntable 4
+refused "the cells of a model have no rows and columns" $model -o refused.png --flat
+refused "the cells of a model have no rows and columns" $model -o refused.png --sheet refused.s.png
+refused "the cells of a model have no rows and columns" $model -o refused.png --volume refused.vti
+refused "the cells of a model have no rows and columns" $model -o refused.png --features
+refused "the cells of a model have no rows and columns" $model -o refused.png --space-time
+run 3 $model -o twice.png -o ./twice.png
+says err "the picture and the picture are both to be written to"
+run 3 $model -o no/such/folder.ply
+says err "no/such"
+run 3 $model -o big.png --scale 64
+says err "at scale 64 has more than"
+run 64 $model -o m.stl
+says err "'m.stl' does not end in .png"
+run 64 $model --bump 2
+says err "'2' is not a number from -1 to 1"
+run 64 $model --bump nan
+says err "'nan' is not a number from -1 to 1"
+run 64 $model --up w
+says err "'w' is none of x, y, z"
+run 64 $model --bake 9000
+says err "whole number from 1 to 8192"
+
+# Models that cannot be used: one message, nothing written.
+: > empty.ply
+printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n' > broken.obj
+for name in empty.ply broken.obj missing.ply; do
+    refused "error:" run -q spots.cascade --mesh $name --cells 50 -o refused.png -o refused.ply
+done
+
+# Ctrl-C while cells are made: nothing is written, and the status says so.
+cat > many.cascade <<'END'
+stage spots: gray_scott { iterations: 10 }
+END
+"$CASCADE" run many.cascade --mesh creature --cells 3000000 -o many.png >out 2>err </dev/null &
+child=$!
+sleep 3
+kill -INT $child
+wait $child
+got=$?
+[ $got = 130 ] || fail "Ctrl-C while cells are made gave $got"
+says err "nothing has been written"
+[ ! -e many.png ] || fail "a picture of cells that were never made"
+run 124 run many.cascade --mesh creature --cells 3000000 -o many.png --limit-time 1s
+says err "the limit of 1 s is reached at the making of the model's cells; nothing has been written"
+
+# The prompt.
+printf '%s\n' 'domain { surface: sphere; cells: 300 }' 'stage spots: gray_scott { iterations: 40 }' ':run 10' \
+    ':set spots.feed=0.03' ':run 5' ':show v' ':save kept_run' > lines
+"$CASCADE" repl <lines >out 2>err || fail "the prompt fails on a model"
+says out "stage 'spots', step 10 of 40"
+says out "stage 'spots', step 15 of 40"
+[ -s kept_run/spots.v.npy ] || fail "the prompt saves nothing"
+exit 0

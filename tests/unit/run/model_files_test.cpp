@@ -1,0 +1,71 @@
+// Files of runs on models: what a name says, what travels in pictures, what the library makes of cells.
+#include "cascade/cascade.h"
+#include "run/model_files.h"
+#include "run/picture_request.h"
+#include "run/run_checks.h"
+
+#include <gmock/gmock.h>
+
+namespace cascade {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(ModelFiles, the_ending_says_what_a_file_holds) {
+    for (const char* name : {"a.png", "b/c.PNG", "a.cells.png"}) {
+        EXPECT_EQ(output_kind(name), OutputKind::picture) << name;
+    }
+    for (const char* name : {"a.ply", "a.Obj", "a.glb", "a.vtp", "cells.vtp", "a.cells.b.vtp"}) {
+        EXPECT_EQ(output_kind(name), OutputKind::model) << name;
+    }
+    for (const char* name : {"a.npz", "a.cells.vtp", "b/a.Cells.VTP"}) {
+        EXPECT_EQ(output_kind(name), OutputKind::cells) << name;
+    }
+    for (const char* name : {"a", "", "png", "a.stl", "a.png.bak", ".ply", "a."}) {
+        EXPECT_FALSE(output_kind(name)) << name;
+    }
+}
+
+TEST(ModelFiles, only_glb_files_are_baked) {
+    const ModelFileOptions plain, baked{false, 64};
+    EXPECT_TRUE(baked.is_baked("a.GLB"));
+    EXPECT_FALSE(baked.is_baked("a.ply"));
+    EXPECT_FALSE(plain.is_baked("a.glb"));
+}
+
+TEST(ModelFiles, a_turntable_numbers_its_pictures) {
+    EXPECT_THAT(turntable_paths("a/horse.png", 2), ElementsAre("a/horse-001.png", "a/horse-002.png"));
+    EXPECT_EQ(turntable_paths("horse.png", 1200)[6], "horse-0007.png");
+}
+
+TEST(ModelFiles, pictures_carry_how_a_model_is_seen) {
+    PictureRequest request;
+    EXPECT_EQ(to_json(request).find("bump"), std::string::npos);
+    request.up = Axis::x;
+    request.bump = -0.25F;
+    request.view = {200, -10, {0, 0, 1}, true};
+    const auto back = picture_request_from_json(to_json(request));
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->up, Axis::x);
+    EXPECT_EQ(back->bump, -0.25F);
+    EXPECT_TRUE(back->view.is_turning);
+    EXPECT_EQ(back->view.azimuth, 200.0F);
+    for (const char* wrong : {R"({"bump": 2})", R"({"bump": "a"})", R"({"up": "w"})", R"({"up": ""})",
+                              R"({"up": 3})", R"({"turning": 3})"}) {
+        EXPECT_FALSE(picture_request_from_json(wrong)) << wrong;
+    }
+}
+
+TEST(ModelFiles, the_library_has_the_cells_in_one_row) {
+    Pattern pattern("domain { surface: sphere; cells: 700 }\n"
+                    "stage s: turing_spots { iterations: 4 }\n",
+                    {false, 1, "s", "."});
+    ASSERT_TRUE(pattern.ok()) << pattern.messages() << pattern.error();
+    EXPECT_EQ(pattern.width(), 700);
+    EXPECT_EQ(pattern.height(), 1);
+    EXPECT_EQ(pattern.step(9), 4);
+    EXPECT_EQ(pattern.values("a").size(), 700u);
+}
+
+}  // namespace
+}  // namespace cascade
