@@ -184,11 +184,8 @@ done
 cat > many.cascade <<'END'
 stage spots: gray_scott { iterations: 10 }
 END
-"$CASCADE" run many.cascade --mesh creature --cells 3000000 -o many.png >out 2>err </dev/null &
-child=$!
-sleep 3
-kill -INT $child
-wait $child
+timeout --preserve-status -s INT 3 "$CASCADE" run many.cascade --mesh creature --cells 3000000 \
+    -o many.png >out 2>err </dev/null
 got=$?
 [ $got = 130 ] || fail "Ctrl-C while cells are made gave $got"
 says err "nothing has been written"
