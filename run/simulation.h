@@ -75,7 +75,7 @@ struct SimulationOptions {
     std::shared_ptr<Backend> stepper = nullptr;
     /// Hears how the cells of a model come about, and may stop it; none: nobody does.
     RunControl* control = nullptr;
-    std::filesystem::path cell_cache;  ///< A folder in which cells of models are kept; empty: none.
+    std::filesystem::path cell_cache = {};  ///< A folder in which cells of models are kept; empty: none.
     std::uint64_t memory_limit = 0;   ///< Bytes that all fields may take; 0: what is free.
     /// How steps are put together. No result depends on it.
     PlanOptions planning = {Bringing::cheaper, false, true};

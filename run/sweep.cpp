@@ -355,6 +355,11 @@ tl::expected<SweepReport, SweepFault> Sweeper::run() {
     const auto fault = [](const Failure& why) {
         return tl::unexpected(SweepFault{why, std::nullopt});
     };
+    // The tiles of a sheet and what is measured of them are rows and columns.
+    if (script_.program->domain.model) {
+        return fault({"a sweep has no sheet for the cells of a model",
+                      "run it once for each value, with --set"});
+    }
     if (auto planned = plan(); !planned) return tl::unexpected(std::move(planned.error()));
     if (auto ready = prepare_folders(); !ready) return fault(ready.error());
     std::vector<std::size_t> waiting;

@@ -173,6 +173,10 @@ says err "'w' is none of x, y, z"
 run 64 $model --bake 9000
 says err "whole number from 1 to 8192"
 
+run 3 sweep spots.cascade --mesh sphere --cells 60 --vary seed=1,2 -o refused_sweep
+says err "a sweep has no sheet for the cells of a model"
+[ ! -e refused_sweep ] || fail "a sweep that is refused leaves a folder"
+
 # Models that cannot be used: one message, nothing written.
 : > empty.ply
 printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n' > broken.obj
