@@ -168,10 +168,11 @@ private:
     }
 
     bool fits(const FunctionRow& row, Place place) const {
-        static constexpr std::array<std::string_view, 3> only_in_fluxes = {"grad", "vector",
-                                                                           "tensor"};
-        if (std::find(only_in_fluxes.begin(), only_in_fluxes.end(), row.spelling) !=
-            only_in_fluxes.end()) {
+        // In fluxes, and of points that are known.
+        static constexpr std::array<std::string_view, 5> only_elsewhere = {"grad", "vector", "tensor",
+                                                                           "distance", "keys"};
+        if (std::find(only_elsewhere.begin(), only_elsewhere.end(), row.spelling) !=
+            only_elsewhere.end()) {
             return false;
         }
         switch (row.places) {
