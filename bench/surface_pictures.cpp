@@ -67,7 +67,7 @@ struct Subject {
             heights.push_back(static_cast<float>(0.002 * size * wave));
         }
     }
-    CellLook look() const {
+    PaintedCells look() const {
         return {1, values, [](std::span<const float> v, const SurfacePlace&) -> Colour {
             return v[0] > 0 ? Colour{0.9F, 0.8F, 0.6F} : Colour{0.3F, 0.2F, 0.1F};
         }, heights};
@@ -83,7 +83,7 @@ void make_scene(benchmark::State& state, Subject& subject) {
 /// Side of the picture and rays through a pixel along one side.
 void draw_picture(benchmark::State& state, Subject& subject) {
     const CellScene scene(subject.mesh, subject.cells, subject.team);
-    const CellLook look = subject.look();
+    const PaintedCells look = subject.look();
     DrawOptions options;
     options.width = options.height = state.range(0);
     options.samples = static_cast<int>(state.range(1));

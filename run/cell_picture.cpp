@@ -22,7 +22,7 @@ bool is_finite(const Colour& colour) {
     return std::isfinite(colour[0]) && std::isfinite(colour[1]) && std::isfinite(colour[2]);
 }
 
-Colour light_in(const CellColour& function, std::span<const float> values,
+Colour light_in(const PlaceColour& function, std::span<const float> values,
                 const SurfacePlace& place) {
     Colour colour = function(values, place);
     if (!is_finite(colour)) colour = colour_of_nan;
@@ -67,7 +67,7 @@ void add_levels(const SurfaceCells& cells, float highest, Levels& levels, Team& 
 /// What one picture needs.
 class Shader {
 public:
-    Shader(const CellLook& look, const CellFilter& filter, const TriangleMesh& mesh,
+    Shader(const PaintedCells& look, const CellFilter& filter, const TriangleMesh& mesh,
            const Levels& levels, float spacing)
         : look_(look), filter_(filter), mesh_(mesh), levels_(levels), spacing_(spacing) {}
 
@@ -149,7 +149,7 @@ private:
         return slope;
     }
 
-    const CellLook& look_;
+    const PaintedCells& look_;
     const CellFilter& filter_;
     const TriangleMesh& mesh_;
     const Levels& levels_;
@@ -172,7 +172,7 @@ CellScene::CellScene(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& t
     spacing_ = static_cast<float>(cell_spacing(cells) * drawn_.scale);
 }
 
-Image CellScene::draw(const CellLook& look, DrawOptions options, Team& team) const {
+Image CellScene::draw(const PaintedCells& look, DrawOptions options, Team& team) const {
     const std::size_t count = cells_.places.size();
     CHECK(look.values.size() == count * look.channels, "each cell has values of all channels");
     CHECK(look.heights.empty() || look.heights.size() == count, "each cell has a height");

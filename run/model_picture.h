@@ -19,7 +19,7 @@ namespace cascade {
 struct ModelLook {
     std::size_t channels = 1;
     std::vector<float> values;   ///< `channels` a cell, cell after cell.
-    CellColour colour;
+    PlaceColour colour;
     std::vector<float> heights;  ///< One a cell, in lengths of the model; empty: none.
 
     /// `range` and `palette` are those of numbers.

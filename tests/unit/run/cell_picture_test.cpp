@@ -123,7 +123,7 @@ TEST(CellPicture, FarViewsKeepTheirLight) {
     Scene ball(sphere(20), 20'000);
     // Stripes three cells wide, most of them black.
     const std::vector<float> values = ball.values([](Vector3d p) { return std::sin(60 * p.z) - 0.5; });
-    const CellLook look = {1, values, black_or_white, {}};
+    const PaintedCells look = {1, values, black_or_white, {}};
     const double near = mean_light(ball.scene.draw(look, small_picture(256), ball.team));
     for (const std::int64_t side : {64, 24, 8}) {
         const double far = mean_light(ball.scene.draw(look, small_picture(side), ball.team));
@@ -137,7 +137,7 @@ TEST(CellPicture, FarViewsDoNotShimmer) {
     const std::vector<float> values = ball.values([](Vector3d p) {
         return std::sin(50 * p.x) * std::sin(50 * p.y) * std::sin(50 * p.z) > 0 ? 1 : -1;
     });
-    const CellLook look = {1, values, black_or_white, {}};
+    const PaintedCells look = {1, values, black_or_white, {}};
     DrawOptions options = small_picture(8);
     const Image first = ball.scene.draw(look, options, ball.team);
     options.view.azimuth = 3;
