@@ -61,7 +61,7 @@ inline SurfaceMesh sheet(int columns, int rows,
     }
     const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (columns + 1) + i); };
     const auto add = [&](std::initializer_list<std::uint32_t> corners) {
-        soup.corners.insert(soup.corners.end(), corners);
+        for (const std::uint32_t corner : corners) soup.corners.push_back(corner);
         soup.ends.push_back(soup.corners.size());
     };
     for (int j = 0; j < rows; ++j) {

@@ -16,7 +16,7 @@ inline PolygonSoup soup_of(std::vector<Vector3d> points,
     PolygonSoup soup;
     soup.points = std::move(points);
     for (const auto& polygon : polygons) {
-        soup.corners.insert(soup.corners.end(), polygon.begin(), polygon.end());
+        for (const std::uint32_t corner : polygon) soup.corners.push_back(corner);
         soup.ends.push_back(soup.corners.size());
     }
     return soup;
