@@ -1,9 +1,9 @@
 #include "export/cell_writer.h"
 
 #include "core/check.h"
-#include "core/file.h"
 #include "export/model_writer.h"
 #include "export/vtp.h"
+#include "export/write_encoded.h"
 #include "export/zip.h"
 #include "picture/float_bytes.h"
 #include "picture/npy.h"
@@ -13,7 +13,6 @@
 
 #include <array>
 #include <cstdint>
-#include <new>
 
 namespace cascade {
 
@@ -142,14 +141,7 @@ Result<void> write_cells(const std::filesystem::path& path, const SurfaceMesh& m
     for (const Channel& channel : results.channels) {
         CHECK(channel.values.size() == cells.places.size(), "a channel has a number for each cell");
     }
-    try {
-        const Result<std::string> bytes = encode(path, mesh, cells, results);
-        if (bytes) return write_file(path, *bytes);
-        return failure(fmt::format("cannot write '{}': {}", path.string(), bytes.error().message),
-                       bytes.error().hint);
-    } catch (const std::bad_alloc&) {
-        return failure(fmt::format("cannot write '{}': there is not enough memory", path.string()));
-    }
+    return write_encoded(path, [&] { return encode(path, mesh, cells, results); });
 }
 
 }  // namespace cascade

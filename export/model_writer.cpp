@@ -1,15 +1,14 @@
 #include "export/model_writer.h"
 
 #include "core/check.h"
-#include "core/file.h"
 #include "export/glb.h"
+#include "export/write_encoded.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <new>
 
 namespace cascade {
 
@@ -51,14 +50,7 @@ Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& m
                                    ".vtp",
                                    path.string()));
     }
-    try {
-        const Result<std::string> bytes = encode(ending_of(path), mesh, results);
-        if (bytes) return write_file(path, *bytes);
-        return failure(fmt::format("cannot write '{}': {}", path.string(), bytes.error().message),
-                       bytes.error().hint);
-    } catch (const std::bad_alloc&) {
-        return failure(fmt::format("cannot write '{}': there is not enough memory", path.string()));
-    }
+    return write_encoded(path, [&] { return encode(ending_of(path), mesh, results); });
 }
 
 }  // namespace cascade
