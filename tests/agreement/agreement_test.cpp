@@ -11,6 +11,7 @@
 #include "run/simulation.h"
 #include "support/kernel_comparison.h"
 #include "support/random_kernels.h"
+#include "support/small_models.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -18,9 +19,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #if CASCADE_HAS_JIT
 
@@ -156,23 +155,9 @@ TEST(Agreement, HoweverStepsArePlanned) {
     EXPECT_GT(kept, 100u);
 }
 
-/// A torus of 16 by 8 quadrilaterals, whose triangles are quickly covered with cells.
 std::filesystem::path small_torus() {
-    std::string text;
-    for (int i = 0; i < 16; ++i) {
-        for (int j = 0; j < 8; ++j) {
-            const double a = i * std::numbers::pi / 8, b = j * std::numbers::pi / 4, r = 1 + 0.4 * std::cos(b);
-            text += fmt::format("v {} {} {}\n", r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b));
-        }
-    }
-    for (int i = 0; i < 16; ++i) {
-        for (int j = 0; j < 8; ++j) {
-            const int right = (i + 1) % 16 * 8 + 1, here = 8 * i + 1, up = (j + 1) % 8;
-            text += fmt::format("f {} {} {} {}\n", here + j, right + j, right + up, here + up);
-        }
-    }
     const auto path = std::filesystem::path(::testing::TempDir()) / fmt::format("small_torus_{}.obj", getpid());
-    EXPECT_TRUE(write_file(path, text));
+    EXPECT_TRUE(write_file(path, test::small_torus_obj()));
     return path;
 }
 

@@ -1,8 +1,12 @@
 #include "tests/support/small_models.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <numbers>
 
 namespace cascade::test {
 
@@ -151,6 +155,23 @@ std::vector<SmallModel> small_models() {
             {"STL binary", "stl", binary_stl()},
             {"glTF", "gltf", gltf_text()},
             {"GLB", "glb", glb_file(gltf_with_buffer(R"("indices":1,)", ""), triangle_data())}};
+}
+
+std::string small_torus_obj() {
+    std::string text;
+    for (int i = 0; i < 16; ++i) {
+        for (int j = 0; j < 8; ++j) {
+            const double a = i * std::numbers::pi / 8, b = j * std::numbers::pi / 4, r = 1 + 0.4 * std::cos(b);
+            text += fmt::format("v {} {} {}\n", r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b));
+        }
+    }
+    for (int i = 0; i < 16; ++i) {
+        for (int j = 0; j < 8; ++j) {
+            const int right = (i + 1) % 16 * 8 + 1, here = 8 * i + 1, up = (j + 1) % 8;
+            text += fmt::format("f {} {} {} {}\n", here + j, right + j, right + up, here + up);
+        }
+    }
+    return text;
 }
 
 }  // namespace cascade::test

@@ -30,4 +30,7 @@ struct SmallModel {
 /// A tetrahedron, or less, in all formats that are read.
 std::vector<SmallModel> small_models();
 
+/// A torus of 16 by 8 quadrilaterals as an OBJ file: its triangles are quickly covered with cells.
+std::string small_torus_obj();
+
 }  // namespace cascade::test

@@ -2,11 +2,10 @@
 #include "lang/library.h"
 #include "resumed_run.h"
 #include "run/simulation.h"
+#include "support/small_models.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
 
 namespace cascade {
 namespace {
@@ -15,20 +14,7 @@ class ModelLibraryTest : public ResumedRunTest {
 protected:
     void SetUp() override {
         ResumedRunTest::SetUp();
-        std::string text;
-        for (int i = 0; i < 16; ++i) {
-            for (int j = 0; j < 8; ++j) {
-                const double a = i * std::numbers::pi / 8, b = j * std::numbers::pi / 4, r = 1 + 0.4 * std::cos(b);
-                text += fmt::format("v {} {} {}\n", r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b));
-            }
-        }
-        for (int i = 0; i < 16; ++i) {
-            for (int j = 0; j < 8; ++j) {
-                const int right = (i + 1) % 16 * 8 + 1, here = 8 * i + 1, up = (j + 1) % 8;
-                text += fmt::format("f {} {} {} {}\n", here + j, right + j, right + up, here + up);
-            }
-        }
-        ASSERT_TRUE(write_file(path("torus.obj"), text));
+        ASSERT_TRUE(write_file(path("torus.obj"), test::small_torus_obj()));
     }
 };
 
