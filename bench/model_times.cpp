@@ -8,16 +8,16 @@
 // kernels compiled within it.
 #include "core/floating_point.h"
 #include "core/parallel.h"
+#include "mesh/make_mesh.h"
+#include "mesh/model_file.h"
+#include "mesh/shapes.h"
 #include "run/memory.h"
 #include "run/script.h"
 #include "run/simulation.h"
 #include "surface/cell_gradient.h"
 #include "surface/cell_order.h"
-#include "surface/make_mesh.h"
-#include "surface/model_file.h"
 #include "surface/relax.h"
 #include "surface/scatter.h"
-#include "surface/shapes.h"
 #include "surface/voronoi_cells.h"
 
 #include <fmt/format.h>

@@ -2,10 +2,10 @@
 //
 // --model=FILE takes a model instead of a torus of 97,000 triangles; all flags of Google Benchmark
 // work. 64,000 cells, as many threads as the machine has.
+#include "mesh/make_mesh.h"
+#include "mesh/model_file.h"
 #include "run/cell_picture.h"
 #include "surface/blur_cells.h"
-#include "surface/make_mesh.h"
-#include "surface/model_file.h"
 #include "surface/scatter.h"
 
 #include <benchmark/benchmark.h>

@@ -4,8 +4,8 @@
 #include "export/fill_gaps.h"
 #include "export/render_vertices.h"
 #include "export/texture_layout.h"
+#include "mesh/normals.h"
 #include "picture/srgb.h"
-#include "surface/normals.h"
 
 #include <fmt/format.h>
 

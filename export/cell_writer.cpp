@@ -5,9 +5,9 @@
 #include "export/vtp.h"
 #include "export/write_encoded.h"
 #include "export/zip.h"
+#include "mesh/normals.h"
 #include "picture/float_bytes.h"
 #include "picture/npy.h"
-#include "surface/normals.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/palette.h"
-#include "surface/surface_mesh.h"
+#include "mesh/surface_mesh.h"
 
 #include <initializer_list>
 #include <span>

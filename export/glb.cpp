@@ -2,9 +2,9 @@
 
 #include "core/check.h"
 #include "export/channels.h"
+#include "mesh/normals.h"
 #include "picture/float_bytes.h"
 #include "picture/srgb.h"
-#include "surface/normals.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // Models as Wavefront OBJ files.
 #include "export/model_writer.h"
-#include "surface/normals.h"
+#include "mesh/normals.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // Models as binary PLY files.
 #include "export/model_writer.h"
+#include "mesh/normals.h"
 #include "picture/float_bytes.h"
 #include "picture/srgb.h"
-#include "surface/normals.h"
 
 #include <fmt/format.h>
 

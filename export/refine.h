@@ -2,7 +2,7 @@
 // than the points that show it.
 #pragma once
 
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 #include <cstddef>
 #include <vector>

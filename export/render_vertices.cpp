@@ -1,6 +1,6 @@
 #include "export/render_vertices.h"
 
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // on creases and along the seams of the texture become several vertices.
 #pragma once
 
-#include "surface/normals.h"
+#include "mesh/normals.h"
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // coordinates.
 #pragma once
 
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 #include <array>
 #include <cstdint>

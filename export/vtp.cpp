@@ -1,10 +1,10 @@
 #include "export/vtp.h"
 
 #include "export/model_writer.h"
+#include "mesh/normals.h"
 #include "picture/float_bytes.h"
 #include "picture/srgb.h"
 #include "picture/xml_text.h"
-#include "surface/normals.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "run/creased_mesh.h"
 
-#include "surface/normals.h"
+#include "mesh/normals.h"
 
 #include <algorithm>
 #include <utility>

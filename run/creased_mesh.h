@@ -1,8 +1,8 @@
 // A model as it is drawn: round where it is meant to be round, with edges where it has edges.
 #pragma once
 
+#include "mesh/surface_mesh.h"
 #include "render/triangle_mesh.h"
-#include "surface/surface_mesh.h"
 
 namespace cascade {
 

@@ -1,9 +1,9 @@
 #include "run/describe_model.h"
 
 #include "core/with_commas.h"
+#include "mesh/make_mesh.h"
+#include "mesh/model_file.h"
 #include "run/memory.h"
-#include "surface/make_mesh.h"
-#include "surface/model_file.h"
 
 #include <fmt/format.h>
 

@@ -7,8 +7,8 @@
 #include "core/result.h"
 #include "core/run_control.h"
 #include "lang/program.h"
+#include "mesh/surface_mesh.h"
 #include "run/read_access.h"
-#include "surface/surface_mesh.h"
 #include "surface/surface_cells.h"
 
 #include <filesystem>

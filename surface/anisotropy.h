@@ -1,7 +1,7 @@
 // Surfaces on which lengths count differently along and across a direction.
 #pragma once
 
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 #include <vector>
 

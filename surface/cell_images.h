@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/parallel.h"
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Convex regions of a plane whose edges know what lies beyond them.
 #pragma once
 
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 #include <cstdint>
 #include <vector>

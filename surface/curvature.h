@@ -6,7 +6,7 @@
 // surface/place_values.h.
 #pragma once
 
-#include "surface/surface_mesh.h"
+#include "mesh/surface_mesh.h"
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 #include "surface/edited_mesh.h"
 
 #include "core/check.h"
-#include "surface/exchange_edges.h"
-#include "surface/flat.h"
+#include "mesh/exchange_edges.h"
+#include "mesh/flat.h"
 
 namespace cascade {
 

@@ -1,7 +1,7 @@
 // A surface mesh while points are put into it and taken away. Its topology never changes.
 #pragma once
 
-#include "surface/surface_mesh.h"
+#include "mesh/surface_mesh.h"
 
 #include <span>
 #include <utility>

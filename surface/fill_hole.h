@@ -1,7 +1,7 @@
 // Cutting the hole that a point leaves into triangles.
 #pragma once
 
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 #include <functional>
 #include <span>

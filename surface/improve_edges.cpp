@@ -1,6 +1,6 @@
 #include "surface/improve_edges.h"
 
-#include "surface/flat.h"
+#include "mesh/flat.h"
 #include "surface/triangle_quality.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/result.h"
+#include "mesh/flat.h"
 #include "surface/edited_mesh.h"
-#include "surface/flat.h"
 
 #include <atomic>
 #include <span>

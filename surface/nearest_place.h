@@ -1,7 +1,7 @@
 // The place on a surface that is nearest to a point in space.
 #pragma once
 
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 #include <optional>
 #include <span>

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "core/result.h"
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 #include <array>
 #include <cstdint>

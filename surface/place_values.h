@@ -1,7 +1,7 @@
 // What is known at the points of a mesh, at places between them.
 #pragma once
 
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 #include <optional>
 #include <span>

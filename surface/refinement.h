@@ -1,7 +1,7 @@
 // A mesh with its long edges cut, for what is computed at points and has to be known between them.
 #pragma once
 
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 #include <atomic>
 #include <cstdint>

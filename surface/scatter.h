@@ -2,7 +2,7 @@
 // Reaction-Diffusion" (thesis, 1992), section 4.3.1.
 #pragma once
 
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 #include <vector>
 

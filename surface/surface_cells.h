@@ -1,7 +1,7 @@
 // Cells that cover a surface, and the walls between them: what diffusion on it needs to know.
 #pragma once
 
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 // Between directions in space and those of a triangle's plane.
 #pragma once
 
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 namespace cascade {
 

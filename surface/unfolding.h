@@ -1,7 +1,7 @@
 // The surface around a place, unfolded into the plane of its triangle.
 #pragma once
 
-#include "surface/flat.h"
+#include "mesh/flat.h"
 
 #include <span>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "surface/vertex_cells.h"
 
-#include "surface/intrinsic_delaunay.h"
+#include "mesh/intrinsic_delaunay.h"
 #include "surface/wall_list.h"
 
 #include <tuple>

@@ -3,7 +3,7 @@
 set -u
 cd "${SOURCE:-$(dirname "${BASH_SOURCE[0]}")/..}" || exit 1
 
-rooms='core ir lang jit solvers picture measure surface render export run app'
+rooms='core ir lang jit solvers picture measure mesh surface render export run app'
 declare -A may=(
     [core]='core'
     [ir]='ir core'
@@ -12,10 +12,11 @@ declare -A may=(
     [solvers]='solvers ir core'
     [picture]='picture core'
     [measure]='measure core'
-    [surface]='surface core'
+    [mesh]='mesh core'
+    [surface]='surface mesh core'
     [render]='render picture core'
-    [export]='export surface picture core'
-    [run]='run export render surface measure picture solvers jit lang ir core cascade'
+    [export]='export surface mesh picture core'
+    [run]='run export render surface mesh measure picture solvers jit lang ir core cascade'
     [app]='app run picture measure lang core'
 )
 

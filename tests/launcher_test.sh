@@ -11,7 +11,9 @@ fail() {
 count() { grep -c "$1" calls || true; }
 
 rm -rf ./* && mkdir -p bin elsewhere
-mkdir -p tree/{core,ir,lang,jit,solvers,picture,run,app,include,cmake}
+rooms=$(grep -oE 'cascade_room\([a-z]+' "$SOURCE/CMakeLists.txt" | cut -d'(' -f2)
+mkdir -p tree/{app,include,cmake}
+for room in $rooms; do mkdir -p "tree/$room"; done
 cp "$SOURCE/cascade" tree/ && cp "$SOURCE"/cmake/{setup.sh,packages.txt} tree/cmake/
 touch tree/CMakeLists.txt tree/core/a.cpp
 
@@ -66,6 +68,10 @@ touch tree/core/a.cpp
 launch
 [ "$(count 'cmake --build')" = 1 ] || fail "a changed file is built"
 [ "$(count apt-get)" = 0 ] || fail "packages are there"
+for room in $rooms; do
+    touch "tree/$room" && launch
+    [ "$(count 'cmake --build')" = 1 ] || fail "what has changed in $room is built"
+done
 touch tree/core/b.cpp && launch
 [ "$(count 'cmake --build')" = 1 ] || fail "a new file is built"
 rm tree/core/b.cpp && launch

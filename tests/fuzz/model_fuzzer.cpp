@@ -3,7 +3,7 @@
 // makes a surface that does not fit together. Built with clang, libFuzzer and sanitizers; the
 // commands are in README.md here.
 #include "core/check.h"
-#include "surface/model_file.h"
+#include "mesh/model_file.h"
 #include "tests/support/model_faults.h"
 #include "tests/support/small_models.h"
 

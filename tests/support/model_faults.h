@@ -1,7 +1,7 @@
 // What must hold of whatever is read of any model, for tests and fuzzers alike.
 #pragma once
 
-#include "surface/make_mesh.h"
+#include "mesh/make_mesh.h"
 
 #include <cmath>
 

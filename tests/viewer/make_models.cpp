@@ -4,7 +4,7 @@
 #include "export/model_writer.h"
 #include "export/point_values.h"
 #include "unit/export/example_surfaces.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <algorithm>
 #include <cmath>

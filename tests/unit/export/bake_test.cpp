@@ -4,10 +4,10 @@
 #include "export/fill_gaps.h"
 #include "export/glb.h"
 #include "export/texture_layout.h"
+#include "mesh/model_file.h"
 #include "picture/srgb.h"
-#include "surface/model_file.h"
 #include "unit/export/example_surfaces.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -6,7 +6,7 @@
 #include "export/point_values.h"
 #include "export/zip.h"
 #include "unit/export/example_surfaces.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <cstdlib>
 #include <filesystem>

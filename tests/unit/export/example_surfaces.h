@@ -2,7 +2,7 @@
 #pragma once
 
 #include "export/channels.h"
-#include "surface/make_mesh.h"
+#include "mesh/make_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Models as files: our own readers get back what was written.
 #include "export/glb.h"
 #include "export/model_writer.h"
+#include "mesh/model_file.h"
+#include "mesh/normals.h"
 #include "picture/srgb.h"
-#include "surface/model_file.h"
-#include "surface/normals.h"
 #include "unit/export/example_surfaces.h"
 
 #include <cstring>

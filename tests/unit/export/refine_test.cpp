@@ -2,7 +2,7 @@
 #include "export/refine.h"
 
 #include "unit/export/example_surfaces.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "run/cell_picture.h"
 
 #include "picture/srgb.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>
 

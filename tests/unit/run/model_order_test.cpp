@@ -1,10 +1,10 @@
 // Cells of a model lie in memory as steps are fastest, which nobody sees: files, random numbers and
 // sums are those of the cells in their own order.
+#include "mesh/flat.h"
 #include "run/model_cells.h"
 #include "run/script.h"
 #include "run/simulation.h"
 #include "surface/cell_gradient.h"
-#include "surface/flat.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include "surface/distance.h"
 #include "surface/key_directions.h"
 #include "surface/key_positions.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>
 

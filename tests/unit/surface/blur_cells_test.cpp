@@ -2,7 +2,7 @@
 #include "surface/blur_cells.h"
 
 #include "core/hash.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "surface/surface_cells.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // What is seen of cells between their places.
 #include "core/hash.h"
 #include "surface/cell_filter.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "surface/cell_gradient.h"
 #include "surface/cell_unfolding.h"
 #include "surface/tangent_frame.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "surface/relax.h"
 #include "surface/scatter.h"
 #include "surface/unfolding.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 #include "surface/voronoi_cells.h"
 #include "unit/surface/cell_checks.h"
 

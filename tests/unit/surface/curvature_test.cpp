@@ -2,7 +2,7 @@
 #include "surface/curvature.h"
 #include "surface/place_values.h"
 #include "core/hash.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>
 

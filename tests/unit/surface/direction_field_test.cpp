@@ -1,7 +1,7 @@
 // Directions along surfaces: from axes, gradients, curvature and keys.
 #include "surface/cell_gradient.h"
 #include "surface/key_directions.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Distances along surfaces against formulas, refined meshes, and the nearest place to a point.
 #include "surface/distance.h"
 #include "surface/nearest_place.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>
 

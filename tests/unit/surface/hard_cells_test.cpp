@@ -1,6 +1,6 @@
 // Cells of surfaces that are unlike an animal: fins, slivers, wires, parts, and very large or small.
+#include "mesh/shapes.h"
 #include "surface/make_cells.h"
-#include "surface/shapes.h"
 #include "unit/surface/cell_checks.h"
 
 #include <gtest/gtest.h>

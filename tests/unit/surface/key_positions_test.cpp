@@ -3,7 +3,7 @@
 #include "surface/graph_diffusion.h"
 #include "surface/key_positions.h"
 #include "surface/nearest_place.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "surface/retile.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <algorithm>
 #include <cmath>

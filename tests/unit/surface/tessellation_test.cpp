@@ -3,7 +3,7 @@
 #include "surface/fill_hole.h"
 #include "surface/mutual_tessellation.h"
 #include "surface/place_lattice.h"
-#include "unit/surface/shapes.h"
+#include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>
 

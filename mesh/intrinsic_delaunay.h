@@ -1,0 +1,32 @@
+// The Delaunay triangulation of a surface as it is, over its own points.
+#pragma once
+
+#include "mesh/surface_mesh.h"
+
+#include <array>
+#include <vector>
+
+namespace cascade {
+
+/// Triangles that lie on a surface of triangles, bent over its edges: known by the lengths of their
+/// sides only.
+struct IntrinsicMesh {
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::array<TriangleEdge, 3>> across;   ///< As in SurfaceMesh.
+    std::vector<std::array<double, 3>> lengths;        ///< Of the edges of each triangle.
+
+    double area(std::uint32_t triangle) const;
+    /// The cotangent of the angle that faces an edge.
+    double cotangent(TriangleEdge edge) const;
+};
+
+/// Exchanges edges until no two angles that face one have more than 180° together, which makes all
+/// cotangent weights positive except at boundaries: A. Bobenko and B. Springborn, "A Discrete
+/// Laplace–Beltrami Operator for Simplicial Surfaces", Discrete & Computational Geometry 38 (2007);
+/// the algorithm is that of M. Fisher et al., "An Algorithm for the Construction of Intrinsic
+/// Delaunay Triangulations with Applications to Digital Geometry Processing", Computing 81 (2007).
+/// Triangles may end up with two corners at one point. Gives up on edges that rounding would
+/// exchange for ever.
+IntrinsicMesh intrinsic_delaunay(const SurfaceMesh& mesh);
+
+}  // namespace cascade

@@ -1,0 +1,39 @@
+// Models from files: PLY, OBJ, OFF, STL, glTF and GLB.
+#pragma once
+
+#include "core/result.h"
+#include "mesh/polygon_soup.h"
+
+#include <filesystem>
+#include <string_view>
+
+namespace cascade {
+
+/// The largest model file that is read, in bytes.
+inline constexpr std::uint64_t largest_model_file = std::uint64_t{4} << 30;
+
+/// Reads a model by the ending of its name. Fails, naming the line or the place, on a file that is
+/// missing, truncated or not of its format, on corners that are no points, and where there is no
+/// polygon at all. Throws std::bad_alloc.
+Result<PolygonSoup> read_model(const std::filesystem::path& path);
+
+/// The same of the bytes of a file. `ending` is one of those of its formats in lower case: "ply",
+/// "obj", "off", "stl", "gltf", "glb". A file without polygons is no fault here.
+Result<PolygonSoup> read_model_bytes(std::string_view bytes, std::string_view ending,
+                                     const std::filesystem::path& folder);
+
+// One format each; `bytes` is the whole file.
+
+/// PLY, text or binary of either order, with polygons or triangle strips (surface/ply_file.cpp).
+Result<PolygonSoup> read_ply(std::string_view bytes);
+/// OFF of text, with colours (surface/off_file.cpp).
+Result<PolygonSoup> read_off(std::string_view bytes);
+/// OBJ, with texture coordinates and colours of points (surface/obj_file.cpp).
+Result<PolygonSoup> read_obj(std::string_view bytes);
+/// STL, text or binary (surface/stl_file.cpp).
+Result<PolygonSoup> read_stl(std::string_view bytes);
+/// glTF as text or binary by tinygltf (surface/gltf_file.cpp); all meshes of the scene, placed by
+/// its nodes. `folder` is where buffers in files of their own lie.
+Result<PolygonSoup> read_gltf(std::string_view bytes, const std::filesystem::path& folder);
+
+}  // namespace cascade

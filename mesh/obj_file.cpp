@@ -1,0 +1,156 @@
+// OBJ files (Wavefront Technologies, "Advanced Visualizer Manual", appendix B1: Object Files): places
+// of points and textures, colours of points, polygons. Other lines are not looked at.
+#include "mesh/model_file.h"
+#include "mesh/text_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::int64_t most_points = std::numeric_limits<std::int32_t>::max();
+
+/// What a corner of a face names, counted from 0.
+struct Corner {
+    std::uint32_t point = 0;
+    std::optional<std::uint32_t> texture;
+};
+
+/// Lines that end in a backslash go on in the next; it becomes two blanks, which changes no place.
+std::string joined_lines(std::string_view bytes) {
+    std::string text(bytes);
+    for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
+        const std::size_t end = text.find_first_not_of('\r', at + 1);
+        if (end != std::string::npos && text[end] == '\n') text.replace(at, end + 1 - at, end + 1 - at, ' ');
+    }
+    return text;
+}
+
+class ObjReader {
+public:
+    explicit ObjReader(std::string_view text) : lines_(text) {}
+
+    Result<PolygonSoup> read() {
+        for (;;) {
+            const Words& words = lines_.next();
+            if (words.empty()) break;
+            if (words[0] == "v" && !read_point(words)) return wrong_line("the place of a point");
+            if (words[0] == "vt" && !read_texture_place(words)) {
+                return wrong_line("a place in a texture");
+            }
+            if (words[0] == "f" && !read_face(words)) return wrong_line("a face of points");
+        }
+        return finished();
+    }
+
+private:
+    using Words = std::vector<std::string_view>;
+
+    tl::unexpected<Failure> wrong_line(std::string_view what) const {
+        return failure(fmt::format("line {} of the OBJ file is not {}", lines_.number(), what));
+    }
+
+    /// Three numbers, which three of a colour may follow.
+    bool read_point(const Words& words) {
+        std::array<double, 6> numbers{};
+        const std::size_t count = std::min<std::size_t>(words.size() - 1, 6);
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto number = number_in(words[k + 1]);
+            if (!number) return false;
+            numbers[k] = *number;
+        }
+        if (count < 3 || std::ssize(soup_.points) >= most_points) return false;
+        soup_.points.push_back({numbers[0], numbers[1], numbers[2]});
+        all_have_colours_ = all_have_colours_ && count == 6;
+        if (!all_have_colours_) return true;
+        for (std::size_t c = 0; c < 3; ++c) {
+            soup_.attributes[c].values.push_back(static_cast<float>(numbers[3 + c]));
+        }
+        return true;
+    }
+
+    bool read_texture_place(const Words& words) {
+        if (words.size() < 2 || std::ssize(texture_) >= most_points) return false;
+        const auto u = number_in(words[1]);
+        const auto v = words.size() > 2 ? number_in(words[2]) : 0;
+        if (!u || !v) return false;
+        texture_.push_back({static_cast<float>(*u), static_cast<float>(*v)});
+        return true;
+    }
+
+    bool read_face(const Words& words) {
+        for (std::size_t k = 1; k < words.size(); ++k) {
+            const std::optional<Corner> corner = corner_in(words[k]);
+            if (!corner) return false;
+            soup_.corners.push_back(corner->point);
+            all_have_texture_ = all_have_texture_ && corner->texture;
+            if (all_have_texture_) corner_texture_.push_back(*corner->texture);
+        }
+        soup_.ends.push_back(soup_.corners.size());
+        return true;
+    }
+
+    /// "point", "point/texture", "point//normal" or "point/texture/normal".
+    std::optional<Corner> corner_in(std::string_view word) const {
+        const std::size_t slash = std::min(word.find('/'), word.size());
+        const auto point = number_of(word.substr(0, slash), std::ssize(soup_.points));
+        if (!point) return std::nullopt;
+        Corner corner{*point, std::nullopt};
+        const std::string_view rest = word.substr(std::min(slash + 1, word.size()));
+        const std::string_view texture = rest.substr(0, rest.find('/'));
+        if (texture.empty()) return corner;
+        corner.texture = number_of(texture, std::ssize(texture_));
+        if (!corner.texture) return std::nullopt;
+        return corner;
+    }
+
+    /// Counted from 1, or from −1 backwards from the last one so far.
+    static std::optional<std::uint32_t> number_of(std::string_view word, std::int64_t so_far) {
+        const auto number = whole_number_in<std::int64_t>(word);
+        if (!number || *number > most_points || *number < -so_far || *number == 0) return std::nullopt;
+        return static_cast<std::uint32_t>(*number > 0 ? *number - 1 : so_far + *number);
+    }
+
+    Result<PolygonSoup> finished() {
+        if (soup_.points.empty()) return failure("the OBJ file has no points");
+        for (std::size_t face = 0; face < soup_.polygon_count(); ++face) {
+            for (std::size_t c = soup_.first_corner(face); c < soup_.ends[face]; ++c) {
+                if (soup_.corners[c] >= soup_.points.size()) {
+                    return failure(fmt::format("face {} of the OBJ file names a point that is not there",
+                                               face + 1));
+                }
+                if (!all_have_texture_) continue;
+                if (corner_texture_[c] >= texture_.size()) {
+                    return failure(fmt::format("face {} of the OBJ file names a place in a texture that "
+                                               "is not there",
+                                               face + 1));
+                }
+                soup_.texture.push_back(texture_[corner_texture_[c]]);
+            }
+        }
+        if (!all_have_colours_) soup_.attributes.clear();
+        return std::move(soup_);
+    }
+
+    LineReader lines_;
+    PolygonSoup soup_{
+        {}, {}, {}, {}, {PointAttribute{"red", {}}, PointAttribute{"green", {}}, PointAttribute{"blue", {}}}};
+    std::vector<TexturePlace> texture_;
+    std::vector<std::uint32_t> corner_texture_;  ///< Of each corner, as long as all have one.
+    bool all_have_texture_ = true, all_have_colours_ = true;
+};
+
+}  // namespace
+
+Result<PolygonSoup> read_obj(std::string_view bytes) {
+    if (bytes.find('\\') == std::string_view::npos) return ObjReader(bytes).read();
+    const std::string text = joined_lines(bytes);
+    return ObjReader(text).read();
+}
+
+}  // namespace cascade

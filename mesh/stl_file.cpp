@@ -1,0 +1,119 @@
+// STL files (3D Systems, "StereoLithography Interface Specification", 1989), text or binary. Which of them
+// a file is says its size: that of a binary file follows from its number of triangles.
+#include "mesh/model_file.h"
+#include "mesh/place_table.h"
+#include "mesh/text_words.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <optional>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::size_t head_size = 84, triangle_size = 50;  ///< Bytes of a binary file.
+
+/// Triangles come with points of their own; those in the same place become one.
+class SoupOfPlaces {
+public:
+    SoupOfPlaces() = default;
+    SoupOfPlaces(const SoupOfPlaces&) = delete;  // The table looks at the points.
+    SoupOfPlaces& operator=(const SoupOfPlaces&) = delete;
+
+    void add_corner(Vector3d p) {
+        soup_.points.push_back(p + Vector3d{0, 0, 0});  // −0 becomes 0.
+        const auto number = static_cast<std::uint32_t>(soup_.points.size() - 1);
+        soup_.corners.push_back(places_.find_or_add(number));
+        if (soup_.corners.back() != number) soup_.points.pop_back();
+    }
+    void end_polygon() { soup_.ends.push_back(soup_.corners.size()); }
+    std::size_t corners_of_last() const {
+        return soup_.corners.size() - (soup_.ends.empty() ? 0 : soup_.ends.back());
+    }
+    PolygonSoup take() { return std::move(soup_); }
+
+private:
+    PolygonSoup soup_;
+    PlaceTable places_{soup_.points};
+};
+
+/// The four bytes from `at` on; STL files have the lowest first.
+std::uint32_t word_at(std::string_view bytes, std::size_t at) {
+    std::uint32_t word = 0;
+    for (std::size_t k = 4; k-- > 0;) word = word << 8 | static_cast<unsigned char>(bytes[at + k]);
+    return word;
+}
+
+PolygonSoup read_binary(std::string_view bytes, std::size_t count) {
+    SoupOfPlaces soup;
+    for (std::size_t t = 0; t < count; ++t) {
+        for (std::size_t k = 1; k <= 3; ++k) {  // Before the corners stands the normal.
+            const std::size_t at = head_size + t * triangle_size + 12 * k;
+            const auto number = [&](std::size_t c) {
+                return static_cast<double>(std::bit_cast<float>(word_at(bytes, at + 4 * c)));
+            };
+            soup.add_corner({number(0), number(1), number(2)});
+        }
+        soup.end_polygon();
+    }
+    return soup.take();
+}
+
+bool is_word(std::string_view word, std::string_view lower_case) {
+    return word.size() == lower_case.size() &&
+           std::equal(word.begin(), word.end(), lower_case.begin(),
+                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; });
+}
+
+Result<PolygonSoup> read_text(std::string_view bytes) {
+    LineReader lines(bytes);
+    SoupOfPlaces soup;
+    bool is_in_loop = false, is_in_solid = false;
+    const auto wrong_line = [&](std::string_view why) {
+        return failure(fmt::format("line {} of the STL file {}", lines.number(), why));
+    };
+    for (;;) {
+        const std::vector<std::string_view>& words = lines.next();
+        if (words.empty()) break;
+        if (is_word(words[0], "solid")) is_in_solid = true;
+        if (is_word(words[0], "endsolid")) is_in_solid = false;
+        if (is_word(words[0], "outer")) {
+            if (is_in_loop) return wrong_line("begins a loop in a loop");
+            is_in_loop = true;
+        } else if (is_word(words[0], "vertex")) {
+            std::array<std::optional<double>, 3> numbers;
+            for (std::size_t k = 0; k < 3 && k + 1 < words.size(); ++k) numbers[k] = number_in(words[k + 1]);
+            if (!is_in_loop || !numbers[0] || !numbers[1] || !numbers[2]) {
+                return wrong_line("is not a corner of a triangle");
+            }
+            soup.add_corner({*numbers[0], *numbers[1], *numbers[2]});
+        } else if (is_word(words[0], "endloop")) {
+            if (!is_in_loop || soup.corners_of_last() < 3) return wrong_line("ends no triangle");
+            is_in_loop = false;
+            soup.end_polygon();
+        }
+    }
+    if (is_in_solid || is_in_loop) {
+        return failure("the STL file breaks off before 'endsolid'", "it may be truncated");
+    }
+    return soup.take();
+}
+
+}  // namespace
+
+Result<PolygonSoup> read_stl(std::string_view bytes) {
+    const bool has_head = bytes.size() >= head_size;
+    const std::size_t count = has_head ? word_at(bytes, head_size - 4) : 0;
+    if (has_head && bytes.size() == head_size + count * triangle_size) return read_binary(bytes, count);
+    if (is_word(bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()), 5), "solid")) {
+        return read_text(bytes);
+    }
+    if (!has_head) return failure("this is no STL file that can be read");
+    return failure(fmt::format("the STL file is {} bytes long, but its {} triangles take {}", bytes.size(),
+                               count, head_size + count * triangle_size),
+                   "it may be truncated");
+}
+
+}  // namespace cascade

@@ -1,0 +1,82 @@
+// A surface in space as triangles that fit together: what patterns are grown on.
+//
+// Every edge lies between two triangles or at a boundary, every point has one fan of triangles
+// around it, and neighbours turn the same way round: the surface is an oriented manifold with
+// boundary, of one or several pieces.
+#pragma once
+
+#include "mesh/polygon_soup.h"
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <vector>
+
+namespace cascade {
+
+/// Corners and edges of a triangle follow each other: 0, 1, 2, 0.
+template <std::unsigned_integral Index>
+constexpr Index corner_after(Index k) {
+    return k == 2 ? 0 : k + 1;
+}
+template <std::unsigned_integral Index>
+constexpr Index corner_before(Index k) {
+    return k == 0 ? 2 : k - 1;
+}
+
+/// Edge k of a triangle goes from its corner k to corner k + 1 (of 0, 1, 2).
+struct TriangleEdge {
+    static constexpr std::uint32_t none = 0xffffffff;
+    std::uint32_t triangle = none;
+    std::uint32_t edge = 0;
+
+    bool exists() const { return triangle != none; }
+    friend bool operator==(const TriangleEdge&, const TriangleEdge&) = default;
+};
+
+struct SurfaceMesh {
+    std::vector<Vector3d> points;
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Counterclockwise, seen from outside.
+    /// What lies across edge k of each triangle: an edge of another one, or nothing.
+    std::vector<std::array<TriangleEdge, 3>> across;
+    std::vector<std::array<TexturePlace, 3>> texture;  ///< Per triangle; empty where there is none.
+    std::vector<PointAttribute> attributes;
+    /// The face of the model from which each triangle was cut, counted from 0 (one without area
+    /// that was merged with a neighbour counts to the neighbour's); empty where nothing but
+    /// triangles is known.
+    std::vector<std::uint32_t> faces;
+
+    Vector3d corner(std::size_t triangle, std::size_t k) const {
+        return points[triangles[triangle][k]];
+    }
+    /// At right angles to a triangle, outwards, as long as twice its area.
+    Vector3d double_area_normal(std::size_t triangle) const {
+        const Vector3d a = corner(triangle, 0);
+        return cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
+    }
+    double area(std::size_t triangle) const { return length(double_area_normal(triangle)) / 2; }
+    /// Of all triangles, added in their order.
+    double total_area() const;
+    /// The smallest box that holds all points.
+    struct Box {
+        Vector3d low, high;
+    };
+    Box box() const;
+};
+
+/// What a mesh is, in numbers.
+struct MeshFacts {
+    std::size_t points = 0, triangles = 0, edges = 0;
+    std::size_t pieces = 0;           ///< Parts that do not hang together.
+    std::size_t boundary_edges = 0;
+    std::size_t boundaries = 0;       ///< Closed loops of boundary edges.
+    std::int64_t euler_characteristic = 0;  ///< points − edges + triangles.
+    double area = 0;
+    Vector3d low, high;               ///< The smallest box that holds it.
+};
+MeshFacts facts_of(const SurfaceMesh& mesh);
+
+/// The number of each triangle's piece, 0 … pieces − 1, in order of their first triangles.
+std::vector<std::uint32_t> pieces_of(const SurfaceMesh& mesh);
+
+}  // namespace cascade

@@ -1,0 +1,54 @@
+#include "mesh/text_words.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace cascade {
+
+std::vector<std::string_view> words_of(std::string_view line) {
+    constexpr std::string_view blank = " \t\r\v\f";
+    std::vector<std::string_view> words;
+    for (std::size_t at = line.find_first_not_of(blank); at != std::string_view::npos;
+         at = line.find_first_not_of(blank, at)) {
+        const std::size_t end = std::min(line.find_first_of(blank, at), line.size());
+        words.push_back(line.substr(at, end - at));
+        at = end;
+    }
+    return words;
+}
+
+std::optional<double> number_in(std::string_view word) {
+    if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+    double value = 0;
+    const auto [stop, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (fault == std::errc::invalid_argument || stop != word.data() + word.size()) {
+        return std::nullopt;
+    }
+    if (fault == std::errc()) return value;
+    // Out of range, and from_chars does not say at which end: the exponent does, or, where there is
+    // none, whether anything stands before the point.
+    const bool is_negative = word.starts_with('-');
+    if (is_negative) word.remove_prefix(1);
+    const std::size_t exponent = word.find_first_of("eE");
+    const bool is_small = exponent != std::string_view::npos
+                              ? word.substr(exponent + 1).starts_with('-')
+                              : std::min(word.find_first_not_of('0'), word.size()) ==
+                                    std::min(word.find('.'), word.size());
+    const double size = is_small ? 0 : std::numeric_limits<double>::infinity();
+    return is_negative ? -size : size;
+}
+
+const std::vector<std::string_view>& LineReader::next() {
+    words_.clear();
+    while (words_.empty() && at_ < text_.size()) {
+        const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+        std::string_view line = text_.substr(at_, end - at_);
+        line = line.substr(0, line.find('#'));
+        at_ = std::min(end + 1, text_.size());
+        ++number_;
+        words_ = words_of(line);
+    }
+    return words_;
+}
+
+}  // namespace cascade

@@ -1,0 +1,195 @@
+// Each format as programs write it, and files that are broken.
+#include "mesh/model_file.h"
+
+#include "support/small_models.h"
+#include "unit/mesh/soups.h"
+
+#include <gmock/gmock.h>
+
+#include <bit>
+#include <cstring>
+#include <fstream>
+
+namespace cascade {
+namespace {
+
+using test::bytes_of;
+using test::gltf_text;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string fault_of(const Result<PolygonSoup>& result) {
+    return result ? "read" : result.error().message;
+}
+
+constexpr std::string_view text_ply = R"(ply
+format ascii 1.0
+comment two triangles and a strip
+element vertex 5
+property float x
+property float y
+property double z
+property uchar red
+property float quality
+element face 1
+property uchar flags
+property list uchar int vertex_indices
+property list uchar float texcoord
+element tristrips 1
+property list int int vertex_indices
+element edge 1
+property int vertex1
+property int vertex2
+end_header
+0 0 0 255 1
+1 0 0 0 2
+1 1 0 0 3
+0 1 0.5 0 4
+2 2 2 7 5
+9 4 0 1 2 3 8 0 0 1 0 1 1 0 1
+8 0 1 2 3 -1 4 2 1
+0 1
+)";
+
+TEST(ModelFile, APlyFileOfText) {
+    const auto soup = read_ply(text_ply);
+    ASSERT_TRUE(soup) << fault_of(soup);
+    EXPECT_EQ(soup->points.size(), 5u);
+    EXPECT_EQ(soup->points[3], (Vector3d{0, 1, 0.5}));
+    ASSERT_EQ(soup->polygon_count(), 4u);
+    EXPECT_THAT(soup->polygon(0), ElementsAre(0, 1, 2, 3));
+    EXPECT_THAT(soup->polygon(1), ElementsAre(0, 1, 2));
+    EXPECT_THAT(soup->polygon(2), ElementsAre(2, 1, 3));
+    EXPECT_THAT(soup->polygon(3), ElementsAre(4, 2, 1));
+    EXPECT_TRUE(soup->texture.empty());  // The strips have none.
+    ASSERT_EQ(soup->attributes.size(), 2u);
+    EXPECT_EQ(soup->attributes[0].name, "red");
+    EXPECT_THAT(soup->attributes[1].values, ElementsAre(1, 2, 3, 4, 5));
+}
+
+TEST(ModelFile, PlyFilesOfBothByteOrders) {
+    for (const bool big : {false, true}) {
+        std::string file = "ply\nformat ";
+        file += big ? "binary_big_endian" : "binary_little_endian";
+        file += " 1.0\nelement vertex 3\nproperty float x\nproperty double y\nproperty short z\n"
+                "property float s\nproperty float t\n"
+                "element face 1\nproperty list uint8 uint16 vertex_index\nend_header\n";
+        for (int k = 0; k < 3; ++k) {
+            file += bytes_of(static_cast<float>(k), big) + bytes_of(0.1 * k, big) +
+                    bytes_of(static_cast<std::uint16_t>(-k), big) + bytes_of(0.25F * static_cast<float>(k), big) +
+                    bytes_of(0.5F, big);
+        }
+        file += '\3';
+        for (const std::uint16_t corner : std::initializer_list<std::uint16_t>{0, 2, 1}) file += bytes_of(corner, big);
+        const auto soup = read_ply(file);
+        ASSERT_TRUE(soup) << fault_of(soup);
+        EXPECT_EQ(soup->points[2], (Vector3d{2, 0.2, -2}));
+        EXPECT_THAT(soup->polygon(0), ElementsAre(0, 2, 1));
+        ASSERT_EQ(soup->texture.size(), 3u);
+        EXPECT_EQ(soup->texture[1], (TexturePlace{0.5F, 0.5F}));
+
+        for (std::size_t size = 0; size < file.size(); ++size) {
+            EXPECT_FALSE(read_ply(std::string_view(file).substr(0, size))) << size;
+        }
+    }
+}
+
+TEST(ModelFile, BrokenPlyFiles) {
+    const auto fault_with = [](std::string_view from, std::string_view to) {
+        std::string text(text_ply);
+        text.replace(text.find(from), from.size(), to);
+        return fault_of(read_ply(text));
+    };
+    EXPECT_EQ(fault_with("ply\n", "pli\n"), "this is no PLY file: it does not begin with 'ply'");
+    EXPECT_EQ(fault_with("float y", "flaot y"), "line 6 of the PLY file's head is not understood");
+    EXPECT_EQ(fault_with("end_header", ""), "line 20 of the PLY file's head is not understood");
+    EXPECT_THAT(fault_with("vertex 5", "vertex 4000000000"), HasSubstr("too short for 4000000000"));
+    EXPECT_THAT(fault_with("vertex 5", "vertex 18446744073709551615"), HasSubstr("too short"));
+    EXPECT_EQ(fault_with("9 4 0 1 2 3", "9 4 0 1 2 7"), "a face names point 7, but there are only 5");
+    EXPECT_THAT(fault_with("9 4 0 1 2 3", "9 4 0 1 2 -3"), HasSubstr("no number of a point"));
+    EXPECT_THAT(fault_with("9 4 0", "9 4000000000 0"), HasSubstr("breaks off"));
+    EXPECT_THAT(fault_with("1 0 0 0 2", "1 0 zero 0 2"), HasSubstr("'vertex' 1"));
+    EXPECT_EQ(fault_with("float x", "float w"), "the points of the PLY file lack x, y or z");
+}
+
+TEST(ModelFile, AnObjFile) {
+    const auto soup = read_obj("mtllib /dev/zero\n"
+                                       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                                       "vt 0.5 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                                       "g square\nf 1/1 2/2 3/3 4/4\nf -4/1 -3/2 -1/4\n");
+    ASSERT_TRUE(soup) << fault_of(soup);
+    EXPECT_EQ(soup->points.size(), 4u);
+    ASSERT_EQ(soup->polygon_count(), 2u);
+    EXPECT_THAT(soup->polygon(0), ElementsAre(0, 1, 2, 3));
+    EXPECT_THAT(soup->polygon(1), ElementsAre(0, 1, 3));
+    ASSERT_EQ(soup->texture.size(), 7u);
+    EXPECT_EQ(soup->texture[0], (TexturePlace{0.5F, 0}));
+    EXPECT_EQ(soup->texture[6], (TexturePlace{0, 1}));
+
+    EXPECT_EQ(fault_of(read_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n")),
+              "face 2 of the OBJ file names a point that is not there");
+}
+
+TEST(ModelFile, AnOffFileAndAnStlFile) {
+    const auto off = read_off("COFF\n# a square\n4 2 0\n0 0 0 255 0 0\n1 0 0 0 0 0\n1 1 0 0 0 0\n\n"
+                              "0 1 0 0 51 0\n3 0 1 2\n3 0 2 3 1 0 0\n");
+    ASSERT_TRUE(off) << fault_of(off);
+    EXPECT_EQ(off->points.size(), 4u);
+    EXPECT_THAT(off->polygon(1), ElementsAre(0, 2, 3));
+    ASSERT_EQ(off->attributes.size(), 3u);
+    EXPECT_THAT(off->attributes[1].values, ElementsAre(0, 0, 0, 0.2F));
+    EXPECT_TRUE(read_off("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2"));
+    EXPECT_EQ(fault_of(read_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n")),
+              "line 5 of the OFF file is not the place of a point");
+    EXPECT_EQ(fault_of(read_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n")),
+              "line 6 of the OFF file is not a face of these points");
+    EXPECT_THAT(fault_of(read_off("OFF\n4000000000 1 0\n0 0 0\n")), HasSubstr("too short for"));
+    EXPECT_EQ(fault_of(read_off("solid")), "this is no OFF file of text");
+
+    const auto stl = read_stl("solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                                      "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n");
+    ASSERT_TRUE(stl) << fault_of(stl);
+    EXPECT_EQ(stl->polygon_count(), 1u);
+}
+
+TEST(ModelFile, AGltfFileIsPlacedByItsNodes) {
+    for (const char* indices : {R"("indices":1,)", ""}) {
+        const auto soup = read_gltf(gltf_text(indices), ".");
+        ASSERT_TRUE(soup) << fault_of(soup);
+        ASSERT_EQ(soup->points.size(), 3u);
+        EXPECT_EQ(soup->points[0], (Vector3d{2, 0, 0}));
+        EXPECT_EQ(soup->points[1], (Vector3d{4, 0, 0}));
+        EXPECT_EQ(soup->points[2], (Vector3d{2, 2, 0}));
+        EXPECT_THAT(soup->polygon(0), ElementsAre(0, 1, 2));
+    }
+}
+
+TEST(ModelFile, BrokenGltfFiles) {
+    const auto fault_with = [](std::string_view from, std::string_view to) {
+        std::string text = gltf_text();
+        text.replace(text.find(from), from.size(), to);
+        return fault_of(read_gltf(text, "."));
+    };
+    EXPECT_EQ(fault_with(R"({"asset")", "nonsense"), "this is no glTF file that can be read");
+    EXPECT_EQ(fault_with(R"("children":[1])", R"("children":[0])"),
+              "the nodes of the glTF file are no tree");
+    EXPECT_EQ(fault_with(R"("children":[1])", R"("children":[7])"),
+              "node 7 of the glTF file is not there");
+    EXPECT_EQ(fault_with(R"("mesh":0)", R"("mesh":3)"), "mesh 3 of the glTF file is not there");
+    EXPECT_EQ(fault_with(R"("count":3,"type":"VEC3")", R"("count":300000,"type":"VEC3")"),
+              "the glTF file has triangles without places or beyond its data");
+    EXPECT_EQ(fault_with(R"("byteOffset":36)", R"("byteOffset":40)"),
+              "the triangles of the glTF file lie beyond its data");
+}
+
+TEST(ModelFile, NamesDecideTheFormat) {
+    EXPECT_THAT(fault_of(read_model("cow.blend")), HasSubstr("'cow.blend' is no model"));
+    EXPECT_THAT(fault_of(read_model("/nowhere/cow.PLY")), HasSubstr("cow.PLY"));
+    const auto path = std::filesystem::path(testing::TempDir()) / "points.ply";
+    std::ofstream(path) << "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                           "property float y\nproperty float z\nend_header\n1 2 3\n";
+    EXPECT_THAT(fault_of(read_model(path)), HasSubstr("has 1 points but no faces"));
+}
+
+}  // namespace
+}  // namespace cascade
