@@ -6,6 +6,7 @@
 #include "mesh/model_file.h"
 #include "run/cell_picture.h"
 #include "surface/blur_cells.h"
+#include "surface/relax.h"
 #include "surface/scatter.h"
 
 #include <benchmark/benchmark.h>
