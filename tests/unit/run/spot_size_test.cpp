@@ -1,0 +1,117 @@
+// The scale of a pattern is a length: it is the same on coarse, fine and badly cut triangles of one
+// surface, whatever the number of cells, and the same as on the plane.
+#include "measure/regions.h"
+#include "run/measured.h"
+#include "run_fixture.h"
+#include "torus_triangles.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace cascade {
+namespace {
+
+using test::Triangles;
+
+double mean_of(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Connected parts of the cells above their mean, cells being connected by walls.
+std::int64_t count_spots(const SurfaceCells& cells, const std::vector<double>& values) {
+    const double level = mean_of(values);
+    std::int64_t spots = 0;
+    std::vector<bool> is_seen(values.size(), false);
+    std::vector<std::size_t> waiting;
+    for (std::size_t first = 0; first < values.size(); ++first) {
+        if (is_seen[first] || values[first] <= level) continue;
+        ++spots;
+        is_seen[first] = true;
+        waiting.push_back(first);
+        while (!waiting.empty()) {
+            const std::size_t cell = waiting.back();
+            waiting.pop_back();
+            for (const CellWall& wall : cells.walls_of(cell)) {
+                if (is_seen[wall.neighbour] || values[wall.neighbour] <= level) continue;
+                is_seen[wall.neighbour] = true;
+                waiting.push_back(wall.neighbour);
+            }
+        }
+    }
+    return spots;
+}
+
+// As many units of area as the plane has, and so many cells if nothing else is said: 50 spots.
+constexpr double area_in_units = 5000;
+
+class SpotSizeTest : public RunTest {
+protected:
+    /// How many of Schnakenberg's spots have grown on a domain.
+    std::int64_t spots_on(const std::string& domain) {
+        Script script = load(fmt::format("domain {{ {} }}\nstage spots: schnakenberg {{\n"
+                                         "  duration: 80\n  speed: 0.04\n  solver: rkl1\n}}\n", domain));
+        EXPECT_TRUE(script.program) << script.messages(false);
+        if (!script.program) return 0;
+        SimulationOptions options;
+        options.backend = has_jit() ? BackendKind::jit : BackendKind::interpreter;
+        auto made = Simulation::create(script, options);
+        EXPECT_TRUE(made) << (made ? "" : made.error().message) << script.messages(false);
+        if (!made) return 0;
+        Simulation& simulation = **made;
+        RunControl control;
+        EXPECT_TRUE(simulation.start_stage(0));
+        const auto end = simulation.advance_stage(0, script.program->stages[0].iterations, control, {});
+        EXPECT_TRUE(end) << (end ? "" : end.error().message);
+        const Field& field = simulation.state(0).species[0];
+        if (const auto model = simulation.model()) {
+            const double area = std::accumulate(model->cells.areas.begin(), model->cells.areas.end(), 0.0);
+            EXPECT_NEAR(area / model->unit / model->unit / area_in_units, 1, 1e-6) << "the same surface";
+            return count_spots(model->cells, cell_values(field, *model));
+        }
+        const measure::Samples samples = to_samples(field, simulation.grid());
+        return measure::find_regions(samples, mean_of(samples.values)).above;
+    }
+
+    /// The area of a spot on the mean, in square units, of two runs.
+    double spot_area(const std::string& domain) {
+        constexpr int runs = 2;
+        std::int64_t spots = 0;
+        for (int seed = 1; seed <= runs; ++seed) spots += spots_on(fmt::format("{}; seed: {}", domain, seed));
+        EXPECT_GT(spots, 0);
+        return runs * area_in_units / static_cast<double>(spots);
+    }
+};
+
+TEST_F(SpotSizeTest, IsTheSameOnAnyTrianglesAndOnThePlane) {
+    const Triangles coarse = Triangles::torus();
+    ASSERT_TRUE(write_file(path("coarse.obj"), coarse.obj()));
+    ASSERT_TRUE(write_file(path("fine.obj"), coarse.finer().finer().finer().obj()));
+    const Triangles bad = coarse.worse();
+    EXPECT_GT(bad.spread(), 1e9);
+    ASSERT_TRUE(write_file(path("bad.obj"), bad.obj()));
+    const double unit = std::sqrt(coarse.area() / area_in_units);
+
+    std::vector<double> areas;
+    for (const double cells : {area_in_units, 2 * area_in_units}) {
+        const double side = std::round(std::sqrt(cells));
+        const double plane = spot_area(
+            fmt::format("grid: {0}, {0}; spacing: {1}", side, std::sqrt(area_in_units) / side));
+        std::printf("spots of %.0f cells in square units: plane %.1f", cells, plane);
+        for (const char* name : {"coarse", "fine", "bad"}) {
+            const double found = spot_area(
+                fmt::format("mesh: \"{}.obj\"; cells: {}; unit: {}", name, cells, unit));
+            std::printf(", %s %.1f", name, found);
+            // Among equal runs on the plane the number of spots deviates by 4 %.
+            EXPECT_NEAR(found / plane, 1, 0.08) << name << ", " << cells;
+            areas.push_back(found);
+        }
+        std::printf("\n");
+        areas.push_back(plane);
+    }
+    for (const double area : areas) EXPECT_NEAR(area / mean_of(areas), 1, 0.06);
+}
+
+}  // namespace
+}  // namespace cascade
