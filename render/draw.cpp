@@ -1,8 +1,9 @@
 // Light: one sun behind the viewer's left shoulder, a disc and not a point so that its shadows are
 // soft, and a sky that is equally bright, so that hollows are darker. Each of a pixel's rays asks
-// once for the sun and once for the sky. Where is a point of a sequence that covers the
-// square evenly (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018),
-// moved in each pixel by a hash of the pixel.
+// once for the sun and once for the sky, and more often where the answers differ within the pixel:
+// elsewhere nothing would be learnt, and there few answers are grain. Where is a point of a
+// sequence that covers the square evenly (M. Roberts, "The Unreasonable Effectiveness of
+// Quasirandom Sequences", 2018), moved in each pixel by a hash of the pixel.
 #include "render/draw.h"
 
 #include "core/hash.h"
@@ -12,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace cascade {
 
@@ -23,6 +25,7 @@ constexpr float sun_radius = 0.12F;     ///< Tangent of the sun's half width.
 constexpr float ground_shade = 0.55F;   ///< How much of the light the ground's shadow takes away.
 constexpr float shine = 0.06F;
 constexpr Colour background{1, 1, 1};
+constexpr std::uint32_t rounds = 4;     ///< How often each ray asks for a light that is partly hidden.
 
 float to_fraction(std::uint32_t word) {
     return static_cast<float>(word >> 8) * 0x1p-24F;  // 0 … 1, 1 excluded.
@@ -47,9 +50,12 @@ Point on_disc(Point square) {
             radius * static_cast<float>(std::sin(angle))};
 }
 
-struct Light {
-    float sun = 0;  ///< 0 or 1.
-    float sky = 0;
+/// What a ray met: its light is `always`, and what the sun and the sky add as far as they are seen.
+struct Seen {
+    Colour always{0, 0, 0};
+    Colour of_sun{0, 0, 0}, of_sky{0, 0, 0};
+    Vector3 place, normal;
+    bool is_lit = false;  ///< Whether the two count at all.
 };
 
 class Tracer {
@@ -64,41 +70,73 @@ public:
           box_(bounds(mesh)),
           size_(length(box_.high - box_.low)) {
         sun_ = unit(camera_.backward() + camera_.up() * 0.9F - camera_.right() * 0.7F);
+        sun_frame_ = frame_of(sun_);
         ground_ = dot(box_.low, options.view.up);
     }
 
-    Colour pixel(std::int64_t x, std::int64_t y) const {
+    /// `seen` is room to work in.
+    Colour pixel(std::int64_t x, std::int64_t y, std::vector<Seen>& seen) const {
         const auto left = static_cast<float>(x);
         const auto top = static_cast<float>(y);
         const auto hash =
             pcg4d({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0, 0});
         const auto more = pcg4d(hash);
         const int side = options_.samples;
-        Colour sum{0, 0, 0};
+        seen.clear();
         for (int k = 0; k < side * side; ++k) {
-            const auto number = static_cast<std::uint32_t>(k);
-            const Point place = even_point(number, hash[0], hash[1]);
-            const Dice dice{on_disc(even_point(number, hash[2], hash[3])),
-                            on_disc(even_point(number, more[0], more[1]))};
-            const Colour light = trace(camera_.ray(left + place.x, top + place.y), dice);
-            for (std::size_t c = 0; c < 3; ++c) sum[c] += light[c];
+            const Point place = even_point(static_cast<std::uint32_t>(k), hash[0], hash[1]);
+            seen.push_back(trace(camera_.ray(left + place.x, top + place.y)));
         }
+        Colour sum{0, 0, 0};
+        for (const Seen& each : seen) add(each.always, 1, sum);
+        add_light(seen, &Seen::of_sun, sum, [&](const Seen& from, std::uint32_t number) {
+            return sees_sun(from, on_disc(even_point(number, hash[2], hash[3])));
+        });
+        add_light(seen, &Seen::of_sky, sum, [&](const Seen& from, std::uint32_t number) {
+            return sees_sky(from, on_disc(even_point(number, more[0], more[1])));
+        });
         for (float& channel : sum) channel = stored_of(channel / static_cast<float>(side * side));
         return sum;
     }
 
 private:
-    /// Where in the sun's disc and in the sky's (seen from above) a ray asks for light.
-    struct Dice {
-        Point sun, sky;
-    };
-
-    Colour trace(const Ray& ray, const Dice& dice) const {
-        if (const auto hit = caster_.nearest(ray)) return surface(ray, *hit, dice);
-        return options_.ground ? ground(ray, dice) : background;
+    static void add(const Colour& light, float part, Colour& sum) {
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += light[c] * part;
     }
 
-    Colour surface(const Ray& ray, const Hit& hit, const Dice& dice) const {
+    /// Adds the light of one source; `asks(from, number)` says whether it is seen in a direction of
+    /// that number.
+    template <typename Asks>
+    static void add_light(const std::vector<Seen>& seen, Colour Seen::*light, Colour& sum,
+                          const Asks& asks) {
+        const auto count = static_cast<std::uint32_t>(seen.size());
+        Colour found{0, 0, 0};
+        std::uint32_t lit = 0, reached = 0, asked = 0;
+        const auto ask_all = [&] {
+            for (std::uint32_t k = 0; k < count; ++k) {
+                if (!seen[k].is_lit) continue;
+                ++lit;
+                if (!asks(seen[k], asked + k)) continue;
+                ++reached;
+                add(seen[k].*light, 1, found);
+            }
+            asked += count;
+        };
+        ask_all();
+        const bool differs = reached > 0 && reached < lit;
+        for (std::uint32_t k = 1; differs && k < rounds; ++k) ask_all();
+        add(found, differs ? 1.0F / rounds : 1.0F, sum);
+    }
+
+    Seen trace(const Ray& ray) const {
+        if (const auto hit = caster_.nearest(ray)) return surface(ray, *hit);
+        if (options_.ground) return ground(ray);
+        Seen nothing;
+        nothing.always = background;
+        return nothing;
+    }
+
+    Seen surface(const Ray& ray, const Hit& hit) const {
         const auto& [a, b, c] = mesh_.triangles[hit.triangle];
         const float w = 1 - hit.u - hit.v;
         Vector3 normal = unit(mesh_.normals[a] * w + mesh_.normals[b] * hit.u +
@@ -114,15 +152,18 @@ private:
         if (side < 0) normal = -normal;
         Vector3 place = ray.origin + ray.direction * hit.distance + facet * (size_ * 1e-4F);
         if (options_.round_shadows) place = place + rounding(hit, side);
-        const Light light = light_at(place, normal, dice);
         const Vector3 half = unit(sun_ - ray.direction);
-        const float gleam =
-            light.sun * shine * steady_power(std::max(0.0F, dot(normal, half)), 40);
-        const float bright = sun_light * light.sun * std::max(0.0F, dot(normal, sun_)) +
-                             sky_light * light.sky;
-        Colour result = look.light;
-        for (float& channel : result) channel = channel * bright + gleam;
-        return result;
+        const float gleam = shine * steady_power(std::max(0.0F, dot(normal, half)), 40);
+        const float bright = sun_light * std::max(0.0F, dot(normal, sun_));
+        Seen seen;
+        for (std::size_t k = 0; k < 3; ++k) {
+            seen.of_sun[k] = look.light[k] * bright + gleam;
+            seen.of_sky[k] = look.light[k] * sky_light;
+        }
+        seen.place = place;
+        seen.normal = normal;
+        seen.is_lit = true;
+        return seen;
     }
 
     /// From a place on a facet to the round surface that its corners' normals stand on: J. Hanika, "Hacking
@@ -143,39 +184,45 @@ private:
     }
 
     /// The background, darker where the surface keeps light from it.
-    Colour ground(const Ray& ray, const Dice& dice) const {
+    Seen ground(const Ray& ray) const {
+        Seen seen;
+        seen.always = background;
         const Vector3 up = options_.view.up;
         const float fall = dot(ray.direction, up);
-        if (fall > -1e-3F) return background;
+        if (fall > -1e-3F) return seen;
         const float distance = (ground_ - dot(ray.origin, up)) / fall;
-        if (distance <= 0) return background;
+        if (distance <= 0) return seen;
         const Vector3 place = ray.origin + ray.direction * distance;
         // Far from the surface nothing is darker, and nothing has to be asked.
-        if (length(place - box_.centre()) > 1.5F * size_) return background;
-        const Light light = light_at(place + up * (size_ * 1e-4F), up, dice);
-        const float full = sun_light * std::max(0.0F, dot(up, sun_)) + sky_light;
-        const float left = (sun_light * light.sun * std::max(0.0F, dot(up, sun_)) +
-                            sky_light * light.sky) / full;
-        Colour result = background;
-        for (float& channel : result) channel *= 1 - ground_shade * (1 - left);
-        return result;
+        if (length(place - box_.centre()) > 1.5F * size_) return seen;
+        const float sun = sun_light * std::max(0.0F, dot(up, sun_));
+        const float full = sun + sky_light;
+        for (std::size_t k = 0; k < 3; ++k) {
+            seen.always[k] = background[k] * (1 - ground_shade);
+            seen.of_sun[k] = background[k] * ground_shade * (sun / full);
+            seen.of_sky[k] = background[k] * ground_shade * (sky_light / full);
+        }
+        seen.place = place + up * (size_ * 1e-4F);
+        seen.normal = up;
+        seen.is_lit = true;
+        return seen;
     }
 
-    Light light_at(Vector3 place, Vector3 normal, const Dice& dice) const {
-        const Frame round_sun = frame_of(sun_);
-        const Vector3 to_sun = unit(sun_ + round_sun.tangent * (sun_radius * dice.sun.x) +
-                                    round_sun.bitangent * (sun_radius * dice.sun.y));
-        // Directions whose shadow on the floor of a dome is even are spread by the cosine.
-        const Frame round_normal = frame_of(normal);
-        const Point sky = dice.sky;
-        const float height = std::sqrt(std::max(0.0F, 1 - sky.x * sky.x - sky.y * sky.y));
-        const Vector3 to_sky = round_normal.tangent * sky.x + round_normal.bitangent * sky.y +
-                               normal * height;
-        Light light;
-        const bool faces_sun = dot(normal, to_sun) > 0;
-        if (faces_sun && !caster_.is_blocked({place, to_sun}, INFINITY)) light.sun = 1;
-        if (!caster_.is_blocked({place, to_sky}, size_)) light.sky = 1;
-        return light;
+    /// In the direction of a point of the sun's disc.
+    bool sees_sun(const Seen& from, Point disc) const {
+        const Vector3 to_sun = unit(sun_ + sun_frame_.tangent * (sun_radius * disc.x) +
+                                    sun_frame_.bitangent * (sun_radius * disc.y));
+        return dot(from.normal, to_sun) > 0 && !caster_.is_blocked({from.place, to_sun}, INFINITY);
+    }
+
+    /// In a direction of which the sky's disc is the shadow on the floor of a dome: where that is
+    /// even, directions are spread by the cosine.
+    bool sees_sky(const Seen& from, Point disc) const {
+        const Frame round_normal = frame_of(from.normal);
+        const float height = std::sqrt(std::max(0.0F, 1 - disc.x * disc.x - disc.y * disc.y));
+        const Vector3 to_sky = round_normal.tangent * disc.x + round_normal.bitangent * disc.y +
+                               from.normal * height;
+        return !caster_.is_blocked({from.place, to_sky}, size_);
     }
 
     const TriangleMesh& mesh_;
@@ -187,6 +234,7 @@ private:
     float size_;
     float ground_ = 0;
     Vector3 sun_;
+    Frame sun_frame_;
 };
 
 }  // namespace
@@ -196,8 +244,11 @@ Image draw(const TriangleMesh& mesh, const RayCaster& caster, const SurfaceLook&
     const Tracer tracer(mesh, look, options, caster);
     Image image(options.width, options.height);
     team.run([&](int index) {
+        std::vector<Seen> seen;
         for (std::int64_t y = index; y < options.height; y += team.size()) {
-            for (std::int64_t x = 0; x < options.width; ++x) image.at(x, y) = tracer.pixel(x, y);
+            for (std::int64_t x = 0; x < options.width; ++x) {
+                image.at(x, y) = tracer.pixel(x, y, seen);
+            }
         }
     });
     return image;

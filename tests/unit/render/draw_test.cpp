@@ -136,6 +136,31 @@ TEST(Draw, TheGroundHasAShadow) {
     EXPECT_GT(image.at(2, 2)[0], 0.98F);
 }
 
+TEST(Draw, ShadowsAreNotGrainy) {
+    // In the open a pixel's place changes little; so does its light from one pixel to the next.
+    DrawOptions options = small_picture();
+    options.ground = true;
+    options.samples = 4;
+    const Image image = picture_of(sphere(1), options, red);
+    double squares = 0, count = 0;
+    for (std::int64_t y = 1; y + 1 < options.height; ++y) {
+        for (std::int64_t x = 1; x + 1 < options.width; ++x) {
+            const auto is_ground = [&](std::int64_t i, std::int64_t j) {
+                const Colour& pixel = image.at(i, j);
+                return pixel[0] < 0.95F && std::abs(pixel[0] - pixel[1]) < 0.01F;
+            };
+            if (!is_ground(x, y) || !is_ground(x - 1, y) || !is_ground(x + 1, y)) continue;
+            const double bend = static_cast<double>(image.at(x - 1, y)[0] + image.at(x + 1, y)[0] -
+                                                    2 * image.at(x, y)[0]);
+            squares += bend * bend;
+            ++count;
+        }
+    }
+    ASSERT_GT(count, 200);
+    RecordProperty("grain", std::to_string(std::sqrt(squares / count)));
+    EXPECT_LT(std::sqrt(squares / count), 0.01);
+}
+
 TEST(Draw, ThreadsDoNotMatter) {
     const TriangleMesh mesh = sphere(1);
     DrawOptions options = small_picture();
