@@ -125,6 +125,30 @@ TEST(ModelTheory, GradientsOfLinearFunctions) {
     EXPECT_LT(mean_size(box, "ez"), 0.12);
 }
 
+TEST(ModelTheory, BothSquaresOfGradientsConverge) {
+    // A harmonic of degree 8 on a sphere, about Re (x + iy)^8: |grad f|^2 = 64 (r^14 - f^2).
+    const auto errors = [](int cells) {
+        ModelRun run(script_of(fmt::format("surface: sphere; unit: 1; cells: {}", cells),
+                               "r2: nx^2 + ny^2\n"
+                               "f: nx^8 - 28*nx^6*ny^2 + 70*nx^4*ny^4 - 28*nx^2*ny^6 + ny^8\n"
+                               "m: mean(64 * (r2^7 - f^2) over domain)\n"
+                               "g: mean(grad2(f) over domain)\n"
+                               "d: mean(dx(f)^2 + dy(f)^2 + dz(f)^2 over domain)\n"
+                               "e: mean(f * lap(f) over domain)\n u: 0\n u' = 0*u",
+                               1, 0),
+                     Precision::binary64);
+        run.start();
+        EXPECT_NEAR(run.number("g") + run.number("e"), 0, 1e-10);  // Nothing is lost by parts.
+        return std::array{1 - run.number("g") / run.number("m"),
+                          1 - run.number("d") / run.number("m")};
+    };
+    const auto coarse = errors(1250), fine = errors(5000);
+    // Of second order both; over two cells at once differences see a fourth of the resolution.
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(coarse[k] / fine[k], 4, 0.6) << k;
+    EXPECT_NEAR(coarse[1] / coarse[0], 4, 0.6);
+    EXPECT_NEAR(coarse[0], 0.05, 0.005);
+}
+
 TEST(ModelTheory, AggregatesCountAreasAndNoCellTwice) {
     // 1300 cells leave 236 places of the last row that are no cells.
     ModelRun run("domain { surface: sphere; cells: 1300; unit: 1 }\n"
