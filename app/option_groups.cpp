@@ -248,6 +248,11 @@ void add_stop(CLI::App& app, Options& options) {
         ->group(execution_group);
 }
 
+void add_timing(CLI::App& app, Options& options) {
+    app.add_flag("--timing", options.timing, "Say where the time went, as a table")
+        ->group(execution_group);
+}
+
 void add_limits(CLI::App& app, Options& options) {
     const std::string group = "Limits";
     add_value(app, "--limit-time", "DURATION", "Stop after 90s, 20m, 1.5h as Ctrl-C would",

@@ -19,10 +19,11 @@ void add_files(CLI::App& app, RunRequest& run);
 void add_log(CLI::App& app, RunRequest& run);
 /// What every command has that takes steps: backend, threads (`threads` says what they do), lanes.
 void add_simulation(CLI::App& app, Options& options, const std::string& threads);
-/// Where a run stops: --stop-at.
 /// Models, and the cells to spread over them.
 void add_mesh(CLI::App& app, Options& options);
+/// Where a run stops: --stop-at.
 void add_stop(CLI::App& app, Options& options);
+void add_timing(CLI::App& app, Options& options);
 void add_limits(CLI::App& app, Options& options);
 void add_quiet(CLI::App& app, Options& options);
 void add_dump(CLI::App& app, Options& options);

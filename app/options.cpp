@@ -111,6 +111,7 @@ void Parser::add_all() {
     groups::add_overrides(*run, options.overrides);
     groups::add_simulation(*run, options, "Threads; without it all cores");
     groups::add_stop(*run, options);
+    groups::add_timing(*run, options);
     groups::add_quiet(*run, options);
     groups::add_limits(*run, options);
     groups::add_dump(*run, options);

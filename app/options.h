@@ -47,6 +47,7 @@ struct Options {
     SweepRequest sweep;                ///< Its `picture` and `simulation` too.
     double limit_seconds = 0;          ///< `--limit-time`; 0: none.
     std::string dump;                  ///< A dump kind; empty to run.
+    bool timing = false;               ///< Say where the time went.
     bool quiet = false;                ///< Neither progress nor remarks.
     std::vector<std::string> words;    ///< What `systems` looks for; the system of `new`.
     std::filesystem::path new_script;  ///< `new -o`

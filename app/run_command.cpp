@@ -6,6 +6,7 @@
 #include "app/limits.h"
 #include "app/option_values.h"
 #include "app/progress_display.h"
+#include "app/time_table.h"
 
 #include <fmt/format.h>
 
@@ -99,7 +100,11 @@ ProgressDisplay make_progress_display(const Console& console, bool quiet) {
 }
 
 int run_command(const Options& options, Console& console) {
-    auto file = load_for_run(options, console);
+    TimeAccount times;
+    auto file = [&] {
+        const TimeAccount::Scope spent(&times, Spent::reading);
+        return load_for_run(options, console);
+    }();
     if (!file) return exit_status::wrong_script;
     Script& script = file->script;
     if (!options.dump.empty()) return dump_command(script, options.dump, console);
@@ -117,6 +122,7 @@ int run_command(const Options& options, Console& console) {
         request.picture = std::move(*stored);
     }
     request.picture = apply(options.picture, std::move(request.picture));
+    if (options.timing) request.simulation.account = &times;
     if (request.outputs.empty() && script.name.starts_with("<")) request.outputs = {"cascade.png"};
 
     RunControl control;
@@ -135,7 +141,13 @@ int run_command(const Options& options, Console& console) {
     const auto report = run(script, request, control);
     display.clear();
     if (report) {
-        return tell(*report, options, std::max(interrupt.signal(), 2), limit.reached(), console);
+        const int status =
+            tell(*report, options, std::max(interrupt.signal(), 2), limit.reached(), console);
+        if (options.timing) console.say(time_table(times, console.error().is_terminal));
+        return status;
+    }
+    if (options.timing && !script.diagnostics.has_errors()) {
+        console.say(time_table(times, console.error().is_terminal));
     }
     console.say(script.messages(console.error().colour));
     if (script.diagnostics.has_errors()) return exit_status::wrong_script;

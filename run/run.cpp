@@ -190,6 +190,7 @@ double Runner::tenths_behind(std::uint32_t k) const {
 }
 
 void Runner::observe(std::uint32_t k) {
+    const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
     const Stage& stage = script_.program->stages[k];
     const std::int64_t step = simulation_->state(k).steps;
     if (frame_is_due(k)) look();
@@ -199,6 +200,7 @@ void Runner::observe(std::uint32_t k) {
 
 void Runner::look() {
     if (!frames_) return;
+    const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
     const auto stage = simulation_->shown_stage().value_or(0);
     frames_->record(painter_->canvas(*simulation_), script_.program->stages[stage].name,
                     simulation_->state(stage).steps);
@@ -348,6 +350,7 @@ Result<void> Runner::write_volume() {
 }
 
 Result<void> Runner::write_results() {
+    const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
     // One output that fails does not cost the others: hours of stepping may lie behind them.
     std::optional<Failure> first;
     const auto attempt = [&](const Result<void>& done) {
@@ -383,6 +386,7 @@ Result<RunReport> Runner::run() {
         return tl::unexpected(done.error());
     }
     if (request_.features) {
+        const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
         report_.features = measure_shown(*painter_, *simulation_);
     }
     if (auto written = write_results(); !written) return tl::unexpected(written.error());

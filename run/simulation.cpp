@@ -65,14 +65,24 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     self.program = &*script.program;
     self.grid = self.program->domain.grid;
     self.threads = options.threads > 0 ? options.threads : hardware_threads();
+    self.account = options.account;
+    for (std::uint32_t k = 0; self.account != nullptr && k < script.stage_count(); ++k) {
+        self.account->stage(k).name = self.stage(k).name;
+    }
     if (auto made = self.make_cells(options); !made) return tl::unexpected(made.error());
 
-    self.plans = std::make_unique<StagePlans>(*self.program, options.planning);
-    self.memory = memory_of(*self.program, *self.plans);
+    {
+        const TimeAccount::Scope spent(self.account, Spent::compiling);
+        self.plans = std::make_unique<StagePlans>(*self.program, options.planning);
+        self.memory = memory_of(*self.program, *self.plans);
+    }
     if (auto enough = check_memory(self.grid, self.memory, options.memory_limit); !enough) {
         return tl::unexpected(enough.error());
     }
-    auto files = read_input_files(script, self.model.get());
+    auto files = [&] {
+        const TimeAccount::Scope spent(self.account, Spent::reading);
+        return read_input_files(script, self.model.get());
+    }();
     if (!files) return tl::unexpected(files.error());
     self.files = std::move(*files);
     auto metric = metric_planes(*self.program);
@@ -82,6 +92,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     self.interpreter = make_interpreter();
     self.stepper = options.stepper;
     if (!self.stepper) {
+        const TimeAccount::Scope spent(self.account, Spent::compiling);
         auto stepper = make_stepper(options);
         if (!stepper) return tl::unexpected(stepper.error());
         self.stepper = std::move(*stepper);
@@ -95,6 +106,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
 
 Result<void> Simulation::start_stage(std::uint32_t k) {
     Implementation& self = *self_;
+    const TimeAccount::Scope spent(self.account, Spent::starting, k);
     const System& system = self.program->system_of(k);
     StageState& state = self.states[k];
     state = empty_state(system);
@@ -113,6 +125,8 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     StageState& state = self.states[k];
     const Stage& stage = self.stage(k);
     CHECK(state.started, "a stage is started before it advances");
+    const TimeAccount::Scope spent(self.account, Spent::stepping, k);
+    const std::int64_t steps_before = state.steps;
 
     StageTimer timer(*self.program, k, state, self.tools(k, control));
     if (timer.substeps() > 1 && state.steps == 0 && control.warn) {
@@ -150,6 +164,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     state.steps = outcome.steps;
     state.t = outcome.t;
     state.time = outcome.time;
+    self.account_for(k, state.steps - steps_before, outcome);
     if (outcome.not_finite) return tl::unexpected(self.explain(outcome, k));
     if (outcome.too_short) return tl::unexpected(self.explain(*outcome.too_short, k));
     self.warn_of_chequerboard(k, control);
@@ -217,6 +232,15 @@ std::optional<std::uint32_t> Simulation::shown_stage() const {
     return shown;
 }
 
+void Simulation::Implementation::account_for(std::uint32_t k, std::int64_t steps,
+                                             const StageOutcome& outcome) const {
+    if (account == nullptr) return;
+    TimeAccount::Stage& entry = account->stage(k);
+    entry.steps += steps;
+    entry.cells = grid.cell_count();
+    entry.stepping = outcome.stepping;
+}
+
 StageTools Simulation::Implementation::tools(std::uint32_t k, RunControl& control) const {
     StageTools tools;
     tools.numbers = [this, k](std::span<const Formula* const> formulas) {
@@ -236,6 +260,7 @@ StageTools Simulation::Implementation::tools(std::uint32_t k, RunControl& contro
         return values;
     };
     tools.bind = [this, k, &control, largest](const Scheme& scheme) {
+        const TimeAccount::Scope spent(account, Spent::compiling);
         std::vector<StepPlan> sweeps;
         for (const SweepForm& form : scheme.forms) sweeps.push_back(plans->sweep(k, form));
         const auto bind = [&](const StepPlan& before) {

@@ -9,6 +9,7 @@
 #include "run/domain_mask.h"
 #include "run/model_cells.h"
 #include "run/script.h"
+#include "run/time_account.h"
 #include "solvers/advance.h"
 #include "solvers/changing_side.h"
 #include "solvers/steady.h"
@@ -75,6 +76,7 @@ struct SimulationOptions {
     std::shared_ptr<Backend> stepper = nullptr;
     /// Hears how the cells of a model come about, and may stop it; none: nobody does.
     RunControl* control = nullptr;
+    TimeAccount* account = nullptr;   ///< Is told where the time goes; none: nobody is.
     std::filesystem::path cell_cache = {};  ///< A folder in which cells of models are kept; empty: none.
     std::uint64_t memory_limit = 0;   ///< Bytes that all fields may take; 0: what is free.
     /// How steps are put together. No result depends on it.

@@ -38,6 +38,7 @@ struct Simulation::Implementation {
     mutable std::vector<StageState> states;
     std::optional<Program> own_program;  ///< Of a coarser grid.
     std::string progress_note;           ///< Behind the stage's name in reports of progress.
+    TimeAccount* account = nullptr;      ///< None where nobody asks.
 
     const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
     const DomainMask* inside() const { return mask ? &*mask : nullptr; }
@@ -128,12 +129,16 @@ struct Simulation::Implementation {
     Compile often() const {
         if (is_small()) return interpreted(grid);
         return [this, interpret = interpreted(grid)](const CellKernel& kernel) {
+            const TimeAccount::Scope spent(account, Spent::compiling);
             auto made = stepper->compile(kernel, grid.stencil());
             return made ? *made : interpret(kernel);
         };
     }
     /// Evaluating a small grid is over before code is made for it or a second thread has woken up.
     bool is_small() const { return grid.cell_count() < 65536; }
+
+    /// Enters steps that were taken into the account of times.
+    void account_for(std::uint32_t k, std::int64_t steps, const StageOutcome& outcome) const;
 
     /// What the time of a stage needs to know of it.
     StageTools tools(std::uint32_t k, RunControl& control) const;

@@ -10,6 +10,7 @@ namespace cascade {
 Result<void> Simulation::Implementation::make_cells(const SimulationOptions& options) {
     DomainSettings& domain = script->program->domain;
     if (!domain.model) return {};
+    const TimeAccount::Scope spent(account, Spent::cells);
     // Their number is known, or is not larger than that of the triangles.
     const double bytes = memory_of(*program);
     if (auto enough = check_memory(grid, bytes, options.memory_limit); !enough) return enough;
@@ -35,6 +36,7 @@ Result<void> Simulation::Implementation::make_cells(const SimulationOptions& opt
 
 Result<void> Simulation::Implementation::make_surface_values(const SimulationOptions& options) {
     if (!model) return {};
+    const TimeAccount::Scope spent(account, Spent::cells);
     RunControl nobody;
     const std::atomic<bool>& cancel = (options.control != nullptr ? *options.control : nobody).cancel;
     surface_values = std::make_unique<SurfaceValues>(*program, *model, *team);
@@ -45,6 +47,7 @@ Result<void> Simulation::Implementation::make_surface_values(const SimulationOpt
 
 Result<void> Simulation::Implementation::find_mask() {
     if (!program->domain.mask || states.empty()) return {};
+    const TimeAccount::Scope spent(account, Spent::starting);
     const std::vector<Field> values =
         run_plan(plan_mask(*program), interpreted(grid), context(0), grid, *team);
     mask = make_domain_mask(values[0], grid);
@@ -143,6 +146,7 @@ Result<void> Simulation::Implementation::find_sides(std::uint32_t k) {
 }
 
 void Simulation::Implementation::find_lasting_parts(std::uint32_t k) {
+    const TimeAccount::Scope spent(account, Spent::starting);
     const StepPlan& once = plans->lasting(k);
     StageState& state = states[k];
     state.lasting.clear();

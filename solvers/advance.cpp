@@ -65,6 +65,7 @@ public:
         if (outcome_.cancelled && !stepper_.is_finite()) replay();
         outcome_.steps = step_;
         outcome_.t = now();
+        outcome_.threads = tuner_.threads();
         time_.control = control_of_steps_.state();
         outcome_.time = time_;
         species_ = std::move(stepper_.current());

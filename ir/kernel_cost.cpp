@@ -1,0 +1,149 @@
+#include "ir/kernel_cost.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <set>
+#include <tuple>
+#include <vector>
+
+namespace cascade {
+
+namespace {
+
+/// Adds up one kernel.
+class Counter {
+public:
+    Counter(const CellKernel& kernel, Stencil stencil, double links)
+        : kernel_(kernel),
+          stencil_(stencil),
+          links_(links),
+          word_(static_cast<double>(format_of(kernel.precision).bits) / 8),
+          varies_(kernel.code.size(), false) {}
+
+    KernelCost count() {
+        for (std::size_t k = 0; k < kernel_.code.size(); ++k) {
+            varies_[k] = add(kernel_.code[k]);
+        }
+        const auto stores = static_cast<double>(kernel_.results.size());
+        cost_.stores += stores;
+        cost_.store_bytes += stores * word_;
+        return cost_;
+    }
+
+private:
+    using Place = std::tuple<std::uint32_t, int, int, int>;
+
+    /// Returns whether the value differs between cells.
+    bool add(const Instruction& instruction) {
+        switch (instruction.op) {
+            case Op::constant:
+            case Op::uniform: return false;
+            case Op::cell_column:
+            case Op::cell_row:
+            case Op::cell_slice: return true;
+            case Op::field: load({instruction.slot(), 0, 0, 0}); return true;
+            case Op::neighbour: load(within_stencil(Neighbour::of(instruction.slot()))); return true;
+            case Op::mask: load_mask(instruction.slot()); return true;
+            case Op::laplacian: add_laplacian(instruction.slot()); return true;
+            case Op::link_flow: {
+                const Flow flow = Flow::with(instruction.payload);
+                add_link_sum({flow.factor, flow.of}, Op::laplacian, 5);
+                return true;
+            }
+            case Op::link_squares: add_link_sum({instruction.slot()}, Op::laplacian, 4); return true;
+            case Op::gradient_x:
+            case Op::gradient_y:
+            case Op::gradient_z: add_link_sum({instruction.slot()}, instruction.op, 3); return true;
+            default: return add_operation(instruction);
+        }
+    }
+
+    bool add_operation(const Instruction& instruction) {
+        bool varies = false;
+        for (int k = 0; k < info(instruction.op).arity; ++k) {
+            varies = varies || varies_[instruction.operands[static_cast<std::size_t>(k)]];
+        }
+        if (!varies) return false;
+        cost_.operations += 1;
+        if (instruction.op == Op::divide || instruction.op == Op::square_root) cost_.divisions += 1;
+        return true;
+    }
+
+    /// Along an axis of one cell the neighbour is the cell itself.
+    Place within_stencil(const Neighbour& at) const {
+        return {at.slot, stencil_.x ? at.dx : 0, stencil_.y ? at.dy : 0, stencil_.z ? at.dz : 0};
+    }
+
+    void load(const Place& place) {
+        if (!loaded_.insert(place).second) return;
+        cost_.loads += 1;
+        cost_.load_bytes += word_;
+    }
+
+    void load_mask(std::uint32_t slot) {
+        if (!masks_.insert(slot).second) return;
+        cost_.loads += 1;
+        cost_.load_bytes += 1;
+    }
+
+    void add_laplacian(std::uint32_t slot) {
+        if (stencil_.links) return add_link_sum({slot}, Op::laplacian, 3);
+        load({slot, 0, 0, 0});
+        for (const int side : {-1, 1}) {
+            if (stencil_.x) load({slot, side, 0, 0});
+            if (stencil_.y) load({slot, 0, side, 0});
+            if (stencil_.z) load({slot, 0, 0, side});
+        }
+        // Of 2 n neighbours 2 n − 1 sums, then a product and a difference.
+        cost_.operations += 2 * stencil_.axes() + 1;
+    }
+
+    /// `weights` names the table of weights: that of Laplacians or of a component of gradients.
+    void add_link_sum(std::initializer_list<std::uint32_t> slots, Op weights, double operations) {
+        cost_.operations += operations * links_;
+        for (const std::uint32_t slot : slots) {
+            load({slot, 0, 0, 0});
+            if (!gathered_.insert(slot).second) continue;
+            cost_.loads += links_;
+            cost_.load_bytes += links_ * word_;
+        }
+        if (!has_places_) {
+            cost_.loads += links_;
+            cost_.load_bytes += links_ * sizeof(std::int32_t);
+        }
+        has_places_ = true;
+        if (!weights_.insert(weights).second) return;
+        cost_.loads += links_;
+        cost_.load_bytes += links_ * word_;
+    }
+
+    const CellKernel& kernel_;
+    Stencil stencil_;
+    double links_;
+    double word_;  ///< Bytes.
+    std::vector<bool> varies_;
+    std::set<Place> loaded_;
+    std::set<std::uint32_t> masks_, gathered_;
+    std::set<Op> weights_;
+    bool has_places_ = false;
+    KernelCost cost_;
+};
+
+}  // namespace
+
+KernelCost& KernelCost::operator+=(const KernelCost& other) {
+    operations += other.operations;
+    divisions += other.divisions;
+    loads += other.loads;
+    stores += other.stores;
+    load_bytes += other.load_bytes;
+    store_bytes += other.store_bytes;
+    return *this;
+}
+
+KernelCost cost_of(const CellKernel& kernel, Stencil stencil, double links) {
+    return Counter(kernel, stencil, links).count();
+}
+
+}  // namespace cascade
