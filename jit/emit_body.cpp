@@ -359,6 +359,14 @@ BodyScope::Forms BodyScope::emit_select(const Instruction& instruction) {
     return value;
 }
 
+/// Whether shifting left by this amount leaves nothing but sign and exponent: no denormal number is
+/// so made. Powers of two are, as in exp.
+bool BodyScope::clears_significand(ValueId amount) {
+    const std::optional<std::uint64_t> word = constant_word(amount);
+    return word && (*word & static_cast<std::uint64_t>(format_.bits - 1)) >=
+                       static_cast<std::uint64_t>(format_.fraction_bits);
+}
+
 BodyScope::Forms BodyScope::emit_word(const Instruction& instruction) {
     llvm::Value* a = bits(instruction.operands[0]);
     Forms value;
@@ -383,7 +391,10 @@ BodyScope::Forms BodyScope::emit_word(const Instruction& instruction) {
         case Op::bits_and: value.bits = builder_.CreateAnd(a, b); break;
         case Op::bits_or: value.bits = builder_.CreateOr(a, b); break;
         case Op::bits_xor: value.bits = builder_.CreateXor(a, b); break;
-        case Op::bits_shift_left: value.bits = builder_.CreateShl(a, amount()); break;
+        case Op::bits_shift_left:
+            value.bits = builder_.CreateShl(a, amount());
+            value.may_be_denormal = !clears_significand(instruction.operands[1]);
+            break;
         default: value.bits = builder_.CreateLShr(a, amount()); break;
     }
     return value;

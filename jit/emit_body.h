@@ -99,6 +99,7 @@ private:
     Forms emit_select(const Instruction& instruction);
     Forms emit_word(const Instruction& instruction);
     std::optional<std::uint64_t> constant_word(ValueId id);
+    bool clears_significand(ValueId amount);
     llvm::Value* branch(ValueId id, ValueId other);
     llvm::Value* hidden(std::uint64_t word);
     llvm::Value* operand(ValueId id);
