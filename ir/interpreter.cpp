@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 namespace cascade {
@@ -259,6 +261,17 @@ private:
         }
     }
 
+    /// sum − times · c with one rounding, for 2 and 4 times, which are exact but for overflow. A number whose
+    /// multiple would overflow is subtracted from a part of the sum; what that part loses where it is
+    /// denormal is far below the last place of such numbers.
+    template <int times>
+    static Number minus_multiple(Number sum, Number c) {
+        constexpr Number largest = std::numeric_limits<Number>::max() / 4;
+        const Number near = sum - Number{times} * c;
+        const Number far = Number{times} * (sum * (Number{1} / times) - c);
+        return std::abs(c) > largest ? far : near;
+    }
+
     // The order of the sums is the specification's: ((((N + S) + E) + W) + U) + D.
     void laplacian(Number* __restrict out, const Number* c) const {
         const std::int64_t count = count_;
@@ -266,7 +279,7 @@ private:
             const Number* north = c - arguments_.layout.stride;
             const Number* south = c + arguments_.layout.stride;
             for (std::int64_t i = 0; i < count; ++i) {
-                out[i] = (((north[i] + south[i]) + c[i + 1]) + c[i - 1]) - Number{4} * c[i];
+                out[i] = minus_multiple<4>(((north[i] + south[i]) + c[i + 1]) + c[i - 1], c[i]);
             }
             return;
         }
@@ -282,8 +295,11 @@ private:
         if (stencil_.y) add_pair(c - row, c + row);
         if (stencil_.x) add_pair(c + 1, c - 1);
         if (stencil_.z) add_pair(c - slice, c + slice);
-        const auto neighbours = static_cast<Number>(2 * stencil_.axes());
-        for (std::int64_t i = 0; i < count; ++i) out[i] -= neighbours * c[i];
+        for (std::int64_t i = 0; i < count; ++i) {
+            out[i] = stencil_.axes() == 1   ? minus_multiple<2>(out[i], c[i])
+                     : stencil_.axes() == 2 ? minus_multiple<4>(out[i], c[i])
+                                            : out[i] - Number{6} * c[i];
+        }
     }
 
     void over_links(Number* out, const BlockStep<Number>& step) const {

@@ -130,7 +130,7 @@ public:
 private:
     Result<KernelPointer> make(const CellKernel& kernel, Stencil stencil) {
         const std::string function_name = fmt::format("kernel{}", next_number_++);
-        const KernelShape shape = shape_for(kernel, stencil, lanes_);
+        const KernelShape shape = shape_for(kernel, stencil, *machine_, lanes_);
         auto code = make_code(kernel, shape, function_name, *machine_);
         if (!code) return tl::unexpected(code.error());
         const auto object = generate(*code, *machine_, CodeForm::object);

@@ -22,7 +22,8 @@ Result<Compiled> compile_for(const CellKernel& kernel, Stencil stencil, const st
                              const JitOptions& options) {
     auto target = choose_target("", options);
     if (!target) return tl::unexpected(target.error());
-    auto code = make_code(kernel, shape_for(kernel, stencil, target->lanes), name, *target->machine);
+    const KernelShape shape = shape_for(kernel, stencil, *target->machine, target->lanes);
+    auto code = make_code(kernel, shape, name, *target->machine);
     if (!code) return tl::unexpected(code.error());
     return Compiled{std::move(*target), std::move(*code)};
 }

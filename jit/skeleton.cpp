@@ -38,6 +38,24 @@ Value* KernelFrame::plane(unsigned table, std::size_t slot) {
     return address;
 }
 
+Value* CarriedVectors::take(std::uint32_t slot,
+                            llvm::function_ref<Value*(Builder& outside)> first) {
+    Carried& carried = carried_[slot];
+    carried.first = first(outside_);
+    carried.entering = llvm::PHINode::Create(carried.first->getType(), 2, "carried");
+    carried.entering->insertBefore(header_.getFirstNonPHIIt());
+    return carried.entering;
+}
+
+void CarriedVectors::give(std::uint32_t slot, Value* vector) { carried_[slot].next = vector; }
+
+void CarriedVectors::close(llvm::BasicBlock* before, llvm::BasicBlock* latch) {
+    for (auto& [slot, carried] : carried_) {
+        carried.entering->addIncoming(carried.first, before);
+        carried.entering->addIncoming(carried.next, latch);
+    }
+}
+
 Value* CellLane::field(std::uint32_t slot) {
     Value*& value = loads_[slot];
     if (!value) {
@@ -137,11 +155,13 @@ void KernelLoops::columns(Value* row, Builder& place, llvm::BasicBlock* next, Ce
 
     Builder inner(vector, frame_.folder());
     llvm::PHINode* element = inner.CreatePHI(inner.getInt64Ty(), 2, "element");
-    cells({row, start, element}, inner, row_scope);
+    CarriedVectors carried(*vector, place);
+    cells({row, start, element, &carried}, inner, row_scope);
     Value* behind = inner.CreateNSWAdd(element, inner.getInt64(frame_.lanes()));
     inner.CreateCondBr(inner.CreateICmpSLT(behind, end), vector, next);
     element->addIncoming(start, place.GetInsertBlock());
     element->addIncoming(behind, inner.GetInsertBlock());
+    carried.close(place.GetInsertBlock(), inner.GetInsertBlock());
     place.CreateBr(vector);
 }
 

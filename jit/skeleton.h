@@ -15,6 +15,7 @@
 #pragma once
 
 #include "jit/alias_scopes.h"
+#include "jit/carried_vectors.h"
 #include "jit/emit_body.h"
 #include "jit/kernel_shape.h"
 
@@ -47,6 +48,7 @@ public:
     llvm::Function& function() { return function_; }
     const CellKernel& kernel() const { return kernel_; }
     Stencil stencil() const { return shape_.stencil; }
+    const KernelShape& shape() const { return shape_; }
     int lanes() const { return shape_.lanes; }
     int number_bytes() const { return static_cast<int>(bytes_of(kernel_.precision)); }
     int vector_bytes() const { return lanes() * number_bytes(); }
@@ -119,6 +121,7 @@ struct VectorPlace {
     llvm::Value* row = nullptr;        ///< Its number.
     llvm::Value* row_start = nullptr;  ///< Element number of its first cell.
     llvm::Value* element = nullptr;    ///< Of the vector's first cell.
+    CarriedVectors* carried = nullptr; ///< Between this vector and the next.
 };
 
 /// The vector of cells of one execution of the innermost loop: what its own cells hold.

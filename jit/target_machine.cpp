@@ -98,6 +98,22 @@ int widest_lanes(const llvm::TargetMachine& machine) {
     return features.checkFeatures("+avx") ? 8 : 4;
 }
 
+bool has_multiply_add(const llvm::TargetMachine& machine) {
+    const llvm::Triple& triple = machine.getTargetTriple();
+    if (!triple.isX86()) return triple.isAArch64();
+    return machine.getMCSubtargetInfo()->checkFeatures("+fma");
+}
+
+bool is_short_of_loads(const llvm::TargetMachine& machine) {
+    return machine.getTargetCPU() == "znver4" && widest_lanes(machine) == 16;
+}
+
+KernelShape shape_for(const CellKernel& kernel, Stencil stencil,
+                      const llvm::TargetMachine& machine, int lanes) {
+    return {stencil, kernel.precision == Precision::single ? lanes : lanes / 2,
+            has_multiply_add(machine), is_short_of_loads(machine)};
+}
+
 void set_target(llvm::Function& function, const llvm::TargetMachine& machine, int vector_bytes) {
     function.addFnAttr("target-cpu", machine.getTargetCPU());
     function.addFnAttr("target-features", machine.getTargetFeatureString());

@@ -5,6 +5,7 @@
 
 #include "core/result.h"
 #include "jit/jit.h"
+#include "jit/kernel_shape.h"
 
 #include <llvm/IR/Module.h>
 #include <llvm/Target/TargetMachine.h>
@@ -27,6 +28,17 @@ Result<TargetChoice> choose_target(const std::string& cpu, const JitOptions& opt
 
 /// Floats in the widest vector that this CPU computes with: 4, 8 or 16.
 int widest_lanes(const llvm::TargetMachine& machine);
+
+/// Whether a * b + c with one rounding is an instruction.
+bool has_multiply_add(const llvm::TargetMachine& machine);
+
+/// Whether shifting two vectors together costs less than a load that lies across two cache lines.
+/// Zen 4 loads 64 bytes a cycle and 32 a cycle across lines, while it shifts and computes 64.
+bool is_short_of_loads(const llvm::TargetMachine& machine);
+
+/// The shape with vectors as wide as `lanes` cells of binary32.
+KernelShape shape_for(const CellKernel& kernel, Stencil stencil,
+                      const llvm::TargetMachine& machine, int lanes);
 
 /// Sets what a function must say for the processor's features to be used, and for the arithmetic
 /// of the specification: strict, with denormals flushed to zero of the same sign.

@@ -201,6 +201,34 @@ TEST(JitAgreement, WidePlanes) {
     }
 }
 
+/// Two species that diffuse and little besides: there is more to load than to compute.
+CellKernel diffusion_kernel(Precision precision) {
+    KernelBuilder builder(precision);
+    for (const char* name : {"a", "b"}) {
+        const std::uint32_t slot = builder.field_slot(name);
+        const ValueId rate = builder.uniform(builder.uniform_slot("d"));
+        builder.result(name, builder.add(builder.field(slot),
+                                         builder.multiply(rate, builder.laplacian(slot))));
+    }
+    return std::move(builder).finish();
+}
+
+// Where loads are scarce a loop hands vectors on from one execution to the next.
+TEST(JitAgreement, KernelsOfManyLoads) {
+    Backends backends;
+    for (const Precision precision : {Precision::single, Precision::binary64}) {
+        const CellKernel kernel = diffusion_kernel(precision);
+        for (std::int64_t width = 1; width <= 131; ++width) {
+            for (const Grid& grid : {Grid{width, 3, Boundary::periodic}, Grid{width, 1, {}},
+                                     Grid{width, 2, Boundary::no_flux, 2}}) {
+                for (const auto& backend : backends.optimised) {
+                    ASSERT_EQ(difference(*backend, kernel, grid, 5), "") << describe(grid);
+                }
+            }
+        }
+    }
+}
+
 TEST(JitAgreement, PartsOfTheRowsMakeTheWhole) {
     const auto jit = jit_of(0, 2);
     const CellKernel kernel = kernel_of_place();
