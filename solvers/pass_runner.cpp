@@ -28,6 +28,12 @@ PassRunner::PassRunner(const StepProblem& problem) : problem_(problem), layout_(
         temporaries_.emplace_back(layout_, problem.precision);
         temporary_cells_.push_back(temporaries_.back().address());
     }
+    for (const StepProblem::Pass& pass : problem.passes) {
+        std::vector<SideRules>& of_pass = sides_.emplace_back();
+        for (const StepProblem::Result& result : pass.results) {
+            of_pass.push_back(problem.sides_of(result));
+        }
+    }
     row_values_.assign(problem.aggregates,
                        std::vector<double>(static_cast<std::size_t>(layout_.row_count())));
     if (problem.diffusion.empty()) return;
@@ -68,30 +74,35 @@ Number* PassRunner::plane(const StepProblem::PlaneRef& ref, Registers registers)
 
 void PassRunner::run(Worker& worker, Team& team, Registers registers, const StepMoment& moment,
                      std::size_t first_pass) {
-    std::visit(
-        [&](auto& arguments) { run_as(worker, arguments, team, registers, moment, first_pass); },
-        worker.arguments);
+    for (std::size_t pass = first_pass; pass < problem_.passes.size(); ++pass) {
+        if (pass > first_pass) team.barrier();
+        prepare_pass(worker, team, pass, registers, moment);
+        bind(worker, 0, pass, registers, moment);
+        run_rows(worker, 0, worker.rows);
+    }
 }
 
-template <typename Number>
-void PassRunner::run_as(Worker& worker, Arguments<Number>& arguments, Team& team,
-                        Registers registers, const StepMoment& moment, std::size_t first_pass) {
-    for (std::size_t number = first_pass; number < problem_.passes.size(); ++number) {
-        const StepProblem::Pass& pass = problem_.passes[number];
-        if (number > first_pass) team.barrier();
-        if (!pass.reductions.empty()) reduce(worker, arguments, pass, team, registers, number);
-        if (pass.filter) filter(worker, arguments, *pass.filter, team, registers, moment);
-        set_uniforms(arguments.uniforms[number], pass, moment);
-        run_kernel(worker.rows, arguments, pass, number, registers, moment);
-    }
+bool PassRunner::needs_all_rows(std::size_t pass) const {
+    return !problem_.passes[pass].reductions.empty() || problem_.passes[pass].filter;
+}
+
+void PassRunner::prepare_pass(Worker& worker, Team& team, std::size_t number, Registers registers,
+                              const StepMoment& moment) {
+    const StepProblem::Pass& pass = problem_.passes[number];
+    std::visit(
+        [&](auto& arguments) {
+            if (!pass.reductions.empty()) reduce(worker, arguments, number, team, registers);
+            if (pass.filter) filter(worker, arguments, *pass.filter, team, registers, moment);
+        },
+        worker.arguments);
 }
 
 /// Every thread reduces its rows, then all threads take all rows together, each for itself. The
 /// numbers of rows are written again only behind the next meeting of the team.
 template <typename Number>
-void PassRunner::reduce(Worker& worker, Arguments<Number>& arguments,
-                        const StepProblem::Pass& pass, Team& team, Registers registers,
-                        std::size_t pass_number) {
+void PassRunner::reduce(Worker& worker, Arguments<Number>& arguments, std::size_t pass_number,
+                        Team& team, Registers registers) {
+    const StepProblem::Pass& pass = problem_.passes[pass_number];
     for (const StepProblem::Reduction& reduction : pass.reductions) {
         const Number* cells = plane<Number>(reduction.operand, registers);
         std::vector<double>& rows = row_values_[reduction.aggregate];
@@ -129,12 +140,10 @@ void PassRunner::filter(Worker& worker, Arguments<Number>& arguments, const Swee
                 factor.is_aggregate ? double{arguments.aggregates[factor.aggregate]} : factor.value;
         }
     }
-    arguments.results.clear();
-    for (void* cells : registers[filter.in_register]) {
-        arguments.results.push_back(static_cast<Number*>(cells));
-    }
+    std::vector<Number*> planes;
+    for (void* cells : registers[filter.in_register]) planes.push_back(static_cast<Number*>(cells));
     std::get<std::optional<WaveFilter<Number>>>(wave_filters_)
-        ->apply(team, worker.number, worker.count, arguments.results, worker.symbols,
+        ->apply(team, worker.number, worker.count, planes, worker.symbols,
                 filter.response, filter.part * moment.length);
 }
 
@@ -159,47 +168,71 @@ void PassRunner::set_uniforms(std::vector<Number>& uniforms, const StepProblem::
     }
 }
 
-/// What holds at the sides of a result when it is read at neighbours.
-SideRules PassRunner::sides_at(const StepProblem::Result& result, const StepMoment& moment,
-                               RowRange rows) const {
-    SideRules rules = problem_.sides_of(result);
-    const bool is_species = result.plane.kind == StepProblem::PlaneRef::Kind::species;
-    if (!is_species || problem_.changing_sides.empty()) return rules;
-    const bool is_next = result.read_at == StepProblem::Result::next_step;
-    const SideMoment when{is_next ? moment.complete + 1 : moment.complete,
-                          is_next ? moment.next_t : moment.t + result.read_at * moment.length};
-    set_side_values(problem_.changing_sides, result.plane.number, when, layout_, rows, rules);
-    return rules;
+void PassRunner::bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
+                      const StepMoment& moment) const {
+    std::visit([&](auto& arguments) { bind_as(arguments, level, pass, registers, moment); },
+               worker.arguments);
 }
 
 template <typename Number>
-void PassRunner::run_kernel(RowRange rows, Arguments<Number>& arguments,
-                            const StepProblem::Pass& pass, std::size_t number,
-                            Registers registers, const StepMoment& moment) {
-    auto& [uniforms, aggregates, fields, results] = arguments;
-    fields.clear();
+void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::size_t pass_number,
+                         Registers registers, const StepMoment& moment) const {
+    if (arguments.levels.size() <= number) arguments.levels.resize(number + 1);
+    const StepProblem::Pass& pass = problem_.passes[pass_number];
+    Level<Number>& level = arguments.levels[number];
+    level.pass = pass_number;
+    level.moment = moment;
+    level.uniforms = arguments.uniforms[pass_number];
+    set_uniforms(level.uniforms, pass, moment);
+    level.fields.clear();
     for (const StepProblem::PlaneRef& ref : pass.fields) {
-        fields.push_back(plane<Number>(ref, registers));
+        level.fields.push_back(plane<Number>(ref, registers));
     }
-    results.clear();
+    level.results.clear();
     for (const StepProblem::Result& result : pass.results) {
-        results.push_back(plane<Number>(result.plane, registers));
+        level.results.push_back(plane<Number>(result.plane, registers));
     }
     const LinkTable<Number> links =
         problem_.links ? problem_.links->template table<Number>() : LinkTable<Number>{};
-    const KernelArgumentsOf<Number> given{fields,  pass.masks, uniforms[number],
-                                          results, layout_,    links};
+    level.given = {level.fields, pass.masks, level.uniforms, level.results, layout_, links};
+}
+
+void PassRunner::run_rows(Worker& worker, std::size_t level, RowRange rows) const {
+    std::visit([&](const auto& arguments) { run_level(arguments.levels[level], rows); },
+               worker.arguments);
+}
+
+template <typename Number>
+void PassRunner::run_level(const Level<Number>& level, RowRange rows) const {
+    const StepProblem::Pass& pass = problem_.passes[level.pass];
     const std::int64_t band =
-        rows_of_a_band<Number>(layout_, std::max<std::size_t>(1, results.size()));
+        rows_of_a_band<Number>(layout_, std::max<std::size_t>(1, level.results.size()));
     for (std::int64_t row = rows.begin; row < rows.end; row += band) {
         const RowRange part{row, std::min(row + band, rows.end)};
-        pass.kernel->run(given, part);
-        for (std::size_t k = 0; k < results.size(); ++k) {
-            if (!pass.results[k].needs_halo || !problem_.has_halo()) continue;
-            fill_halo_from_rows(results[k], layout_, sides_at(pass.results[k], moment, part),
-                                part.begin, part.end);
+        pass.kernel->run(level.given, part);
+        for (std::size_t k = 0; k < level.results.size(); ++k) {
+            if (pass.results[k].needs_halo && problem_.has_halo()) fill_halo_of(level, k, part);
         }
     }
+}
+
+/// The halo of a result, for the moment at which it is read at neighbours.
+template <typename Number>
+void PassRunner::fill_halo_of(const Level<Number>& level, std::size_t number, RowRange rows) const {
+    const StepProblem::Result& result = problem_.passes[level.pass].results[number];
+    const auto fill = [&](const SideRules& rules) {
+        fill_halo_from_rows(level.results[number], layout_, rules, rows.begin, rows.end);
+    };
+    const SideRules& rules = sides_[level.pass][number];
+    const bool is_species = result.plane.kind == StepProblem::PlaneRef::Kind::species;
+    if (!is_species || problem_.changing_sides.empty()) return fill(rules);
+    const StepMoment& moment = level.moment;
+    const bool is_next = result.read_at == StepProblem::Result::next_step;
+    const SideMoment when{is_next ? moment.complete + 1 : moment.complete,
+                          is_next ? moment.next_t : moment.t + result.read_at * moment.length};
+    SideRules changed = rules;
+    set_side_values(problem_.changing_sides, result.plane.number, when, layout_, rows, changed);
+    fill(changed);
 }
 
 void run_once(const StepProblem& problem, Team& team, Registers registers,

@@ -1,5 +1,8 @@
 // Runs the passes of a step on a team of threads: temporaries, aggregates and the barriers between
 // passes.
+//
+// A worker binds a pass to planes and a moment as a *level*, and runs levels on any rows. With one level
+// at a time that is the plain loop, run(); solvers/tile_runner.h has several at once.
 #pragma once
 
 #include "core/parallel.h"
@@ -34,13 +37,21 @@ public:
     /// Allocates temporaries. `problem` must outlive the runner.
     explicit PassRunner(const StepProblem& problem);
 
-    /// What a kernel is given.
+    /// A pass with all that it takes to run it on some rows.
     template <typename Number>
-    struct Arguments {
-        std::vector<std::vector<Number>> uniforms;  ///< By pass.
-        std::vector<Number> aggregates;             ///< As they were computed last.
+    struct Level {
+        std::size_t pass = 0;
+        StepMoment moment;
+        std::vector<Number> uniforms;
         std::vector<const Number*> fields;
         std::vector<Number*> results;
+        KernelArgumentsOf<Number> given;
+    };
+    template <typename Number>
+    struct Arguments {
+        std::vector<Level<Number>> levels;
+        std::vector<std::vector<Number>> uniforms;  ///< By pass; aggregates as they were computed last.
+        std::vector<Number> aggregates;
     };
     /// What one thread needs of its own.
     struct alignas(64) Worker {
@@ -60,15 +71,26 @@ public:
     void run(Worker& worker, Team& team, Registers registers, const StepMoment& moment,
              std::size_t first_pass = 0);
 
+    /// Must all rows be complete before a pass begins, because it reads aggregates or filters waves?
+    bool needs_all_rows(std::size_t pass) const;
+    /// Does what such a pass does before its kernel is run. As run(), for all threads of the team.
+    void prepare_pass(Worker& worker, Team& team, std::size_t pass, Registers registers,
+                      const StepMoment& moment);
+    /// Makes a pass level `level` of the worker. Registers are looked at now, not later.
+    void bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
+              const StepMoment& moment) const;
+    /// Runs a level that was bound on some rows and fills the halo that comes from them.
+    void run_rows(Worker& worker, std::size_t level, RowRange rows) const;
+
+    const StepProblem& problem() const { return problem_; }
+    const PlaneLayout& layout() const { return layout_; }
+
 private:
     template <typename Number>
     Number* plane(const StepProblem::PlaneRef& ref, Registers registers) const;
     template <typename Number>
-    void run_as(Worker& worker, Arguments<Number>& arguments, Team& team, Registers registers,
-                const StepMoment& moment, std::size_t first_pass);
-    template <typename Number>
-    void reduce(Worker& worker, Arguments<Number>& arguments, const StepProblem::Pass& pass,
-                Team& team, Registers registers, std::size_t pass_number);
+    void reduce(Worker& worker, Arguments<Number>& arguments, std::size_t pass_number, Team& team,
+                Registers registers);
     template <typename Number>
     void filter(Worker& worker, Arguments<Number>& arguments, const SweepFilter& filter, Team& team,
                 Registers registers, const StepMoment& moment) const;
@@ -76,15 +98,18 @@ private:
     void set_uniforms(std::vector<Number>& uniforms, const StepProblem::Pass& pass,
                       const StepMoment& moment) const;
     template <typename Number>
-    void run_kernel(RowRange rows, Arguments<Number>& arguments, const StepProblem::Pass& pass,
-                    std::size_t number, Registers registers, const StepMoment& moment);
-    SideRules sides_at(const StepProblem::Result& result, const StepMoment& moment,
-                       RowRange rows) const;
+    void bind_as(Arguments<Number>& arguments, std::size_t level, std::size_t pass,
+                 Registers registers, const StepMoment& moment) const;
+    template <typename Number>
+    void run_level(const Level<Number>& level, RowRange rows) const;
+    template <typename Number>
+    void fill_halo_of(const Level<Number>& level, std::size_t result, RowRange rows) const;
 
     const StepProblem& problem_;
     PlaneLayout layout_;
     /// One of them, where a pass has a filter.
     std::tuple<std::optional<WaveFilter<float>>, std::optional<WaveFilter<double>>> wave_filters_;
+    std::vector<std::vector<SideRules>> sides_;  ///< By pass and result, before any of them changes.
     std::vector<Field> temporaries_;
     std::vector<void*> temporary_cells_;
     std::vector<std::vector<double>> row_values_;  ///< By aggregate and row.

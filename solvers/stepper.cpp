@@ -47,6 +47,8 @@ Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int mos
         for (Field& field : copies_[copy]) cells_[copy].push_back(field.address());
     }
     add_scratch();
+    if (problem.grid.linked) reach_ = rows_reached(problem);
+    fitting_tiling_ = tiling_ = choose_tiling(problem, reach_, CacheSizes::here());
     use_threads(team_.size());
 }
 
@@ -70,6 +72,13 @@ void Stepper::use(const StepProblem& problem) {
     for (Worker& worker : workers_) {
         runner_->prepare(worker.passes, worker.passes.number, worker.passes.count);
     }
+    fitting_tiling_ = choose_tiling(problem, reach_, CacheSizes::here());
+    use_tiling(fitting_tiling_);
+}
+
+void Stepper::use_tiling(const Tiling& tiling) {
+    tiling_ = tiling;
+    tiles_.emplace(*runner_, tiling_, static_cast<int>(workers_.size()));
 }
 
 double Stepper::attempt(std::int64_t complete, double tolerance) {
@@ -123,6 +132,7 @@ void Stepper::use_threads(int threads) {
         Worker& worker = workers_[static_cast<std::size_t>(index)];
         runner_->prepare(worker.passes, index, threads);
     }
+    use_tiling(tiling_);
 }
 
 bool Stepper::advance(std::int64_t complete, std::int64_t count, bool look) {
@@ -143,25 +153,73 @@ bool Stepper::is_finite() {
 }
 
 void Stepper::work(Worker& worker, std::int64_t complete, std::int64_t count, bool look) {
-    CopyRoles roles = roles_;
-    for (std::int64_t taken = 0; taken < count; ++taken) {
-        // One meeting a step is enough: behind it nobody reads the copy that the next step
-        // overwrites, and every thread has filled the halo that comes from its own rows.
-        if (taken > 0) team_.barrier();
-        step(worker, roles, complete + taken);
-        roles.current = roles.target();
+    const std::size_t passes = problem_->passes.size();
+    Level level{0, complete, roles_};
+    for (auto left = static_cast<std::size_t>(count) * passes; left > 0;) {
+        const std::size_t levels = levels_from(level, left);
+        run_levels(worker, level, levels);
+        left -= levels;
+        // One meeting is enough: behind it nobody reads the copy that the next level overwrites, and
+        // every thread has filled the halo that comes from its own rows. Tiles end in any thread's rows.
+        if (left > 0 || (look && tiles_->levels() > 1)) team_.barrier();
     }
-    if (look) worker.finite = rows_finite(worker, roles.current);
+    if (look) worker.finite = rows_finite(worker, level.roles.current);
+}
+
+void Stepper::Level::go_on(std::size_t passes) {
+    if (++pass < passes) return;
+    pass = 0;
+    ++complete;
+    roles.current = roles.target();
+}
+
+/// How many levels to run together where `left` are to be run: tiles of nearly equal heights, up to a
+/// pass that needs all rows.
+std::size_t Stepper::levels_from(const Level& level, std::size_t left) const {
+    const auto most = static_cast<std::size_t>(tiles_->levels());
+    const std::size_t passes = problem_->passes.size();
+    std::size_t free = 1;
+    while (free < left && !runner_->needs_all_rows((level.pass + free) % passes)) {
+        if (++free > 2 * most) return most;
+    }
+    const std::size_t tiles = (free + most - 1) / most;
+    return (free + tiles - 1) / tiles;
+}
+
+void Stepper::run_levels(Worker& worker, Level& level, std::size_t count) {
+    const std::size_t passes = problem_->passes.size();
+    for (std::size_t number = 0; number < count; ++number) {
+        if (number == 0 || level.pass == 0) set_registers(worker, level.roles);
+        const StepMoment moment = moment_of(level.complete);
+        if (number == 0) {
+            runner_->prepare_pass(worker.passes, team_, level.pass, worker.registers, moment);
+        }
+        runner_->bind(worker.passes, number, level.pass, worker.registers, moment);
+        level.go_on(passes);
+    }
+    if (count == 1) {
+        runner_->run_rows(worker.passes, 0, worker.passes.rows);
+    } else {
+        tiles_->run(worker.passes, team_, static_cast<int>(count));
+    }
 }
 
 void Stepper::step(Worker& worker, CopyRoles roles, std::int64_t complete) {
-    worker.registers.clear();  // The old step, the new one, then scratch.
+    set_registers(worker, roles);
+    runner_->run(worker.passes, team_, worker.registers, moment_of(complete),
+                 knows_first_rates_ ? problem_->first_rate_passes : 0);
+}
+
+/// The old step, the new one, then scratch.
+void Stepper::set_registers(Worker& worker, CopyRoles roles) const {
+    worker.registers.clear();
     worker.registers.emplace_back(cells_[static_cast<std::size_t>(roles.current)]);
     worker.registers.emplace_back(cells_[static_cast<std::size_t>(roles.target())]);
     for (const std::vector<void*>& cells : scratch_cells_) worker.registers.emplace_back(cells);
-    runner_->run(worker.passes, team_, worker.registers,
-                 {complete, clock_.at(complete), clock_.step, clock_.at(complete + 1)},
-                 knows_first_rates_ ? problem_->first_rate_passes : 0);
+}
+
+StepMoment Stepper::moment_of(std::int64_t complete) const {
+    return {complete, clock_.at(complete), clock_.step, clock_.at(complete + 1)};
 }
 
 bool Stepper::rows_finite(const Worker& worker, int copy) const {

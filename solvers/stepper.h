@@ -11,6 +11,8 @@
 #include "solvers/pass_runner.h"
 #include "solvers/stage_clock.h"
 #include "solvers/step_problem.h"
+#include "solvers/tile_runner.h"
+#include "solvers/tiling.h"
 
 #include <array>
 #include <cstddef>
@@ -77,6 +79,13 @@ public:
     /// So many threads share the work from now on; no result depends on it.
     void use_threads(int threads);
 
+    /// The tiling that fits the machine's caches.
+    const Tiling& fitting_tiling() const { return fitting_tiling_; }
+    /// Goes through memory like that from now on; no result depends on it.
+    void use_tiling(const Tiling& tiling);
+    /// So many passes of steps are done for each pass through memory, where they allow it.
+    int levels() const { return tiles_->levels(); }
+
 private:
     struct Worker {
         PassRunner::Worker passes;
@@ -90,6 +99,17 @@ private:
 
     void work(Worker& worker, std::int64_t complete, std::int64_t count, bool look);
     void step(Worker& worker, CopyRoles roles, std::int64_t complete);
+    /// A pass of a step that begins with certain roles.
+    struct Level {
+        std::size_t pass = 0;
+        std::int64_t complete = 0;
+        CopyRoles roles;
+        void go_on(std::size_t passes);
+    };
+    std::size_t levels_from(const Level& level, std::size_t left) const;
+    void run_levels(Worker& worker, Level& level, std::size_t count);
+    void set_registers(Worker& worker, CopyRoles roles) const;
+    StepMoment moment_of(std::int64_t complete) const;
     bool rows_finite(const Worker& worker, int copy) const;
     bool all_finite() const;
     void add_scratch();
@@ -112,6 +132,9 @@ private:
     std::vector<Squares> squares_;    ///< By species.
     Team team_;
     std::optional<PassRunner> runner_;
+    std::int64_t reach_ = 1;  ///< Rows that links reach.
+    Tiling fitting_tiling_, tiling_;
+    std::optional<TileRunner> tiles_;
     std::vector<Worker> workers_;  ///< One for each thread in use.
 };
 

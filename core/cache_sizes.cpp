@@ -1,0 +1,72 @@
+// The sizes of caches. hwloc knows them too, but takes longer to say so (15 ms and more) than a
+// small run takes altogether; sysconf() is wrong on some processors.
+#include "core/cache_sizes.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace cascade {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The first word of a file; empty where there is none.
+std::string word_in(const fs::path& path) {
+    std::ifstream file(path);
+    std::string word;
+    file >> word;
+    return word;
+}
+
+/// "1024K" or "32M" in bytes; 0 for anything else.
+std::int64_t bytes_of(const std::string& size) {
+    std::istringstream text(size);
+    std::int64_t number = 0;
+    char unit = 0;
+    if (!(text >> number) || number <= 0 || number > (std::int64_t{1} << 30)) return 0;
+    text >> unit;
+    return unit == 'K' ? number << 10 : unit == 'M' ? number << 20 : unit == 0 ? number : 0;
+}
+
+/// How many numbers a list as "0-3,8-11" has; at least 1.
+std::int64_t count_of(const std::string& list) {
+    std::istringstream text(list);
+    std::int64_t count = 0, first = 0, last = 0;
+    while (text >> first) {
+        last = first;
+        if (text.peek() == '-' && !(text.ignore() >> last)) break;
+        count += std::clamp<std::int64_t>(last - first + 1, 0, 1 << 20);
+        if (text.get() != ',') break;
+    }
+    return std::max<std::int64_t>(count, 1);
+}
+
+}  // namespace
+
+CacheSizes CacheSizes::described_in(const fs::path& folder) {
+    constexpr int most_caches = 16;
+    constexpr std::int64_t least = 65536;
+    CacheSizes sizes;
+    for (int index = 0; index < most_caches; ++index) {
+        const fs::path cache = folder / ("index" + std::to_string(index));
+        const std::string level = word_in(cache / "level"), type = word_in(cache / "type");
+        if (level.empty()) break;
+        if (type == "Instruction") continue;
+        const std::int64_t share =
+            bytes_of(word_in(cache / "size")) / count_of(word_in(cache / "shared_cpu_list"));
+        if (share < least) continue;
+        if (level == "2") sizes.second = share;
+        if (level == "3") sizes.third = share;
+    }
+    sizes.third = std::max(sizes.third, sizes.second);
+    return sizes;
+}
+
+const CacheSizes& CacheSizes::here() {
+    static const CacheSizes sizes = described_in("/sys/devices/system/cpu/cpu0/cache");
+    return sizes;
+}
+
+}  // namespace cascade

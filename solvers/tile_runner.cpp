@@ -1,0 +1,106 @@
+#include "solvers/tile_runner.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace cascade {
+namespace {
+
+std::int64_t layers_of(std::int64_t count, std::int64_t each) { return (count + each - 1) / each; }
+
+TileAxis outer_axis(const StepProblem& problem, const Tiling& tiling, int threads) {
+    const Grid& grid = problem.grid;
+    const bool has_slices = grid.depth > 1;
+    return {layers_of(has_slices ? grid.depth : grid.height, tiling.outer_layer), threads,
+            !grid.linked && wraps(problem, has_slices ? Side::front : Side::top)};
+}
+
+/// An axis that is not cut is one layer.
+TileAxis inner_axis(const StepProblem& problem, const Tiling& tiling) {
+    if (problem.grid.depth == 1 || tiling.inner_bands <= 1) return {1, 1, false};
+    return {layers_of(problem.grid.height, tiling.inner_layer), tiling.inner_bands,
+            wraps(problem, Side::top)};
+}
+
+}  // namespace
+
+TileRunner::TileRunner(const PassRunner& runner, const Tiling& tiling, int threads)
+    : runner_(runner),
+      tiling_(tiling),
+      outer_(outer_axis(runner.problem(), tiling, threads)),
+      inner_(inner_axis(runner.problem(), tiling)),
+      levels_(std::clamp(std::min({tiling.levels, outer_.most_levels(), inner_.most_levels()}), 1,
+                         most_levels)) {}
+
+void TileRunner::run(PassRunner::Worker& worker, Team& team, int levels) const {
+    Part outer, inner;
+    bool is_first = true;
+    for (const bool outer_inverted : {false, true}) {
+        for (const bool inner_inverted : {false, true}) {
+            const int inner_parts = parts(inner_, inner_inverted);
+            const int tiles = parts(outer_, outer_inverted) * inner_parts;
+            if (tiles == 0) continue;
+            if (!is_first) team.barrier();
+            is_first = false;
+            const RowRange mine = split_rows(tiles, worker.number, worker.count);
+            for (auto tile = static_cast<int>(mine.begin); tile < mine.end; ++tile) {
+                set_part(outer_, outer_inverted, tile / inner_parts, levels, outer);
+                set_part(inner_, inner_inverted, tile % inner_parts, levels, inner);
+                run_wave(worker, outer, inner, levels);
+            }
+        }
+    }
+}
+
+void TileRunner::set_part(const TileAxis& axis, bool inverted, int number, int levels, Part& part) {
+    for (int level = 0; level < levels; ++level) {
+        part[static_cast<std::size_t>(level)] =
+            inverted ? axis.inverted(number, level) : axis.upright(number, level);
+    }
+}
+
+void TileRunner::run_wave(PassRunner::Worker& worker, const Part& outer, const Part& inner,
+                          int levels) const {
+    std::int64_t begin = std::numeric_limits<std::int64_t>::max(), end = 0;
+    for (int level = 0; level < levels; ++level) {
+        const LayerRange layers = outer[static_cast<std::size_t>(level)];
+        if (layers.empty()) continue;
+        begin = std::min(begin, layers.begin + level);
+        end = std::max(end, layers.end + level);
+    }
+    for (std::int64_t moment = begin; moment < end; ++moment) {
+        for (int level = 0; level < levels; ++level) {
+            const LayerRange layers = outer[static_cast<std::size_t>(level)];
+            const std::int64_t layer = moment - level;
+            if (layer < layers.begin || layer >= layers.end) continue;
+            run_layer(worker, level, outer_.wrapped(layer), inner[static_cast<std::size_t>(level)]);
+        }
+    }
+}
+
+void TileRunner::run_layer(PassRunner::Worker& worker, int level, std::int64_t layer,
+                           LayerRange inner) const {
+    const PlaneLayout& layout = runner_.layout();
+    const auto run = [&](std::int64_t begin, std::int64_t end) {
+        if (begin < end) runner_.run_rows(worker, static_cast<std::size_t>(level), {begin, end});
+    };
+    const bool has_slices = layout.depth > 1;
+    const std::int64_t first = layer * tiling_.outer_layer;
+    const std::int64_t last =
+        std::min(first + tiling_.outer_layer, has_slices ? layout.depth : layout.height);
+    if (!has_slices) return run(first, last);
+    if (inner_.layers() == 1) return run(first * layout.height, last * layout.height);
+    const auto rows_of = [&](std::int64_t slice, std::int64_t begin, std::int64_t end) {
+        const std::int64_t start = slice * layout.height;
+        run(start + begin * tiling_.inner_layer,
+            start + std::min(end * tiling_.inner_layer, layout.height));
+    };
+    for (std::int64_t slice = first; slice < last; ++slice) {
+        // What lies beyond an end of the axis is at the other end.
+        rows_of(slice, std::max<std::int64_t>(inner.begin, 0), std::min(inner.end, inner_.layers()));
+        if (inner.begin < 0) rows_of(slice, inner.begin + inner_.layers(), inner_.layers());
+        if (inner.end > inner_.layers()) rows_of(slice, 0, inner.end - inner_.layers());
+    }
+}
+
+}  // namespace cascade

@@ -1,0 +1,32 @@
+// How the steps of a problem go through memory: how many levels at once, on how large pieces.
+#pragma once
+
+#include "core/cache_sizes.h"
+#include "solvers/step_problem.h"
+
+#include <cstdint>
+
+namespace cascade {
+
+/// Layers of one axis are taken together so that a call of a kernel is worth it.
+struct Tiling {
+    int levels = 1;                 ///< At most; 1: every pass by itself.
+    std::int64_t outer_layer = 1;   ///< Rows of a layer, or slices where the grid has them.
+    std::int64_t inner_layer = 1;   ///< Of a grid with slices: rows of a layer within them,
+    int inner_bands = 1;            ///< and bands of those layers; 1: slices are not cut.
+};
+
+/// Bytes of all planes, masks and links that the passes of a step read or write, each counted once,
+/// both copies of what the steps change included.
+std::int64_t bytes_of_step(const StepProblem& problem);
+
+/// How many rows links reach at most, from any cell; at least 1. Looks at all links.
+std::int64_t rows_reached(const StepProblem& problem);
+
+/// Is any plane periodic from side to opposite side, along the axis of that side?
+bool wraps(const StepProblem& problem, Side side);
+
+/// The tiling that keeps what its levels touch in the caches. `reach`: see rows_reached().
+Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches);
+
+}  // namespace cascade
