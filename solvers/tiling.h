@@ -8,12 +8,15 @@
 
 namespace cascade {
 
-/// Layers of one axis are taken together so that a call of a kernel is worth it.
+/// The outer axis is that of rows or, where the grid has them, of slices; the inner one is that of the
+/// columns, or of the rows within slices. Layers are several rows, slices or columns, so that a call of
+/// a kernel is worth it.
 struct Tiling {
     int levels = 1;                 ///< At most; 1: every pass by itself.
-    std::int64_t outer_layer = 1;   ///< Rows of a layer, or slices where the grid has them.
-    std::int64_t inner_layer = 1;   ///< Of a grid with slices: rows of a layer within them,
-    int inner_bands = 1;            ///< and bands of those layers; 1: slices are not cut.
+    std::int64_t outer_layer = 1;   ///< Rows or slices of a layer.
+    std::int64_t inner_layer = 1;   ///< Rows of a layer within slices, or columns: a multiple of
+                                    ///< PlaneLayout::row_pad.
+    int inner_bands = 1;            ///< 1: the inner axis is not cut.
 };
 
 /// Bytes of all planes, masks and links that the passes of a step read or write, each counted once,
