@@ -61,6 +61,13 @@ const std::string_view check_examples = R"(Examples:
   cascade check *.cascade
   cascade check leopard.cascade --dump ir            what a cell computes in a step)";
 
+const std::string_view bench =
+    "Measures the steps of scripts and says what keeps them from being faster. Writes no file.";
+const std::string_view bench_examples = R"(Examples:
+  cascade bench leopard.cascade                      a table for each stage
+  cascade bench leopard.cascade --stage 2 --grid 512x512 --threads 1
+  cascade bench examples/*.cascade --seconds 0.3 --csv > before.csv)";
+
 const std::string_view compile =
     "Writes a stage, its starting values and its steps, as an object file with a C header.";
 const std::string_view compile_examples = R"(Example:

@@ -20,6 +20,7 @@ int run_chosen(const cascade::Options& options, cascade::Console& console) {
         case cascade::Command::run: return run_command(options, console);
         case cascade::Command::sweep: return sweep_command(options, console);
         case cascade::Command::check: return check_command(options, console);
+        case cascade::Command::bench: return bench_command(options, console);
         case cascade::Command::compile: return compile_command(options, console);
         case cascade::Command::systems: return systems_command(options, console);
         case cascade::Command::new_script: return new_command(options, console);

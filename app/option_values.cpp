@@ -147,6 +147,12 @@ Result<double> parse_duration(std::string_view text) {
                    "write 90s, 20m, 1.5h or 2d");
 }
 
+Result<double> parse_measuring_time(std::string_view text) {
+    const auto seconds = parse_duration(text);
+    if (seconds && *seconds >= 0.001 && *seconds <= 3600) return *seconds;
+    return failure(fmt::format("'{}' is no time to measure for", text), "0.001 to 3600 seconds");
+}
+
 std::string describe_duration(double seconds) {
     if (seconds >= 3600) return fmt::format("{:.4g} h", seconds / 3600);
     return seconds >= 60 ? fmt::format("{:.4g} min", seconds / 60)

@@ -39,6 +39,8 @@ Result<StopAt> parse_stop_at(std::string_view text);
 
 /// "90s", "20m", "1.5h", "2d" or "90": seconds, more than 0 and at most ten years.
 Result<double> parse_duration(std::string_view text);
+/// "0.5", "2s": seconds of a measurement, 0.001 … 3600.
+Result<double> parse_measuring_time(std::string_view text);
 /// "2 h", "1.5 min", "90 s".
 std::string describe_duration(double seconds);
 

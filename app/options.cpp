@@ -45,6 +45,7 @@ struct Parser {
     CLI::App* run = nullptr;
     CLI::App* sweep = nullptr;
     CLI::App* check = nullptr;
+    CLI::App* bench = nullptr;
     CLI::App* compile = nullptr;
     CLI::App* systems = nullptr;
     CLI::App* new_script = nullptr;
@@ -132,6 +133,15 @@ void Parser::add_all() {
     groups::add_overrides(*check, options.overrides);
     groups::add_dump(*check, options);
 
+    bench = command("bench", help::bench, help::bench_examples);
+    bench->add_option("SCRIPTS", options.scripts, "Scripts, pictures that Cascade drew, or -")
+        ->type_name("");
+    groups::add_bench(*bench, options);
+    groups::add_overrides(*bench, options.overrides);
+    groups::add_simulation(*bench, options, "Threads at most; without it all cores");
+    groups::add_quiet(*bench, options);
+    groups::add_limits(*bench, options);
+
     compile = command("compile", help::compile, help::compile_examples);
     groups::add_script(*compile, options, "A script");
     groups::add_compile(*compile, options);
@@ -171,7 +181,8 @@ void Parser::add_all() {
     groups::add_stop(*repl, options);
     groups::add_quiet(*repl, options);
 
-    for (CLI::App* sub : {run, sweep, check, compile, systems, new_script, format, mesh, repl}) {
+    for (CLI::App* sub :
+         {run, sweep, check, bench, compile, systems, new_script, format, mesh, repl}) {
         sub->set_help_flag("-h,--help", "This text")->group("More");
     }
 }
@@ -237,7 +248,8 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
 std::string missing_argument(const Options& options) {
     const bool needs_script =
         options.command == Command::sweep || options.command == Command::check ||
-        options.command == Command::compile || options.command == Command::format ||
+        options.command == Command::bench || options.command == Command::compile ||
+        options.command == Command::format ||
         (options.command == Command::run && options.run.resume.empty());
     if (needs_script && options.scripts.empty()) return "a script is missing";
     if (options.command == Command::mesh && options.models.empty()) return "a model is missing";
@@ -282,6 +294,7 @@ std::variant<Options, Leave> parse_options(const std::string& program,
     Options& options = parser.options;
     if (sub == parser.sweep) options.command = Command::sweep;
     if (sub == parser.check) options.command = Command::check;
+    if (sub == parser.bench) options.command = Command::bench;
     if (sub == parser.compile) options.command = Command::compile;
     if (sub == parser.systems) options.command = Command::systems;
     if (sub == parser.new_script) options.command = Command::new_script;

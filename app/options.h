@@ -2,6 +2,7 @@
 // CLI11, since its headers take seconds to compile.
 #pragma once
 
+#include "run/bench.h"
 #include "run/compile.h"
 #include "run/describe_model.h"
 #include "run/picture_request.h"
@@ -18,7 +19,7 @@
 
 namespace cascade {
 
-enum class Command { run, sweep, check, compile, systems, new_script, format, mesh, repl };
+enum class Command { run, sweep, check, bench, compile, systems, new_script, format, mesh, repl };
 
 /// The options about pictures that were given. A picture that is run again brings options of its
 /// own, so what was not given must be told from what is the default.
@@ -40,7 +41,7 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request);
 
 struct Options {
     Command command = Command::run;
-    std::vector<std::string> scripts;  ///< One, but for `check` and `fmt`; none with --resume alone.
+    std::vector<std::string> scripts;  ///< One, but for `check`, `bench`, `fmt`; none with --resume alone.
     Overrides overrides;
     PictureChanges picture;
     RunRequest run;                    ///< Its `picture` is left at the defaults.
@@ -55,6 +56,8 @@ struct Options {
     std::vector<std::string> models;   ///< Of `mesh`.
     std::optional<CellOptions> cells;  ///< `mesh --cells`.
     std::optional<std::uint32_t> cell_seed;  ///< `mesh --seed`.
+    BenchRequest bench;                ///< Its `simulation` is left at the defaults.
+    bool csv = false;                  ///< `bench --csv`
     CompileRequest compile;
     std::filesystem::path object;      ///< `compile -o`
     std::filesystem::path header;      ///< `compile --header`

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace cascade {
 
-/// Three digits and the prefix of a unit that follows: "1.23 G", "45.6 M", "789 ", "4.5 m", "12 n"; 0 is
-/// "0 ". `value` is not negative.
+/// Three digits and the prefix of what is counted: "1.23 G", "45.6 M", "789", "12.0 n"; 0 is "0". `value`
+/// is not negative.
 std::string with_prefix(double value);
+/// The same with the symbol of a unit: "1.23 GB/s", "45.6 µs", "7.89 s".
+std::string with_unit(double value, std::string_view unit);
 
 /// Bytes in units of 1024: "32 KiB", "1.5 MiB".
 std::string byte_size(double bytes);

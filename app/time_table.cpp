@@ -64,7 +64,7 @@ std::string remark_on_steps(const TimeAccount::Stage& stage) {
     std::string text = fmt::format("{} {}", with_commas(stage.steps), stage.steps == 1 ? "step" : "steps");
     if (seconds > 0) {
         const double work = static_cast<double>(stage.steps) * static_cast<double>(stage.cells);
-        text += fmt::format(", {}cell-steps/s", with_prefix(work / seconds));
+        text += fmt::format(", {} cell-steps/s", with_prefix(work / seconds));
     }
     if (!stage.stepping.empty()) text += "; " + stage.stepping;
     return text;

@@ -110,12 +110,17 @@ private:
         }
         if (!has_places_) {
             cost_.loads += links_;
-            cost_.load_bytes += links_ * sizeof(std::int32_t);
+            add_link_bytes(sizeof(std::int32_t));
         }
         has_places_ = true;
         if (!weights_.insert(weights).second) return;
         cost_.loads += links_;
-        cost_.load_bytes += links_ * word_;
+        add_link_bytes(word_);
+    }
+
+    void add_link_bytes(double bytes) {
+        cost_.load_bytes += links_ * bytes;
+        cost_.link_bytes += links_ * bytes;
     }
 
     const CellKernel& kernel_;
@@ -139,6 +144,7 @@ KernelCost& KernelCost::operator+=(const KernelCost& other) {
     stores += other.stores;
     load_bytes += other.load_bytes;
     store_bytes += other.store_bytes;
+    link_bytes += other.link_bytes;
     return *this;
 }
 

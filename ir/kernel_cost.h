@@ -20,6 +20,7 @@ struct KernelCost {
     double stores = 0;
     double load_bytes = 0;  ///< Of all loads.
     double store_bytes = 0;
+    double link_bytes = 0;  ///< Those of `load_bytes` that are places and weights of links.
 
     KernelCost& operator+=(const KernelCost& other);
 };

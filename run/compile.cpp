@@ -18,24 +18,6 @@ namespace cascade {
 
 namespace {
 
-Result<std::uint32_t> find_stage(const Program& program, const std::optional<std::string>& asked) {
-    if (program.stages.empty()) return failure("this script has no stage to compile");
-    if (!asked) return 0U;
-    std::vector<std::string> names;
-    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
-        if (program.stages[k].name == *asked) return k;
-        names.push_back(program.stages[k].name);
-    }
-    std::uint32_t number = 0;
-    const char* end = asked->data() + asked->size();
-    const auto parsed = std::from_chars(asked->data(), end, number);
-    if (parsed.ec == std::errc() && parsed.ptr == end && number >= 1 && number <= names.size()) {
-        return number - 1;
-    }
-    return failure(fmt::format("no stage is called '{}'", *asked),
-                   fmt::format("the stages are {}", fmt::join(names, ", ")));
-}
-
 /// Marks parameters as varying, so that the kernel takes a plane for each.
 Result<void> make_per_cell(Program& program, std::uint32_t k,
                            const std::vector<std::string>& names) {
@@ -153,7 +135,8 @@ Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
 
 Result<CompiledStep> compile_step(Script& script, const CompileRequest& request) {
     Program program = *script.program;
-    const auto stage = find_stage(program, request.stage);
+    if (program.stages.empty()) return failure("this script has no stage to compile");
+    const auto stage = find_stage(program, request.stage.value_or("1"));
     if (!stage) return tl::unexpected(stage.error());
     if (auto fits = check_header_knows(program, *stage); !fits) return tl::unexpected(fits.error());
     const auto numbers = known_numbers(program, *stage);

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <charconv>
 
 namespace cascade {
 
@@ -42,6 +43,22 @@ std::uint32_t Script::final_stage() const {
 Span option_span(Sources& sources, const std::string& option, const std::string& value) {
     const SourceId id = sources.add(fmt::format("<{}>", option), value);
     return {id, 0, static_cast<std::uint32_t>(value.size())};
+}
+
+Result<std::uint32_t> find_stage(const Program& program, const std::string& asked) {
+    std::vector<std::string> names;
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        if (program.stages[k].name == asked) return k;
+        names.push_back(program.stages[k].name);
+    }
+    std::uint32_t number = 0;
+    const char* const end = asked.data() + asked.size();
+    const auto parsed = std::from_chars(asked.data(), end, number);
+    if (parsed.ec == std::errc() && parsed.ptr == end && number >= 1 && number <= names.size()) {
+        return number - 1;
+    }
+    return failure(fmt::format("no stage is called '{}'", asked),
+                   fmt::format("the stages are {}", fmt::join(names, ", ")));
 }
 
 std::optional<std::uint32_t> find_stage_of_option(Script& script, const std::string& name,

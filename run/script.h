@@ -82,6 +82,9 @@ Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides
 /// A place for messages about an option: the option's own text is the source `<--option>`.
 Span option_span(Sources& sources, const std::string& option, const std::string& value);
 
+/// The stage of a name, or else of a number from 1. Fails with the names that there are.
+Result<std::uint32_t> find_stage(const Program& program, const std::string& asked);
+
 /// The stage that an option names, or nothing with a message at `span`. Needs a program.
 std::optional<std::uint32_t> find_stage_of_option(Script& script, const std::string& name,
                                                   Span span);

@@ -128,7 +128,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     const TimeAccount::Scope spent(self.account, Spent::stepping, k);
     const std::int64_t steps_before = state.steps;
 
-    StageTimer timer(*self.program, k, state, self.tools(k, control));
+    StageTimer timer(*self.program, k, state, self.tools(k, self.compiled(control, stage.name)));
     if (timer.substeps() > 1 && state.steps == 0 && control.warn) {
         control.warn(fmt::format("stage '{}': each step is split into {}, so that it is stable in the "
                                  "smallest cells of the model", stage.name, timer.substeps()));
@@ -238,10 +238,11 @@ void Simulation::Implementation::account_for(std::uint32_t k, std::int64_t steps
     TimeAccount::Stage& entry = account->stage(k);
     entry.steps += steps;
     entry.cells = grid.cell_count();
+    entry.threads = outcome.threads;
     entry.stepping = outcome.stepping;
 }
 
-StageTools Simulation::Implementation::tools(std::uint32_t k, RunControl& control) const {
+StageTools Simulation::Implementation::tools(std::uint32_t k, Compile steps) const {
     StageTools tools;
     tools.numbers = [this, k](std::span<const Formula* const> formulas) {
         return [this, k, plan = plan_view(*program, formulas, k), compile = often()] {
@@ -259,13 +260,13 @@ StageTools Simulation::Implementation::tools(std::uint32_t k, RunControl& contro
         }
         return values;
     };
-    tools.bind = [this, k, &control, largest](const Scheme& scheme) {
+    tools.bind = [this, k, largest, compile = std::move(steps)](const Scheme& scheme) {
         const TimeAccount::Scope spent(account, Spent::compiling);
         std::vector<StepPlan> sweeps;
         for (const SweepForm& form : scheme.forms) sweeps.push_back(plans->sweep(k, form));
         const auto bind = [&](const StepPlan& before) {
-            return bind_scheme(scheme, sweeps, before, compiled(control, stage(k).name), context(k),
-                               program->system_of(k), k);
+            return bind_scheme(scheme, sweeps, before, compile, context(k), program->system_of(k),
+                               k);
         };
         if (!is_semi_implicit(stage(k).time.solver)) return bind({});
         const BoundDiffusion diffusion(*program, k, largest);

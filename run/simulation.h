@@ -9,6 +9,7 @@
 #include "run/domain_mask.h"
 #include "run/model_cells.h"
 #include "run/script.h"
+#include "run/step_work.h"
 #include "run/time_account.h"
 #include "solvers/advance.h"
 #include "solvers/changing_side.h"
@@ -129,6 +130,9 @@ public:
     /// first cell's value).
     std::vector<double> evaluate_numbers(std::span<const Formula* const> formulas,
                                         std::uint32_t stage) const;
+
+    /// What one step of a started stage costs, as it would be taken now.
+    StepWork step_work(std::uint32_t stage);
 
     const Program& program() const;
     const Grid& grid() const;

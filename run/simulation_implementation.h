@@ -141,7 +141,8 @@ struct Simulation::Implementation {
     void account_for(std::uint32_t k, std::int64_t steps, const StageOutcome& outcome) const;
 
     /// What the time of a stage needs to know of it.
-    StageTools tools(std::uint32_t k, RunControl& control) const;
+    /// `steps` makes the kernels of its steps runnable.
+    StageTools tools(std::uint32_t k, Compile steps) const;
 
     // Why a run failed (simulation_failures.cpp).
 

@@ -35,6 +35,7 @@ public:
         std::array<double, spent_count> seconds{};  ///< By Spent.
         std::int64_t steps = 0;
         std::int64_t cells = 0;
+        int threads = 1;       ///< That took its last steps.
         std::string stepping;  ///< How its steps were taken, in a few words; mostly nothing.
     };
 

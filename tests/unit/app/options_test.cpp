@@ -212,7 +212,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{}, "Usage: cascade COMMAND"},
         WrongUse{{"rnu", "a.cascade"}, "no command 'rnu'; did you mean 'cascade run'?"},
         WrongUse{{"a.cascade"}, "no command 'a.cascade'; did you mean 'cascade run a.cascade'?"},
-        WrongUse{{"fly"}, "the commands are run, sweep, check, compile, systems, new, fmt, mesh, repl"},
+        WrongUse{{"fly"}, "the commands are run, sweep, check, bench, compile, systems, new, fmt, mesh, repl"},
         WrongUse{{"run"}, "cascade run: a script is missing"},
         WrongUse{{"check"}, "cascade check: a script is missing"},
         WrongUse{{"run", "a", "--pallete", "tan"}, "no option --pallete; did you mean --palette?"},

@@ -49,6 +49,7 @@ TEST(KernelCost, LinksCostAPlaceAWeightAndAValueEach) {
     EXPECT_EQ(cost.operations, 20);
     EXPECT_EQ(cost.loads, 19);
     EXPECT_EQ(cost.load_bytes, 76);
+    EXPECT_EQ(cost.link_bytes, 48);
     // In binary64 places stay what they are.
     EXPECT_EQ(cost_of(diffusion(false, Precision::binary64), Stencil::linked, 6).load_bytes,
               8 + 6 * (4 + 8 + 8));
@@ -92,7 +93,7 @@ TEST(KernelCost, DivisionsAndRootsAreToldApart) {
     KernelBuilder builder;
     const ValueId a = builder.field(builder.field_slot("a"));
     const ValueId b = builder.field(builder.field_slot("b"));
-    builder.result("r", builder.divide(a, builder.apply(Op::square_root, builder.negate(b))));
+    builder.result("r", builder.divide(a, builder.apply(Op::square_root, builder.apply(Op::negate, b))));
     const KernelCost cost = cost_of(std::move(builder).finish(), Stencil::plane, 0);
     EXPECT_EQ(cost.operations, 3);
     EXPECT_EQ(cost.divisions, 2);
@@ -102,7 +103,7 @@ TEST(KernelCost, MasksAreBytes) {
     KernelBuilder builder;
     const ValueId a = builder.field(builder.field_slot("a"));
     const ValueId frozen = builder.mask(builder.mask_slot("frozen"));
-    builder.result("r", builder.select(frozen, a, builder.negate(a)));
+    builder.result("r", builder.select(frozen, a, builder.apply(Op::negate, a)));
     const KernelCost cost = cost_of(std::move(builder).finish(), Stencil::plane, 0);
     EXPECT_EQ(cost.operations, 2);
     EXPECT_EQ(cost.loads, 2);

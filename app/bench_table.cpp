@@ -1,0 +1,167 @@
+#include "app/bench_table.h"
+
+#include "app/quantities.h"
+#include "core/with_commas.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+namespace cascade {
+
+namespace {
+
+std::string sides_of(const Grid& grid) {
+    if (grid.linked) return fmt::format("{} cells of a model", with_commas(grid.cell_count()));
+    std::string sides = fmt::format("{} × {}", grid.width, grid.height);
+    if (grid.depth > 1) sides += fmt::format(" × {}", grid.depth);
+    return sides + " cells";
+}
+
+std::string plural(std::size_t count, std::string_view one, std::string_view many) {
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+/// Up to one digit behind the point: counts are whole but for links.
+std::string number(double value) {
+    return std::abs(value - std::round(value)) < 0.05 ? fmt::format("{:.0f}", value)
+                                                      : fmt::format("{:.1f}", value);
+}
+
+std::string amount(const Bound& bound, double value) {
+    switch (bound.kind) {
+        case Bound::Kind::operations:
+        case Bound::Kind::divisions: return with_unit(value, "op/s");
+        case Bound::Kind::nearest:
+        case Bound::Kind::home: return with_unit(value, "B/s");
+        case Bound::Kind::meetings: return with_unit(value, "/s");
+    }
+    return "";
+}
+
+std::string line(std::string_view name, const std::string& text) {
+    return fmt::format("  {:<17} {}\n", name, text);
+}
+
+std::string work_lines(const StageBench& bench) {
+    const StepWork& work = bench.work;
+    std::string text = fmt::format("{} operations", number(work.cost.operations));
+    if (work.cost.divisions > 0) {
+        text += fmt::format(" ({} divisions or roots)", number(work.cost.divisions));
+    }
+    text += fmt::format(", {} loads, {} stores", number(work.cost.loads), number(work.cost.stores));
+    if (work.links > 0) text += fmt::format(", {:.2f} links", work.links);
+    text += ", in " + plural(work.passes, "pass", "passes");
+    std::string lines = line("work a cell-step", text);
+    lines += line("planes", fmt::format("{} bytes a cell-step; {} in all", number(work.bytes),
+                                        byte_size(work.working_set)));
+    if (work.has_waves) {
+        lines += line("", "waves are filtered besides, which is not counted");
+    }
+    return lines;
+}
+
+std::string limit_lines(const StageBench& bench) {
+    const auto bounds = bounds_of(bench);
+    std::string lines = fmt::format("\n  {:<36}{:>14}{:>16}{:>9}\n", "limit", "reached",
+                                    "peak, measured", "share");
+    for (const Bound& bound : bounds) {
+        lines += fmt::format("  {:<36}{:>14}{:>16}{:>7.0f} %\n", bound.name,
+                             amount(bound, bound.reached), amount(bound, bound.most),
+                             100 * bound.share());
+    }
+    for (const auto& memory : bench.limits->memories) {
+        const bool is_listed = &memory == &bench.limits->memories.front() ||
+                               &memory == &bench.limits->home_of(bench.work.working_set);
+        if (is_listed) continue;
+        lines += fmt::format("  {:<36}{:>14}{:>16}\n", memory.name, "",
+                             with_unit(memory.bytes_per_second, "B/s"));
+    }
+    const double most = attainable(bench);
+    lines += line("roofline", fmt::format("{} cell-steps/s from {}, of which {:.0f} % are reached",
+                                          with_prefix(most),
+                                          bench.limits->home_of(bench.work.working_set).name,
+                                          100 * bench.cell_steps_per_second() / most));
+    return lines;
+}
+
+}  // namespace
+
+std::string bound_sentence(const StageBench& bench) {
+    const auto bounds = bounds_of(bench);
+    if (bounds.empty()) return "";
+    const Bound& bound = tightest(bounds);
+    constexpr double near = 0.5;
+    const std::string figures =
+        bound.kind == Bound::Kind::meetings
+            ? fmt::format("{:.0f} % of a step's {}", 100 * bound.share(), with_unit(bench.step, "s"))
+            : fmt::format("{} of {}, {:.0f} %", amount(bound, bound.reached),
+                          amount(bound, bound.most), 100 * bound.share());
+    std::string text = bound.share() >= near
+                           ? fmt::format("{}: {}", bound.name, figures)
+                           : fmt::format("no limit is near; the nearest is {}: {}", bound.name, figures);
+    for (const Bound& other : bounds) {
+        if (other.kind == Bound::Kind::home && other.share() > 1.1) {
+            text += fmt::format("; {}: more than a pass for each step could have", other.name);
+        }
+    }
+    if (bench.threads < bench.most_threads) {
+        text += fmt::format("; of {} threads {} took the steps: {}", bench.most_threads, bench.threads,
+                            bench.cells() < 65536 ? sides_of(bench.grid) + " are few"
+                                                  : "the machine is busy, or more are no faster");
+    }
+    if (!bench.is_native) {
+        text = "the interpreter takes the steps, native code is far faster (limits are those of native "
+               "code); " + text;
+    }
+    return text;
+}
+
+std::string bench_table(const std::string& script, const StageBench& bench) {
+    std::string text = fmt::format("{}, stage '{}': {}, {}, {}, {}\n", script, bench.stage,
+                                   bench.solver, sides_of(bench.grid), name_of(bench.precision),
+                                   bench.is_native ? "native code" : "interpreted");
+    if (!bench.nothing.empty()) return text + line("nothing", bench.nothing) + "\n";
+    text += line("speed", fmt::format("{} cell-steps/s, {} a step", with_prefix(bench.cell_steps_per_second()),
+                                      with_unit(bench.step, "s")));
+    text += line("measured", fmt::format("{} steps, the median of {}, {}{}", with_commas(bench.steps),
+                                         plural(bench.batches, "batch", "batches"),
+                                         plural(static_cast<std::size_t>(bench.threads), "thread", "threads"),
+                                         bench.stepping.empty() ? "" : "; " + bench.stepping));
+    text += line("before", fmt::format("starting values {}, first step {}, compiling {} in all",
+                                       with_unit(bench.starting, "s"), with_unit(bench.first_step, "s"),
+                                       with_unit(bench.compiling, "s")));
+    text += work_lines(bench);
+    if (bench.limits) {
+        text += limit_lines(bench);
+        text += line("bound by", bound_sentence(bench));
+    } else if (!bench.is_native) {
+        text += line("bound by", "the interpreter");
+    }
+    return text + "\n";
+}
+
+std::string bench_csv_header() {
+    return "script,stage,solver,width,height,depth,precision,backend,threads,steps,seconds_per_step,"
+           "cell_steps_per_second,operations,loads,stores,bytes,starting_seconds,compiling_seconds,"
+           "first_step_seconds\n";
+}
+
+std::string bench_csv_row(const std::string& script, const StageBench& bench) {
+    std::string name = script;
+    for (char& c : name) {
+        if (c == ',' || c == '"' || c == '\n') c = '_';
+    }
+    std::string row = fmt::format("{},{},{},{},{},{},{},{}", name, bench.stage, bench.solver,
+                                  bench.grid.width, bench.grid.height, bench.grid.depth,
+                                  name_of(bench.precision), bench.is_native ? "jit" : "interp");
+    if (!bench.nothing.empty()) return row + ",,0,,,,,,,,,\n";
+    const StepWork& work = bench.work;
+    return row + fmt::format(",{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g},{:.4g},{:.4g}\n",
+                             bench.threads, bench.steps, bench.step, bench.cell_steps_per_second(),
+                             work.cost.operations, work.cost.loads, work.cost.stores, work.bytes,
+                             bench.starting, bench.compiling, bench.first_step);
+}
+
+}  // namespace cascade

@@ -1,0 +1,20 @@
+#!/bin/bash
+# Speeds of all examples, to be kept before and after a change.
+#
+#   bench/examples.sh PROGRAM AFTER.csv [BEFORE.csv]
+#
+# writes AFTER.csv with a row for each stage of each script in examples/ (`cascade bench --csv`), and with
+# BEFORE.csv prints the ratio of speeds, the worst first. Results are worth little on a busy machine.
+# SECONDS_EACH=0.3 measures each stage for so long.
+set -eu
+[ $# -ge 2 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 64; }
+program=$(realpath "$1")
+after=$(realpath -m "$2")
+before=${3:+$(realpath "$3")}
+cd "$(dirname "$0")/.."
+"$program" bench examples/*.cascade --seconds "${SECONDS_EACH:-0.3}" --csv -q >"$after.part"
+mv "$after.part" "$after"
+[ -z "$before" ] || awk -F, 'FNR == 1 { next }
+    NR == FNR { speed[$1 "," $2] = $12; next }
+    speed[$1 "," $2] > 0 && $12 > 0 { printf "%.3f  %s, %s\n", $12 / speed[$1 "," $2], $1, $2 }' \
+    "$before" "$after" | sort -n

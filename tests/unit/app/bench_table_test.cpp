@@ -1,0 +1,107 @@
+// What `cascade bench` and `--timing` print of numbers that are known.
+#include "app/bench_table.h"
+#include "app/quantities.h"
+#include "app/time_table.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace cascade {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Quantities, AreReadable) {
+    EXPECT_EQ(with_prefix(0), "0");
+    EXPECT_EQ(with_prefix(7), "7.00");
+    EXPECT_EQ(with_prefix(999.4), "999");
+    EXPECT_EQ(with_prefix(999.6), "1.00 k");
+    EXPECT_EQ(with_prefix(2.2e9), "2.20 G");
+    EXPECT_EQ(with_unit(38.04e9, "B/s"), "38.0 GB/s");
+    EXPECT_EQ(with_unit(6.36e-5, "s"), "63.6 µs");
+    EXPECT_EQ(with_unit(2.5, "s"), "2.50 s");
+    EXPECT_EQ(with_unit(1e-12, "s"), "0.00 ns");
+    EXPECT_EQ(byte_size(512), "512 bytes");
+    EXPECT_EQ(byte_size(32 << 10), "32 KiB");
+    EXPECT_EQ(byte_size(1.5 * 1048576), "1.5 MiB");
+}
+
+StageBench stage_at(double share_of_memory) {
+    StageBench bench;
+    bench.stage = "s";
+    bench.solver = "euler";
+    bench.grid = {1000, 1000};
+    bench.step = 1e-3;
+    bench.steps = 1234;
+    bench.batches = 11;
+    bench.work.cost.operations = 10;
+    bench.work.cost.loads = 5;
+    bench.work.cost.load_bytes = 10;
+    bench.work.bytes = 8;
+    bench.work.working_set = 8e6;
+    MachineLimits limits;
+    limits.operations = 1e11;
+    limits.memories = {{"first-level cache", 32768, 2e11},
+                       {"memory", std::numeric_limits<double>::infinity(), 8e9 / share_of_memory}};
+    bench.limits = limits;
+    return bench;
+}
+
+TEST(BenchTable, SaysWhatBounds) {
+    EXPECT_EQ(bound_sentence(stage_at(0.8)), "planes, memory: 8.00 GB/s of 10.0 GB/s, 80 %");
+    EXPECT_THAT(bound_sentence(stage_at(0.2)), HasSubstr("no limit is near; the nearest is planes, memory"));
+    EXPECT_THAT(bound_sentence(stage_at(2)), HasSubstr("more than a pass for each step could have"));
+    EXPECT_THAT(bound_sentence(stage_at(2)), HasSubstr("nearest is arithmetic"));
+    StageBench few = stage_at(0.8);
+    few.most_threads = 2;
+    EXPECT_THAT(bound_sentence(few), HasSubstr("of 2 threads 1 took the steps"));
+    few.is_native = false;
+    EXPECT_THAT(bound_sentence(few), HasSubstr("the interpreter takes the steps"));
+    EXPECT_EQ(bound_sentence(StageBench()), "");
+}
+
+TEST(BenchTable, HasAllNumbers) {
+    const std::string table = bench_table("a.cascade", stage_at(0.8));
+    for (const char* const part :
+         {"a.cascade, stage 's': euler, 1000 × 1000 cells, single, native code",
+          "1.00 G cell-steps/s, 1.00 ms a step", "1,234 steps, the median of 11 batches, 1 thread",
+          "10 operations, 5 loads, 0 stores, in 0 passes", "8 bytes a cell-step; 7.63 MiB in all",
+          "1.25 G cell-steps/s from memory, of which 80 % are reached"}) {
+        EXPECT_THAT(table, HasSubstr(part));
+    }
+    StageBench nothing;
+    nothing.nothing = "it takes no step";
+    EXPECT_THAT(bench_table("a.cascade", nothing), HasSubstr("it takes no step"));
+}
+
+TEST(BenchTable, RowsHaveTheColumnsOfTheirHeader) {
+    const auto columns = [](const std::string& row) { return std::count(row.begin(), row.end(), ','); };
+    EXPECT_EQ(columns(bench_csv_row("a,b.cascade", stage_at(1))), columns(bench_csv_header()));
+    StageBench nothing;
+    nothing.nothing = "it takes no step";
+    EXPECT_EQ(columns(bench_csv_row("a", nothing)), columns(bench_csv_header()));
+}
+
+TEST(TimeTable, HasBarsInATerminalOnly) {
+    TimeAccount account;
+    account.stage(0).name = "large";
+    account.stage(0).stepping = "16 steps a pass";
+    account.stage(0).steps = 1000;
+    account.stage(0).cells = 2000000;
+    account.stage(0).seconds[static_cast<std::size_t>(Spent::stepping)] = 2;
+    const std::string plain = time_table(account, false), bars = time_table(account, true);
+    EXPECT_THAT(plain, HasSubstr("1,000 steps, 1.00 G cell-steps/s; 16 steps a pass"));
+    EXPECT_THAT(plain, Not(HasSubstr("▆")));
+    EXPECT_THAT(bars, HasSubstr("▆▆▆"));
+    EXPECT_THAT(plain, Not(HasSubstr("  large")));
+    account.stage(1).name = "small";
+    EXPECT_THAT(time_table(account, false), HasSubstr("\n  large  "));
+    account.stage(0).seconds[static_cast<std::size_t>(Spent::stepping)] = 20;
+    EXPECT_THAT(time_table(account, false), HasSubstr("20.000 s"));
+}
+
+}  // namespace
+}  // namespace cascade

@@ -1,0 +1,187 @@
+// What a step costs, counted by hand; the caches of machines; what bounds a step.
+#include "run/bench.h"
+#include "tests/unit/run/run_fixture.h"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+namespace cascade {
+namespace {
+
+class BenchTest : public RunTest {
+protected:
+    /// The work of the first stage's steps, after one of them.
+    StepWork work_of_text(const std::string& text) {
+        Script script = load(text);
+        EXPECT_TRUE(script.program) << script.messages(false);
+        SimulationOptions options;
+        options.backend = BackendKind::interpreter;
+        options.threads = 1;
+        auto simulation = Simulation::create(script, options);
+        EXPECT_TRUE(simulation);
+        EXPECT_TRUE((*simulation)->start_stage(0));
+        RunControl control;
+        EXPECT_TRUE((*simulation)->advance_stage(0, 1, control, {}));
+        return (*simulation)->step_work(0);
+    }
+};
+
+TEST_F(BenchTest, DiffusionOfOneSpecies) {
+    const StepWork work = work_of_text(R"(
+domain { grid: 32, 16 }
+system heat { u: random(0.5, 0.5); d: 0.1; u' = d * lap(u) }
+stage s: heat { iterations: 10; speed: 1 }
+)");
+    // N + S + E + W − 4 c is five, d times it, the step's length times that, and the sum.
+    EXPECT_EQ(work.cost.operations, 8);
+    EXPECT_EQ(work.cost.loads, 5);
+    EXPECT_EQ(work.cost.stores, 1);
+    EXPECT_EQ(work.bytes, 8);
+    EXPECT_EQ(work.working_set, 2 * 4 * 32 * 16);
+    EXPECT_EQ(work.passes, 1u);
+    EXPECT_EQ(work.meetings, 1u);
+    EXPECT_FALSE(work.has_waves);
+}
+
+TEST_F(BenchTest, APlaneIsReadBesides) {
+    const StepWork work = work_of_text(R"(
+domain { grid: 32, 16; precision: double }
+system heat { u: 1; d: random(0.5, 0.5); u' = d * lap(u) }
+stage s: heat { iterations: 10; speed: 1 }
+)");
+    EXPECT_EQ(work.cost.loads, 6);
+    EXPECT_EQ(work.bytes, 24);
+    EXPECT_EQ(work.working_set, 3 * 8 * 32 * 16);
+}
+
+TEST_F(BenchTest, StagesOfASolverAddUp) {
+    const char* const text = R"(
+domain { grid: 32, 16 }
+system heat { u: random(0.5, 0.5); d: 0.1; u' = d * lap(u) }
+stage s: heat { iterations: 10; speed: 0.5; solver: rk4 }
+)";
+    const StepWork work = work_of_text(text);
+    EXPECT_EQ(work.passes, 4u);
+    EXPECT_EQ(work.meetings, 4u);
+    EXPECT_GE(work.cost.operations, 4 * 6);
+    EXPECT_GE(work.bytes, 4 * 8);
+}
+
+TEST_F(BenchTest, AllStagesAreMeasured) {
+    Script script = load(two_stages);
+    BenchRequest request;
+    request.simulation.backend = BackendKind::interpreter;
+    request.simulation.threads = 1;
+    request.seconds = 0.01;
+    request.has_limits = false;
+    RunControl control;
+    std::vector<StageBench> stages;
+    const auto done = bench(script, request, control, [&](const StageBench& stage) { stages.push_back(stage); });
+    ASSERT_TRUE(done) << done.error().message;
+    ASSERT_EQ(stages.size(), 2u);
+    EXPECT_EQ(stages[0].stage, "large");
+    EXPECT_EQ(stages[1].stage, "small");
+    for (const StageBench& stage : stages) {
+        EXPECT_EQ(stage.nothing, "");
+        EXPECT_GT(stage.step, 0);
+        EXPECT_GT(stage.steps, 0);
+        EXPECT_GT(stage.work.cost.operations, 10);
+        EXPECT_NEAR(stage.cell_steps_per_second() * stage.step, 24 * 18, 1e-6);
+        EXPECT_EQ(stage.threads, 1);
+        EXPECT_FALSE(stage.limits);
+    }
+    stages.clear();
+    request.stage = "2";
+    ASSERT_TRUE(bench(script, request, control, [&](const StageBench& stage) { stages.push_back(stage); }));
+    ASSERT_EQ(stages.size(), 1u);
+    EXPECT_EQ(stages[0].stage, "small");
+    request.stage = "3";
+    EXPECT_FALSE(bench(script, request, control, [](const StageBench&) {}));
+}
+
+TEST_F(BenchTest, ACancelEndsItWithoutATable) {
+    Script script = load(two_stages);
+    BenchRequest request;
+    request.simulation.backend = BackendKind::interpreter;
+    request.seconds = 1000;
+    RunControl control;
+    control.cancel = true;
+    int told = 0;
+    EXPECT_TRUE(bench(script, request, control, [&](const StageBench&) { ++told; }));
+    EXPECT_EQ(told, 0);
+}
+
+TEST_F(BenchTest, CachesAreThoseThatAreDescribed) {
+    const auto describe = [&](const std::string& name, const std::string& level,
+                              const std::string& type, const std::string& size,
+                              const std::string& cores) {
+        std::filesystem::create_directories(path("cache/" + name));
+        std::ofstream(path("cache/" + name + "/level")) << level << "\n";
+        std::ofstream(path("cache/" + name + "/type")) << type << "\n";
+        std::ofstream(path("cache/" + name + "/size")) << size << "\n";
+        std::ofstream(path("cache/" + name + "/shared_cpu_map")) << cores << "\n";
+    };
+    describe("index0", "1", "Data", "32K", "00000001");
+    describe("index1", "1", "Instruction", "64K", "00000001");
+    describe("index2", "3", "Unified", "16M", "00000000,000000ff");
+    describe("index3", "2", "Unified", "1024K", "3");
+    describe("index4", "4", "Unified", "nonsense", "3");
+    const std::vector<CacheLevel> expected = {{1, 32768, 1}, {2, 1048576, 2}, {3, 16777216, 8}};
+    EXPECT_EQ(cache_levels(path("cache")), expected);
+    EXPECT_EQ(cache_levels(path("nowhere")).size(), 3u);
+}
+
+/// A hundred cells a step, of known work, on a machine of known limits.
+StageBench known_bench() {
+    StageBench bench;
+    bench.grid = {10, 10};
+    bench.step = 1e-6;
+    bench.work.cost.operations = 10;
+    bench.work.cost.load_bytes = 16;
+    bench.work.cost.store_bytes = 4;
+    bench.work.bytes = 8;
+    bench.work.working_set = 5000;
+    bench.work.meetings = 2;
+    MachineLimits limits;
+    limits.operations = 4e9;
+    limits.divisions = 1e9;
+    limits.memories = {{"first-level cache", 1000, 1e10},
+                       {"second-level cache", 10000, 4e9},
+                       {"memory", std::numeric_limits<double>::infinity(), 1e9}};
+    bench.limits = limits;
+    return bench;
+}
+
+TEST(Bounds, TheLargestShareBounds) {
+    StageBench bench = known_bench();
+    // 1e8 cell-steps a second: 1e9 operations of 4e9, 2e9 bytes of 1e10, 8e8 bytes of 4e9.
+    auto bounds = bounds_of(bench);
+    ASSERT_EQ(bounds.size(), 3u);
+    EXPECT_NEAR(bounds[0].share(), 0.25, 1e-12);
+    EXPECT_NEAR(bounds[1].share(), 0.2, 1e-12);
+    EXPECT_NEAR(bounds[2].share(), 0.2, 1e-12);
+    EXPECT_EQ(tightest(bounds).kind, Bound::Kind::operations);
+    EXPECT_NEAR(attainable(bench), 4e8, 1);
+    bench.work.working_set = 1e6;
+    EXPECT_EQ(tightest(bounds_of(bench)).kind, Bound::Kind::home);
+    EXPECT_NEAR(attainable(bench), 1.25e8, 1);
+    // More than a pass for each step could have: something else bounds it.
+    bench.step = 1e-7;
+    EXPECT_NE(tightest(bounds_of(bench)).kind, Bound::Kind::home);
+}
+
+TEST(Bounds, ThreadsThatMeetTooOften) {
+    StageBench bench = known_bench();
+    bench.threads = 2;
+    bench.limits->meeting = 4e-7;
+    const auto bounds = bounds_of(bench);
+    EXPECT_EQ(tightest(bounds).kind, Bound::Kind::meetings);
+    EXPECT_NEAR(tightest(bounds).share(), 0.8, 1e-12);
+    bench.limits.reset();
+    EXPECT_TRUE(bounds_of(bench).empty());
+    EXPECT_EQ(attainable(bench), 0);
+}
+
+}  // namespace
+}  // namespace cascade
