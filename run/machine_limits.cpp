@@ -56,16 +56,16 @@ std::string level_name(int number) {
     return fmt::format("{}-level cache", names[static_cast<std::size_t>(at)]);
 }
 
-/// Sums and products of which none waits for long: eight chains of them, joined at the end.
+/// Sums and products of which none waits for long: twelve chains of them, joined at the end.
 CellKernel arithmetic_kernel(Precision precision) {
     KernelBuilder builder(precision);
     const ValueId x = builder.field(builder.field_slot("x"));
     const ValueId half = builder.uniform(builder.uniform_slot("half"));
-    std::array<ValueId, 8> chains{};
+    std::array<ValueId, 12> chains{};
     for (std::size_t k = 0; k < chains.size(); ++k) {
         chains[k] = builder.multiply(x, builder.number(1.0 / static_cast<double>(k + 2)));
     }
-    constexpr int rounds = 24;
+    constexpr int rounds = 16;
     for (int round = 0; round < rounds; ++round) {
         for (ValueId& chain : chains) chain = builder.multiply(builder.add(chain, half), half);
     }
