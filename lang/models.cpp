@@ -119,11 +119,23 @@ void set_model(Program& program, ModelSettings model) {
 }
 
 std::optional<ModelShape> shape_named(std::string_view word) {
-    if (word == "sphere") return ModelShape::sphere;
-    if (word == "torus") return ModelShape::torus;
-    if (word == "box") return ModelShape::box;
-    if (word == "creature") return ModelShape::creature;
+    for (const ModelShape shape :
+         {ModelShape::sphere, ModelShape::torus, ModelShape::box, ModelShape::creature}) {
+        if (word == word_of(shape)) return shape;
+    }
     return std::nullopt;
+}
+
+std::string_view word_of(ModelShape shape) {
+    switch (shape) {
+        case ModelShape::file: return "";
+        case ModelShape::sphere: return "sphere";
+        case ModelShape::torus: return "torus";
+        case ModelShape::box: return "box";
+        case ModelShape::creature: return "creature";
+        case ModelShape::implicit: return "implicit";
+    }
+    return "";
 }
 
 bool has_meaning_on_domain(const Program& program, const Formula& formula, Diagnostics& diagnostics) {

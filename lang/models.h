@@ -20,6 +20,8 @@ void set_model(Program& program, ModelSettings model);
 
 /// The shape of a surface that has a name, such as sphere; nothing for other words.
 std::optional<ModelShape> shape_named(std::string_view word);
+/// The word for a shape in scripts; empty for a file.
+std::string_view word_of(ModelShape shape);
 
 /// Adds an error for whatever of the program cannot be done on its domain, a model or a plane, and on a
 /// model a warning for what is left aside (the sides of the plane).

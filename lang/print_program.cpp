@@ -1,10 +1,14 @@
 // `--dump program`: what the checker has made of a script.
+#include "lang/models.h"
 #include "lang/print_formula.h"
 #include "lang/program.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <iterator>
+#include <string>
+#include <vector>
 
 namespace cascade {
 
@@ -118,6 +122,70 @@ std::string boundary_words(const Boundaries& boundary) {
                        word_of(boundary.z));
 }
 
+void print_grid(const Program& program, Output out) {
+    const Grid& grid = program.domain.grid;
+    fmt::format_to(out, "  grid: {}, {}", grid.width, grid.height);
+    if (grid.depth > 1) fmt::format_to(out, ", {}", grid.depth);
+    if (grid.spacing != 1) fmt::format_to(out, "\n  spacing: {}", grid.spacing);
+    fmt::format_to(out, "\n  boundary: {}\n", boundary_words(grid.boundary));
+    if (const auto& mask = program.domain.mask) {
+        fmt::format_to(out, "  mask: {}\n", print_formula(program, {}, mask->formula));
+    }
+}
+
+void print_directions(const Program& program, const ModelSettings& model, Output out) {
+    const DirectionSettings& directions = *model.directions;
+    fmt::format_to(out, "  directions: ");
+    using Kind = DirectionSettings::Kind;
+    switch (directions.kind) {
+        case Kind::axis: fmt::format_to(out, "axis({})", fmt::join(directions.numbers, ", ")); break;
+        case Kind::gradient:
+            fmt::format_to(out, "gradient({})", print_formula(program, {}, *directions.height));
+            break;
+        case Kind::curvature_high: fmt::format_to(out, "curvature_high({})", directions.smoothing); break;
+        case Kind::curvature_low: fmt::format_to(out, "curvature_low({})", directions.smoothing); break;
+        case Kind::keys:
+            fmt::format_to(out, "keys({}, {})", fmt::join(directions.numbers, ", "), directions.smoothing);
+            break;
+    }
+    fmt::format_to(out, "\n  stretch: {}\n", model.stretch);
+}
+
+void print_model(const Program& program, Output out) {
+    const ModelSettings& model = *program.domain.model;
+    if (model.shape == ModelShape::file) {
+        fmt::format_to(out, "  mesh: \"{}\"\n", model.path);
+    } else {
+        std::vector<std::string> sizes;
+        if (model.implicit) sizes.push_back(print_formula(program, {}, *model.implicit));
+        for (const double size : model.sizes) sizes.push_back(fmt::format("{}", size));
+        const std::string brackets = sizes.empty() ? "" : fmt::format("({})", fmt::join(sizes, ", "));
+        fmt::format_to(out, "  surface: {}{}\n", word_of(model.shape), brackets);
+    }
+    switch (model.cells) {
+        case ModelCellKind::spread: fmt::format_to(out, "  cells: {}\n", model.count); break;
+        case ModelCellKind::faces: fmt::format_to(out, "  cells: faces\n"); break;
+        case ModelCellKind::vertices: fmt::format_to(out, "  cells: vertices\n"); break;
+    }
+    if (model.laplacian == ModelLaplacian::turk) fmt::format_to(out, "  laplacian: turk\n");
+    if (model.unit) fmt::format_to(out, "  unit: {}\n", *model.unit);
+    if (model.directions) print_directions(program, model, out);
+}
+
+void print_domain(const Program& program, Output out) {
+    fmt::format_to(out, "domain {{\n");
+    if (program.domain.model) {
+        print_model(program, out);
+    } else {
+        print_grid(program, out);
+    }
+    fmt::format_to(out, "  seed: {}\n", program.domain.seed);
+    if (program.domain.precision != Precision::single) {
+        fmt::format_to(out, "  precision: {}\n", name_of(program.domain.precision));
+    }
+    fmt::format_to(out, "}}\n");
+}
+
 }  // namespace
 
 std::string print_program(const Program& program) {
@@ -128,19 +196,7 @@ std::string print_program(const Program& program) {
     for (std::size_t i = 0; i < program.systems.size(); ++i) {
         if (used[i]) print_system(program, program.systems[i], out);
     }
-    const Grid& grid = program.domain.grid;
-    fmt::format_to(out, "domain {{\n  grid: {}, {}", grid.width, grid.height);
-    if (grid.depth > 1) fmt::format_to(out, ", {}", grid.depth);
-    if (grid.spacing != 1) fmt::format_to(out, "\n  spacing: {}", grid.spacing);
-    fmt::format_to(out, "\n  boundary: {}", boundary_words(grid.boundary));
-    if (const auto& mask = program.domain.mask) {
-        fmt::format_to(out, "\n  mask: {}", print_formula(program, {}, mask->formula));
-    }
-    fmt::format_to(out, "\n  seed: {}\n", program.domain.seed);
-    if (program.domain.precision != Precision::single) {
-        fmt::format_to(out, "  precision: {}\n", name_of(program.domain.precision));
-    }
-    fmt::format_to(out, "}}\n");
+    print_domain(program, out);
     for (std::uint32_t i = 0; i < program.stages.size(); ++i) {
         text += "\n";
         print_stage(program, i, out);

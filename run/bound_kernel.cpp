@@ -37,6 +37,12 @@ void fill_halo_of(const Field& field, const SideRules& sides) {
     fill_halo(const_cast<Field&>(field), sides);
 }
 
+/// Over how many cells means are taken; 0: over all.
+std::int64_t cells_inside(const BindingContext& context) {
+    if (context.grid.linked) return static_cast<std::int64_t>(context.model->count());
+    return context.mask ? context.mask->cells : 0;
+}
+
 /// Does it ask for a component of a gradient on a model?
 bool reads_gradients(const CellKernel& kernel) {
     return std::any_of(kernel.code.begin(), kernel.code.end(), [](const Instruction& instruction) {
@@ -74,7 +80,7 @@ public:
 
     StepProblem bind(const Compile& compile) {
         problem_.grid = context_.grid;
-        problem_.cells_inside = context_.mask ? context_.mask->cells : 0;
+        problem_.cells_inside = cells_inside(context_);
         problem_.precision = context_.precision;
         if (context_.grid.linked) problem_.links = &context_.model->links;
         problem_.temporaries = plan_.temporaries;
@@ -304,7 +310,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     std::vector<Binder> binders;
     StepProblem whole;
     whole.grid = context.grid;
-    whole.cells_inside = context.mask ? context.mask->cells : 0;
+    whole.cells_inside = cells_inside(context);
     whole.precision = context.precision;
     if (context.grid.linked) whole.links = &context.model->links;
     whole.registers = scheme.registers;

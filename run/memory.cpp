@@ -122,9 +122,11 @@ Result<void> check_memory(const Grid& grid, double needed, std::uint64_t limit) 
     const auto fails = [&](double bytes, std::string_view what) {
         std::string sides = fmt::format("{} × {}", grid.width, grid.height);
         if (grid.depth > 1) sides += fmt::format(" × {}", grid.depth);
-        return failure(fmt::format("a grid of {} cells needs {} for this script, but {} {}",
-                                   sides, describe_bytes(needed), describe_bytes(bytes), what),
-                       "use a smaller grid");
+        const std::string who = grid.linked ? "the cells of this model need"
+                                            : fmt::format("a grid of {} cells needs", sides);
+        return failure(fmt::format("{} {} for this script, but {} {}", who, describe_bytes(needed),
+                                   describe_bytes(bytes), what),
+                       grid.linked ? "use fewer cells" : "use a smaller grid");
     };
     if (limit > 0 && needed > static_cast<double>(limit)) {
         return fails(static_cast<double>(limit), "are the limit (--limit-memory)");

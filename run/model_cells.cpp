@@ -28,6 +28,7 @@
 #include <cstring>
 #include <numeric>
 #include <optional>
+#include <type_traits>
 
 namespace cascade {
 
@@ -123,6 +124,37 @@ CellKind kind_of(ModelCellKind kind) {
         case ModelCellKind::vertices: return CellKind::vertices;
     }
     CHECK(false, "a kind of cells");
+}
+
+/// Calls `write(row, column, cell, is_cell)` for all places of the rows; those behind the last cell, which
+/// fill up the last row, are like it.
+template <typename Write>
+void for_each_place(const ModelCells& model, const Write& write) {
+    const std::size_t count = model.order.size();
+    std::size_t k = 0;
+    for (std::int64_t row = 0; row < model.grid.height; ++row) {
+        for (std::int64_t i = 0; i < model.grid.width; ++i, ++k) {
+            write(row, i, model.order[std::min(k, count - 1)], k < count);
+        }
+    }
+}
+
+/// A plane of `value(cell, is_cell)`, a number, or an unsigned one where the plane is of words.
+template <typename Value>
+Field plane_of_cells(const ModelCells& model, Precision precision, const Value& value) {
+    Field field(PlaneLayout(model.grid), precision);
+    field.visit([&]<typename Number>(Plane<Number>& cells) {
+        for_each_place(model, [&](std::int64_t row, std::int64_t i, std::size_t cell, bool is_cell) {
+            const auto found = value(cell, is_cell);
+            if constexpr (std::is_same_v<std::remove_const_t<decltype(found)>, std::uint32_t>) {
+                const WordOf<Number> word = found;
+                std::memcpy(cells.row(row) + i, &word, sizeof word);
+            } else {
+                cells.row(row)[i] = static_cast<Number>(found);
+            }
+        });
+    });
+    return field;
 }
 
 class ModelCellMaker {
@@ -245,35 +277,26 @@ private:
         model_->links = Links(list, PlaneLayout(model_->grid), program_.domain.precision, model_->order);
     }
 
-    /// `value(k)` in cell k; the places behind the last one are like it.
+    /// `value(k)` in cell k, a number or, of words, an unsigned one.
     template <typename Value>
     void put(ModelPlane plane, const Value& value) {
-        Field& field = model_->planes[static_cast<std::size_t>(plane)];
-        field = Field(PlaneLayout(model_->grid), program_.domain.precision);
-        const std::size_t count = model_->count();
-        field.visit([&]<typename Number>(Plane<Number>& cells) {
-            for (std::int64_t row = 0; row < model_->grid.height; ++row) {
-                for (std::int64_t i = 0; i < model_->grid.width; ++i) {
-                    const auto k = static_cast<std::size_t>(row * model_->grid.width + i);
-                    const std::size_t cell = model_->order[std::min(k, count - 1)];
-                    if constexpr (std::is_same_v<decltype(value(cell)), std::uint32_t>) {
-                        const WordOf<Number> word = value(cell);
-                        std::memcpy(cells.row(row) + i, &word, sizeof word);
-                    } else {
-                        const bool fills_up = k >= count && plane == ModelPlane::area;
-                        cells.row(row)[i] = fills_up ? Number{0} : static_cast<Number>(value(cell));
-                    }
-                }
-            }
-        });
+        model_->planes[static_cast<std::size_t>(plane)] = plane_of_cells(
+            *model_, program_.domain.precision, [&](std::size_t cell, bool) { return value(cell); });
     }
 
     void make_planes(const std::vector<double>& areas) {
+        model_->inside = Mask(PlaneLayout(model_->grid));
+        for_each_place(*model_, [&](std::int64_t row, std::int64_t i, std::size_t, bool is_cell) {
+            model_->inside.row(row)[i] = is_cell ? 1 : 0;
+        });
         model_->planes.resize(model_plane_count);
         const SurfaceMesh& mesh = model_->mesh;
         const SurfaceCells& cells = model_->cells;
         put(ModelPlane::number, [](std::size_t k) { return static_cast<std::uint32_t>(k); });
-        put(ModelPlane::area, [&](std::size_t k) { return areas[k]; });
+        // Sums by area do not see what fills up the last row.
+        model_->planes[static_cast<std::size_t>(ModelPlane::area)] = plane_of_cells(
+            *model_, program_.domain.precision,
+            [&](std::size_t cell, bool is_cell) { return is_cell ? areas[cell] : 0.0; });
         const MeshFacts facts = facts_of(mesh);
         const Vector3d size = facts.high - facts.low;
         const double longest = std::max({size.x, size.y, size.z});
@@ -334,16 +357,7 @@ ModelBox::ModelBox(const SurfaceMesh& mesh) {
 }
 
 Field field_of_cells(std::span<const double> values, const ModelCells& model, Precision precision) {
-    Field field(PlaneLayout(model.grid), precision);
-    field.visit([&]<typename Number>(Plane<Number>& cells) {
-        const auto width = static_cast<std::size_t>(model.grid.width);
-        const std::size_t places = width * static_cast<std::size_t>(model.grid.height);
-        for (std::size_t k = 0; k < places; ++k) {
-            cells.row(static_cast<std::int64_t>(k / width))[k % width] =
-                static_cast<Number>(values[model.order[std::min(k, values.size() - 1)]]);
-        }
-    });
-    return field;
+    return plane_of_cells(model, precision, [&](std::size_t cell, bool) { return values[cell]; });
 }
 
 Field in_one_row(const Field& field, const ModelCells& model) {
@@ -359,18 +373,10 @@ Field in_one_row(const Field& field, const ModelCells& model) {
 }
 
 Field in_rows(const Field& one_row, const ModelCells& model) {
-    const auto last = static_cast<std::int64_t>(model.count()) - 1;
-    Field field(PlaneLayout(model.grid), one_row.precision());
-    one_row.visit([&]<typename Number>(const Plane<Number>& from) {
-        Plane<Number>& to = field.plane<Number>();
-        for (std::int64_t j = 0; j < model.grid.height; ++j) {
-            for (std::int64_t i = 0; i < model.grid.width; ++i) {
-                const std::int64_t k = std::min(j * model.grid.width + i, last);
-                to.row(j)[i] = from.row(0)[model.cell_at(k)];
-            }
-        }
+    return one_row.visit([&]<typename Number>(const Plane<Number>& from) {
+        return plane_of_cells(model, one_row.precision(),
+                              [row = from.row(0)](std::size_t cell, bool) { return row[cell]; });
     });
-    return field;
 }
 
 std::vector<double> cell_values(const Field& field, const ModelCells& model) {

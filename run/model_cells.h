@@ -28,6 +28,7 @@ struct ModelCells {
     /// have the cells in their own order.
     std::vector<std::uint32_t> order;
     Grid grid;
+    Mask inside;                       ///< 0 in what fills up the last row, else 1.
     double unit = 1;                   ///< In lengths of the model.
     double largest_weight = 0;         ///< The largest sum of the weights of a cell's links.
     std::vector<Field> planes;         ///< By ModelPlane.

@@ -82,8 +82,13 @@ namespace {
 
 void apply_grid(Script& script) {
     if (!script.overrides.grid) return;
-    script.program->domain.model.reset();
-    script.program->domain.grid.linked = false;
+    DomainSettings& domain = script.program->domain;
+    if (domain.model && !script.overrides.model) {
+        script.diagnostics.warning(domain.model->span,
+                                   "the grid asked for takes the place of this model");
+    }
+    domain.model.reset();
+    domain.grid.linked = false;
     const auto [width, height, depth] = *script.overrides.grid;
     const std::string value = depth == 1 ? fmt::format("{}x{}", width, height)
                                          : fmt::format("{}x{}x{}", width, height, depth);

@@ -69,15 +69,14 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     for (std::uint32_t k = 0; self.account != nullptr && k < script.stage_count(); ++k) {
         self.account->stage(k).name = self.stage(k).name;
     }
-    if (auto made = self.make_cells(options); !made) return tl::unexpected(made.error());
-
-    {
-        const TimeAccount::Scope spent(self.account, Spent::compiling);
-        self.plans = std::make_unique<StagePlans>(*self.program, options.planning);
-        self.memory = memory_of(*self.program, *self.plans);
-    }
-    if (auto enough = check_memory(self.grid, self.memory, options.memory_limit); !enough) {
-        return tl::unexpected(enough.error());
+    if (auto planned = self.plan(options); !planned) return tl::unexpected(planned.error());
+    if (self.program->domain.model) {
+        const Grid expected = self.grid;
+        if (auto made = self.make_cells(options); !made) return tl::unexpected(made.error());
+        // How many faces or points a model has is known only now.
+        if (self.grid != expected) {
+            if (auto planned = self.plan(options); !planned) return tl::unexpected(planned.error());
+        }
     }
     auto files = [&] {
         const TimeAccount::Scope spent(self.account, Spent::reading);
@@ -274,7 +273,7 @@ StageTools Simulation::Implementation::tools(std::uint32_t k, Compile steps) con
         diffusion.add_to(problem);
         return problem;
     };
-    tools.inside = mask ? &mask->inside : nullptr;
+    tools.inside = mask ? &mask->inside : model ? &model->inside : nullptr;
     tools.is_true = [this, k](const Formula& formula) {
         return evaluate(plan_view(*program, formula, k), k)[0].number_at(0, 0) != 0;
     };

@@ -75,7 +75,9 @@ struct Simulation::Implementation {
 
     // What a run and its stages start with (simulation_start.cpp).
 
-    /// Of a model: known before anything that depends on their number.
+    /// How stages are computed, and whether there is memory for it.
+    Result<void> plan(const SimulationOptions& options);
+    /// Of a model.
     Result<void> make_cells(const SimulationOptions& options);
     /// What formulas of the program read of places on a model.
     Result<void> make_surface_values(const SimulationOptions& options);

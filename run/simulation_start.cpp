@@ -7,13 +7,16 @@
 
 namespace cascade {
 
+Result<void> Simulation::Implementation::plan(const SimulationOptions& options) {
+    const TimeAccount::Scope spent(account, Spent::compiling);
+    plans = std::make_unique<StagePlans>(*program, options.planning);
+    memory = memory_of(*program, *plans);
+    return check_memory(grid, memory, options.memory_limit);
+}
+
 Result<void> Simulation::Implementation::make_cells(const SimulationOptions& options) {
     DomainSettings& domain = script->program->domain;
-    if (!domain.model) return {};
     const TimeAccount::Scope spent(account, Spent::cells);
-    // Their number is known, or is not larger than that of the triangles.
-    const double bytes = memory_of(*program);
-    if (auto enough = check_memory(grid, bytes, options.memory_limit); !enough) return enough;
     Team makers(threads);
     RunControl nobody;
     RunControl& control = options.control != nullptr ? *options.control : nobody;

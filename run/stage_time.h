@@ -28,7 +28,7 @@ struct StageTools {
     std::function<bool(const Formula&)> is_true;
     /// A bound of the eigenvalues by a power iteration, where there is none by rule.
     std::function<double()> estimate;
-    const Mask* inside = nullptr;  ///< Of a domain with a mask: the cells that count.
+    const Mask* inside = nullptr;  ///< Of a mask or a model: the cells that count.
 };
 
 class StageTimer {

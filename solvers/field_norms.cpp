@@ -92,11 +92,15 @@ double root_mean_square(const Field& field, const Mask* inside) {
     });
 }
 
-double sum_of_squares(const Field& field, std::int64_t row) {
+double sum_of_squares(const Field& field, std::int64_t row, std::int64_t cells) {
     return field.visit([&](const auto& plane) {
-        return sum(plane.layout().width, [cells = plane.row(row)](std::int64_t i) {
-            return double{cells[i]} * cells[i];
-        });
+        const std::int64_t width = plane.layout().width;
+        const auto square = [values = plane.row(row)](std::int64_t i) {
+            return double{values[i]} * values[i];
+        };
+        if (cells >= width) return sum(width, square);
+        // In the order of a whole row.
+        return sum(width, [&](std::int64_t i) { return i < cells ? square(i) : 0.0; });
     });
 }
 

@@ -24,10 +24,10 @@ FieldMoments moments_of_difference(const Field& a, const Field& b, const Mask* i
 /// The root mean square of a field's cells; NaN where one is NaN.
 double root_mean_square(const Field& field, const Mask* inside = nullptr);
 
-/// The sum of the squares of a row's cells: what threads can share.
-double sum_of_squares(const Field& field, std::int64_t row);
+/// The sum of the squares of the first `cells` cells of a row: what threads can share.
+double sum_of_squares(const Field& field, std::int64_t row, std::int64_t cells);
 /// The root mean square of so many cells, of whose rows these are the sums of squares, added in
-/// order: the same bits as root_mean_square(). Fields are 0 outside of a mask, so their rows are
+/// order: the same bits as root_mean_square(). Fields are 0 outside of a mask, so there rows are
 /// summed whole.
 double root_mean_square(std::span<const double> sums_of_squares, std::int64_t cells);
 

@@ -9,6 +9,7 @@
 #include "ir/sweep_form.h"
 #include "solvers/changing_side.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -82,7 +83,9 @@ struct StepProblem {
 
     Grid grid;
     const Links* links = nullptr;           ///< Where the grid is linked; in the problem's precision.
-    std::int64_t cells_inside = 0;          ///< Over so many means are taken; 0: over all.
+    /// Over so many means are taken, those inside of a mask or without what fills up the last row of a
+    /// linked grid; 0: over all.
+    std::int64_t cells_inside = 0;
     Precision precision = Precision::single;
     std::vector<Pass> passes;               ///< In order. At least one.
     /// The planes of all species at one moment are a register: 0 is the old step, 1 becomes the new
@@ -105,6 +108,12 @@ struct StepProblem {
     bool has_halo() const { return !grid.linked; }
     /// How many cells a mean is taken over.
     std::int64_t counted_cells() const { return cells_inside > 0 ? cells_inside : grid.cell_count(); }
+    /// How many cells at the start of a row a mean is taken over. Outside of a mask everything is 0, so
+    /// there whole rows count.
+    std::int64_t counted_in_row(std::int64_t row) const {
+        if (!grid.linked) return grid.width;
+        return std::clamp(counted_cells() - row * grid.width, std::int64_t{0}, grid.width);
+    }
     /// What holds at the sides of a plane that a pass writes.
     SideRules sides_of(const Result& result) const {
         const bool is_species = result.plane.kind == PlaneRef::Kind::species;

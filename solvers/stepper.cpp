@@ -119,8 +119,9 @@ void Stepper::add_squares(const Worker& worker) {
     for (std::size_t k = 0; k < squares_.size(); ++k) {
         for (std::int64_t row = worker.passes.rows.begin; row < worker.passes.rows.end; ++row) {
             const auto place = static_cast<std::size_t>(row);
-            squares_[k].of_errors[place] = sum_of_squares(error_planes()[k], row);
-            squares_[k].of_values[place] = sum_of_squares(values[k], row);
+            const std::int64_t cells = problem_->counted_in_row(row);
+            squares_[k].of_errors[place] = sum_of_squares(error_planes()[k], row, cells);
+            squares_[k].of_values[place] = sum_of_squares(values[k], row, cells);
         }
     }
 }

@@ -1,9 +1,13 @@
 // What a script may not ask of a model: each has its message.
 #include "run/compile.h"
 #include "run/script.h"
+#include "run/simulation.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
 
 namespace cascade {
 namespace {
@@ -49,6 +53,55 @@ TEST(ModelInput, AMaskIsLeftAsideWhereAModelIsAskedFor) {
     overrides.grid = GridSize{20, 20};
     EXPECT_NE(messages_of("grid: 20, 20", "lap(u)", "", overrides).find("a model or a grid, not both"),
               std::string::npos);
+}
+
+TEST(ModelInput, MoreCellsThanMemoryAreRefusedBeforeTheyAreMade) {
+    Script script = load_script("test", "domain { surface: sphere; cells: 200000000 }\n"
+                                        "stage one: turing_spots { }\n", ".");
+    ASSERT_TRUE(script.program) << script.messages(false);
+    SimulationOptions options{BackendKind::interpreter, 0, 1};
+    options.memory_limit = std::uint64_t{100} << 20;
+    const auto made = Simulation::create(script, options);
+    ASSERT_FALSE(made);
+    EXPECT_TRUE(made.error().message.starts_with("the cells of this model need 1")) << made.error().message;
+    EXPECT_NE(made.error().message.find("the limit (--limit-memory)"), std::string::npos);
+    EXPECT_EQ(made.error().hint, "use fewer cells");
+}
+
+TEST(ModelInput, AGridTakesThePlaceOfAModelAndThatIsSaid) {
+    Overrides overrides;
+    overrides.grid = GridSize{20, 30};
+    const Script script = load_script("test", "domain { surface: sphere }\nstage one: turing_spots { }\n",
+                                      ".", overrides);
+    ASSERT_TRUE(script.program) << script.messages(false);
+    EXPECT_FALSE(script.program->domain.model);
+    EXPECT_EQ(script.program->domain.grid, (Grid{20, 30}));
+    EXPECT_NE(script.messages(false).find("warning: the grid asked for takes the place of this model"),
+              std::string::npos) << script.messages(false);
+    const Script plane = load_script("test", "stage one: turing_spots { }\n", ".", overrides);
+    EXPECT_EQ(plane.messages(false), "");
+}
+
+TEST(ModelInput, TheDumpedProgramHasTheModelAsItWasWritten) {
+    for (const char* domain :
+         {"surface: torus(1, 0.4)\n  cells: 300\n  laplacian: turk\n  unit: 0.125\n  seed: 4\n  precision: double",
+          "mesh: \"horse.ply\"\n  cells: faces\n  seed: 1",
+          "surface: sphere\n  cells: 16384\n  directions: axis(0, 1, 0)\n  stretch: 3\n  seed: 1",
+          "surface: creature\n  cells: 700\n  directions: curvature_low(0.5)\n  stretch: 2\n  seed: 1",
+          "surface: box\n  cells: vertices\n  seed: 1",
+          "surface: box\n  cells: 90\n  directions: keys(0, 0, 1, 0, 1, 0, 0.25)\n  stretch: 2\n  seed: 1"}) {
+        const std::string text = fmt::format("domain {{\n  {}\n}}\n", domain);
+        const Script script = load_script("test", text + "stage one: turing_spots { }\n", ".");
+        ASSERT_TRUE(script.program) << text << script.messages(false);
+        EXPECT_NE(print_program(*script.program).find(text), std::string::npos)
+            << print_program(*script.program);
+    }
+    const Script script = load_script("test", "domain { surface: implicit(1 - x^2 - y^2 - z^4, 2) }\n"
+                                              "stage one: turing_spots { }\n", ".");
+    ASSERT_TRUE(script.program) << script.messages(false);
+    const std::string printed = print_program(*script.program);
+    EXPECT_NE(printed.find("surface: implicit("), std::string::npos) << printed;
+    EXPECT_NE(printed.find(", 2)\n  cells: 16384"), std::string::npos) << printed;
 }
 
 TEST(ModelInput, ItsStagesAreNotCompiledToObjectFiles) {

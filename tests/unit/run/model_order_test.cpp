@@ -2,8 +2,7 @@
 // sums are those of the cells in their own order.
 #include "mesh/flat.h"
 #include "run/model_cells.h"
-#include "run/script.h"
-#include "run/simulation.h"
+#include "started_script.h"
 #include "surface/cell_gradient.h"
 
 #include <gmock/gmock.h>
@@ -12,26 +11,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <memory>
 #include <numeric>
 #include <string>
 
 namespace cascade {
 namespace {
 
+using test::result_of;
+using test::start;
+
 constexpr std::size_t some_cells = 1300;  // Three rows of 512, the last of them not full.
 
 Script load(const std::string& text) { return load_script("test", text, "."); }
-
-std::unique_ptr<Simulation> start(Script& script) {
-    EXPECT_TRUE(script.program) << script.messages(false);
-    if (!script.program) return nullptr;
-    auto simulation = Simulation::create(script, {BackendKind::interpreter, 0, 2});
-    EXPECT_TRUE(simulation) << (simulation ? "" : simulation.error().message);
-    if (!simulation) return nullptr;
-    EXPECT_TRUE((*simulation)->start_stage(0));
-    return std::move(*simulation);
-}
 
 std::string on_sphere(const std::string& system) {
     return "domain { surface: sphere; cells: " + std::to_string(some_cells) + "; seed: 3 }\n" +
@@ -115,14 +106,6 @@ TEST(ModelOrder, StepsAreThoseOfALoopOverTheCellsInTheirOwnOrder) {
         }
     }
     EXPECT_EQ(values(), expected);
-}
-
-const Field& result_of(const Simulation& simulation, const std::string& name) {
-    const System& system = simulation.program().system_of(0);
-    std::uint32_t item = 0;
-    while (item + 1 < system.quantities.size() && system.quantities[item].name != name) ++item;
-    EXPECT_EQ(system.quantities[item].name, name);
-    return simulation.state(0).field(item);
 }
 
 TEST(ModelOrder, GradientsAreThoseOfTheCellsInTheirOwnOrder) {

@@ -43,7 +43,7 @@ std::int64_t count_spots(const SurfaceCells& cells, const std::vector<double>& v
     return spots;
 }
 
-// As many units of area as the plane has, and so many cells if nothing else is said: 50 spots.
+// As many units of area as the plane has, and at first as many cells: some 50 spots.
 constexpr double area_in_units = 5000;
 
 class SpotSizeTest : public RunTest {

@@ -3,9 +3,7 @@
 //     X = sx + a sin 2π sy,   Y = sy + a sin 2π sx,
 //
 // stretched and sheared differently in every cell, on which every derivative is known.
-#include "run/simulation.h"
-
-#include "run/script.h"
+#include "started_script.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -14,12 +12,14 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <numbers>
 #include <string>
 
 namespace cascade {
 namespace {
+
+using test::result_of;
+using test::start;
 
 constexpr double pi = std::numbers::pi;
 constexpr double bend = 0.06;
@@ -80,16 +80,6 @@ constexpr const char* bent_plane =
 
 Script load(const std::string& text) { return load_script("test", text, "."); }
 
-std::unique_ptr<Simulation> start(Script& script) {
-    EXPECT_TRUE(script.program) << script.messages(false);
-    if (!script.program) return nullptr;
-    auto simulation = Simulation::create(script, {BackendKind::interpreter, 0, 2});
-    EXPECT_TRUE(simulation) << (simulation ? "" : simulation.error().message);
-    if (!simulation) return nullptr;
-    EXPECT_TRUE((*simulation)->start_stage(0));
-    return std::move(*simulation);
-}
-
 std::string script_of(const std::string& operation, int side, const std::string& domain) {
     return fmt::format(
         "domain {{ grid: {}, {}; surface: {}; {} }}\n"
@@ -97,15 +87,6 @@ std::string script_of(const std::string& operation, int side, const std::string&
         "  f: sin(2*pi*(sx + 0.06*sin(2*pi*sy) + 2*sy + 0.12*sin(2*pi*sx)))\n"
         "  k: 2 + cos(2 * pi * sx)\n  r: {}\n}}\nstage only: s {{ iterations: 0 }}\n",
         side, side, bent_plane, domain, operation);
-}
-
-const Field& result_of(const Simulation& simulation, const std::string& name) {
-    const System& system = simulation.program().system_of(0);
-    for (std::uint32_t k = 0; k < system.quantities.size(); ++k) {
-        if (system.quantities[k].name == name) return simulation.state(0).field(k);
-    }
-    ADD_FAILURE() << name;
-    return simulation.state(0).field(0);
 }
 
 double largest_error(const std::string& operation, int side, const OfPlace& exact) {

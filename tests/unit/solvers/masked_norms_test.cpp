@@ -1,10 +1,12 @@
 // Numbers that sum up fields, of the cells inside a mask.
 #include "solvers/field_norms.h"
 #include "solvers/stability.h"
+#include "solvers/step_problem.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace cascade {
 namespace {
@@ -55,6 +57,27 @@ TEST(MaskedNorms, ChangesAreThoseOfASmallField) {
     const FieldMoments expected = moments_of_difference(at(1.5F, side / 2), at(1, side / 2));
     EXPECT_DOUBLE_EQ(found.root_mean_square, expected.root_mean_square);
     EXPECT_DOUBLE_EQ(found.deviation, expected.deviation);
+}
+
+/// The last row of linked cells is filled up with cells that are none.
+TEST(MaskedNorms, OfALinkedGridCellsAloneCount) {
+    StepProblem problem;
+    problem.grid = Grid{32, 3};
+    problem.grid.linked = true;
+    problem.cells_inside = 69;
+    Field field{PlaneLayout(problem.grid)};
+    Mask inside{PlaneLayout(problem.grid)};
+    std::vector<double> rows;
+    for (std::int64_t j = 0; j < 3; ++j) {
+        for (std::int64_t i = 0; i < 32; ++i) {
+            const bool is_cell = 32 * j + i < 69;
+            field.at(i, j) = is_cell ? pattern(i, j) : 1e6F;
+            inside.at(i, j) = is_cell ? 1 : 0;
+        }
+        rows.push_back(sum_of_squares(field, j, problem.counted_in_row(j)));
+    }
+    EXPECT_EQ(problem.counted_in_row(2), 5);
+    EXPECT_EQ(root_mean_square(rows, problem.counted_cells()), root_mean_square(field, &inside));
 }
 
 TEST(MaskedNorms, AChequerboardIsLookedForInside) {

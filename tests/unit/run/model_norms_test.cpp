@@ -1,0 +1,106 @@
+// What steps and ends are chosen by counts every cell of a model once, and not what fills up the last row
+// of planes: 520 cells lie in two rows of 512.
+#include "model_runs.h"
+#include "solvers/step_control.h"
+#include "solvers/steady.h"
+#include "unit/solvers/scheme_runner.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace cascade {
+namespace {
+
+using test::ModelRun;
+using testing::PlainState;
+using testing::SchemeRunner;
+
+constexpr std::size_t cells = 520;
+
+std::string script_of(const std::string& system, const std::string& stage) {
+    return fmt::format("domain {{ surface: sphere; cells: {} }}\nsystem s {{ {} }}\nstage only: s {{ {} }}\n",
+                       cells, system, stage);
+}
+
+/// The time of an adaptive run of u' = 20 u (1 − u) behind so many steps, and so many copies of the last
+/// value being counted with the others.
+double time_by_hand(std::vector<double> start, std::size_t copies, int steps) {
+    constexpr double tolerance = 1e-6, duration = 50;
+    start.insert(start.end(), copies, double{start.back()});
+    const auto rates = [](const PlainState& state, double) {
+        PlainState changes = state;
+        for (double& u : changes[0]) u = 20 * u * (1 - u);
+        return changes;
+    };
+    SchemeRunner runner(make_scheme(Solver::rk45, 1, false), rates, {std::move(start)});
+    StepControl control(0.001, order_of(Solver::rk45));
+    const auto norm = [](const std::vector<double>& values) {
+        double sum = 0;
+        for (const double value : values) sum += value * value;
+        return std::sqrt(sum / static_cast<double>(values.size()));
+    };
+    for (int taken = 0; taken < steps;) {
+        const double step = std::min(control.step(), duration - runner.time());
+        runner.attempt(step);
+        const double error = norm(runner.error()[0]) / (tolerance * norm(runner.attempted()[0]));
+        if (!control.judge(step, error)) continue;
+        runner.accept();
+        ++taken;
+    }
+    return runner.time();
+}
+
+TEST(ModelNorms, StepsAreChosenByTheErrorsOfCells) {
+    constexpr int steps = 12;
+    ModelRun run(script_of("u: 0.01 + 0.1 * x * x\n u' = 20 * u * (1 - u)",
+                           "duration: 50; solver: rk45; tolerance: 1e-6; speed: 0.001"),
+                 Precision::binary64);
+    run.start();
+    const ModelCells& model = *run.simulation().model();
+    ASSERT_EQ(model.grid.cell_count(), 1024);
+    // In the order of memory, in which the last cell is the one that is copied.
+    const std::vector<double> values = run.values("u");
+    std::vector<double> start;
+    for (std::size_t k = 0; k < cells; ++k) start.push_back(values[model.order[k]]);
+    ASSERT_TRUE(run.steps(steps));
+    const double t = run.simulation().state(0).t, expected = time_by_hand(start, 0, steps);
+    EXPECT_NEAR(t / expected, 1, 1e-9);
+    EXPECT_GT(std::abs(time_by_hand(start, 1024 - cells, steps) / expected - 1), 1e-3)
+        << "copies that count are seen";
+}
+
+/// The step behind which a stage has settled, as fields of these planes say.
+template <typename Look>
+std::int64_t settled_by_hand(const std::string& system, double tolerance, const Look& look) {
+    ModelRun run(script_of(system, "iterations: 3000; speed: 1"), Precision::binary64);
+    run.start();
+    SteadyWatch watch;
+    const auto fields = [&] {
+        std::vector<Field> seen;
+        seen.push_back(look(run.simulation().state(0).species[0], *run.simulation().model()));
+        return seen;
+    };
+    watch.begin(fields());
+    for (std::int64_t step = 10; step < 3000; step += 10) {
+        if (!run.steps(step)) return -1;
+        if (watch.settled(fields(), static_cast<double>(step), tolerance)) return step;
+    }
+    return -1;
+}
+
+TEST(ModelNorms, AStageHasSettledWhenItsCellsHave) {
+    const std::string system = "k: 0.002 + 0.04 * x\n u: 0\n u' = k * (1 - u)";
+    ModelRun run(script_of(system, "until: steady(1e-3); check: 10; speed: 1"), Precision::binary64);
+    run.start();
+    ASSERT_TRUE(run.steps(1000000));
+    const std::int64_t steps = run.simulation().state(0).steps;
+    EXPECT_GT(steps, 100);
+    EXPECT_EQ(steps, settled_by_hand(system, 1e-3, in_one_row));
+    EXPECT_NE(steps, settled_by_hand(system, 1e-3, [](const Field& field, const ModelCells&) {
+                  return field.clone();
+              })) << "copies that count are seen";
+}
+
+}  // namespace
+}  // namespace cascade

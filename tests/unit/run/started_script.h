@@ -1,0 +1,35 @@
+// A script whose first stage has its starting values, for tests of what is computed of them.
+#pragma once
+
+#include "run/script.h"
+#include "run/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+namespace cascade::test {
+
+/// On the interpreter. A fault fails the test that calls, and gives nothing.
+inline std::unique_ptr<Simulation> start(Script& script) {
+    EXPECT_TRUE(script.program) << script.messages(false);
+    if (!script.program) return nullptr;
+    auto simulation = Simulation::create(script, {BackendKind::interpreter, 0, 2});
+    EXPECT_TRUE(simulation) << (simulation ? "" : simulation.error().message);
+    if (!simulation) return nullptr;
+    EXPECT_TRUE((*simulation)->start_stage(0));
+    return std::move(*simulation);
+}
+
+/// The plane of an item of the first stage that varies.
+inline const Field& result_of(const Simulation& simulation, const std::string& name) {
+    const System& system = simulation.program().system_of(0);
+    for (std::uint32_t k = 0; k < system.quantities.size(); ++k) {
+        if (system.quantities[k].name == name) return simulation.state(0).field(k);
+    }
+    ADD_FAILURE() << "no item " << name;
+    return simulation.state(0).field(0);
+}
+
+}  // namespace cascade::test
