@@ -134,8 +134,6 @@ public:
         for (std::uint32_t start = 0; start < triangles_.size(); ++start) {
             if (!seen_[start]) orient_piece(start);
         }
-        result_.turned = static_cast<std::size_t>(
-            std::count(result_.is_turned.begin(), result_.is_turned.end(), true));
         return std::move(result_);
     }
 
@@ -181,9 +179,11 @@ private:
         }
         const bool was_uniform = turned == 0;
         const bool reversed = is_closed ? volume < 0 : turned > kept;
-        if (!reversed) return;
-        for (const std::uint32_t t : piece) result_.is_turned[t] = !result_.is_turned[t];
-        result_.inside_out += was_uniform;
+        for (const std::uint32_t t : piece) {
+            if (reversed) result_.is_turned[t] = !result_.is_turned[t];
+            result_.turned += result_.is_turned[t] && !was_uniform;
+        }
+        result_.inside_out += reversed && was_uniform;
     }
 
     std::span<const Vector3d> points_;

@@ -27,7 +27,7 @@ SurfaceMesh mesh_of(std::vector<Vector3d> points,
 
 struct Orientation {
     std::vector<bool> is_turned;    ///< Per triangle: its corners are to be taken the other way.
-    std::size_t turned = 0;         ///< How many.
+    std::size_t turned = 0;         ///< How many, but for pieces that were turned as a whole.
     std::size_t cut_edges = 0;      ///< Pairs that were given up: the surface had one side only.
     std::size_t inside_out = 0;     ///< Closed pieces that were turned as a whole.
 };

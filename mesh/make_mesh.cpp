@@ -177,6 +177,9 @@ private:
         const Orientation sides = orient(soup_.points, mesh().triangles, pairs.across);
         mesh().across = std::move(pairs.across);
         turn_triangles(sides.is_turned);
+        if (sides.turned > 0) {
+            say(counted(sides.turned, "face was", "faces were") + " turned to agree with the others");
+        }
         if (sides.cut_edges > 0) {
             say(fmt::format("the surface had one side only and was cut along {}",
                             counted(sides.cut_edges, "edge", "edges")));
@@ -187,19 +190,14 @@ private:
     }
 
     void turn_triangles(const std::vector<bool>& is_turned) {
-        std::size_t count = 0;
         for (std::size_t t = 0; t < is_turned.size(); ++t) {
             for (TriangleEdge& other : mesh().across[t]) {
                 if (other.exists() && is_turned[other.triangle]) other.edge = 2 - other.edge;
             }
             if (!is_turned[t]) continue;
-            ++count;
             std::swap(mesh().triangles[t][1], mesh().triangles[t][2]);
             std::swap(corners_[t][1], corners_[t][2]);
             std::swap(mesh().across[t][0], mesh().across[t][2]);
-        }
-        if (count > 0) {
-            say(counted(count, "face was", "faces were") + " turned to agree with the others");
         }
     }
 
