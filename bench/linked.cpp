@@ -1,7 +1,8 @@
 // cascade_linked_bench: Turing's step over linked cells, one core: native code through the solver's
 // stepper against straight C++ over the same slices, and over compressed rows in the cells' own order.
 //
-// --order=steps|curve|levels|own, --window=CELLS (0 groups nothing), --width=CELLS of a row and --lanes=4|8|16
+// --order=steps|curve|levels|own, --window=CELLS (0 groups nothing), --width=CELLS of a row, --lanes=4|8|16
+// and --levels=STEPS for each pass through memory (0: as fits)
 // come first; then flags of Google Benchmark.
 #include "bench/linked_cells.h"
 #include "bench/straight_links.h"
@@ -38,6 +39,7 @@ struct Choices {
     std::size_t window = 0;
     std::int64_t width = 512;
     int lanes = 0;
+    int levels = 0;
 };
 
 double start_value(std::size_t cell, int which) {
@@ -67,8 +69,8 @@ CellKernel turing_kernel() {
 /// Cells in rows, on our side and on that of the slices.
 class Sliced {
 public:
-    Sliced(const LinkedCells& cells, std::int64_t width, Backend& backend)
-        : grid_(grid_of(cells, width)),
+    Sliced(const LinkedCells& cells, const Choices& choices, Backend& backend)
+        : grid_(grid_of(cells, choices.width)),
           layout_(grid_),
           links_(cells.links, layout_, Precision::single),
           beta_(plane([](std::size_t cell) { return beta_value(cell); })) {
@@ -92,6 +94,12 @@ public:
         problem_.links = &links_;
         problem_.species_needs_halo.assign(2, true);
         stepper_.emplace(problem_, std::move(ours_), 1);
+        if (choices.levels > 0) {
+            Tiling tiling = stepper_->fitting_tiling();
+            tiling.levels = choices.levels;
+            tiling.outer_layer = std::max(tiling.outer_layer, rows_reached(problem_));
+            stepper_->use_tiling(tiling);
+        }
     }
 
     void advance(std::int64_t count) {
@@ -193,7 +201,7 @@ struct Contest {
     Contest(std::size_t side, const Choices& choices, Backend& backend)
         : cells(cells_of_torus(side)),
           ordered(in_order(cells, choices.order, choices.window)),
-          sliced(ordered, choices.width, backend),
+          sliced(ordered, choices, backend),
           rows(cells),
           ordered_rows(ordered)
 #ifdef CASCADE_BENCH_EIGEN
@@ -288,6 +296,8 @@ int run(int argc, char** argv) {
             choices.window = static_cast<std::size_t>(std::max(number(), 0));
         } else if (word.starts_with("--width=")) {
             choices.width = number();
+        } else if (word.starts_with("--levels=")) {
+            choices.levels = number();
         } else if (word.starts_with("--lanes=")) {
             choices.lanes = number();
         } else {

@@ -33,14 +33,10 @@ Number beyond(const SideRule& rule, Number cell, Number value, Number spacing) {
 template <typename Number>
 class HaloFill {
 public:
-    /// Of columns [first_column, end_column) alone.
-    HaloFill(Number* origin, const PlaneLayout& layout, const SideRules& sides,
-             std::int64_t first_column, std::int64_t end_column)
+    HaloFill(Number* origin, const PlaneLayout& layout, const SideRules& sides)
         : origin_(origin),
           layout_(layout),
           sides_(sides),
-          first_column_(first_column),
-          end_column_(end_column),
           spacing_(static_cast<Number>(sides.spacing)) {
         const std::int64_t cells[3] = {layout.width, layout.height, layout.depth};
         for (std::size_t side = 0; side < side_count; ++side) {
@@ -83,55 +79,42 @@ private:
         return place.slice * layout_.slice_stride + place.row * layout_.stride;
     }
 
-    /// Is the column among them from which the one beyond a side comes?
-    bool gives(Side side) const {
-        return first_column_ <= source(side) && source(side) < end_column_;
-    }
-
     void fill_columns(std::int64_t slice, std::int64_t begin, std::int64_t end) const {
-        if (gives(Side::left)) fill_column(Side::left, -1, slice, begin, end);
-        if (gives(Side::right)) fill_column(Side::right, layout_.width, slice, begin, end);
-    }
-
-    void fill_column(Side side, std::int64_t to, std::int64_t slice, std::int64_t begin,
-                     std::int64_t end) const {
-        const SideRule& rule = sides_[side];
-        const std::int64_t from = source(side);
-        if (!rule.has_value()) {
-            for (std::int64_t j = begin; j < end; ++j) {
-                Number* cells = origin_ + start({j, slice});
-                cells[to] = cells[from];
-            }
-            return;
+        const SideRule& left = sides_[Side::left];
+        const SideRule& right = sides_[Side::right];
+        const std::int64_t behind = layout_.width;
+        for (std::int64_t j = begin; j < end; ++j) {
+            Number* cells = origin_ + start({j, slice});
+            cells[-1] = cells[source(Side::left)];
+            cells[behind] = cells[source(Side::right)];
         }
+        if (!left.has_value() && !right.has_value()) return;
         for (std::int64_t j = begin; j < end; ++j) {
             const std::int64_t row = start({j, slice});
-            const Number value =
-                rule.values ? values_of(rule)[row + from] : static_cast<Number>(rule.value);
-            origin_[row + to] = beyond(rule, origin_[row + from], value, spacing_);
+            Number* cells = origin_ + row;
+            const auto value = [&](const SideRule& rule, std::int64_t i) {
+                return rule.values ? values_of(rule)[row + i] : static_cast<Number>(rule.value);
+            };
+            if (left.has_value()) {
+                cells[-1] = beyond(left, cells[0], value(left, 0), spacing_);
+            }
+            if (right.has_value()) {
+                cells[behind] = beyond(right, cells[behind - 1], value(right, behind - 1),
+                                       spacing_);
+            }
         }
     }
 
     /// A row of the halo beyond a side, with its halo columns.
     void fill_row(Side side, RowPlace from, RowPlace to) const {
-            if (first_column_ == 0 && end_column_ == layout_.width) {
-            return fill_cells(side, from, to, -1, layout_.width + 1);
-        }
-        fill_cells(side, from, to, first_column_, end_column_);
-        if (gives(Side::left)) fill_cells(side, from, to, -1, 0);
-        if (gives(Side::right)) fill_cells(side, from, to, layout_.width, layout_.width + 1);
-    }
-
-    void fill_cells(Side side, RowPlace from, RowPlace to, std::int64_t first,
-                    std::int64_t end) const {
         const SideRule& rule = sides_[side];
-        const Number* cells = origin_ + start(from) + first;
-        Number* halo = origin_ + start(to) + first;
-        const std::int64_t count = end - first;
+        const Number* cells = origin_ + start(from) - 1;
+        Number* halo = origin_ + start(to) - 1;
+        const std::int64_t count = layout_.width + 2;
         if (!rule.has_value()) {
             std::memcpy(halo, cells, static_cast<std::size_t>(count) * sizeof(Number));
         } else if (rule.values) {
-            const Number* values = values_of(rule) + start(from) + first;
+            const Number* values = values_of(rule) + start(from) - 1;
             for (std::int64_t i = 0; i < count; ++i) {
                 halo[i] = beyond(rule, cells[i], values[i], spacing_);
             }
@@ -146,7 +129,6 @@ private:
     Number* origin_;
     const PlaneLayout& layout_;
     const SideRules& sides_;
-    std::int64_t first_column_, end_column_;
     Number spacing_;
     std::array<std::int64_t, side_count> sources_{};
 };
@@ -190,16 +172,8 @@ void fill_halo(Number* origin, const PlaneLayout& layout, const SideRules& sides
 template <typename Number>
 void fill_halo_from_rows(Number* origin, const PlaneLayout& layout, const SideRules& sides,
                          std::int64_t begin, std::int64_t end) {
-    fill_halo_from_cells(origin, layout, sides, begin, end, 0, layout.width);
-}
-
-template <typename Number>
-void fill_halo_from_cells(Number* origin, const PlaneLayout& layout, const SideRules& sides,
-                          std::int64_t begin, std::int64_t end, std::int64_t first_column,
-                          std::int64_t end_column) {
-    CHECK(0 <= begin && end <= layout.row_count() && 0 <= first_column && end_column <= layout.width,
-          "a halo comes from cells of the plane");
-    const HaloFill<Number> fill(origin, layout, sides, first_column, end_column);
+    CHECK(0 <= begin && end <= layout.row_count(), "a halo comes from rows of the plane");
+    const HaloFill<Number> fill(origin, layout, sides);
     while (begin < end) {
         const std::int64_t slice = begin / layout.height;
         const std::int64_t first = begin - slice * layout.height;
@@ -219,9 +193,5 @@ template void fill_halo_from_rows<float>(float*, const PlaneLayout&, const SideR
                                          std::int64_t, std::int64_t);
 template void fill_halo_from_rows<double>(double*, const PlaneLayout&, const SideRules&,
                                           std::int64_t, std::int64_t);
-template void fill_halo_from_cells<float>(float*, const PlaneLayout&, const SideRules&,
-                                          std::int64_t, std::int64_t, std::int64_t, std::int64_t);
-template void fill_halo_from_cells<double>(double*, const PlaneLayout&, const SideRules&,
-                                           std::int64_t, std::int64_t, std::int64_t, std::int64_t);
 
 }  // namespace cascade

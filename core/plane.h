@@ -182,10 +182,4 @@ template <typename Number>
 void fill_halo_from_rows(Number* origin, const PlaneLayout& layout, const SideRules& sides,
                          std::int64_t begin, std::int64_t end);
 
-/// The same for columns [first_column, end_column) of those rows.
-template <typename Number>
-void fill_halo_from_cells(Number* origin, const PlaneLayout& layout, const SideRules& sides,
-                          std::int64_t begin, std::int64_t end, std::int64_t first_column,
-                          std::int64_t end_column);
-
 }  // namespace cascade

@@ -42,10 +42,6 @@ public:
     virtual void run(const KernelArgumentsOf<float>&, RowRange) const { wrong_precision(); }
     virtual void run(const KernelArgumentsOf<double>&, RowRange) const { wrong_precision(); }
 
-    /// Does it ask for the columns of cells? If not, it may be run on some columns as on a plane of
-    /// so many.
-    virtual bool reads_columns() const { return true; }
-
 private:
     [[noreturn]] static void wrong_precision() {
         CHECK(false, "a kernel is given numbers of its own precision");

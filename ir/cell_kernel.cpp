@@ -124,12 +124,6 @@ const OpInfo& info(Op op) {
     return table[static_cast<std::size_t>(op)];
 }
 
-bool CellKernel::reads_columns() const {
-    return std::any_of(code.begin(), code.end(), [](const Instruction& instruction) {
-        return instruction.op == Op::cell_column;
-    });
-}
-
 bool CellKernel::reads_neighbours(std::uint32_t field_slot) const {
     for (const Instruction& instruction : code) {
         if (instruction.op == Op::neighbour) {

@@ -115,8 +115,6 @@ struct CellKernel {
     /// True if some instruction reads this field slot in other cells (on grids its halo must be
     /// filled).
     bool reads_neighbours(std::uint32_t field_slot) const;
-    /// True if some instruction asks for the cell's column.
-    bool reads_columns() const;
 };
 
 /// A hash of everything that decides the generated code (not of the names).

@@ -390,10 +390,7 @@ public:
           stencil_(stencil),
           field_count_(kernel.field_names.size()),
           mask_count_(kernel.mask_names.size()),
-          uniform_count_(kernel.uniform_names.size()),
-          reads_columns_(kernel.reads_columns()) {}
-
-    bool reads_columns() const override { return reads_columns_; }
+          uniform_count_(kernel.uniform_names.size()) {}
 
     using Kernel::run;
     void run(const KernelArgumentsOf<Number>& arguments, RowRange rows) const override {
@@ -408,7 +405,6 @@ private:
     Plan<Number> plan_;
     Stencil stencil_;
     std::size_t field_count_, mask_count_, uniform_count_;
-    bool reads_columns_;
 };
 
 /// Planning costs about as much as the hash that a cache would need, so nothing is kept.

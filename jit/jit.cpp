@@ -25,7 +25,6 @@ public:
           masks_(kernel.mask_names.size()),
           uniforms_(kernel.uniform_names.size()),
           results_(kernel.results.size()),
-          reads_columns_(kernel.reads_columns()),
           function_(std::move(function)) {
         for (const Instruction& instruction : kernel.code) {
             const Op op = instruction.op;
@@ -33,8 +32,6 @@ public:
             has_gradients_ |= op >= Op::gradient_x && op <= Op::gradient_z;
         }
     }
-
-    bool reads_columns() const override { return reads_columns_; }
 
     using Kernel::run;
     void run(const KernelArgumentsOf<Number>& arguments, RowRange rows) const override {
@@ -84,7 +81,7 @@ private:
 
     Stencil stencil_;
     std::size_t fields_, masks_, uniforms_, results_;
-    bool has_link_sums_ = false, has_gradients_ = false, reads_columns_;
+    bool has_link_sums_ = false, has_gradients_ = false;
     std::unique_ptr<LoadedFunction> function_;
 };
 

@@ -66,6 +66,7 @@ public:
         outcome_.steps = step_;
         outcome_.t = now();
         outcome_.threads = tuner_.threads();
+        outcome_.stepping = stepper_.stepping();
         time_.control = control_of_steps_.state();
         outcome_.time = time_;
         species_ = std::move(stepper_.current());
@@ -81,7 +82,7 @@ private:
     /// Takes some steps and does what is due behind them; false ends the loop.
     bool batch() {
         const std::int64_t stop = next_stop();
-        const std::int64_t count = std::min(pace_.batch(), stop - step_);
+        const std::int64_t count = std::min(pace_.batch(stepper_.steps_at_once()), stop - step_);
         const bool look = step_ + count == stop;
         stepper_.use_threads(tuner_.threads());
         const Clock::time_point before = Clock::now();

@@ -7,7 +7,7 @@
 namespace cascade {
 namespace {
 
-constexpr double batch_seconds = 0.02;
+constexpr double batch_seconds = 0.02, patient_seconds = 0.5;
 constexpr std::chrono::milliseconds between_reports{100};
 constexpr std::size_t most_samples = 21;  // Two seconds of reports.
 
@@ -17,9 +17,12 @@ Pace::Pace(Time now, std::int64_t step) { samples_.push_back({now, step}); }
 
 void Pace::took(std::int64_t count, std::chrono::duration<double> duration) {
     const double per_step = std::max(duration.count(), 1e-9) / static_cast<double>(count);
-    const double fitting = std::clamp(std::floor(batch_seconds / per_step), 1.0, 1e9);
+    const auto steps_in = [&](double seconds) {
+        return static_cast<std::int64_t>(std::clamp(std::floor(seconds / per_step), 1.0, 1e9));
+    };
     // It grows by steps: the first ones, with cold caches, say little about the rest.
-    batch_ = std::min(static_cast<std::int64_t>(fitting), batch_ * 8);
+    batch_ = std::min(steps_in(batch_seconds), batch_ * 8);
+    patient_batch_ = steps_in(patient_seconds);
 }
 
 bool Pace::report_due(Time now) const { return now - samples_.back().time >= between_reports; }

@@ -2,7 +2,6 @@
 
 #include "core/check.h"
 #include "core/floating_point.h"
-#include "solvers/tiling.h"
 
 #include <algorithm>
 
@@ -201,45 +200,6 @@ void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::
 void PassRunner::run_rows(Worker& worker, std::size_t level, RowRange rows) const {
     std::visit([&](const auto& arguments) { run_level(arguments.levels[level], rows); },
                worker.arguments);
-}
-
-bool PassRunner::works_on_columns() const {
-    const auto reads_columns = [](const StepProblem::Pass& pass) {
-        return pass.kernel->reads_columns();
-    };
-    if (!problem_.has_halo() || !problem_.changing_sides.empty()) return false;
-    if (layout_.width % PlaneLayout::row_pad != 0 && wraps(problem_, Side::left)) return false;
-    return std::none_of(problem_.passes.begin(), problem_.passes.end(), reads_columns);
-}
-
-void PassRunner::run_cells(Worker& worker, std::size_t level, RowRange rows, std::int64_t first,
-                           std::int64_t end) const {
-    if (first == 0 && end == layout_.width) return run_rows(worker, level, rows);
-    std::visit([&](auto& arguments) { run_part(arguments.levels[level], rows, first, end); },
-               worker.arguments);
-}
-
-/// A kernel that knows nothing of columns takes them for a narrower plane.
-template <typename Number>
-void PassRunner::run_part(Level<Number>& level, RowRange rows, std::int64_t first,
-                          std::int64_t end) const {
-    const StepProblem::Pass& pass = problem_.passes[level.pass];
-    const auto moved = [&](auto& planes, const auto& from) {
-        planes.clear();
-        for (auto* plane : from) planes.push_back(plane + first);
-    };
-    moved(level.part_fields, level.fields);
-    moved(level.part_masks, pass.masks);
-    moved(level.part_results, level.results);
-    KernelArgumentsOf<Number> part{level.part_fields,  level.part_masks, level.uniforms,
-                                   level.part_results, layout_,          {}};
-    part.layout.width = end - first;
-    pass.kernel->run(part, rows);
-    for (std::size_t k = 0; k < level.results.size(); ++k) {
-        if (!pass.results[k].needs_halo) continue;
-        fill_halo_from_cells(level.results[k], layout_, sides_[level.pass][k], rows.begin, rows.end,
-                             first, end);
-    }
 }
 
 template <typename Number>

@@ -46,10 +46,6 @@ public:
         std::vector<const Number*> fields;
         std::vector<Number*> results;
         KernelArgumentsOf<Number> given;
-        // The same planes from some column on.
-        std::vector<const Number*> part_fields;
-        std::vector<const std::uint8_t*> part_masks;
-        std::vector<Number*> part_results;
     };
     template <typename Number>
     struct Arguments {
@@ -85,12 +81,6 @@ public:
               const StepMoment& moment) const;
     /// Runs a level that was bound on some rows and fills the halo that comes from them.
     void run_rows(Worker& worker, std::size_t level, RowRange rows) const;
-    /// The same for columns [first, end) of some rows, where works_on_columns().
-    void run_cells(Worker& worker, std::size_t level, RowRange rows, std::int64_t first,
-                   std::int64_t end) const;
-    /// May levels be run on some columns that begin at multiples of PlaneLayout::row_pad? What is
-    /// written behind the last column must not be the halo of cells that are computed elsewhere.
-    bool works_on_columns() const;
 
     const StepProblem& problem() const { return problem_; }
     const PlaneLayout& layout() const { return layout_; }
@@ -110,8 +100,6 @@ private:
     template <typename Number>
     void bind_as(Arguments<Number>& arguments, std::size_t level, std::size_t pass,
                  Registers registers, const StepMoment& moment) const;
-    template <typename Number>
-    void run_part(Level<Number>& level, RowRange rows, std::int64_t first, std::int64_t end) const;
     template <typename Number>
     void run_level(const Level<Number>& level, RowRange rows) const;
     template <typename Number>

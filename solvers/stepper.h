@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace cascade {
@@ -85,6 +86,13 @@ public:
     void use_tiling(const Tiling& tiling);
     /// So many passes of steps are done for each pass through memory, where they allow it.
     int levels() const { return tiles_->levels(); }
+    /// Steps that one pass through memory takes, at least 1.
+    std::int64_t steps_at_once() const {
+        const auto passes = static_cast<std::int64_t>(problem_->passes.size());
+        return (tiles_->levels() + passes - 1) / passes;
+    }
+    /// How steps go through memory, in words.
+    std::string stepping() const { return words_for_stepping(*problem_, tiles_->levels()); }
 
 private:
     struct Worker {

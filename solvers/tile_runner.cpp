@@ -16,12 +16,10 @@ TileAxis outer_axis(const StepProblem& problem, const Tiling& tiling, int thread
 }
 
 /// An axis that is not cut is one layer.
-TileAxis inner_axis(const PassRunner& runner, const Tiling& tiling) {
-    const StepProblem& problem = runner.problem();
-    const bool has_slices = problem.grid.depth > 1;
-    if (tiling.inner_bands <= 1 || (!has_slices && !runner.works_on_columns())) return {1, 1, false};
-    return {layers_of(has_slices ? problem.grid.height : problem.grid.width, tiling.inner_layer),
-            tiling.inner_bands, wraps(problem, has_slices ? Side::top : Side::left)};
+TileAxis inner_axis(const StepProblem& problem, const Tiling& tiling) {
+    if (problem.grid.depth == 1 || tiling.inner_bands <= 1) return {1, 1, false};
+    return {layers_of(problem.grid.height, tiling.inner_layer), tiling.inner_bands,
+            wraps(problem, Side::top)};
 }
 
 }  // namespace
@@ -30,7 +28,7 @@ TileRunner::TileRunner(const PassRunner& runner, const Tiling& tiling, int threa
     : runner_(runner),
       tiling_(tiling),
       outer_(outer_axis(runner.problem(), tiling, threads)),
-      inner_(inner_axis(runner, tiling)),
+      inner_(inner_axis(runner.problem(), tiling)),
       levels_(std::clamp(std::min({tiling.levels, outer_.most_levels(), inner_.most_levels()}), 1,
                          most_levels)) {}
 
@@ -80,33 +78,29 @@ void TileRunner::run_wave(PassRunner::Worker& worker, const Part& outer, const P
     }
 }
 
-void TileRunner::run_layer(PassRunner::Worker& worker, int level_number, std::int64_t layer,
+void TileRunner::run_layer(PassRunner::Worker& worker, int level, std::int64_t layer,
                            LayerRange inner) const {
     const PlaneLayout& layout = runner_.layout();
-    const auto level = static_cast<std::size_t>(level_number);
+    const auto run = [&](std::int64_t begin, std::int64_t end) {
+        if (begin < end) runner_.run_rows(worker, static_cast<std::size_t>(level), {begin, end});
+    };
     const bool has_slices = layout.depth > 1;
     const std::int64_t first = layer * tiling_.outer_layer;
     const std::int64_t last =
         std::min(first + tiling_.outer_layer, has_slices ? layout.depth : layout.height);
-    if (inner_.layers() == 1) {
-        const std::int64_t rows = has_slices ? layout.height : 1;
-        return runner_.run_rows(worker, level, {first * rows, last * rows});
-    }
-    const std::int64_t length = has_slices ? layout.height : layout.width;
-    const auto run = [&](std::int64_t begin_layer, std::int64_t end_layer) {
-        const std::int64_t begin = begin_layer * tiling_.inner_layer;
-        const std::int64_t end = std::min(end_layer * tiling_.inner_layer, length);
-        if (begin >= end) return;
-        if (!has_slices) return runner_.run_cells(worker, level, {first, last}, begin, end);
-        for (std::int64_t slice = first; slice < last; ++slice) {
-            const std::int64_t start = slice * layout.height;
-            runner_.run_rows(worker, level, {start + begin, start + end});
-        }
+    if (!has_slices) return run(first, last);
+    if (inner_.layers() == 1) return run(first * layout.height, last * layout.height);
+    const auto rows_of = [&](std::int64_t slice, std::int64_t begin, std::int64_t end) {
+        const std::int64_t start = slice * layout.height;
+        run(start + begin * tiling_.inner_layer,
+            start + std::min(end * tiling_.inner_layer, layout.height));
     };
-    // What lies beyond an end of the axis is at the other end.
-    run(std::max<std::int64_t>(inner.begin, 0), std::min(inner.end, inner_.layers()));
-    if (inner.begin < 0) run(inner.begin + inner_.layers(), inner_.layers());
-    if (inner.end > inner_.layers()) run(0, inner.end - inner_.layers());
+    for (std::int64_t slice = first; slice < last; ++slice) {
+        // What lies beyond an end of the axis is at the other end.
+        rows_of(slice, std::max<std::int64_t>(inner.begin, 0), std::min(inner.end, inner_.layers()));
+        if (inner.begin < 0) rows_of(slice, inner.begin + inner_.layers(), inner_.layers());
+        if (inner.end > inner_.layers()) rows_of(slice, 0, inner.end - inner_.layers());
+    }
 }
 
 }  // namespace cascade

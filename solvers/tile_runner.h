@@ -1,7 +1,7 @@
 // Runs several levels (passes of steps) while what they read is in the cache: tiles in the shapes
 // of solvers/tile_shape.h, shared by a team of threads.
 //
-// A grid is cut along its rows and columns, a grid with slices along its slices and, within each, its rows. With two
+// A grid is cut along its rows, a grid with slices along its slices and, within each, its rows. With two
 // axes a tile is a part of the one times a part of the other, and there are four phases: a cell's
 // phase along each axis never decreases from level to level, so what it reads is done before it. Tiles of
 // the two phases that are upright along one axis and inverted along the other do not depend on each other.
@@ -43,7 +43,7 @@ private:
     static void set_part(const TileAxis& axis, bool inverted, int number, int levels, Part& part);
     void run_wave(PassRunner::Worker& worker, const Part& outer, const Part& inner,
                   int levels) const;
-    void run_layer(PassRunner::Worker& worker, int level_number, std::int64_t layer,
+    void run_layer(PassRunner::Worker& worker, int level, std::int64_t layer,
                    LayerRange inner) const;
 
     const PassRunner& runner_;

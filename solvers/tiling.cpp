@@ -1,6 +1,9 @@
 #include "solvers/tiling.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <set>
 #include <utility>
@@ -13,49 +16,47 @@ using PlaneRef = StepProblem::PlaneRef;
 // A call of a kernel for fewer cells than this costs more than what it saves to keep them near.
 constexpr std::int64_t cells_of_a_layer = 2048;
 // So much of a cache do levels share; the rest is for what they do not touch again.
-constexpr double part_of_second = 0.6, part_of_third = 0.4;
+constexpr double part_of_second = 0.6, part_of_third = 0.5;
 // Layers that are in use besides one for each level: those that are read around it.
 constexpr std::int64_t layers_besides = 3;
 // More levels hardly save anything.
 constexpr int enough_levels = 16;
-// With fewer the next cache is asked, for the price of its slower answers.
-constexpr int few_levels = 4;
+// Slices are cut into bands of rows only where whole ones allow fewer.
+constexpr int few_levels = 6;
+constexpr int levels_in_bands = 8;
 
-std::int64_t bytes_of_links(const Links& links) { return static_cast<std::int64_t>(links.bytes()); }
+/// Bytes that the layers of a tile may take.
+double bytes_for_layers(const CacheSizes& caches) {
+    return std::max(part_of_second * static_cast<double>(caches.second),
+                    part_of_third * static_cast<double>(caches.third));
+}
 
-/// How many layers of so many bytes a part of a cache holds, as levels.
+/// How many levels may be done at once where layers have so many bytes.
 int levels_in(double bytes, std::int64_t layer_bytes) {
     const auto layers = static_cast<std::int64_t>(bytes) / std::max<std::int64_t>(layer_bytes, 1);
     return static_cast<int>(std::clamp<std::int64_t>(layers - layers_besides, 1, enough_levels));
 }
 
-int levels_of(std::int64_t layer_bytes, const CacheSizes& caches) {
-    const int near = levels_in(part_of_second * static_cast<double>(caches.second), layer_bytes);
-    if (near >= few_levels) return near;
-    return std::max(near, levels_in(part_of_third * static_cast<double>(caches.third), layer_bytes));
-}
-
-/// Whole slices or bands of their rows, whichever the second-level cache holds more of.
+/// Whole slices, or bands of their rows where too few whole ones have room.
 Tiling tiling_of_slices(const Grid& grid, std::int64_t slice_bytes, const CacheSizes& caches) {
     Tiling tiling;
     tiling.outer_layer = std::clamp<std::int64_t>(
         cells_of_a_layer / std::max<std::int64_t>(grid.width * grid.height, 1), 1, grid.depth);
-    const double bytes = part_of_second * static_cast<double>(caches.second);
+    const double bytes = bytes_for_layers(caches);
     const std::int64_t layer_bytes = slice_bytes * tiling.outer_layer;
     tiling.levels = levels_in(bytes, layer_bytes);
     if (tiling.levels >= few_levels) return tiling;
+    const double band_bytes = bytes / (levels_in_bands + layers_besides);
+    const double bands = std::ceil(static_cast<double>(layer_bytes) / band_bytes);
     // Bands must be wider than what two borders take of them.
-    for (int levels = 8; levels >= 2; --levels) {
-        const double band_bytes = bytes / static_cast<double>(levels + layers_besides);
-        const auto bands = static_cast<int>(static_cast<double>(layer_bytes) / band_bytes) + 1;
-        if (grid.height / bands < 2 * levels) continue;
-        tiling.levels = levels;
-        tiling.inner_bands = bands;
-        return tiling;
-    }
-    tiling.levels = levels_of(layer_bytes, caches);
+    if (bands * 2 * levels_in_bands > static_cast<double>(grid.height)) return tiling;
+    tiling.levels = levels_in_bands;
+    tiling.inner_bands = static_cast<int>(bands);
     return tiling;
 }
+
+/// May a pass begin before the one in front of it is complete?
+bool is_local(const StepProblem::Pass& pass) { return pass.reductions.empty() && !pass.filter; }
 
 }  // namespace
 
@@ -87,7 +88,7 @@ std::int64_t bytes_of_step(const StepProblem& problem) {
                                problem.grid.depth;
     return cells * (planes * static_cast<std::int64_t>(bytes_of(problem.precision)) +
                     static_cast<std::int64_t>(masks.size())) +
-           (problem.links ? bytes_of_links(*problem.links) : 0);
+           (problem.links ? static_cast<std::int64_t>(problem.links->bytes()) : 0);
 }
 
 std::int64_t rows_reached(const StepProblem& problem) {
@@ -125,13 +126,40 @@ bool wraps(const StepProblem& problem, Side side) {
 Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches) {
     const Grid& grid = problem.grid;
     const std::int64_t bytes = bytes_of_step(problem);
+    if (stays_in_cache(problem, caches)) return {};
+    if (std::none_of(problem.passes.begin(), problem.passes.end(), is_local)) return {};
     if (grid.depth > 1) return tiling_of_slices(grid, bytes / grid.depth, caches);
     Tiling tiling;
     tiling.outer_layer = std::clamp<std::int64_t>(
         cells_of_a_layer / std::max<std::int64_t>(grid.width, 1), 1, grid.height);
     if (grid.linked) tiling.outer_layer = std::max(tiling.outer_layer, reach);
-    tiling.levels = levels_of(bytes / grid.height * tiling.outer_layer, caches);
+    tiling.levels = levels_in(bytes_for_layers(caches), bytes / grid.height * tiling.outer_layer);
     return tiling;
+}
+
+bool stays_in_cache(const StepProblem& problem, const CacheSizes& caches) {
+    return static_cast<double>(bytes_of_step(problem)) <= bytes_for_layers(caches);
+}
+
+std::string words_for_stepping(const StepProblem& problem, int levels) {
+    const std::size_t passes = problem.passes.size();
+    const bool all_local = std::all_of(problem.passes.begin(), problem.passes.end(), is_local);
+    if (problem.error_register != 0) return "one step a pass: each may be taken back";
+    if (levels > 1 && all_local) {
+        return passes == 1 ? fmt::format("{} steps a pass", levels)
+                           : fmt::format("{} sweeps a pass", levels);
+    }
+    if (levels > 1 && passes > 2) {
+        return fmt::format("up to {} sweeps a pass between its aggregates", std::min<std::size_t>(
+                               static_cast<std::size_t>(levels), passes));
+    }
+    if (std::any_of(problem.passes.begin(), problem.passes.end(),
+                    [](const auto& pass) { return pass.filter.has_value(); })) {
+        return "one step a pass: its waves need all cells";
+    }
+    if (!all_local) return "one step a pass: its aggregates need every step";
+    if (stays_in_cache(problem, CacheSizes::here())) return "one step a pass: all stays in the cache";
+    return "one step a pass: layers are too large for more";
 }
 
 }  // namespace cascade

@@ -5,18 +5,17 @@
 #include "solvers/step_problem.h"
 
 #include <cstdint>
+#include <string>
 
 namespace cascade {
 
-/// The outer axis is that of rows or, where the grid has them, of slices; the inner one is that of the
-/// columns, or of the rows within slices. Layers are several rows, slices or columns, so that a call of
-/// a kernel is worth it.
+/// The outer axis is that of rows or, where the grid has them, of slices; the inner one that of the rows
+/// within slices. A layer is several of them, so that a call of a kernel is worth it.
 struct Tiling {
     int levels = 1;                 ///< At most; 1: every pass by itself.
     std::int64_t outer_layer = 1;   ///< Rows or slices of a layer.
-    std::int64_t inner_layer = 1;   ///< Rows of a layer within slices, or columns: a multiple of
-                                    ///< PlaneLayout::row_pad.
-    int inner_bands = 1;            ///< 1: the inner axis is not cut.
+    std::int64_t inner_layer = 1;   ///< Of a grid with slices: rows of a layer within them,
+    int inner_bands = 1;            ///< and bands of those layers; 1: slices are not cut.
 };
 
 /// Bytes of all planes, masks and links that the passes of a step read or write, each counted once,
@@ -29,7 +28,13 @@ std::int64_t rows_reached(const StepProblem& problem);
 /// Is any plane periodic from side to opposite side, along the axis of that side?
 bool wraps(const StepProblem& problem, Side side);
 
+/// Do all planes of a step stay in a core's caches from step to step? Then more levels save nothing.
+bool stays_in_cache(const StepProblem& problem, const CacheSizes& caches);
+
 /// The tiling that keeps what its levels touch in the caches. `reach`: see rows_reached().
 Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches);
+
+/// How a problem is stepped with so many levels, in words for people: "16 steps a pass", or why not.
+std::string words_for_stepping(const StepProblem& problem, int levels);
 
 }  // namespace cascade
