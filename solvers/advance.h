@@ -84,7 +84,6 @@ struct StageOutcome {
     bool cancelled = false;
     bool ended = false;               ///< By its end time or by `ends`.
     int threads = 1;                  ///< In use when the loop ended.
-    std::string stepping;             ///< How steps were taken, in a few words for a person; or nothing.
     std::optional<StepTooShort> too_short;
     std::optional<NotFinite> not_finite;
     /// Only with `not_finite`: the species at the last look before, up to `check_every` steps
