@@ -209,6 +209,7 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
     const std::string group = execution_group;
     SimulationOptions& simulation = options.run.simulation;
     if (!has_jit()) simulation.backend = BackendKind::interpreter;
+    simulation.kernel_cache = usual_kernel_cache();
     add_value(app, "--backend", "jit|interp", "Native code by LLVM, or the interpreter",
               one_of(has_jit() ? std::vector<std::string>{"jit", "interp"}
                                : std::vector<std::string>{"interp"}),
@@ -225,6 +226,10 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
               [&](const auto& lanes) {
                   simulation.lanes = lanes == "4" ? 4 : lanes == "8" ? 8 : 16;
               })
+        ->group(group);
+    app.add_flag_callback(
+           "--no-kernel-cache", [&simulation] { simulation.kernel_cache.clear(); },
+           "Compile all native code again, and keep none of it")
         ->group(group);
 }
 

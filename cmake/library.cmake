@@ -31,6 +31,9 @@ configure_package_config_file(cmake/CascadeConfig.cmake.in CascadeConfig.cmake
 write_basic_package_version_file(CascadeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 
 install(TARGETS cascade_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(CASCADE_JIT)
+  install(TARGETS cascade_llvm LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endif()
 install(TARGETS cascade_library EXPORT CascadeTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(FILES include/cascade/cascade.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cascade)
 install(EXPORT CascadeTargets NAMESPACE Cascade:: DESTINATION ${package_folder})

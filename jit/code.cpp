@@ -83,7 +83,7 @@ Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const Kernel
     }
     code.is_large = code.is_large || size > largest_optimised_kernel;
     const auto build = shape.stencil.links ? build_linked_function : build_grid_function;
-    llvm::Function* function = build(*code.module, kernel, shape, name);
+    llvm::Function* function = build(*code.module, kernel, tuned(shape, machine), name);
     set_target(*function, machine, shape.lanes * static_cast<int>(bytes_of(kernel.precision)));
 
     std::string fault;

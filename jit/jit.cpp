@@ -2,14 +2,13 @@
 #include "jit/jit.h"
 
 #include "core/check.h"
-#include "jit/code.h"
-#include "jit/native_session.h"
-#include "jit/target_machine.h"
-
-#include <fmt/format.h>
-#include <llvm/Config/llvm-config.h>
+#include "jit/code_cache.h"
+#include "jit/generator.h"
+#include "jit/kernel_key.h"
+#include "jit/processor.h"
 
 #include <algorithm>
+#include <future>
 #include <mutex>
 #include <unordered_map>
 
@@ -85,21 +84,8 @@ private:
     std::unique_ptr<LoadedFunction> function_;
 };
 
-/// A kernel that was compiled, with all that its code depends on: hashes may collide.
-struct Known {
-    CellKernel kernel;
-    Stencil stencil;
-    KernelPointer compiled;
-
-    bool is(const CellKernel& other, Stencil its_stencil) const {
-        return stencil == its_stencil && kernel.precision == other.precision &&
-               kernel.code == other.code &&
-               kernel.results == other.results &&
-               kernel.field_names.size() == other.field_names.size() &&
-               kernel.mask_names.size() == other.mask_names.size() &&
-               kernel.uniform_names.size() == other.uniform_names.size();
-    }
-};
+/// A kernel that was compiled or is being compiled.
+using Compiling = std::shared_future<Result<KernelPointer>>;
 
 /// Beyond this many kernels all are forgotten, so that a day at the prompt does not fill memory;
 /// those that somebody holds live on.
@@ -107,66 +93,87 @@ constexpr std::size_t most_known = 1024;
 
 class JitBackend final : public Backend {
 public:
-    JitBackend(std::unique_ptr<llvm::TargetMachine> machine,
-               std::shared_ptr<NativeSession> session, int lanes)
-        : machine_(std::move(machine)), session_(std::move(session)), lanes_(lanes) {}
+    explicit JitBackend(const JitOptions& options)
+        : lanes_(options.lanes > 0 ? options.lanes : host_lanes()),
+          optimise_(options.optimise),
+          environment_(environment_key(options.optimise)),
+          cache_(environment_.empty() ? std::filesystem::path() : options.cache) {}
 
     std::string_view name() const override { return "jit"; }
 
     Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) override {
-        const std::lock_guard lock(mutex_);
-        const std::uint64_t key = hash(kernel) * 16 + stencil.number();
-        const auto [first, last] = known_.equal_range(key);
-        for (auto found = first; found != last; ++found) {
-            if (found->second.is(kernel, stencil)) return found->second.compiled;
+        const KernelShape shape = shape_for(kernel, stencil, lanes_);
+        const std::string key = kernel_key(kernel, shape);
+        std::promise<Result<KernelPointer>> promise;
+        if (const auto known = find_or_announce(key, promise)) return known->get();
+        Result<KernelPointer> made = failure("not compiled");
+        try {
+            made = make(kernel, shape, key);
+        } catch (...) {  // Out of memory, for whoever waits as well.
+            forget(key);
+            promise.set_exception(std::current_exception());
+            throw;
         }
-        Result<KernelPointer> made = make(kernel, stencil);
-        if (!made) return made;
-        if (known_.size() >= most_known) known_.clear();
-        known_.emplace(key, Known{kernel, stencil, *made});
+        if (!made) forget(key);
+        promise.set_value(made);
         return made;
     }
 
 private:
-    Result<KernelPointer> make(const CellKernel& kernel, Stencil stencil) {
-        const std::string function_name = fmt::format("kernel{}", next_number_++);
-        const KernelShape shape = shape_for(kernel, stencil, *machine_, lanes_);
-        auto code = make_code(kernel, shape, function_name, *machine_);
-        if (!code) return tl::unexpected(code.error());
-        const auto object = generate(*code, *machine_, CodeForm::object);
-        if (!object) return tl::unexpected(object.error());
-        auto function = session_->load({object->data(), object->size()}, function_name);
+    /// What others made or are making of this kernel; or nothing, and `promise` is what others will
+    /// wait for.
+    std::optional<Compiling> find_or_announce(const std::string& key,
+                                              std::promise<Result<KernelPointer>>& promise) {
+        const std::lock_guard lock(mutex_);
+        const auto found = known_.find(key);
+        if (found != known_.end()) return found->second;
+        if (known_.size() >= most_known) known_.clear();
+        known_.emplace(key, promise.get_future().share());
+        return std::nullopt;
+    }
+
+    void forget(const std::string& key) {
+        const std::lock_guard lock(mutex_);
+        known_.erase(key);
+    }
+
+    Result<KernelPointer> make(const CellKernel& kernel, const KernelShape& shape,
+                               const std::string& key) {
+        auto function = load(kernel, shape, key);
         if (!function) return tl::unexpected(function.error());
         return with_number(kernel.precision, [&](auto zero) -> KernelPointer {
-            return std::make_shared<NativeKernel<decltype(zero)>>(kernel, stencil,
+            return std::make_shared<NativeKernel<decltype(zero)>>(kernel, shape.stencil,
                                                                   std::move(*function));
         });
     }
 
-    std::mutex mutex_;
-    std::unique_ptr<llvm::TargetMachine> machine_;
-    std::shared_ptr<NativeSession> session_;
+    Result<std::unique_ptr<LoadedFunction>> load(const CellKernel& kernel, const KernelShape& shape,
+                                                 const std::string& key) {
+        const std::string file_key = environment_ + key;
+        if (const auto image = cache_.find(file_key)) return load_image(*image);
+        const auto generator = code_generator();
+        if (!generator) return tl::unexpected(generator.error());
+        const auto object = (*generator)->compile(kernel, shape, optimise_);
+        if (!object) return tl::unexpected(object.error());
+        const auto image = link_image(*object, kernel_function_name);
+        if (!image) return (*generator)->load(*object);
+        cache_.keep(file_key, *image);
+        return load_image(*image);
+    }
+
     int lanes_;
-    std::uint64_t next_number_ = 0;
-    std::unordered_multimap<std::uint64_t, Known> known_;
+    int optimise_;
+    std::string environment_;
+    CodeCache cache_;
+    std::mutex mutex_;
+    std::unordered_map<std::string, Compiling> known_;  ///< By kernel_key.
 };
 
 }  // namespace
 
 Result<std::unique_ptr<Backend>> make_jit(const JitOptions& options) {
-    auto target = choose_target("", options);
-    if (!target) return tl::unexpected(target.error());
-    auto session = NativeSession::make();
-    if (!session) return tl::unexpected(session.error());
-    return std::make_unique<JitBackend>(std::move(target->machine), std::move(*session),
-                                        target->lanes);
-}
-
-std::string describe_jit() {
-    const auto target = choose_target("", {});
-    if (!target) return fmt::format("LLVM {}: {}", LLVM_VERSION_STRING, target.error().message);
-    return fmt::format("LLVM {}, {}, {} cells a vector", LLVM_VERSION_STRING, host_cpu_name(),
-                       target->lanes);
+    if (auto good = check_options(options); !good) return tl::unexpected(good.error());
+    return std::make_unique<JitBackend>(options);
 }
 
 }  // namespace cascade

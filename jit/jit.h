@@ -1,10 +1,12 @@
 // Native code for cell kernels, by LLVM 19.
 //
-// The only header of this room that others include; LLVM's own headers stay inside jit/*.cpp.
+// The only header of this room that others include; LLVM's own headers stay inside jit/*.cpp, and
+// LLVM is loaded when the first kernel must be compiled that no cache has.
 #pragma once
 
 #include "ir/backend.h"
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,11 +17,15 @@ struct JitOptions {
     int lanes = 0;      ///< Cells of binary32 per vector: 4, 8 or 16 (half as many of binary64);
                         ///< 0 takes the host's widest.
     int optimise = 2;   ///< 0 … 3, of LLVM's code generator.
+    /// Compiled kernels are kept in this folder and found there by later processes; empty: none. One
+    /// that cannot be used, for whatever reason, is as good as none.
+    std::filesystem::path cache = {};
 };
 
-/// A backend whose kernels are machine code of this process. Fails if the host is not supported.
-/// Its compile() may be called from several threads, and fails on kernels of more than 20,000
-/// instructions (about; a Laplacian counts for more), which the interpreter can run.
+/// A backend whose kernels are machine code of this process. Fails on options out of range. Its
+/// compile() may be called from several threads, which compile different kernels at the same time,
+/// and fails where LLVM cannot be loaded, if the host is not supported, and on kernels of more than
+/// 20,000 instructions (about; a Laplacian counts for more); the interpreter can run those.
 Result<std::unique_ptr<Backend>> make_jit(const JitOptions& options = {});
 
 /// The LLVM IR that the kernel's code is generated from (`--dump llvm`), or its assembly

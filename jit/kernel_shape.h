@@ -11,8 +11,14 @@ namespace cascade {
 struct KernelShape {
     Stencil stencil = Stencil::plane;
     int lanes = 16;  ///< Cells per vector: 4, 8 or 16; half as many of kernels of binary64.
+    // What the processor is good at: see tuned() in jit/target_machine.h.
     bool has_multiply_add = false;   ///< Of one rounding, in one instruction.
-    bool is_short_of_loads = false;  ///< See is_short_of_loads() in jit/target_machine.h.
+    bool is_short_of_loads = false;
 };
+
+/// The shape with vectors as wide as `lanes` cells of binary32.
+inline KernelShape shape_for(const CellKernel& kernel, Stencil stencil, int lanes) {
+    return {stencil, kernel.precision == Precision::single ? lanes : lanes / 2};
+}
 
 }  // namespace cascade

@@ -1,6 +1,6 @@
 // Kernels as object files, and as text for people to read.
 #include "jit/code.h"
-#include "jit/jit.h"
+#include "jit/llvm_module.h"
 #include "jit/target_machine.h"
 
 #include <llvm/IR/Constants.h>
@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace cascade {
+namespace cascade::llvm_module {
 namespace {
 
 /// Code of one kernel together with the machine it is for.
@@ -22,7 +22,7 @@ Result<Compiled> compile_for(const CellKernel& kernel, Stencil stencil, const st
                              const JitOptions& options) {
     auto target = choose_target("", options);
     if (!target) return tl::unexpected(target.error());
-    const KernelShape shape = shape_for(kernel, stencil, *target->machine, target->lanes);
+    const KernelShape shape = shape_for(kernel, stencil, target->lanes);
     auto code = make_code(kernel, shape, name, *target->machine);
     if (!code) return tl::unexpected(code.error());
     return Compiled{std::move(*target), std::move(*code)};
@@ -101,4 +101,4 @@ Result<std::string> dump_assembly(const CellKernel& kernel, Stencil stencil,
     return std::string(text->begin(), text->end());
 }
 
-}  // namespace cascade
+}  // namespace cascade::llvm_module

@@ -1,6 +1,8 @@
 // Looks up targets, and names what they can do.
 #include "jit/target_machine.h"
 
+#include "jit/llvm_module.h"
+
 #include <fmt/format.h>
 #include <llvm/MC/MCSubtargetInfo.h>
 #include <llvm/MC/TargetRegistry.h>
@@ -43,7 +45,7 @@ Result<std::unique_ptr<llvm::TargetMachine>> make_target_machine(const std::stri
                                                                  int optimise) {
     if (!initialise_target()) return failure("LLVM has no code generator for this machine");
     if (!cpu.empty()) {
-        const std::vector<std::string> known = known_targets();
+        const std::vector<std::string> known = llvm_module::known_targets();
         if (std::find(known.begin(), known.end(), cpu) == known.end()) {
             return failure(fmt::format("'{}' is not a processor that code can be made for", cpu),
                            "such as x86-64, x86-64-v2, x86-64-v3, x86-64-v4");
@@ -66,7 +68,7 @@ Result<std::unique_ptr<llvm::TargetMachine>> make_target_machine(const std::stri
 
 std::string host_cpu_name() { return llvm::sys::getHostCPUName().str(); }
 
-std::vector<std::string> known_targets() {
+std::vector<std::string> llvm_module::known_targets() {
     llvm::SmallVector<llvm::StringRef, 128> names;
     if (llvm::Triple(llvm::sys::getProcessTriple()).isX86()) {
         llvm::X86::fillValidCPUArchList(names, /*Only64Bit=*/true);
@@ -78,17 +80,10 @@ std::vector<std::string> known_targets() {
 }
 
 Result<TargetChoice> choose_target(const std::string& cpu, const JitOptions& options) {
-    const int lanes = options.lanes;
-    if (lanes != 0 && lanes != 4 && lanes != 8 && lanes != 16) {
-        return failure(fmt::format("no vectors of {} cells", lanes), "4, 8 or 16");
-    }
-    if (options.optimise < 0 || options.optimise > 3) {
-        return failure(fmt::format("no optimisation level {}", options.optimise), "0 to 3");
-    }
     auto machine = make_target_machine(cpu, options.optimise);
     if (!machine) return tl::unexpected(machine.error());
     const int widest = widest_lanes(**machine);
-    return TargetChoice{std::move(*machine), lanes == 0 ? widest : lanes};
+    return TargetChoice{std::move(*machine), options.lanes == 0 ? widest : options.lanes};
 }
 
 int widest_lanes(const llvm::TargetMachine& machine) {
@@ -108,10 +103,10 @@ bool is_short_of_loads(const llvm::TargetMachine& machine) {
     return machine.getTargetCPU() == "znver4" && widest_lanes(machine) == 16;
 }
 
-KernelShape shape_for(const CellKernel& kernel, Stencil stencil,
-                      const llvm::TargetMachine& machine, int lanes) {
-    return {stencil, kernel.precision == Precision::single ? lanes : lanes / 2,
-            has_multiply_add(machine), is_short_of_loads(machine)};
+KernelShape tuned(KernelShape shape, const llvm::TargetMachine& machine) {
+    shape.has_multiply_add = has_multiply_add(machine);
+    shape.is_short_of_loads = is_short_of_loads(machine);
+    return shape;
 }
 
 void set_target(llvm::Function& function, const llvm::TargetMachine& machine, int vector_bytes) {

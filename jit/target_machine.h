@@ -22,8 +22,8 @@ struct TargetChoice {
 };
 
 /// The machine for a CPU of this machine's architecture, by LLVM's name for it; "" is the host with
-/// all its features. Lanes are as asked for, or as wide as the CPU has them. Fails on options
-/// that are out of range.
+/// all its features. Lanes are as asked for, or as wide as the CPU has them. Options are in
+/// range; fails on a CPU that LLVM does not know.
 Result<TargetChoice> choose_target(const std::string& cpu, const JitOptions& options);
 
 /// Floats in the widest vector that this CPU computes with: 4, 8 or 16.
@@ -36,9 +36,8 @@ bool has_multiply_add(const llvm::TargetMachine& machine);
 /// Zen 4 loads 64 bytes a cycle and 32 a cycle across lines, while it shifts and computes 64.
 bool is_short_of_loads(const llvm::TargetMachine& machine);
 
-/// The shape with vectors as wide as `lanes` cells of binary32.
-KernelShape shape_for(const CellKernel& kernel, Stencil stencil,
-                      const llvm::TargetMachine& machine, int lanes);
+/// The same shape with what this processor is good at.
+KernelShape tuned(KernelShape shape, const llvm::TargetMachine& machine);
 
 /// Sets what a function must say for the processor's features to be used, and for the arithmetic
 /// of the specification: strict, with denormals flushed to zero of the same sign.

@@ -46,6 +46,7 @@ Result<std::shared_ptr<Backend>> make_stepper(const SimulationOptions& options) 
 #if CASCADE_HAS_JIT
     JitOptions jit;
     jit.lanes = options.lanes;
+    jit.cache = options.kernel_cache;
     return make_jit(jit);
 #else
     return failure("this build has no native compiler", "use --backend interp");

@@ -33,6 +33,11 @@ bool has_jit();
 /// What takes the steps: LLVM's version, the processor and its vectors, or the interpreter alone.
 std::string describe_backend();
 
+/// Where compiled kernels are kept: the folder that the environment variable CASCADE_KERNEL_CACHE
+/// names (none if it is set and empty), else `cascade/kernels` in XDG_CACHE_HOME, else in
+/// ~/.cache (XDG Base Directory Specification 0.8). Empty: nowhere.
+std::filesystem::path usual_kernel_cache();
+
 /// Values of one stage's items.
 struct StageState {
     bool started = false;
@@ -79,6 +84,8 @@ struct SimulationOptions {
     RunControl* control = nullptr;
     TimeAccount* account = nullptr;   ///< Is told where the time goes; none: nobody is.
     std::filesystem::path cell_cache = {};  ///< A folder in which cells of models are kept; empty: none.
+    /// A folder in which compiled kernels are kept for later processes; empty: none.
+    std::filesystem::path kernel_cache = {};
     std::uint64_t memory_limit = 0;   ///< Bytes that all fields may take; 0: what is free.
     /// How steps are put together. No result depends on it.
     PlanOptions planning = {Bringing::cheaper, false, true};

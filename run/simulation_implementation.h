@@ -60,9 +60,9 @@ struct Simulation::Implementation {
         }
     }
 
-    /// Starting values need no compiling and pictures neither: both are interpreted.
+    /// Starting values and pictures.
     std::vector<Field> evaluate(const StepPlan& plan, std::uint32_t stage) const {
-        return run_plan(plan, interpreted(grid), context(stage), grid, *team);
+        return run_plan(plan, once(), context(stage), grid, *team);
     }
 
     Compile interpreted(const Grid& on) const {
@@ -135,6 +135,11 @@ struct Simulation::Implementation {
             auto made = stepper->compile(kernel, grid.stencil());
             return made ? *made : interpret(kernel);
         };
+    }
+    /// What is computed once is interpreted, unless that would take longer than making code for it.
+    Compile once() const {
+        constexpr std::int64_t cells_worth_compiling = 262144;
+        return grid.cell_count() < cells_worth_compiling ? interpreted(grid) : often();
     }
     /// Evaluating a small grid is over before code is made for it or a second thread has woken up.
     bool is_small() const { return grid.cell_count() < 65536; }

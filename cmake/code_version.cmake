@@ -1,0 +1,9 @@
+# Writes OUTPUT from TEMPLATE: a hash of SOURCES (separated by commas) and of EXTRA, as @version@.
+string(REPLACE "," ";" sources "${SOURCES}")
+set(all "${EXTRA}")
+foreach(source IN LISTS sources)
+  file(SHA256 ${source} hash)
+  string(APPEND all " ${hash}")
+endforeach()
+string(SHA256 version "${all}")
+configure_file(${TEMPLATE} ${OUTPUT} @ONLY)

@@ -1,0 +1,47 @@
+# The room jit/ is two things: what finds, keeps and runs compiled kernels is linked into every
+# program; what needs LLVM is a module that is loaded when code must be made (jit/generator.h).
+
+set(jit_without_llvm code_cache code_image code_version generator jit kernel_key processor)
+list(TRANSFORM jit_without_llvm PREPEND ${PROJECT_SOURCE_DIR}/jit/)
+list(TRANSFORM jit_without_llvm APPEND .cpp)
+file(GLOB jit_with_llvm CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/jit/*.cpp)
+list(REMOVE_ITEM jit_with_llvm ${jit_without_llvm})
+
+# What is kept on disk is found again by programs whose code generator is the same.
+file(GLOB code_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/jit/*.cpp
+  ${PROJECT_SOURCE_DIR}/jit/*.h ${PROJECT_SOURCE_DIR}/ir/*.cpp ${PROJECT_SOURCE_DIR}/ir/*.h
+  ${PROJECT_SOURCE_DIR}/ir/*.def ${PROJECT_SOURCE_DIR}/core/grid.h
+  ${PROJECT_SOURCE_DIR}/core/links.h ${PROJECT_SOURCE_DIR}/core/plane.h)
+list(JOIN code_sources "," code_sources_text)
+set(code_version_folder ${PROJECT_BINARY_DIR}/generated)
+add_custom_command(
+  OUTPUT ${code_version_folder}/code_version.h
+  COMMAND ${CMAKE_COMMAND} -DSOURCES=${code_sources_text} "-DEXTRA=LLVM ${LLVM_PACKAGE_VERSION}"
+    -DTEMPLATE=${PROJECT_SOURCE_DIR}/jit/code_version.h.in
+    -DOUTPUT=${code_version_folder}/code_version.h -P ${PROJECT_SOURCE_DIR}/cmake/code_version.cmake
+  DEPENDS ${code_sources} ${PROJECT_SOURCE_DIR}/jit/code_version.h.in
+    ${PROJECT_SOURCE_DIR}/cmake/code_version.cmake
+  VERBATIM)
+set(code_version_header ${code_version_folder}/code_version.h)
+
+add_library(cascade_jit STATIC ${jit_without_llvm} ${code_version_header})
+target_link_libraries(cascade_jit PUBLIC cascade_options cascade_ir cascade_core ${CMAKE_DL_LIBS})
+target_include_directories(cascade_jit PRIVATE ${code_version_folder})
+get_target_property(llvm_library LLVM LOCATION)
+target_compile_definitions(cascade_jit PRIVATE
+  CASCADE_LLVM_MODULE="libcascade_llvm.so" CASCADE_LLVM_LIBRARY="${llvm_library}")
+
+# The module's parts, which tests look at without the table between.
+add_library(cascade_llvm_parts STATIC ${jit_with_llvm} ${PROJECT_SOURCE_DIR}/jit/code_version.cpp
+  ${code_version_header})
+target_link_libraries(cascade_llvm_parts PUBLIC cascade_options cascade_ir cascade_core)
+target_include_directories(cascade_llvm_parts PRIVATE ${code_version_folder})
+cascade_link_llvm(cascade_llvm_parts)
+
+add_library(cascade_llvm MODULE ${PROJECT_SOURCE_DIR}/jit/llvm_module.cpp)
+target_link_libraries(cascade_llvm PRIVATE cascade_llvm_parts)
+cascade_link_llvm(cascade_llvm)
+target_link_options(cascade_llvm PRIVATE LINKER:--exclude-libs,ALL)
+set_target_properties(cascade_llvm PROPERTIES
+  LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+add_dependencies(cascade_jit cascade_llvm)

@@ -1,0 +1,10 @@
+// In the program and in the module, so that they can be compared.
+#include "jit/generator.h"
+
+#include "code_version.h"
+
+namespace cascade {
+
+const char* code_version() { return CASCADE_CODE_VERSION; }
+
+}  // namespace cascade

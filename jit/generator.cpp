@@ -1,0 +1,77 @@
+// Loads the module of the code generator.
+#include "jit/generator.h"
+
+#include "jit/processor.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+namespace cascade {
+namespace {
+
+Result<const CodeGenerator*> load_generator() {
+    // Never unloaded: code that it loaded may be in use until the end.
+    void* module = ::dlopen(CASCADE_LLVM_MODULE, RTLD_LAZY | RTLD_LOCAL);
+    if (!module) {
+        const char* reason = ::dlerror();
+        return failure(fmt::format("the code generator could not be loaded: {}",
+                                   reason ? reason : "unknown reason"),
+                       "--backend interp works without it");
+    }
+    const auto entry = reinterpret_cast<GeneratorEntry*>(::dlsym(module, generator_symbol));
+    const CodeGenerator* generator = entry ? entry(code_version()) : nullptr;
+    if (!generator) {
+        return failure(fmt::format("{} is of another build than this program", CASCADE_LLVM_MODULE),
+                       "install both again");
+    }
+    return generator;
+}
+
+}  // namespace
+
+Result<const CodeGenerator*> code_generator() {
+    static const Result<const CodeGenerator*> generator = load_generator();
+    return generator;
+}
+
+std::string llvm_identity() {
+    struct stat status {};
+    if (::stat(CASCADE_LLVM_LIBRARY, &status) != 0) return {};
+    return fmt::format("{} {}.{}", status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
+}
+
+Result<std::string> dump_llvm(const CellKernel& kernel, Stencil stencil,
+                              const JitOptions& options) {
+    if (auto good = check_options(options); !good) return tl::unexpected(good.error());
+    const auto generator = code_generator();
+    if (!generator) return tl::unexpected(generator.error());
+    return (*generator)->dump_llvm(kernel, stencil, options);
+}
+
+Result<std::string> dump_assembly(const CellKernel& kernel, Stencil stencil,
+                                  const JitOptions& options) {
+    if (auto good = check_options(options); !good) return tl::unexpected(good.error());
+    const auto generator = code_generator();
+    if (!generator) return tl::unexpected(generator.error());
+    return (*generator)->dump_assembly(kernel, stencil, options);
+}
+
+Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, Stencil stencil,
+                                                 const std::string& target) {
+    const auto generator = code_generator();
+    if (!generator) return tl::unexpected(generator.error());
+    return (*generator)->compile_object(content, stencil, target);
+}
+
+std::vector<std::string> known_targets() {
+    const auto generator = code_generator();
+    return generator ? (*generator)->known_targets() : std::vector<std::string>();
+}
+
+std::string describe_jit() {
+    const auto generator = code_generator();
+    return generator ? (*generator)->describe() : generator.error().message;
+}
+
+}  // namespace cascade

@@ -1,0 +1,93 @@
+// The module's one symbol, and the machines that code is made by.
+#include "jit/llvm_module.h"
+
+#include "jit/code.h"
+#include "jit/native_session.h"
+#include "jit/target_machine.h"
+
+#include <fmt/format.h>
+#include <llvm/Config/llvm-config.h>
+
+#include <algorithm>
+#include <cstring>
+#include <mutex>
+
+namespace cascade {
+namespace llvm_module {
+namespace {
+
+/// Machines that nobody uses just now. One serves one thread at a time, and making it takes a
+/// part of the time that a kernel takes.
+class IdleMachines {
+public:
+    std::unique_ptr<llvm::TargetMachine> take(int optimise) {
+        const std::lock_guard lock(mutex_);
+        const auto found = std::find_if(machines_.begin(), machines_.end(), [&](const auto& entry) {
+            return entry.first == optimise;
+        });
+        if (found == machines_.end()) return nullptr;
+        auto machine = std::move(found->second);
+        machines_.erase(found);
+        return machine;
+    }
+    void give_back(int optimise, std::unique_ptr<llvm::TargetMachine> machine) {
+        const std::lock_guard lock(mutex_);
+        machines_.emplace_back(optimise, std::move(machine));
+    }
+
+private:
+    std::mutex mutex_;
+    std::vector<std::pair<int, std::unique_ptr<llvm::TargetMachine>>> machines_;
+};
+
+IdleMachines& idle_machines() {
+    static IdleMachines machines;
+    return machines;
+}
+
+}  // namespace
+
+Result<std::string> compile(const CellKernel& kernel, const KernelShape& shape, int optimise) {
+    auto machine = idle_machines().take(optimise);
+    if (!machine) {
+        auto target = choose_target("", {0, optimise});
+        if (!target) return tl::unexpected(target.error());
+        machine = std::move(target->machine);
+    }
+    auto code = make_code(kernel, shape, kernel_function_name, *machine);
+    if (!code) {
+        idle_machines().give_back(optimise, std::move(machine));
+        return tl::unexpected(code.error());
+    }
+    const auto object = generate(*code, *machine, CodeForm::object);
+    idle_machines().give_back(optimise, std::move(machine));
+    if (!object) return tl::unexpected(object.error());
+    return std::string(object->begin(), object->end());
+}
+
+Result<std::unique_ptr<LoadedFunction>> load(const std::string& object) {
+    auto session = NativeSession::make();
+    if (!session) return tl::unexpected(session.error());
+    return (*session)->load(object, kernel_function_name);
+}
+
+std::string describe() {
+    const auto target = choose_target("", {});
+    if (!target) return fmt::format("LLVM {}: {}", LLVM_VERSION_STRING, target.error().message);
+    return fmt::format("LLVM {}, {}, {} cells a vector", LLVM_VERSION_STRING, host_cpu_name(),
+                       target->lanes);
+}
+
+}  // namespace llvm_module
+}  // namespace cascade
+
+extern "C" __attribute__((visibility("default"))) const cascade::CodeGenerator*
+cascade_code_generator(const char* version) {
+    using namespace cascade;
+    static const CodeGenerator generator = {
+        llvm_module::compile,       llvm_module::load,
+        llvm_module::dump_llvm,     llvm_module::dump_assembly,
+        llvm_module::compile_object, llvm_module::known_targets,
+        llvm_module::describe};
+    return std::strcmp(version, code_version()) == 0 ? &generator : nullptr;
+}

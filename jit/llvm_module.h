@@ -1,0 +1,20 @@
+// What the code generator's module does, by LLVM.
+//
+// Internal to jit/: the functions behind the table of jit/generator.h, which says what they do.
+#pragma once
+
+#include "jit/generator.h"
+
+namespace cascade::llvm_module {
+
+Result<std::string> compile(const CellKernel& kernel, const KernelShape& shape, int optimise);
+Result<std::unique_ptr<LoadedFunction>> load(const std::string& object);
+Result<std::string> dump_llvm(const CellKernel& kernel, Stencil stencil, const JitOptions& options);
+Result<std::string> dump_assembly(const CellKernel& kernel, Stencil stencil,
+                                  const JitOptions& options);
+Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, Stencil stencil,
+                                                 const std::string& target);
+std::vector<std::string> known_targets();
+std::string describe();
+
+}  // namespace cascade::llvm_module

@@ -1,0 +1,73 @@
+// Asks the processor what it is and can do.
+#include "jit/processor.h"
+
+#include <fmt/format.h>
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
+
+namespace cascade {
+
+#if defined(__x86_64__)
+
+int host_lanes() {
+    // As LLVM does, these look whether the system keeps the registers, too.
+    if (__builtin_cpu_supports("avx512f")) return 16;
+    return __builtin_cpu_supports("avx") ? 8 : 4;
+}
+
+namespace {
+
+/// What the system keeps of vector registers when it changes between threads; 0 if it says nothing.
+std::uint64_t kept_registers() {
+    unsigned a = 0, b = 0, c = 0, d = 0;
+    constexpr unsigned os_keeps_registers = 1u << 27;
+    if (!__get_cpuid(1, &a, &b, &c, &d) || (c & os_keeps_registers) == 0) return 0;
+    unsigned low = 0, high = 0;
+    __asm__("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
+    return std::uint64_t{high} << 32 | low;
+}
+
+}  // namespace
+
+std::string host_identity() {
+    std::string identity;
+    const auto add = [&](unsigned word) {
+        identity.append(reinterpret_cast<const char*>(&word), sizeof word);
+    };
+    // Maker; family, model and features; extended features; states; key locker; AVX10; AMD's features.
+    constexpr unsigned leaves[][2] = {{0, 0},    {1, 0},    {7, 0},    {7, 1},          {13, 1},
+                                      {0x14, 0}, {0x19, 0}, {0x24, 0}, {0x80000001, 0}, {0x80000008, 0}};
+    for (const auto& [leaf, part] : leaves) {
+        unsigned a = 0, b = 0, c = 0, d = 0;
+        __get_cpuid_count(leaf, part, &a, &b, &c, &d);
+        if (leaf == 1) b = 0;           // Says which core asks.
+        if (leaf == 13) b = 0;          // Says what is switched on just now.
+        if (leaf == 0x80000008) a = c = d = 0;  // Widths of addresses, number of cores.
+        for (const unsigned word : {a, b, c, d}) add(word);
+    }
+    const std::uint64_t registers = kept_registers();
+    add(static_cast<unsigned>(registers));
+    add(static_cast<unsigned>(registers >> 32));
+    return identity;
+}
+
+#else
+
+int host_lanes() { return 4; }
+std::string host_identity() { return {}; }
+
+#endif
+
+Result<void> check_options(const JitOptions& options) {
+    const int lanes = options.lanes;
+    if (lanes != 0 && lanes != 4 && lanes != 8 && lanes != 16) {
+        return failure(fmt::format("no vectors of {} cells", lanes), "4, 8 or 16");
+    }
+    if (options.optimise < 0 || options.optimise > 3) {
+        return failure(fmt::format("no optimisation level {}", options.optimise), "0 to 3");
+    }
+    return {};
+}
+
+}  // namespace cascade

@@ -1,0 +1,23 @@
+// The processor of this machine, as far as it decides what code is made for it.
+//
+// Internal to jit/. All that can be told without LLVM, which takes longer to load than a small run.
+#pragma once
+
+#include "core/result.h"
+#include "jit/jit.h"
+
+#include <string>
+
+namespace cascade {
+
+/// Floats in the widest vector that this processor computes with: 4, 8 or 16.
+int host_lanes();
+
+/// Bytes that differ between processors for which LLVM may write different code: maker, family,
+/// model and features. Empty where they are not known.
+std::string host_identity();
+
+/// Fails on options that are out of range.
+Result<void> check_options(const JitOptions& options);
+
+}  // namespace cascade

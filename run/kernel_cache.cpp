@@ -1,0 +1,22 @@
+// Where compiled kernels are kept.
+#include "run/simulation.h"
+
+#include <cstdlib>
+
+namespace cascade {
+
+std::filesystem::path usual_kernel_cache() {
+    const auto variable = [](const char* name) { return std::getenv(name); };
+    if (const char* folder = variable("CASCADE_KERNEL_CACHE")) return folder;
+    const auto in_folder = [](const std::filesystem::path& folder) {
+        // The specification: what is relative is to be ignored.
+        return folder.is_absolute() ? folder / "cascade" / "kernels" : std::filesystem::path();
+    };
+    const char* caches = variable("XDG_CACHE_HOME");
+    if (caches && *caches) return in_folder(caches);
+    const char* home = variable("HOME");
+    return home && *home ? in_folder(std::filesystem::path(home) / ".cache")
+                         : std::filesystem::path();
+}
+
+}  // namespace cascade

@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# Compiled kernels on disk, as a user meets them: where they are, what is not loaded when they are
+# found, and that no state of the folder changes a picture or fails a run.
+set -u
+[ "$CASCADE_JIT" = 1 ] || exit 77
+rm -rf ./*
+
+about="kernel cache"
+source "$SOURCE/tests/support/program_runs.bash"
+unset CASCADE_KERNEL_CACHE XDG_CACHE_HOME
+export HOME=$PWD/home
+mkdir "$HOME"
+
+cat >two.cascade <<'END'
+stage large: turing_spots { iterations: 60 }
+stage small: gray_scott { iterations: 60 }
+END
+cascade_run() { run 0 run two.cascade -q -o "$@"; }
+kernels() { find "$1" -name '*.kernel' | wc -l; }
+loads_llvm() {
+    LD_DEBUG=files "$CASCADE" run two.cascade -q -o traced.png "$@" 2>trace >out ||
+        fail "a traced run failed"
+    grep -q 'libLLVM' trace
+}
+
+# Nothing is kept if nobody wants it.
+cascade_run first.png --no-kernel-cache
+[ ! -e "$HOME/.cache" ] || fail "--no-kernel-cache keeps kernels"
+CASCADE_KERNEL_CACHE='' cascade_run none.png
+[ ! -e "$HOME/.cache" ] || fail "an empty CASCADE_KERNEL_CACHE keeps kernels"
+XDG_CACHE_HOME=relative cascade_run relative.png
+[ ! -e relative ] && [ ! -e "$HOME/.cache" ] || fail "a relative XDG_CACHE_HOME is used"
+
+# Where they are.
+loads_llvm || fail "a first run makes code without LLVM"
+folder=$HOME/.cache/cascade/kernels
+[ "$(stat -c %a "$folder")" = 700 ] || fail "the folder is not the user's alone"
+count=$(kernels "$folder")
+[ "$count" -ge 2 ] || fail "$count kernels of two systems are kept"
+XDG_CACHE_HOME=$PWD/xdg cascade_run xdg.png
+[ "$(kernels xdg/cascade/kernels)" = "$count" ] || fail "XDG_CACHE_HOME is not used"
+CASCADE_KERNEL_CACHE=$PWD/named cascade_run named.png
+[ "$(kernels named)" = "$count" ] || fail "CASCADE_KERNEL_CACHE is not used"
+
+# A run that finds its kernels needs no LLVM.
+loads_llvm && fail "LLVM is loaded though all kernels are there"
+loads_llvm --no-kernel-cache || fail "--no-kernel-cache finds kernels"
+[ "$(kernels "$folder")" = "$count" ] || fail "kernels were made again"
+cmp traced.png first.png || fail "another picture with kept kernels"
+
+# Damage, and folders of no use.
+for file in "$folder"/*.kernel; do truncate -s 1000 "$file"; done
+cascade_run damaged.png
+cmp damaged.png first.png || fail "another picture with damaged kernels"
+loads_llvm && fail "damaged kernels were not written again"
+chmod 777 "$folder"
+loads_llvm || fail "kernels are taken from a folder that others may write to"
+chmod 700 "$folder"
+: >file
+CASCADE_KERNEL_CACHE=$PWD/file/folder cascade_run file.png
+if [ -w /dev/full ]; then
+    CASCADE_KERNEL_CACHE=/dev/full cascade_run full.png
+    cmp full.png first.png || fail "another picture with a device for a folder"
+fi
+
+# Many at once in an empty folder.
+export CASCADE_KERNEL_CACHE=$PWD/shared
+for n in 1 2 3 4; do "$CASCADE" run two.cascade -q -o "at_once_$n.png" & done
+wait
+for n in 1 2 3 4; do cmp "at_once_$n.png" first.png || fail "runs at once disturb each other"; done
+[ "$(kernels shared)" = "$count" ] || fail "runs at once kept $(kernels shared) of $count kernels"
+[ "$(find shared -type f | wc -l)" = "$count" ] || fail "something unfinished is left"
+echo "kernel cache: right"
