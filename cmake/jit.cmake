@@ -15,14 +15,14 @@ file(GLOB code_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/jit/*.cpp
 list(JOIN code_sources "," code_sources_text)
 set(code_version_folder ${PROJECT_BINARY_DIR}/generated)
 add_custom_command(
-  OUTPUT ${code_version_folder}/code_version.h
+  OUTPUT ${code_version_folder}/jit/code_version.h
   COMMAND ${CMAKE_COMMAND} -DSOURCES=${code_sources_text} "-DEXTRA=LLVM ${LLVM_PACKAGE_VERSION}"
     -DTEMPLATE=${PROJECT_SOURCE_DIR}/jit/code_version.h.in
-    -DOUTPUT=${code_version_folder}/code_version.h -P ${PROJECT_SOURCE_DIR}/cmake/code_version.cmake
+    -DOUTPUT=${code_version_folder}/jit/code_version.h -P ${PROJECT_SOURCE_DIR}/cmake/code_version.cmake
   DEPENDS ${code_sources} ${PROJECT_SOURCE_DIR}/jit/code_version.h.in
     ${PROJECT_SOURCE_DIR}/cmake/code_version.cmake
   VERBATIM)
-set(code_version_header ${code_version_folder}/code_version.h)
+set(code_version_header ${code_version_folder}/jit/code_version.h)
 
 add_library(cascade_jit STATIC ${jit_without_llvm} ${code_version_header})
 target_link_libraries(cascade_jit PUBLIC cascade_options cascade_ir cascade_core ${CMAKE_DL_LIBS})

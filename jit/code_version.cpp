@@ -1,7 +1,7 @@
 // In the program and in the module, so that they can be compared.
-#include "jit/generator.h"
+#include "jit/code_version.h"
 
-#include "code_version.h"
+#include "jit/generator.h"
 
 namespace cascade {
 

@@ -70,4 +70,20 @@ wait
 for n in 1 2 3 4; do cmp "at_once_$n.png" first.png || fail "runs at once disturb each other"; done
 [ "$(kernels shared)" = "$count" ] || fail "runs at once kept $(kernels shared) of $count kernels"
 [ "$(find shared -type f | wc -l)" = "$count" ] || fail "something unfinished is left"
+
+# Large grids have their starting values and pictures computed by native code, too.
+cat >large.cascade <<'END'
+system s {
+  u: 0.5 + 0.3 * random(0.5, 0.5) * noise(0.1) + sin(12*x) * cos(9*y) - tanh(x*y) + exp(-x*x)
+  u' = 0.1 * lap(u)
+}
+domain { grid: 512, 513 }
+stage s: s { iterations: 1 }
+END
+run 0 run large.cascade -q -o large.png
+[ "$(kernels shared)" -ge $((count + 2)) ] || fail "the start of a large grid is interpreted"
+run 0 run large.cascade -q -o again.png
+run 0 run large.cascade -q -o interpreted.png --backend interp
+cmp large.png interpreted.png || fail "another picture by the interpreter"
+cmp large.png again.png || fail "another picture from kept kernels"
 echo "kernel cache: right"
