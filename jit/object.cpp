@@ -72,8 +72,9 @@ Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, S
     if (!target) return tl::unexpected(target.error());
     CodeModule code = make_module(*target->machine);
     for (const NamedKernel& function : content.functions) {
-        auto added = add_kernel(code, function.kernel, {stencil, target->lanes}, function.name,
-                                *target->machine);
+        const KernelShape shape =
+            shape_for(function.kernel, stencil, *target->machine, target->lanes);
+        auto added = add_kernel(code, function.kernel, shape, function.name, *target->machine);
         if (!added) return tl::unexpected(added.error());
     }
     for (const NamedNumbers& numbers : content.numbers) add_numbers(code, numbers);
