@@ -73,7 +73,7 @@ Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, S
     CodeModule code = make_module(*target->machine);
     for (const NamedKernel& function : content.functions) {
         const KernelShape shape =
-            shape_for(function.kernel, stencil, *target->machine, target->lanes);
+            shape_for(function.kernel, stencil, target->lanes);
         auto added = add_kernel(code, function.kernel, shape, function.name, *target->machine);
         if (!added) return tl::unexpected(added.error());
     }
