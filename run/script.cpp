@@ -87,8 +87,8 @@ void apply_grid(Script& script) {
         script.diagnostics.warning(domain.model->span,
                                    "the grid asked for takes the place of this model");
     }
+    if (domain.model) domain.grid = Grid{};  // Its rows say nothing of a plane.
     domain.model.reset();
-    domain.grid.linked = false;
     const auto [width, height, depth] = *script.overrides.grid;
     const std::string value = depth == 1 ? fmt::format("{}x{}", width, height)
                                          : fmt::format("{}x{}x{}", width, height, depth);

@@ -73,7 +73,7 @@ TEST(ModelNorms, StepsAreChosenByTheErrorsOfCells) {
 /// The step behind which a stage has settled, as fields of these planes say.
 template <typename Look>
 std::int64_t settled_by_hand(const std::string& system, double tolerance, const Look& look) {
-    ModelRun run(script_of(system, "iterations: 3000; speed: 1"), Precision::binary64);
+    ModelRun run(script_of(system, "iterations: 10000; speed: 1"), Precision::binary64);
     run.start();
     SteadyWatch watch;
     const auto fields = [&] {
@@ -82,7 +82,7 @@ std::int64_t settled_by_hand(const std::string& system, double tolerance, const 
         return seen;
     };
     watch.begin(fields());
-    for (std::int64_t step = 10; step < 3000; step += 10) {
+    for (std::int64_t step = 10; step < 10000; step += 10) {
         if (!run.steps(step)) return -1;
         if (watch.settled(fields(), static_cast<double>(step), tolerance)) return step;
     }
