@@ -11,7 +11,7 @@ fail() {
 count() { grep -c "$1" calls || true; }
 
 rm -rf ./* && mkdir -p bin elsewhere
-rooms=$(grep -oE 'cascade_room\([a-z]+' "$SOURCE/CMakeLists.txt" | cut -d'(' -f2)
+rooms=$(sed -n "s/^rooms='\(.*\)'$/\1/p" "$SOURCE/tests/include_rule_test.sh")
 mkdir -p tree/{app,include,cmake}
 for room in $rooms; do mkdir -p "tree/$room"; done
 cp "$SOURCE/cascade" tree/ && cp "$SOURCE"/cmake/{setup.sh,packages.txt} tree/cmake/
