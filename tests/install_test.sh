@@ -10,8 +10,12 @@ prefix=$PWD/moved
 "$prefix/bin/cascade" --version | grep -q '^cascade [0-9]*\.[0-9]*\.[0-9]*' ||
     { echo "the installed program does not tell its version"; exit 1; }
 printf 'stage s: turing_spots { iterations: 20 }\n' >dots.cascade
-"$prefix/bin/cascade" run dots.cascade -o dots.png
+"$prefix/bin/cascade" run dots.cascade --no-kernel-cache -o dots.png 2>dots.err
 [ -s dots.png ] || { echo "the installed program drew nothing"; exit 1; }
+if [ "$CASCADE_JIT" = 1 ] && grep 'could not be loaded' dots.err; then
+    echo "the installed program does not find its code generator"
+    exit 1
+fi
 
 # The public header is the only one, and the library exports nothing but what it declares.
 headers=$(cd "$prefix/include" && find . -type f)
