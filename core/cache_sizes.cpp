@@ -20,14 +20,20 @@ std::string word_in(const fs::path& path) {
     return word;
 }
 
-/// "1024K" or "32M" in bytes; 0 for anything else.
+/// "1024K", "32M" or "1G" in bytes; 0 for anything else.
 std::int64_t bytes_of(const std::string& size) {
     std::istringstream text(size);
     std::int64_t number = 0;
     char unit = 0;
     if (!(text >> number) || number <= 0 || number > (std::int64_t{1} << 30)) return 0;
     text >> unit;
-    return unit == 'K' ? number << 10 : unit == 'M' ? number << 20 : unit == 0 ? number : 0;
+    switch (unit) {
+        case 0: return number;
+        case 'K': return number << 10;
+        case 'M': return number << 20;
+        case 'G': return number << 30;
+        default: return 0;
+    }
 }
 
 /// How many numbers a list as "0-3,8-11" has; at least 1.
@@ -45,27 +51,43 @@ std::int64_t count_of(const std::string& list) {
 
 }  // namespace
 
-CacheSizes CacheSizes::described_in(const fs::path& folder) {
-    constexpr int most_caches = 16;
-    constexpr std::int64_t least = 65536;
-    CacheSizes sizes;
+std::vector<CacheLevel> cache_levels(const fs::path& folder) {
+    constexpr int most_caches = 16, most_levels = 9;
+    constexpr std::int64_t least = 4096;
+    std::vector<CacheLevel> levels;
     for (int index = 0; index < most_caches; ++index) {
         const fs::path cache = folder / ("index" + std::to_string(index));
-        const std::string level = word_in(cache / "level"), type = word_in(cache / "type");
+        const std::string level = word_in(cache / "level");
         if (level.empty()) break;
-        if (type == "Instruction") continue;
-        const std::int64_t share =
-            bytes_of(word_in(cache / "size")) / count_of(word_in(cache / "shared_cpu_list"));
+        const int number = level.size() == 1 ? level[0] - '0' : 0;
+        const std::int64_t bytes = bytes_of(word_in(cache / "size"));
+        if (word_in(cache / "type") == "Instruction" || number < 1 || number > most_levels ||
+            bytes < least) {
+            continue;
+        }
+        levels.push_back({number, bytes, count_of(word_in(cache / "shared_cpu_list"))});
+    }
+    std::stable_sort(levels.begin(), levels.end(), [](const CacheLevel& a, const CacheLevel& b) {
+        return a.number < b.number;
+    });
+    return levels;
+}
+
+CacheSizes CacheSizes::described_in(const fs::path& folder) {
+    constexpr std::int64_t least = 65536;
+    CacheSizes sizes;
+    for (const CacheLevel& level : cache_levels(folder)) {
+        const std::int64_t share = level.bytes / level.cores;
         if (share < least) continue;
-        if (level == "2") sizes.second = share;
-        if (level == "3") sizes.third = share;
+        if (level.number == 2) sizes.second = share;
+        if (level.number == 3) sizes.third = share;
     }
     sizes.third = std::max(sizes.third, sizes.second);
     return sizes;
 }
 
 const CacheSizes& CacheSizes::here() {
-    static const CacheSizes sizes = described_in("/sys/devices/system/cpu/cpu0/cache");
+    static const CacheSizes sizes = described_in(described_caches);
     return sizes;
 }
 

@@ -1,5 +1,6 @@
 #include "run/machine_limits.h"
 
+#include "core/cache_sizes.h"
 #include "core/floating_point.h"
 #include "core/parallel.h"
 #include "core/plane.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <fstream>
 #include <limits>
 #include <memory>
 
@@ -19,41 +19,20 @@ namespace cascade {
 
 namespace {
 
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-std::string first_line(const fs::path& path) {
-    std::ifstream file(path);
-    std::string line;
-    std::getline(file, line);
-    return line;
-}
-
-/// "32K" is 32768; 0 where it is no size.
-std::int64_t size_of(const std::string& text) {
-    std::int64_t number = 0;
-    std::size_t at = 0;
-    for (; at < text.size() && at < 9 && text[at] >= '0' && text[at] <= '9'; ++at) {
-        number = 10 * number + (text[at] - '0');
-    }
-    const char unit = at < text.size() ? text[at] : ' ';
-    return number << (unit == 'K' ? 10 : unit == 'M' ? 20 : unit == 'G' ? 30 : 0);
-}
-
-/// Of a mask such as "ff" or "00000000,0000000f" the number of bits.
-int bits_of(const std::string& mask) {
-    int count = 0;
-    for (const char c : mask) {
-        const int digit = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : 0;
-        for (int bit = 0; bit < 4; ++bit) count += digit >> bit & 1;
-    }
-    return count;
-}
 
 std::string level_name(int number) {
     constexpr std::array names = {"first", "second", "third", "fourth"};
     const int at = std::clamp(number, 1, static_cast<int>(names.size())) - 1;
     return fmt::format("{}-level cache", names[static_cast<std::size_t>(at)]);
+}
+
+/// The caches of this machine; where they are not known those that no present processor falls below by
+/// much.
+std::vector<CacheLevel> known_caches() {
+    std::vector<CacheLevel> levels = cache_levels();
+    if (levels.empty()) levels = {{1, 32 << 10, 1}, {2, 512 << 10, 1}, {3, 8 << 20, 1}};
+    return levels;
 }
 
 /// Sums and products of which none waits for long: twelve chains of them, joined at the end.
@@ -226,9 +205,9 @@ Result<MachineLimits> measure(Backend& backend, int threads, const std::atomic<b
         return speed * planes * sizeof(Number);
     };
     double largest = 0;
-    for (const CacheLevel& level : cache_levels()) {
+    for (const CacheLevel& level : known_caches()) {
         // A cache that cores share is shared by the threads, too; one that each has is there often.
-        const double caches = std::max(1, threads / level.cores);
+        const auto caches = static_cast<double>(std::max<std::int64_t>(1, threads / level.cores));
         const auto bytes = static_cast<double>(level.bytes) * caches;
         largest = std::max(largest, bytes);
         limits.memories.push_back({level_name(level.number), bytes, bandwidth(bytes / 2 / threads)});
@@ -242,24 +221,6 @@ Result<MachineLimits> measure(Backend& backend, int threads, const std::atomic<b
 }
 
 }  // namespace
-
-std::vector<CacheLevel> cache_levels(const fs::path& folder) {
-    std::vector<CacheLevel> levels;
-    for (int index = 0; index < 16; ++index) {
-        const fs::path at = folder / fmt::format("index{}", index);
-        const std::string type = first_line(at / "type");
-        if (type.empty() || type == "Instruction") continue;
-        CacheLevel level;
-        level.number = static_cast<int>(size_of(first_line(at / "level")));
-        level.bytes = size_of(first_line(at / "size"));
-        level.cores = std::max(1, bits_of(first_line(at / "shared_cpu_map")));
-        if (level.number >= 1 && level.bytes >= 4096) levels.push_back(level);
-    }
-    std::sort(levels.begin(), levels.end(),
-              [](const CacheLevel& a, const CacheLevel& b) { return a.number < b.number; });
-    if (levels.empty()) levels = {{1, 32 << 10, 1}, {2, 512 << 10, 1}, {3, 8 << 20, 1}};
-    return levels;
-}
 
 const MachineLimits::Memory& MachineLimits::home_of(double bytes) const {
     for (const Memory& memory : memories) {

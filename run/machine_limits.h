@@ -11,25 +11,10 @@
 
 #include <atomic>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace cascade {
-
-/// A cache as the first core sees it.
-struct CacheLevel {
-    int number = 1;          ///< 1 is the first level.
-    std::int64_t bytes = 0;
-    int cores = 1;           ///< That share it.
-
-    friend bool operator==(const CacheLevel&, const CacheLevel&) = default;
-};
-
-/// The caches of data, smallest first, as Linux describes them in a folder; without one 32 KiB, 512 KiB
-/// and 8 MiB, which no present processor falls below by much.
-std::vector<CacheLevel> cache_levels(
-    const std::filesystem::path& folder = "/sys/devices/system/cpu/cpu0/cache");
 
 struct MachineLimits {
     struct Memory {

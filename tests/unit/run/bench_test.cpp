@@ -1,9 +1,8 @@
-// What a step costs, counted by hand; the caches of machines; what bounds a step.
+// What a step costs, counted by hand; what bounds a step.
 #include "run/bench.h"
 #include "tests/unit/run/run_fixture.h"
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 namespace cascade {
@@ -110,26 +109,6 @@ TEST_F(BenchTest, ACancelEndsItWithoutATable) {
     int told = 0;
     EXPECT_TRUE(bench(script, request, control, [&](const StageBench&) { ++told; }));
     EXPECT_EQ(told, 0);
-}
-
-TEST_F(BenchTest, CachesAreThoseThatAreDescribed) {
-    const auto describe = [&](const std::string& name, const std::string& level,
-                              const std::string& type, const std::string& size,
-                              const std::string& cores) {
-        std::filesystem::create_directories(path("cache/" + name));
-        std::ofstream(path("cache/" + name + "/level")) << level << "\n";
-        std::ofstream(path("cache/" + name + "/type")) << type << "\n";
-        std::ofstream(path("cache/" + name + "/size")) << size << "\n";
-        std::ofstream(path("cache/" + name + "/shared_cpu_map")) << cores << "\n";
-    };
-    describe("index0", "1", "Data", "32K", "00000001");
-    describe("index1", "1", "Instruction", "64K", "00000001");
-    describe("index2", "3", "Unified", "16M", "00000000,000000ff");
-    describe("index3", "2", "Unified", "1024K", "3");
-    describe("index4", "4", "Unified", "nonsense", "3");
-    const std::vector<CacheLevel> expected = {{1, 32768, 1}, {2, 1048576, 2}, {3, 16777216, 8}};
-    EXPECT_EQ(cache_levels(path("cache")), expected);
-    EXPECT_EQ(cache_levels(path("nowhere")).size(), 3u);
 }
 
 /// A hundred cells a step, of known work, on a machine of known limits.

@@ -1,12 +1,9 @@
-// How many levels are chosen, and the sizes of caches that they are chosen by.
+// How many levels are chosen.
 #include "solvers/tiling.h"
 
 #include "tests/unit/solvers/cell_function_kernel.h"
 
-#include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace cascade::testing {
 namespace {
@@ -62,49 +59,6 @@ TEST(Tiling, SidesWrapWhereAnyPlaneDoes) {
     problem.sides = {SideRules(Boundaries(Boundary::no_flux, Boundary::periodic, Boundary::no_flux))};
     EXPECT_TRUE(wraps(problem, Side::top));
     EXPECT_FALSE(wraps(problem, Side::left));
-}
-
-/// A folder as Linux describes the caches of a processor.
-class CacheFolder {
-public:
-    CacheFolder()
-        : path_(std::filesystem::path(::testing::TempDir()) / ("caches_" + std::to_string(getpid()))) {
-        std::filesystem::create_directories(path_);
-    }
-    ~CacheFolder() { std::filesystem::remove_all(path_); }
-    void add(int index, const std::string& level, const std::string& type, const std::string& size,
-             const std::string& shared) const {
-        const auto folder = path_ / ("index" + std::to_string(index));
-        std::filesystem::create_directories(folder);
-        std::ofstream(folder / "level") << level << '\n';
-        std::ofstream(folder / "type") << type << '\n';
-        std::ofstream(folder / "size") << size << '\n';
-        std::ofstream(folder / "shared_cpu_list") << shared << '\n';
-    }
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
-TEST(CacheSizes, AreThoseOfOneThread) {
-    const CacheFolder folder;
-    folder.add(0, "1", "Data", "32K", "0");
-    folder.add(1, "2", "Unified", "2048K", "0-1");
-    folder.add(2, "3", "Unified", "64M", "0-3,8,10-12");
-    const CacheSizes sizes = CacheSizes::described_in(folder.path());
-    EXPECT_EQ(sizes.second, 1 << 20);
-    EXPECT_EQ(sizes.third, 8 << 20);
-}
-
-TEST(CacheSizes, StayAsTheyAreWhereNothingIsSaid) {
-    const CacheSizes usual;
-    const CacheFolder folder;
-    EXPECT_EQ(CacheSizes::described_in(folder.path()).second, usual.second);
-    folder.add(0, "2", "Unified", "many", "0-");
-    folder.add(1, "3", "Unified", "-5K", "");
-    EXPECT_EQ(CacheSizes::described_in(folder.path()).second, usual.second);
-    EXPECT_EQ(CacheSizes::described_in(folder.path()).third, usual.third);
 }
 
 }  // namespace
