@@ -44,13 +44,21 @@ std::string line(std::string_view name, const std::string& text) {
     return fmt::format("  {:<17} {}\n", name, text);
 }
 
+/// Of what may be a fraction a cell, such as loads of links.
+std::string counted(double count, std::string_view one, std::string_view many) {
+    const std::string text = number(count);
+    return fmt::format("{} {}", text, text == "1" ? one : many);
+}
+
 std::string work_lines(const StageBench& bench) {
     const StepWork& work = bench.work;
-    std::string text = fmt::format("{} operations", number(work.cost.operations));
+    std::string text = counted(work.cost.operations, "operation", "operations");
     if (work.cost.divisions > 0) {
-        text += fmt::format(" ({} divisions or roots)", number(work.cost.divisions));
+        text += fmt::format(" ({})", counted(work.cost.divisions, "division or root",
+                                             "divisions or roots"));
     }
-    text += fmt::format(", {} loads, {} stores", number(work.cost.loads), number(work.cost.stores));
+    text += ", " + counted(work.cost.loads, "load", "loads");
+    text += ", " + counted(work.cost.stores, "store", "stores");
     if (work.links > 0) text += fmt::format(", {:.2f} links", work.links);
     text += ", in " + plural(work.passes, "pass", "passes");
     std::string lines = line("work a cell-step", text);

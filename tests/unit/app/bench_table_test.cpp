@@ -72,6 +72,9 @@ TEST(BenchTable, HasAllNumbers) {
           "1.25 G cell-steps/s from memory, of which 80 % are reached"}) {
         EXPECT_THAT(table, HasSubstr(part));
     }
+    StageBench one = stage_at(0.8);
+    one.work.cost.stores = 1;
+    EXPECT_THAT(bench_table("a.cascade", one), HasSubstr("5 loads, 1 store,"));
     StageBench nothing;
     nothing.nothing = "it takes no step";
     EXPECT_THAT(bench_table("a.cascade", nothing), HasSubstr("it takes no step"));
