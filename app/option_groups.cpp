@@ -50,6 +50,10 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
     add_value(app, "--cells", "N", "Cells on the model: a number, 'faces' or 'vertices'", any_text,
               [&](const std::string& cells) { overrides.cells = cells; })
         ->group(group);
+    add_value(app, "--up", "x|y|z", "Which axis of the model points upwards; without it y",
+              one_of({"x", "y", "z"}),
+              [&](const std::string& up) { overrides.up = axis_of_name(up); })
+        ->group(group);
     add_value(app, "--seed", "N", "Other random numbers",
               whole_number(0, std::numeric_limits<std::uint32_t>::max()),
               [&](auto seed) { overrides.seed = static_cast<std::uint32_t>(seed); })
@@ -121,10 +125,6 @@ void add_picture_options(CLI::App& app, PictureChanges& picture) {
     add_value(app, "--view", "AROUND,ABOVE",
               "Of a surface: from where it is seen, in degrees around\nit and above the horizon",
               parse_view, [&](auto view) { picture.view = view; })
-        ->group(group);
-    add_value(app, "--up", "x|y|z", "Of a model: what points upwards; without it y",
-              one_of({"x", "y", "z"}),
-              [&](const std::string& up) { picture.up = static_cast<Axis>(up[0] - 'x'); })
         ->group(group);
     add_value(app, "--bump", "S",
               "Of a model: what is shown stands out, by up to S times\nthe model's longest side, "

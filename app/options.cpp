@@ -271,7 +271,6 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
     if (changes.slice) request.slice = *changes.slice;
     if (changes.flat) request.flat = true;
     if (changes.view) request.view = *changes.view;
-    if (changes.up) request.up = *changes.up;
     if (changes.bump) request.bump = *changes.bump;
     return request;
 }

@@ -33,7 +33,6 @@ struct PictureChanges {
     std::optional<Slice> slice;
     bool flat = false;
     std::optional<View> view;
-    std::optional<Axis> up;
     std::optional<float> bump;
 };
 

@@ -200,7 +200,7 @@ void check_domain_sentence(Workspace& work, const ast::Script& script,
         std::string hint = did_you_mean(work, key, {"grid", "spacing", "boundary", "seed", "mask",
                                                    "precision", "left", "right", "top", "bottom",
                                                    "front", "back", "sides", "mesh", "cells",
-                                                   "laplacian", "directions", "stretch"});
+                                                   "laplacian", "directions", "stretch", "up"});
         if (hint.empty()) {
             hint = "a domain has grid, spacing, boundary, sides, mask, precision, seed, surface and mesh";
         }

@@ -57,6 +57,7 @@ public:
         if (const auto* cells = find("cells")) check_cells(*cells);
         if (const auto* laplacian = find("laplacian")) check_laplacian(*laplacian);
         if (const auto* unit = find("unit")) check_unit(*unit);
+        if (const auto* up = find("up")) check_up(*up);
         check_anisotropy(find("directions"), find("stretch"));
         for (const ast::Sentence& other : domain_.sentences) refuse(other);
         set_model(work_.program, *std::move(model_));
@@ -191,6 +192,16 @@ private:
         model_->unit = *unit;
     }
 
+    void check_up(const ast::Sentence& sentence) {
+        if (!has_one_value(work_, script_, sentence)) return;
+        const std::string_view word = word_of(value_of(script_, sentence));
+        if (const auto axis = axis_of_name(word)) {
+            model_->up = *axis;
+        } else {
+            work_.diagnostics.error(span_of(sentence), "the axis that points upwards is x, y or z");
+        }
+    }
+
     void check_anisotropy(const ast::Sentence* directions, const ast::Sentence* stretch) {
         if (directions != nullptr) model_->directions = check_directions(work_, script_, *directions);
         if (stretch == nullptr) return;
@@ -220,7 +231,7 @@ private:
 
 bool is_model_setting(std::string_view name) {
     return name == "mesh" || name == "cells" || name == "laplacian" || name == "directions" ||
-           name == "stretch";
+           name == "stretch" || name == "up";
 }
 
 bool is_model_surface(const ast::Script& script, const ast::Sentence& surface) {

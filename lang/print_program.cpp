@@ -169,6 +169,7 @@ void print_model(const Program& program, Output out) {
     }
     if (model.laplacian == ModelLaplacian::turk) fmt::format_to(out, "  laplacian: turk\n");
     if (model.unit) fmt::format_to(out, "  unit: {}\n", *model.unit);
+    if (model.up != Axis::y) fmt::format_to(out, "  up: {}\n", name_of(model.up));
     if (model.directions) print_directions(program, model, out);
 }
 

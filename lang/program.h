@@ -2,6 +2,7 @@
 // here makes sense; no user's error is left, later stages only CHECK.
 #pragma once
 
+#include "core/axis.h"
 #include "core/grid.h"
 #include "core/precision.h"
 #include "core/side.h"
@@ -358,6 +359,7 @@ struct ModelSettings {
     std::int64_t count = 16384;   ///< Of cells that are spread.
     ModelLaplacian laplacian = ModelLaplacian::finite_volumes;
     std::optional<double> unit;   ///< Length of one unit; empty: the mean cell has area 1.
+    Axis up = Axis::y;            ///< The axis of the model that becomes y of the script.
     std::optional<DirectionSettings> directions;
     double stretch = 2;           ///< How many times as long as wide cells are along the directions.
     Span span;                    ///< Of what names the model.

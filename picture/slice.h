@@ -1,13 +1,12 @@
 // Plane slices of volumes, which is how pictures show them.
 #pragma once
 
+#include "core/axis.h"
 #include "core/plane.h"
 
 #include <cstdint>
 
 namespace cascade {
-
-enum class Axis : std::uint8_t { x, y, z };
 
 /// A slice across an axis, at a place along it: 0 is the first cell, 1 the last.
 struct Slice {

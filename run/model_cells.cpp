@@ -169,6 +169,8 @@ public:
         if (control_.cancel) return std::shared_ptr<const ModelCells>();
         model_->mesh = std::move(made->mesh);
         model_->repairs = std::move(made->repairs);
+        model_->up = settings_.up;
+        for (Vector3d& point : model_->mesh.points) point = turned_upright(point, settings_.up);
         if (auto spread = spread_cells(access.cache); !spread) return tl::unexpected(spread.error());
         if (control_.cancel) return std::shared_ptr<const ModelCells>();
         model_->grid = rows_of_cells(static_cast<std::int64_t>(model_->count()));
@@ -347,6 +349,12 @@ void ModelCells::need_gradients() const {
     for (Vector3d& gradient : gradients) gradient = gradient * unit;
     links.add_gradients(gradients, cells.ends, PlaneLayout(grid), order);
     has_gradients_ = true;
+}
+
+SurfaceMesh ModelCells::mesh_of_file() const {
+    SurfaceMesh turned_back = mesh;
+    for (Vector3d& point : turned_back.points) point = turned_from_upright(point, up);
+    return turned_back;
 }
 
 ModelBox::ModelBox(const SurfaceMesh& mesh) {

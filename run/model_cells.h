@@ -1,6 +1,7 @@
 // The cells of a model, as a domain: where they lie, what is known of them, and their links.
 #pragma once
 
+#include "core/axis.h"
 #include "core/links.h"
 #include "core/parallel.h"
 #include "core/plane.h"
@@ -20,7 +21,10 @@
 namespace cascade {
 
 struct ModelCells {
+    /// Turned upright: y points upwards, whatever axis does so in the file. Nothing but what writes files
+    /// of the model, in whose own coordinates they are, has to know.
     SurfaceMesh mesh;
+    Axis up = Axis::y;                 ///< Of the model before it was turned.
     std::vector<std::string> repairs;  ///< What was done to the model, a sentence each.
     SurfaceCells cells;
     /// Cells lie in memory as steps are fastest (surface/cell_order.h): order[k] is the cell at
@@ -38,6 +42,9 @@ struct ModelCells {
     /// Gives the links the weights of gradients, on the first call. From one thread at a time.
     /// Throws std::bad_alloc.
     void need_gradients() const;
+
+    /// The mesh as it was before it was turned upright, bit for bit.
+    SurfaceMesh mesh_of_file() const;
 
     std::size_t count() const { return cells.places.size(); }
     /// The cell at place k of the rows, k below their number.

@@ -52,13 +52,15 @@ bool ModelFileOptions::is_baked(const std::filesystem::path& path) const {
 ModelFileWriter::ModelFileWriter(const ModelCells& model, const ModelLook& look,
                                  std::vector<Channel> channels, const ModelFileOptions& options,
                                  PngTexts texts)
-    : model_(model), look_(look), channels_(std::move(channels)), options_(options),
-      texts_(std::move(texts)), team_(hardware_threads()) {}
+    : model_(model), turned_back_(model.up == Axis::y ? SurfaceMesh() : model.mesh_of_file()),
+      mesh_(model.up == Axis::y ? model.mesh : turned_back_), look_(look),
+      channels_(std::move(channels)), options_(options), texts_(std::move(texts)),
+      team_(hardware_threads()) {}
 
 ModelFileWriter::~ModelFileWriter() = default;
 
 const CellFilter& ModelFileWriter::filter() {
-    if (!filter_) filter_ = std::make_unique<CellFilter>(model_.mesh, model_.cells, team_);
+    if (!filter_) filter_ = std::make_unique<CellFilter>(mesh_, model_.cells, team_);
     return *filter_;
 }
 
@@ -81,13 +83,13 @@ Result<void> ModelFileWriter::write_cells(const std::filesystem::path& path) {
     for (std::size_t k = 0; k < model_.count(); ++k) {
         colours.push_back(look_.colour_of(k, model_.cells.places[k]));
     }
-    return cascade::write_cells(path, model_.mesh, model_.cells, {colours, channels_});
+    return cascade::write_cells(path, mesh_, model_.cells, {colours, channels_});
 }
 
 Result<void> ModelFileWriter::write_refined(const std::filesystem::path& path) {
     if (!refined_) {
         refined_ = std::make_unique<RefinedMesh>(refined(
-            model_.mesh, colour_distance * cell_spacing(model_.cells), most_triangles));
+            mesh_, colour_distance * cell_spacing(model_.cells), most_triangles));
     }
     const PaintedCells painted = {look_.channels, look_.values, look_.colour, {}};
     return write_model(path, refined_->mesh,
@@ -100,7 +102,7 @@ Result<void> ModelFileWriter::write_retiled(const std::filesystem::path& path) {
     const std::size_t count = model_.count();
     if (!retiled_) {
         const std::atomic<bool> never = false;
-        auto made = retile(model_.mesh, model_.cells.places, never);
+        auto made = retile(mesh_, model_.cells.places, never);
         if (!made) return tl::unexpected(made.error());
         retiled_ = std::make_unique<Retiled>(*std::move(made));
     }
@@ -111,7 +113,7 @@ Result<void> ModelFileWriter::write_retiled(const std::filesystem::path& path) {
         const PointAttribute whole = attribute_of(*retiled_, "", of_cells);
         for (std::size_t p = 0; p < points; ++p) values[look_.channels * p + c] = whole.values[p];
     }
-    const std::vector<SurfacePlace> of_points = places_of_points(model_.mesh);
+    const std::vector<SurfacePlace> of_points = places_of_points(mesh_);
     std::vector<Colour> colours;
     for (std::size_t p = 0; p < points; ++p) {
         const SurfacePlace& place = p < count ? model_.cells.places[p]
@@ -132,10 +134,10 @@ Result<std::vector<std::filesystem::path>> ModelFileWriter::write_maps(
     options.width = options.height = options_.bake;
     const PaintedCells painted = {look_.channels, look_.values, look_.colour, look_.heights};
     const std::atomic<bool> never = false;
-    const auto baked = bake(model_.mesh, filter(), painted, options, team_, never);
+    const auto baked = bake(mesh_, filter(), painted, options, team_, never);
     if (!baked) return tl::unexpected(baked.error());
     for (const std::string& warning : baked->warnings) warnings_.push_back(warning);
-    if (auto done = write_baked(path, model_.mesh, *baked, texts_); !done) {
+    if (auto done = write_baked(path, mesh_, *baked, texts_); !done) {
         return tl::unexpected(done.error());
     }
     return baked_paths(path, !look_.heights.empty());

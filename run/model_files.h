@@ -60,6 +60,8 @@ private:
     const CellFilter& filter();
 
     const ModelCells& model_;
+    SurfaceMesh turned_back_;      ///< Empty where the model was not turned.
+    const SurfaceMesh& mesh_;      ///< In the coordinates of the model's file, as all files are.
     const ModelLook& look_;
     std::vector<Channel> channels_;
     ModelFileOptions options_;

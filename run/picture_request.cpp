@@ -34,23 +34,6 @@ bool makes_sense(const PictureRequest& request) {
     return find_palette(request.palette) != nullptr;
 }
 
-constexpr std::string_view axis_letters = "xyz";
-
-std::string letter_of(Axis axis) {
-    return std::string(1, axis_letters[static_cast<std::size_t>(axis)]);
-}
-
-Result<Axis> axis_of(const std::string& letter) {
-    const std::size_t axis = letter.size() == 1 ? axis_letters.find(letter) : std::string::npos;
-    if (axis == std::string::npos) return failure("the stored picture options make no sense");
-    return static_cast<Axis>(axis);
-}
-
-Vector3 direction_of(Axis axis) {
-    return {axis == Axis::x ? 1.0F : 0.0F, axis == Axis::y ? 1.0F : 0.0F,
-            axis == Axis::z ? 1.0F : 0.0F};
-}
-
 /// A field as it is painted: in binary32, and of a volume the slice that the request shows.
 Field shown(Field field, const PictureRequest& request) {
     if (field.precision() != Precision::single) field = field.converted(Precision::single);
@@ -79,11 +62,10 @@ std::string to_json(const PictureRequest& request) {
     if (request.flat) json["flat"] = true;
     if (request.is_turned()) json["view"] = {request.view.azimuth, request.view.elevation};
     if (request.view.is_turning) json["turning"] = true;
-    if (request.up != PictureRequest().up) json["up"] = letter_of(request.up);
     if (request.bump != 0) json["bump"] = request.bump;
     if (!request.show.empty()) json["show"] = request.show;
     if (request.slice != Slice{}) {
-        json["slice"] = {letter_of(request.slice.axis), request.slice.place};
+        json["slice"] = {name_of(request.slice.axis), request.slice.place};
     }
     if (request.range) json["range"] = {request.range->low, request.range->high};
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -100,8 +82,8 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
         request.space_time = json.value("space_time", request.space_time);
         request.show = json.value("show", request.show);
         if (json.contains("slice")) {
-            const auto axis = axis_of(json.at("slice").at(0).get<std::string>());
-            if (!axis) return tl::unexpected(axis.error());
+            const auto axis = axis_of_name(json.at("slice").at(0).get<std::string>());
+            if (!axis) return failure("the stored picture options make no sense");
             request.slice = {*axis, json.at("slice").at(1).get<double>()};
         }
         request.flat = json.value("flat", request.flat);
@@ -110,11 +92,6 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
             request.view.elevation = json.at("view").at(1).get<float>();
         }
         request.view.is_turning = json.value("turning", false);
-        if (json.contains("up")) {
-            const auto up = axis_of(json.at("up").get<std::string>());
-            if (!up) return tl::unexpected(up.error());
-            request.up = *up;
-        }
         request.bump = json.value("bump", request.bump);
         if (json.contains("range")) {
             request.range = ValueRange{json.at("range").at(0).get<float>(),
@@ -227,7 +204,7 @@ Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) c
     options.width *= request_.scale;
     options.height *= request_.scale;
     options.view = request_.view;
-    options.view.up = direction_of(request_.up);
+    options.view.up = {0, 1, 0};  // Models are turned upright when they are read.
     return drawer_->draw(look(canvas, range), options);
 }
 

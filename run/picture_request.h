@@ -25,7 +25,6 @@ struct PictureRequest {
     Slice slice;                       ///< 3-D grids: what a picture shows of them.
     bool flat = false;                 ///< Of a surface: the texture alone.
     View view;                         ///< Of a surface: from where it is seen.
-    Axis up = Axis::y;                 ///< Of a model: what points upwards.
     /// Of a model: how far the largest number stands out before the smallest one, in sides of the
     /// model, −1 … 1.
     float bump = 0;

@@ -54,6 +54,7 @@ std::string overrides_to_json(const Overrides& overrides) {
     if (overrides.precision) json["precision"] = name_of(*overrides.precision);
     if (overrides.model) json["mesh"] = *overrides.model;
     if (overrides.cells) json["cells"] = *overrides.cells;
+    if (overrides.up) json["up"] = name_of(*overrides.up);
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -87,6 +88,10 @@ Result<Overrides> overrides_from_json(const std::string& text) {
         }
         if (json.contains("mesh")) overrides.model = json.at("mesh").get<std::string>();
         if (json.contains("cells")) overrides.cells = json.at("cells").get<std::string>();
+        if (json.contains("up")) {
+            overrides.up = axis_of_name(json.at("up").get<std::string>());
+            if (!overrides.up) return failure(unreadable);
+        }
         return overrides;
     } catch (const std::exception&) {
         return failure(unreadable);
@@ -106,10 +111,13 @@ Overrides merge(Overrides base, const Overrides& changes) {
         base.model = changes.model;
         base.model_is_asked_for = changes.model_is_asked_for;
         base.grid.reset();
+        base.up.reset();
     } else if (changes.grid) {
         base.model.reset();
         base.cells.reset();
+        base.up.reset();
     }
+    if (changes.up) base.up = changes.up;
     base.reads = changes.reads;
     return base;
 }

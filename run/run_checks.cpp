@@ -207,7 +207,6 @@ void check_without_model(OptionRefuser& options, const RunRequest& request) {
     options.refuse_if(request.model_files.retile, "--retile", message, hint);
     options.refuse_if(request.model_files.bake > 0, "--bake", message, hint);
     options.refuse_if(request.picture.bump != 0, "--bump", message, hint);
-    options.refuse_if(request.picture.up != PictureRequest().up, "--up", message, hint);
     options.refuse_if(!request.simulation.cell_cache.empty(), "--cache", message, hint);
 }
 

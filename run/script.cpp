@@ -138,6 +138,7 @@ void apply_model(Script& script) {
         model.span = option_span(script.sources, "--mesh", *overrides.model);
         model.implicit.reset();
         model.sizes.clear();
+        model.up = ModelSettings().up;
         if (const auto shape = shape_named(*overrides.model)) {
             model.shape = *shape;
         } else {
@@ -162,6 +163,15 @@ void apply_model(Script& script) {
         ModelSettings model = *std::move(domain.model);
         set_cells(model, *overrides.cells, span, script.diagnostics);
         set_model(*script.program, std::move(model));
+    }
+    if (overrides.up) {
+        if (!domain.model) {
+            script.diagnostics.error(
+                option_span(script.sources, "--up", std::string(name_of(*overrides.up))),
+                "only a model has an axis that points upwards", "--mesh names one");
+            return;
+        }
+        domain.model->up = *overrides.up;
     }
     check_on_domain(*script.program, script.diagnostics);
 }

@@ -35,6 +35,7 @@ struct Overrides {
     std::optional<std::string> model;
     bool model_is_asked_for = false;  ///< By the user: the file may lie anywhere. Travels nowhere.
     std::optional<std::string> cells; ///< Of the model: a number, faces or vertices.
+    std::optional<Axis> up;           ///< Of the model: its axis that points upwards.
 
     friend bool operator==(const Overrides&, const Overrides&) = default;
 };

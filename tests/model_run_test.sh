@@ -101,6 +101,19 @@ run 0 run -q turned.png -o again.png
 cmp -s turned.png again.png || fail "a picture of a model is not drawn again byte for byte"
 run 0 $model -o flat.png --view 40,10 --up z --palette viridis
 cmp -s flat.png turned.png && fail "--bump changes nothing"
+# What points upwards changes what scripts and pictures see, and no coordinate that leaves.
+run 0 $model --up z -o up.ply -o up.npz
+run 0 mesh m.ply
+grep size out > before
+run 0 mesh up.ply
+grep size out > after
+cmp -s before after || fail "--up turns a model that is written"
+numpy <<'END' || fail "--up turns cells that are written"
+import numpy
+a, b = numpy.load("m.npz")["points"], numpy.load("up.npz")["points"]
+for end in (numpy.min, numpy.max):
+    assert numpy.abs(end(a, axis=0) - end(b, axis=0)).max() < 0.1
+END
 run 0 $model -o round.png --turntable 3
 [ ! -e round.png ] || fail "a turntable has no picture without a number"
 run 0 run -q round-002.png -o again.png
@@ -142,7 +155,8 @@ refused() {
 for name in refused.ply refused.obj refused.glb refused.vtp refused.npz refused.cells.vtp; do
     refused "only what grows on a model is written so" run -q spots.cascade -o $name
 done
-for option in "--retile" "--bake 64" "--bump 0.1" "--up z" "--cache kept2"; do
+refused "only a model has an axis that points upwards" run -q spots.cascade -o refused.png --up z
+for option in "--retile" "--bake 64" "--bump 0.1" "--cache kept2"; do
     refused "the domain is no model" run -q spots.cascade -o refused.png $option
 done
 refused "the domain is no surface" run -q spots.cascade -o refused.png --turntable 4

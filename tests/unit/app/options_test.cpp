@@ -87,7 +87,7 @@ TEST(Options, run_takes_what_models_have) {
     EXPECT_EQ(options.run.simulation.cell_cache, "kept");
     const PictureRequest picture = apply(options.picture, {});
     EXPECT_EQ(picture.bump, -0.02F);
-    EXPECT_EQ(picture.up, Axis::z);
+    EXPECT_EQ(options.overrides.up, Axis::z);
 }
 
 TEST(Options, run_takes_everything) {

@@ -129,5 +129,23 @@ TEST(CheckModel, WrongDirections) {
                             "surface: sphere"));
 }
 
+TEST(CheckModel, TheAxisThatPointsUpwards) {
+    for (const Axis up : {Axis::x, Axis::y, Axis::z}) {
+        const auto checked = check_text("domain { surface: box; up: " + std::string(name_of(up)) +
+                                        " }\nsystem_name: turing_spots\n");
+        ASSERT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
+        EXPECT_EQ(checked->program->domain.model->up, up);
+    }
+    for (const char* wrong : {"w", "3", "-z", "\"z\"", "x + y", "axis(0, 0, 1)"}) {
+        EXPECT_THAT(faults_on(std::string("surface: box; up: ") + wrong),
+                    ElementsAre("1:28: the axis that points upwards is x, y or z")) << wrong;
+    }
+    EXPECT_EQ(faults_on("surface: box; up: x, z").size(), 1u);
+    EXPECT_EQ(faults_on("surface: box; up: x; up: z").size(), 1u);
+    EXPECT_THAT(faults_on("grid: 9, 9; up: z"),
+                ElementsAre("1:22: only a domain with a model has this setting | mesh: \"horse.ply\" or "
+                            "surface: sphere"));
+}
+
 }  // namespace
 }  // namespace cascade::testing
