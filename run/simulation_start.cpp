@@ -5,7 +5,42 @@
 #include "run/memory.h"
 #include "run/simulation_implementation.h"
 
+#include <algorithm>
+
 namespace cascade {
+
+namespace {
+
+/// disc(…), ring(…) and box(…) whose numbers are written down, each once, as formulas of their own.
+std::vector<Formula> written_areas(const Program& program) {
+    std::vector<Formula> areas;
+    for (const Formula* formula : formulas_of(program)) {
+        for (const Node& node : formula->nodes) {
+            if (node.kind != NodeKind::call) continue;
+            if (node.function != Function::disc && node.function != Function::ring &&
+                node.function != Function::box) {
+                continue;
+            }
+            Formula area;
+            Node call = node;
+            for (std::uint32_t k = 0; k < operand_count(node); ++k) {
+                area.nodes.push_back(formula->nodes[node.operands[k]]);
+                call.operands[k] = k;
+            }
+            const bool is_known = std::all_of(area.nodes.begin(), area.nodes.end(), [](const Node& number) {
+                return number.kind == NodeKind::number;
+            });
+            const bool is_new = std::none_of(areas.begin(), areas.end(), [&](const Formula& other) {
+                return other.nodes.back().span == call.span;
+            });
+            area.nodes.push_back(call);
+            if (is_known && is_new) areas.push_back(std::move(area));
+        }
+    }
+    return areas;
+}
+
+}  // namespace
 
 Result<void> Simulation::Implementation::plan(const SimulationOptions& options) {
     const TimeAccount::Scope spent(account, Spent::compiling);
@@ -45,6 +80,13 @@ Result<void> Simulation::Implementation::make_surface_values(const SimulationOpt
     surface_values = std::make_unique<SurfaceValues>(*program, *model, *team);
     surface_values->make(formulas_of(*program), cancel);
     if (cancel) return failure("stopped while distances on the model were found");
+    if (states.empty() || options.control == nullptr || !options.control->warn) return {};
+    // What is written for one model easily lies beside another one, and does nothing there.
+    for (const Formula& area : written_areas(*program)) {
+        if (largest_value(evaluate(plan_view(*program, area, 0), 0)[0], nullptr) > 0) continue;
+        options.control->warn(fmt::format("no cell of the model lies in {}",
+                                          script->sources.text(area.nodes.back().span)));
+    }
     return {};
 }
 
