@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -16,6 +17,23 @@ namespace {
 
 constexpr std::size_t cache_line = 64;
 constexpr std::size_t huge_page = std::size_t{2} << 20;
+
+/// Bytes from the start of a block of memory to the plane in it. Planes that begin alike, as multiples of
+/// pages do, have their rows in the same sets of the caches, where a tile of five planes then finds too few
+/// ways, and the processor takes what is stored in the one for what is loaded from the other, for it
+/// compares the last 12 bits of addresses first. So each plane is shifted against the others by a different
+/// part of 128 KiB, a way of a second-level cache, or of a page where it is too small for that: the multiples
+/// of 783 are spread evenly over 2048 lines as well as over 64.
+std::size_t next_shift(std::size_t bytes) {
+    constexpr std::size_t small_plane = 65536, lines_of_way = 2048, lines_of_page = 64;
+    static std::atomic<std::size_t> planes{0};
+    std::size_t lines = 1;  // Where the block's address is kept.
+    if (bytes >= small_plane) {
+        const std::size_t place = 783 * planes.fetch_add(1, std::memory_order_relaxed);
+        lines += place % (bytes >= 2 * huge_page ? lines_of_way : lines_of_page);
+    }
+    return lines * cache_line;
+}
 
 /// The cell of an axis of `count` cells, the first or the last, from which the one beyond a side
 /// comes.
@@ -138,16 +156,24 @@ private:
 void* allocate_plane(std::size_t bytes) {
     const bool is_large = bytes >= 2 * huge_page;
     const std::size_t alignment = is_large ? huge_page : cache_line;
-    const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
-    void* plane = std::aligned_alloc(alignment, rounded);
-    if (plane == nullptr) throw std::bad_alloc();
+    const std::size_t shift = next_shift(bytes);
+    const std::size_t rounded = (bytes + shift + alignment - 1) / alignment * alignment;
+    void* block = std::aligned_alloc(alignment, rounded);
+    if (block == nullptr) throw std::bad_alloc();
     // Advice only: without huge pages the plane is as good, but slower.
-    if (is_large) madvise(plane, rounded, MADV_HUGEPAGE);
+    if (is_large) madvise(block, rounded, MADV_HUGEPAGE);
+    char* const plane = static_cast<char*>(block) + shift;
+    std::memcpy(plane - sizeof block, &block, sizeof block);
     std::memset(plane, 0, bytes);
     return plane;
 }
 
-void free_plane(void* plane) { std::free(plane); }
+void free_plane(void* plane) {
+    if (plane == nullptr) return;
+    void* block = nullptr;
+    std::memcpy(&block, static_cast<char*>(plane) - sizeof block, sizeof block);
+    std::free(block);
+}
 
 Field Field::converted(Precision precision) const {
     if (precision == this->precision()) return clone();

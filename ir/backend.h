@@ -30,6 +30,8 @@ struct KernelArgumentsOf {
     std::span<Number* const> results;             ///< One per result.
     PlaneLayout layout;
     LinkTable<Number> links = {};                 ///< Of cells that lie on no grid.
+    /// All fields are in a near cache: fetching what the next rows read would only take their place.
+    bool is_near = false;
 };
 using KernelArguments = KernelArgumentsOf<float>;
 

@@ -20,14 +20,15 @@ namespace cascade {
 template <typename Number>
 using GridFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
                           const Number* uniforms, Number* const* results, std::int64_t width,
-                          std::int64_t stride, std::int64_t row_begin, std::int64_t row_end);
+                          std::int64_t stride, std::int64_t row_begin, std::int64_t row_end,
+                          std::int64_t is_near);
 
 /// The same of grids of several slices.
 template <typename Number>
 using VolumeFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
                             const Number* uniforms, Number* const* results, std::int64_t width,
                             std::int64_t stride, std::int64_t row_begin, std::int64_t row_end,
-                            std::int64_t slice_rows, std::int64_t slice);
+                            std::int64_t is_near, std::int64_t slice_rows, std::int64_t slice);
 
 /// The same of linked cells; see jit/skeleton_linked.h.
 template <typename Number>

@@ -46,7 +46,8 @@ public:
         if (stencil_.links) return run_linked(arguments, rows);
         function_->template as<GridFunction<Number>>()(
             arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
-            arguments.results.data(), layout.width, layout.stride, rows.begin, rows.end);
+            arguments.results.data(), layout.width, layout.stride, rows.begin, rows.end,
+            arguments.is_near);
     }
 
 private:
@@ -61,7 +62,7 @@ private:
             function_->template as<VolumeFunction<Number>>()(
                 arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
                 arguments.results.data(), layout.width, layout.stride, rows.begin + halo_rows,
-                end + halo_rows, layout.slice_rows(), slice);
+                end + halo_rows, arguments.is_near, layout.slice_rows(), slice);
             rows.begin = end;
         }
     }

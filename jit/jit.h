@@ -60,9 +60,10 @@ struct ObjectContent {
 ///
 ///     void NAME(const float *const *fields, const unsigned char *const *masks,
 ///               const float *uniforms, float *const *results,
-///               int64_t width, int64_t stride, int64_t row_begin, int64_t row_end);
+///               int64_t width, int64_t stride, int64_t row_begin, int64_t row_end, int64_t is_near);
 ///
-/// (and for grids of several slices `int64_t slice_rows, int64_t slice` behind: row j of slice k is
+/// (`is_near` is not 0 where all fields are in a near cache, so that nothing need be fetched ahead;
+/// for grids of several slices `int64_t slice_rows, int64_t slice` come behind: row j of slice k is
 /// then row k * slice_rows + j, slice_rows is the height plus 2, and a call stays in one slice)
 /// (of kernels of binary64 with double for float) that computes rows [row_begin, row_end): the same
 /// code and ABI as the JIT's own kernels. It calls nothing. Planes are laid out as in PlaneLayout: pointers are to cell (0, 0), of numbers

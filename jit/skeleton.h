@@ -65,9 +65,11 @@ public:
     llvm::Value* further_argument(unsigned number) {
         return function_.getArg(shared_arguments + number);
     }
+    // Of grids (skeleton_grid.h).
+    llvm::Value* is_near() { return further_argument(0); }
     bool has_slices() const { return stencil().z; }
-    llvm::Value* slice_rows() { return further_argument(0); }
-    llvm::Value* slice() { return further_argument(1); }
+    llvm::Value* slice_rows() { return further_argument(1); }
+    llvm::Value* slice() { return further_argument(2); }
 
     // Addresses of planes, loaded once.
     llvm::Value* field_plane(std::size_t slot) { return plane(0, slot); }

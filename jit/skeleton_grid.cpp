@@ -24,8 +24,8 @@ std::int64_t least_width_to_prefetch(int vector_bytes) {
     return vector_bytes == cache_line ? 128 : 1024;
 }
 
-// Kernels up to this size get a loop without prefetching for narrow planes; in larger ones the
-// prefetches cost nothing that could be noticed, and compiling the loop twice would.
+// Kernels up to this size get a loop without prefetching, for narrow planes and for what is in a near cache;
+// in larger ones the prefetches cost nothing that could be noticed, and compiling the loop twice would.
 constexpr std::size_t largest_twofold_kernel = 64;
 
 /// Elements from a row to others, computed once.
@@ -48,9 +48,22 @@ public:
         return step;
     }
 
+    /// To the row that is `rows` rows below; to the own one where what is there is near already, for
+    /// fetching it would drive out what is to be read sooner.
+    Value* ahead(int rows) {
+        Value*& step = ahead_[rows];
+        if (!step) {
+            Builder& builder = frame_.builder();
+            Value* is_far = builder.CreateICmpEQ(frame_.is_near(), builder.getInt64(0));
+            step = builder.CreateSelect(is_far, to(rows, 0), builder.getInt64(0));
+        }
+        return step;
+    }
+
 private:
     KernelFrame& frame_;
     std::map<std::pair<int, int>, Value*> steps_;
+    std::map<int, Value*> ahead_;
 };
 
 /// What a vector of cells reads: a field, and how many rows, columns and slices away.
@@ -108,6 +121,9 @@ std::set<std::uint32_t> shifted_fields(const KernelFrame& frame) {
     return fields;
 }
 
+/// What a loop over rows fetches for the next one.
+enum class Fetching { nothing, ahead, unless_near };
+
 class GridLane final : public CellLane {
 public:
     GridLane(KernelFrame& frame, Builder& builder, const VectorPlace& place, RowSteps& steps,
@@ -119,7 +135,7 @@ public:
     Value* field(std::uint32_t slot) override;
     Value* laplacian(std::uint32_t slot) override;
     Value* neighbour(Neighbour at) override;
-    void prefetch(std::uint32_t slot, int row);
+    void prefetch(std::uint32_t slot, int rows, Fetching fetching);
 
 private:
     Value* element(int row, int slice = 0) {
@@ -139,6 +155,7 @@ private:
     /// By row and slice, counted from the vector's own.
     std::map<std::pair<int, int>, Value*> elements_;
     std::map<Reading, Value*> loads_;
+    std::map<int, Value*> fetched_;  ///< By row, unless near.
 };
 
 Value* GridLane::load(Builder& builder, std::uint32_t slot, Value* element, int column) const {
@@ -234,21 +251,29 @@ Value* GridLane::neighbour(Neighbour at) {
 }
 
 // The place may lie behind the plane.
-void GridLane::prefetch(std::uint32_t slot, int row) {
-    frame_.prefetch(builder_,
-                    builder_.CreateGEP(frame_.number(), frame_.field_plane(slot), element(row)));
+void GridLane::prefetch(std::uint32_t slot, int rows, Fetching fetching) {
+    Value* place = nullptr;
+    if (fetching == Fetching::ahead) {
+        place = element(rows);
+    } else {
+        Value*& fetched = fetched_[rows];
+        if (!fetched) fetched = opaque(builder_.CreateAdd(element_, steps_.ahead(rows)));
+        place = fetched;
+    }
+    frame_.prefetch(builder_, builder_.CreateGEP(frame_.number(), frame_.field_plane(slot), place));
 }
 
 /// All rows, with or without what the next row will be the first to touch: its own cells, or those
 /// below it.
 void build_rows(KernelFrame& frame, KernelLoops& loops, RowSteps& steps,
-                const std::set<std::uint32_t>& shifted, bool prefetch, Builder& place) {
+                const std::set<std::uint32_t>& shifted, Fetching fetching, Builder& place) {
     const CellKernel& kernel = frame.kernel();
     loops.rows(place, [&](const VectorPlace& at, Builder& builder, BodyScope& row_scope) {
         GridLane lane(frame, builder, at, steps, shifted);
         loops.body(lane, builder, row_scope);
-        for (std::uint32_t slot = 0; prefetch && slot < kernel.field_names.size(); ++slot) {
-            lane.prefetch(slot, kernel.reads_neighbours(slot) ? 2 : 1);
+        if (fetching == Fetching::nothing) return;
+        for (std::uint32_t slot = 0; slot < kernel.field_names.size(); ++slot) {
+            lane.prefetch(slot, kernel.reads_neighbours(slot) ? 2 : 1, fetching);
         }
     });
     place.CreateRetVoid();
@@ -261,16 +286,21 @@ void build_loops(KernelFrame& frame, KernelLoops& loops, Builder& place) {
     const int bytes = frame.vector_bytes();
     const bool may_prefetch = frame.stencil().x && frame.stencil().y && bytes >= cache_line / 2;
     if (!may_prefetch || frame.kernel().code.size() > largest_twofold_kernel) {
-        build_rows(frame, loops, steps, shifted, may_prefetch && bytes == cache_line, place);
+        const bool prefetch = may_prefetch && bytes == cache_line;
+        build_rows(frame, loops, steps, shifted,
+                   prefetch ? Fetching::unless_near : Fetching::nothing, place);
         return;
     }
     llvm::BasicBlock* wide = frame.new_block("wide");
     llvm::BasicBlock* narrow = frame.new_block("narrow");
     Value* least = place.getInt64(least_width_to_prefetch(bytes));
-    place.CreateCondBr(place.CreateICmpSGE(frame.width(), least), wide, narrow);
+    Value* is_far = place.CreateICmpEQ(frame.is_near(), place.getInt64(0));
+    place.CreateCondBr(place.CreateAnd(place.CreateICmpSGE(frame.width(), least), is_far), wide,
+                       narrow);
     for (llvm::BasicBlock* block : {wide, narrow}) {
         place.SetInsertPoint(block);
-        build_rows(frame, loops, steps, shifted, block == wide, place);
+        build_rows(frame, loops, steps, shifted,
+                   block == wide ? Fetching::ahead : Fetching::nothing, place);
     }
 }
 
@@ -278,8 +308,8 @@ void build_loops(KernelFrame& frame, KernelLoops& loops, Builder& place) {
 
 llvm::Function* build_grid_function(llvm::Module& module, const CellKernel& kernel,
                                     const KernelShape& shape, const std::string& name) {
-    std::vector<llvm::Type*> further;
-    if (shape.stencil.z) further.assign(2, llvm::Type::getInt64Ty(module.getContext()));
+    const std::vector<llvm::Type*> further(shape.stencil.z ? 3 : 1,
+                                           llvm::Type::getInt64Ty(module.getContext()));
     return build_function(module, kernel, shape, name, further, build_loops);
 }
 

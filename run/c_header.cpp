@@ -231,7 +231,7 @@ private:
             "\n/* Rows [row_begin, row_end) of a pass, in the object file. */\n"
             "typedef void {}_kernel(const float *const *fields, const unsigned char *const *masks,\n"
             "    const float *uniforms, float *const *results, int64_t width, int64_t stride,\n"
-            "    int64_t row_begin, int64_t row_end{});\n",
+            "    int64_t row_begin, int64_t row_end, int64_t is_near{});\n",
             compiled_.name, layout_.depth > 1 ? ", int64_t slice_rows, int64_t slice" : "");
         for (const CKernel& kernel : compiled_.kernels) {
             text += fmt::format("extern {}_kernel {};\n", compiled_.name, kernel.name);

@@ -163,10 +163,10 @@ static inline void $_compute($_kernel *kernel, const float *const *fields,
 #if $$_DEPTH > 1
         const int64_t rows = $$_HEIGHT + 2;
         kernel(fields, masks, uniforms, results, $$_WIDTH, $$_STRIDE, slice * rows + first,
-               slice * rows + last, rows, slice);
+               slice * rows + last, 0, rows, slice);
 #else
         (void)slice;
-        kernel(fields, masks, uniforms, results, $$_WIDTH, $$_STRIDE, first, last);
+        kernel(fields, masks, uniforms, results, $$_WIDTH, $$_STRIDE, first, last, 0);
 #endif
         $_set_control(before);
     }

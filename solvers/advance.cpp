@@ -51,6 +51,7 @@ public:
         if (has_end_time()) progress_.duration = schedule.end_time;
         tenths_seen_ = tenths_reached(now(), schedule.end_time);
         stepper_.set_clock(time_.clock);
+        if (schedule.tiling) stepper_.use_tiling(*schedule.tiling);
     }
 
     StageOutcome run() {

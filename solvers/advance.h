@@ -11,6 +11,7 @@
 #include "core/run_control.h"
 #include "solvers/stage_clock.h"
 #include "solvers/step_problem.h"
+#include "solvers/tiling.h"
 
 #include <cstdint>
 #include <functional>
@@ -56,6 +57,8 @@ struct Schedule {
     int error_order = 1;              ///< The error of an adaptive step is proportional to step^this.
     std::int64_t check_every = 64;    ///< Steps between two looks for values that are not finite.
     int threads = 1;
+    /// How steps go through memory; none: as fits. No result depends on it.
+    std::optional<Tiling> tiling = {};
 };
 
 /// How many tenths of the way to the end time are behind; 0 where there is none.

@@ -169,14 +169,14 @@ void PassRunner::set_uniforms(std::vector<Number>& uniforms, const StepProblem::
 }
 
 void PassRunner::bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
-                      const StepMoment& moment) const {
-    std::visit([&](auto& arguments) { bind_as(arguments, level, pass, registers, moment); },
+                      const StepMoment& moment, bool is_near) const {
+    std::visit([&](auto& arguments) { bind_as(arguments, level, pass, registers, moment, is_near); },
                worker.arguments);
 }
 
 template <typename Number>
 void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::size_t pass_number,
-                         Registers registers, const StepMoment& moment) const {
+                         Registers registers, const StepMoment& moment, bool is_near) const {
     if (arguments.levels.size() <= number) arguments.levels.resize(number + 1);
     const StepProblem::Pass& pass = problem_.passes[pass_number];
     Level<Number>& level = arguments.levels[number];
@@ -194,7 +194,7 @@ void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::
     }
     const LinkTable<Number> links =
         problem_.links ? problem_.links->template table<Number>() : LinkTable<Number>{};
-    level.given = {level.fields, pass.masks, level.uniforms, level.results, layout_, links};
+    level.given = {level.fields, pass.masks, level.uniforms, level.results, layout_, links, is_near};
 }
 
 void PassRunner::run_rows(Worker& worker, std::size_t level, RowRange rows) const {

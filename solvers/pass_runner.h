@@ -76,9 +76,10 @@ public:
     /// Does what such a pass does before its kernel is run. As run(), for all threads of the team.
     void prepare_pass(Worker& worker, Team& team, std::size_t pass, Registers registers,
                       const StepMoment& moment);
-    /// Makes a pass level `level` of the worker. Registers are looked at now, not later.
+    /// Makes a pass level `level` of the worker. Registers are looked at now, not later. `is_near`: what it
+    /// reads will be in a near cache.
     void bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
-              const StepMoment& moment) const;
+              const StepMoment& moment, bool is_near = false) const;
     /// Runs a level that was bound on some rows and fills the halo that comes from them.
     void run_rows(Worker& worker, std::size_t level, RowRange rows) const;
 
@@ -99,7 +100,7 @@ private:
                       const StepMoment& moment) const;
     template <typename Number>
     void bind_as(Arguments<Number>& arguments, std::size_t level, std::size_t pass,
-                 Registers registers, const StepMoment& moment) const;
+                 Registers registers, const StepMoment& moment, bool is_near) const;
     template <typename Number>
     void run_level(const Level<Number>& level, RowRange rows) const;
     template <typename Number>

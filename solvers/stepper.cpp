@@ -73,11 +73,17 @@ void Stepper::use(const StepProblem& problem) {
         runner_->prepare(worker.passes, worker.passes.number, worker.passes.count);
     }
     fitting_tiling_ = choose_tiling(problem, reach_, CacheSizes::here());
-    use_tiling(fitting_tiling_);
+    set_tiling(is_tiling_given_ ? tiling_ : fitting_tiling_);
 }
 
 void Stepper::use_tiling(const Tiling& tiling) {
+    is_tiling_given_ = true;
+    set_tiling(tiling);
+}
+
+void Stepper::set_tiling(const Tiling& tiling) {
     tiling_ = tiling;
+    if (layout_.depth == 1) tiling_.outer_layer = std::max(tiling_.outer_layer, reach_);
     tiles_.emplace(*runner_, tiling_, static_cast<int>(workers_.size()));
 }
 
@@ -133,7 +139,7 @@ void Stepper::use_threads(int threads) {
         Worker& worker = workers_[static_cast<std::size_t>(index)];
         runner_->prepare(worker.passes, index, threads);
     }
-    use_tiling(tiling_);
+    set_tiling(tiling_);
 }
 
 bool Stepper::advance(std::int64_t complete, std::int64_t count, bool look) {
@@ -195,7 +201,9 @@ void Stepper::run_levels(Worker& worker, Level& level, std::size_t count) {
         if (number == 0) {
             runner_->prepare_pass(worker.passes, team_, level.pass, worker.registers, moment);
         }
-        runner_->bind(worker.passes, number, level.pass, worker.registers, moment);
+        // The first level of a tile brings what the others read.
+        runner_->bind(worker.passes, number, level.pass, worker.registers, moment,
+                      tiling_.is_near && number > 0);
         level.go_on(passes);
     }
     if (count == 1) {

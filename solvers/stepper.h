@@ -82,7 +82,8 @@ public:
 
     /// The tiling that fits the machine's caches.
     const Tiling& fitting_tiling() const { return fitting_tiling_; }
-    /// Goes through memory like that from now on; no result depends on it.
+    /// Goes through memory like that from now on, also where the problem changes; no result depends on it.
+    /// Layers are made as large as links reach.
     void use_tiling(const Tiling& tiling);
     /// So many passes of steps are done for each pass through memory, where they allow it.
     int levels() const { return tiles_->levels(); }
@@ -105,6 +106,7 @@ private:
         std::vector<double> of_errors, of_values;
     };
 
+    void set_tiling(const Tiling& tiling);
     void work(Worker& worker, std::int64_t complete, std::int64_t count, bool look);
     void step(Worker& worker, CopyRoles roles, std::int64_t complete);
     /// A pass of a step that begins with certain roles.
@@ -142,6 +144,7 @@ private:
     std::optional<PassRunner> runner_;
     std::int64_t reach_ = 1;  ///< Rows that links reach.
     Tiling fitting_tiling_, tiling_;
+    bool is_tiling_given_ = false;
     std::optional<TileRunner> tiles_;
     std::vector<Worker> workers_;  ///< One for each thread in use.
 };

@@ -16,6 +16,8 @@ struct Tiling {
     std::int64_t outer_layer = 1;   ///< Rows or slices of a layer.
     std::int64_t inner_layer = 1;   ///< Of a grid with slices: rows of a layer within them,
     int inner_bands = 1;            ///< and bands of those layers; 1: slices are not cut.
+    /// What a level reads is in the second-level cache, but for the first, so nothing need be fetched ahead.
+    bool is_near = false;
 };
 
 /// Bytes of all planes, masks and links that the passes of a step read or write, each counted once,

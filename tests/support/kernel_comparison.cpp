@@ -75,7 +75,10 @@ Mask random_mask(RandomStream& stream, const Grid& grid) {
 }  // namespace
 
 HostileInputs::HostileInputs(const CellKernel& kernel, const Grid& grid, std::uint64_t seed)
-    : grid_(grid), precision_(kernel.precision), result_count_(kernel.results.size()) {
+    : grid_(grid),
+      precision_(kernel.precision),
+      is_near_(seed % 2 == 0),
+      result_count_(kernel.results.size()) {
     RandomStream stream(seed);
     with_number(precision_, [&](auto zero) { fill<decltype(zero)>(kernel, stream); });
     if (!grid.linked) return;
@@ -126,7 +129,7 @@ std::vector<Field> HostileInputs::run_as(const Kernel& kernel, RowRange rows) co
     }
     const FlushDenormals environment;
     const LinkTable<Number> links = grid_.linked ? links_.table<Number>() : LinkTable<Number>{};
-    kernel.run({fields, masks, uniforms, targets, PlaneLayout(grid_), links}, rows);
+    kernel.run({fields, masks, uniforms, targets, PlaneLayout(grid_), links, is_near_}, rows);
     return results;
 }
 

@@ -14,8 +14,8 @@ namespace cascade::testing {
 
 /// Arguments for a kernel on a grid, made from a seed: ordinary numbers, and among them NaN,
 /// infinities, zeros of both signs, denormals and huge numbers. Halos of fields are filled; memory
-/// that kernels have no business with holds NaN. A linked grid gets random links, in which its last row
-/// may be filled up.
+/// that kernels have no business with holds NaN. Inputs of even seeds are said to be near. A linked grid gets random
+/// links, in which its last row may be filled up.
 class HostileInputs {
 public:
     HostileInputs(const CellKernel& kernel, const Grid& grid, std::uint64_t seed);
@@ -32,6 +32,7 @@ private:
 
     Grid grid_;
     Precision precision_;
+    bool is_near_;
     std::size_t result_count_;
     std::vector<Field> fields_;
     Links links_;  ///< Of a linked grid.

@@ -119,7 +119,7 @@ public:
         function_->template as<GridFunction<Number>>()(
             arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
             arguments.results.data(), arguments.layout.width, arguments.layout.stride, rows.begin,
-            rows.end);
+            rows.end, arguments.is_near);
     }
 
 private:

@@ -19,6 +19,7 @@ TEST(Tiling, TakesManyStepsAtOnceBeyondIt) {
     const StepProblem problem = heat_problem(Grid{2048, 2048}, 0.1f);
     const Tiling tiling = choose_tiling(problem, 1, caches);
     EXPECT_EQ(tiling.levels, 16);
+    EXPECT_TRUE(tiling.is_near);
     EXPECT_EQ(words_for_stepping(problem, tiling.levels), "16 steps a pass");
 }
 
@@ -51,6 +52,7 @@ TEST(Tiling, CutsLargeSlices) {
     const Tiling tiling = choose_tiling(problem, 1, caches);
     EXPECT_GT(tiling.levels, 1);
     EXPECT_GT(tiling.inner_bands, 1);
+    EXPECT_FALSE(tiling.is_near);
 }
 
 TEST(Tiling, SidesWrapWhereAnyPlaneDoes) {
