@@ -65,6 +65,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     self.script = &script;
     self.program = &*script.program;
     self.grid = self.program->domain.grid;
+    self.tiling = options.tiling;
     self.threads = options.threads > 0 ? options.threads : hardware_threads();
     self.account = options.account;
     for (std::uint32_t k = 0; self.account != nullptr && k < script.stage_count(); ++k) {
@@ -153,6 +154,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     Schedule schedule = timer.schedule(last_step, every > 0 ? every : stage.interval);
     schedule.tenths = stage.interval == 0;
     schedule.threads = self.threads;
+    schedule.tiling = self.tiling;
     const StageOutcome outcome = advance(timer.problem(), schedule, state.species, control, progress,
                                          [&](std::int64_t step, double t, std::span<const Field>) {
                                              state.steps = step;

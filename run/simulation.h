@@ -89,6 +89,8 @@ struct SimulationOptions {
     std::uint64_t memory_limit = 0;   ///< Bytes that all fields may take; 0: what is free.
     /// How steps are put together. No result depends on it.
     PlanOptions planning = {Bringing::cheaper, false, true};
+    /// How steps go through memory; none: as fits the machine's caches. No result depends on it.
+    std::optional<Tiling> tiling = {};
 };
 
 /// What `options` ask for, to be shared by simulations. Fails where this build has no native code.

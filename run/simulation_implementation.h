@@ -26,6 +26,7 @@ struct Simulation::Implementation {
     double memory = 0;  ///< Bytes of all planes.
     Grid grid;
     int threads = 1;
+    std::optional<Tiling> tiling;        ///< None: as fits.
     std::unique_ptr<Backend> interpreter;
     std::shared_ptr<Backend> stepper;
     std::unique_ptr<Team> team;
