@@ -210,6 +210,7 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
     SimulationOptions& simulation = options.run.simulation;
     if (!has_jit()) simulation.backend = BackendKind::interpreter;
     simulation.kernel_cache = usual_kernel_cache();
+    simulation.starts_interpreted = true;
     add_value(app, "--backend", "jit|interp", "Native code by LLVM, or the interpreter",
               one_of(has_jit() ? std::vector<std::string>{"jit", "interp"}
                                : std::vector<std::string>{"interp"}),

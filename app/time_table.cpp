@@ -70,6 +70,22 @@ std::string remark_on_steps(const TimeAccount::Stage& stage) {
     return text;
 }
 
+/// "2 kernels compiled, 1 found on disk".
+std::string remark_on_kernels(const KernelCounts& kernels) {
+    std::string text;
+    const auto add = [&](std::int64_t count, std::string_view what) {
+        if (count == 0) return;
+        if (text.empty()) {
+            text = fmt::format("{} {} {}", count, count == 1 ? "kernel" : "kernels", what);
+        } else {
+            text += fmt::format(", {} {}", count, what);
+        }
+    };
+    add(kernels.compiled, "compiled");
+    add(kernels.found, "found on disk");
+    return text;
+}
+
 }  // namespace
 
 std::string time_table(TimeAccount& account, bool bars) {
@@ -80,8 +96,10 @@ std::string time_table(TimeAccount& account, bool bars) {
     for (const Part& part : parts) {
         const bool is_stepping = part.what == Spent::stepping;
         const double seconds = account.seconds(part.what);
-        const std::string remark =
-            is_stepping && stages.size() == 1 ? remark_on_steps(stages[0]) : "";
+        const std::string remark = part.what == Spent::compiling ? remark_on_kernels(account.kernels)
+                                   : is_stepping && stages.size() == 1
+                                       ? remark_on_steps(stages[0])
+                                       : "";
         table.line(std::string(part.name), seconds, remark);
         if (stages.size() < 2 || part.what == Spent::rest) continue;
         for (const TimeAccount::Stage& stage : stages) {

@@ -1,7 +1,8 @@
 // The contract between kernels and what executes them.
 //
-// Backends: ir/interpreter.h (blocks of cells; the oracle), jit/jit.h (native code by LLVM). Both
-// give the same bits for the same kernel and arguments.
+// Backends: ir/interpreter.h (blocks of cells; the oracle), jit/jit.h (native code by LLVM),
+// ir/tiered_backend.h (the first until the second is ready). All give the same bits for the same
+// kernel and arguments.
 #pragma once
 
 #include "core/grid.h"
@@ -11,6 +12,7 @@
 #include "core/result.h"
 #include "ir/cell_kernel.h"
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -35,7 +37,7 @@ struct KernelArgumentsOf {
 };
 using KernelArguments = KernelArgumentsOf<float>;
 
-/// A kernel ready to run. Immutable and safe to run on several threads at once, each on its own
+/// A kernel ready to run. Its results never change; safe to run on several threads at once, each on its own
 /// rows, inside a FlushDenormals.
 class Kernel {
 public:
@@ -43,6 +45,12 @@ public:
     /// Computes rows, numbered through all slices, with numbers of the kernel's precision.
     virtual void run(const KernelArgumentsOf<float>&, RowRange) const { wrong_precision(); }
     virtual void run(const KernelArgumentsOf<double>&, RowRange) const { wrong_precision(); }
+
+    /// May it be many times as fast some time later, because code for it is still to be made? How
+    /// long it takes now then says nothing of later runs.
+    virtual bool is_provisional() const { return false; }
+    /// Why it will stay as slow as it is; nothing where it is as it should be.
+    virtual const Failure* refusal() const { return nullptr; }
 
 private:
     [[noreturn]] static void wrong_precision() {
@@ -52,6 +60,12 @@ private:
 
 using KernelPointer = std::shared_ptr<const Kernel>;
 
+/// Where the code of kernels came from.
+struct KernelCounts {
+    std::int64_t compiled = 0;  ///< Made by this backend.
+    std::int64_t found = 0;     ///< Made by an earlier process and kept on disk.
+};
+
 /// Makes kernels runnable. Keeps what it made: compiling an equal kernel again costs a look-up.
 class Backend {
 public:
@@ -59,6 +73,10 @@ public:
     virtual std::string_view name() const = 0;  ///< "interp" or "jit".
     /// `stencil` is that of every grid that the kernel will run on.
     virtual Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) = 0;
+    /// What compile() gives, if that takes less time than running it once; else null.
+    virtual KernelPointer find(const CellKernel& kernel, Stencil stencil) = 0;
+    /// So far.
+    virtual KernelCounts counts() const { return {}; }
 };
 
 }  // namespace cascade

@@ -417,6 +417,10 @@ public:
             return std::make_shared<const InterpretedKernel<decltype(zero)>>(kernel, stencil);
         });
     }
+
+    KernelPointer find(const CellKernel& kernel, Stencil stencil) override {
+        return *compile(kernel, stencil);
+    }
 };
 
 }  // namespace

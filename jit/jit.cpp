@@ -8,6 +8,8 @@
 #include "jit/processor.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <future>
 #include <mutex>
 #include <unordered_map>
@@ -120,7 +122,37 @@ public:
         return made;
     }
 
+    KernelPointer find(const CellKernel& kernel, Stencil stencil) override {
+        const KernelShape shape = shape_for(kernel, stencil, lanes_);
+        const std::string key = kernel_key(kernel, shape);
+        if (const auto known = find_known(key)) return known->value_or(nullptr);
+        auto function = load_kept(environment_ + key);
+        if (!function) return nullptr;
+        std::promise<Result<KernelPointer>> promise;
+        promise.set_value(as_kernel(kernel, shape, std::move(function)));
+        const Compiling made = promise.get_future().share();
+        const std::lock_guard lock(mutex_);
+        make_room();
+        known_.insert_or_assign(key, made);
+        return *made.get();
+    }
+
+    KernelCounts counts() const override { return {compiled_, found_}; }
+
 private:
+    /// What is known without waiting; null of a kernel that is being made.
+    std::optional<Result<KernelPointer>> find_known(const std::string& key) {
+        const std::lock_guard lock(mutex_);
+        const auto found = known_.find(key);
+        if (found == known_.end()) return std::nullopt;
+        const bool is_made = found->second.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+        return is_made ? found->second.get() : Result<KernelPointer>(nullptr);
+    }
+
+    void make_room() {
+        if (known_.size() >= most_known) known_.clear();
+    }
+
     /// What others made or are making of this kernel; or nothing, and `promise` is what others will
     /// wait for.
     std::optional<Compiling> find_or_announce(const std::string& key,
@@ -128,7 +160,7 @@ private:
         const std::lock_guard lock(mutex_);
         const auto found = known_.find(key);
         if (found != known_.end()) return found->second;
-        if (known_.size() >= most_known) known_.clear();
+        make_room();
         known_.emplace(key, promise.get_future().share());
         return std::nullopt;
     }
@@ -142,20 +174,36 @@ private:
                                const std::string& key) {
         auto function = load(kernel, shape, key);
         if (!function) return tl::unexpected(function.error());
+        return as_kernel(kernel, shape, std::move(*function));
+    }
+
+    static KernelPointer as_kernel(const CellKernel& kernel, const KernelShape& shape,
+                                   std::unique_ptr<LoadedFunction> function) {
         return with_number(kernel.precision, [&](auto zero) -> KernelPointer {
             return std::make_shared<NativeKernel<decltype(zero)>>(kernel, shape.stencil,
-                                                                  std::move(*function));
+                                                                  std::move(function));
         });
+    }
+
+    /// Code that an earlier process made; null where there is none.
+    std::unique_ptr<LoadedFunction> load_kept(const std::string& file_key) {
+        const auto image = cache_.find(file_key);
+        if (!image) return nullptr;
+        auto function = load_image(*image);
+        if (!function) return nullptr;
+        ++found_;
+        return std::move(*function);
     }
 
     Result<std::unique_ptr<LoadedFunction>> load(const CellKernel& kernel, const KernelShape& shape,
                                                  const std::string& key) {
         const std::string file_key = environment_ + key;
-        if (const auto image = cache_.find(file_key)) return load_image(*image);
+        if (auto function = load_kept(file_key)) return function;
         const auto generator = code_generator();
         if (!generator) return tl::unexpected(generator.error());
         const auto object = (*generator)->compile(kernel, shape, optimise_);
         if (!object) return tl::unexpected(object.error());
+        ++compiled_;
         const auto image = link_image(*object, kernel_function_name);
         if (!image) return (*generator)->load(*object);
         cache_.keep(file_key, *image);
@@ -166,6 +214,7 @@ private:
     int optimise_;
     std::string environment_;
     CodeCache cache_;
+    std::atomic<std::int64_t> compiled_{0}, found_{0};
     std::mutex mutex_;
     std::unordered_map<std::string, Compiling> known_;  ///< By kernel_key.
 };

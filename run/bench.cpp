@@ -170,6 +170,7 @@ public:
         SimulationOptions options = request_.simulation;
         options.account = &account_;
         options.control = &control_;
+        options.starts_interpreted = false;  // What is measured is native code.
         auto made = Simulation::create(script_, options);
         if (!made) return control_.cancel ? Result<void>() : tl::unexpected(made.error());
         simulation_ = std::move(*made);

@@ -41,18 +41,21 @@ StageState empty_state(const System& system) {
     return state;
 }
 
-Result<std::shared_ptr<Backend>> make_stepper(const SimulationOptions& options) {
-    if (options.backend == BackendKind::interpreter) return make_interpreter();
+Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& options) {
+    if (options.backend == BackendKind::interpreter) {
+        return std::make_shared<TieredBackend>(make_interpreter());
+    }
 #if CASCADE_HAS_JIT
     JitOptions jit;
     jit.lanes = options.lanes;
     jit.cache = options.kernel_cache;
-    return make_jit(jit);
+    auto native = make_jit(jit);
+    if (!native) return tl::unexpected(native.error());
+    return std::make_shared<TieredBackend>(std::move(*native));
 #else
     return failure("this build has no native compiler", "use --backend interp");
 #endif
 }
-
 
 Simulation::Simulation() : self_(std::make_unique<Implementation>()) {}
 Simulation::~Simulation() = default;
@@ -98,6 +101,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
         if (!stepper) return tl::unexpected(stepper.error());
         self.stepper = std::move(*stepper);
     }
+    self.starts_interpreted = options.starts_interpreted;
     self.team = std::make_unique<Team>(self.is_small() ? 1 : self.threads);
     self.states.resize(self.program->stages.size());
     if (auto made = self.make_surface_values(options); !made) return tl::unexpected(made.error());
@@ -129,7 +133,8 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     const TimeAccount::Scope spent(self.account, Spent::stepping, k);
     const std::int64_t steps_before = state.steps;
 
-    StageTimer timer(*self.program, k, state, self.tools(k, self.compiled(control, stage.name)));
+    StepKernels kernels(stage.name, control);
+    StageTimer timer(*self.program, k, state, self.tools(k, self.compiled(k, kernels)));
     if (timer.substeps() > 1 && state.steps == 0 && control.warn) {
         control.warn(fmt::format("stage '{}': each step is split into {}, so that it is stable in the "
                                  "smallest cells of the model", stage.name, timer.substeps()));
@@ -140,6 +145,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
         state.done = stage.time.has_duration() || state.steps >= stage.iterations;
         return state.done ? StageEnd::finished : StageEnd::stopped;
     }
+    self.expect_later_stages(k);
     if (state.steps == 0 && last_step > 0 && stage.time.coarse > 1) {
         auto grown = self.run_on_coarser_grids(k, control);
         if (!grown || *grown == StageEnd::cancelled) return grown;
@@ -162,6 +168,8 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
                                              if (observe) observe();
                                              return true;
                                          });
+    kernels.warn_of_refused();
+    if (outcome.cancelled) self.stepper->abandon();
     state.lasting.clear();
     state.steps = outcome.steps;
     state.t = outcome.t;
@@ -237,6 +245,7 @@ std::optional<std::uint32_t> Simulation::shown_stage() const {
 void Simulation::Implementation::account_for(std::uint32_t k, std::int64_t steps,
                                              const StageOutcome& outcome) const {
     if (account == nullptr) return;
+    account->kernels = stepper->counts();
     TimeAccount::Stage& entry = account->stage(k);
     entry.steps += steps;
     entry.cells = grid.cell_count();

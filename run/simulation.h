@@ -4,7 +4,7 @@
 #include "core/plane.h"
 #include "core/result.h"
 #include "core/run_control.h"
-#include "ir/backend.h"
+#include "ir/tiered_backend.h"
 #include "lang/lower.h"
 #include "run/domain_mask.h"
 #include "run/model_cells.h"
@@ -78,14 +78,17 @@ struct SimulationOptions {
     int lanes = 0;      ///< Vector width of the JIT; 0 takes the host's.
     int threads = 0;    ///< 0 takes all the machine has.
     /// Takes the steps of several simulations, so that equal kernels are compiled once; none: each
-    /// simulation has one of its own. Its compile() must allow several threads.
-    std::shared_ptr<Backend> stepper = nullptr;
+    /// simulation has one of its own.
+    std::shared_ptr<TieredBackend> stepper = nullptr;
     /// Hears how the cells of a model come about, and may stop it; none: nobody does.
     RunControl* control = nullptr;
     TimeAccount* account = nullptr;   ///< Is told where the time goes; none: nobody is.
     std::filesystem::path cell_cache = {};  ///< A folder in which cells of models are kept; empty: none.
     /// A folder in which compiled kernels are kept for later processes; empty: none.
     std::filesystem::path kernel_cache = {};
+    /// Take steps while code for them is made? Their first ones are interpreted then, unless there are so
+    /// many cells that waiting is quicker. No result depends on it, but how long a step takes does.
+    bool starts_interpreted = false;
     std::uint64_t memory_limit = 0;   ///< Bytes that all fields may take; 0: what is free.
     /// How steps are put together. No result depends on it.
     PlanOptions planning = {Bringing::cheaper, false, true};
@@ -94,7 +97,7 @@ struct SimulationOptions {
 };
 
 /// What `options` ask for, to be shared by simulations. Fails where this build has no native code.
-Result<std::shared_ptr<Backend>> make_stepper(const SimulationOptions& options);
+Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& options);
 
 /// Why a stage ended.
 enum class StageEnd { finished, stopped, cancelled };

@@ -17,6 +17,8 @@ std::unique_ptr<Simulation> Simulation::Implementation::on_coarser_grid(
     coarse.threads = threads;
     coarse.interpreter = make_interpreter();
     coarse.stepper = stepper;
+    coarse.starts_interpreted = starts_interpreted;
+    coarse.has_expected = true;  // Later stages are no business of a coarser grid's.
     coarse.team = std::make_unique<Team>(1);
     coarse.files = restricted(files, grid, coarse.grid);
     coarse.states.resize(states.size());

@@ -11,6 +11,7 @@
 #include "run/simulation.h"
 #include "run/stage_plans.h"
 #include "run/stage_time.h"
+#include "run/step_kernels.h"
 #include "solvers/stability.h"
 
 #include <fmt/format.h>
@@ -28,7 +29,9 @@ struct Simulation::Implementation {
     int threads = 1;
     std::optional<Tiling> tiling;        ///< None: as fits.
     std::unique_ptr<Backend> interpreter;
-    std::shared_ptr<Backend> stepper;
+    std::shared_ptr<TieredBackend> stepper;
+    bool starts_interpreted = false;
+    bool has_expected = false;  ///< Does the stepper know what later stages need?
     std::unique_ptr<Team> team;
     InputFiles files;
     std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
@@ -115,32 +118,23 @@ struct Simulation::Implementation {
         return stage(k).uniform[item] && states[k].numbers[item] != 0;
     }
 
-    /// Steps are compiled.
-    Compile compiled(RunControl& control, const std::string& name) const {
-        return [this, &control, &name](const CellKernel& kernel) {
-            auto made = stepper->compile(kernel, grid.stencil());
-            if (made) return *made;
-            if (control.warn) {
-                control.warn(fmt::format("stage '{}' is interpreted, which is slow: {}", name,
-                                         made.error().message));
-            }
-            return *interpreter->compile(kernel, grid.stencil());
-        };
-    }
+    // Kernels (simulation_kernels.cpp).
 
+    /// Steps are compiled: before the first, or while the first ones are interpreted.
+    Compile compiled(std::uint32_t k, StepKernels& kernels) const;
     /// What is computed every few steps is compiled where there are many cells.
-    Compile often() const {
-        if (is_small()) return interpreted(grid);
-        return [this, interpret = interpreted(grid)](const CellKernel& kernel) {
-            const TimeAccount::Scope spent(account, Spent::compiling);
-            auto made = stepper->compile(kernel, grid.stencil());
-            return made ? *made : interpret(kernel);
-        };
-    }
+    Compile often() const;
     /// What is computed once is interpreted, unless that would take longer than making code for it.
     Compile once() const {
-        constexpr std::int64_t cells_worth_compiling = 262144;
         return grid.cell_count() < cells_worth_compiling ? interpreted(grid) : often();
+    }
+    /// Has the stepper compile what stages behind `k` will need, where they take long.
+    void expect_later_stages(std::uint32_t k);
+    /// Is it sure that the steps of a stage take longer than making code for them?
+    bool is_long(std::uint32_t k) const;
+    /// Are steps interpreted until there is code for them? On many cells that would take longer than to wait.
+    bool runs_meanwhile() const {
+        return starts_interpreted && grid.cell_count() < cells_worth_compiling;
     }
     /// Evaluating a small grid is over before code is made for it or a second thread has woken up.
     bool is_small() const { return grid.cell_count() < 65536; }

@@ -4,6 +4,8 @@
 // scope takes the time over. So the parts add up to everything by construction.
 #pragma once
 
+#include "ir/backend.h"
+
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -59,6 +61,9 @@ public:
 
     /// The stage of a number, which is there from now on.
     Stage& stage(std::uint32_t number);
+
+    /// Where kernels came from, up to the last step.
+    KernelCounts kernels;
 
     const std::vector<Stage>& stages() const { return stages_; }
     /// Seconds so far, in all stages and outside of them. Settles what is going on.

@@ -86,11 +86,13 @@ private:
         const std::int64_t count = std::min(pace_.batch(stepper_.steps_at_once()), stop - step_);
         const bool look = step_ + count == stop;
         stepper_.use_threads(tuner_.threads());
+        const bool was_provisional = stepper_.problem().is_provisional();
         const Clock::time_point before = Clock::now();
         const bool good = is_adaptive() ? take_adaptive_step() : take_steps(count, look);
         const Clock::time_point after = Clock::now();
         pace_.took(count, after - before);
-        tuner_.took(count, after - before);
+        // How many threads are best for interpreted steps, or for some of either kind, is no matter.
+        if (!was_provisional) tuner_.took(count, after - before);
         if (!good) return false;
         if (pace_.report_due(after)) report(after, false);
         return !look || do_what_is_due();

@@ -114,6 +114,11 @@ struct StepProblem {
         if (!grid.linked) return grid.width;
         return std::clamp(counted_cells() - row * grid.width, std::int64_t{0}, grid.width);
     }
+    /// May steps become many times as fast some time later?
+    bool is_provisional() const {
+        return std::any_of(passes.begin(), passes.end(),
+                           [](const Pass& pass) { return pass.kernel->is_provisional(); });
+    }
     /// What holds at the sides of a plane that a pass writes.
     SideRules sides_of(const Result& result) const {
         const bool is_species = result.plane.kind == PlaneRef::Kind::species;

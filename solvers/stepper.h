@@ -45,6 +45,8 @@ public:
 
     /// Time and length of the steps from now on.
     void set_clock(const StageClock& clock) { clock_ = clock; }
+    /// The passes in use.
+    const StepProblem& problem() const { return *problem_; }
     /// Takes steps by other passes from now on. The problem must live as long as it is in use.
     void use(const StepProblem& problem);
 

@@ -15,6 +15,11 @@ cat >two.cascade <<'END'
 stage large: turing_spots { iterations: 60 }
 stage small: gray_scott { iterations: 60 }
 END
+cat >short.cascade <<'END'
+domain { grid: 64, 64 }
+stage large: turing_spots { iterations: 1 }
+stage small: gray_scott { iterations: 1 }
+END
 cascade_run() { run 0 run two.cascade -q -o "$@"; }
 kernels() { find "$1" -name '*.kernel' | wc -l; }
 loads_llvm() {
@@ -47,6 +52,14 @@ loads_llvm && fail "LLVM is loaded though all kernels are there"
 loads_llvm --no-kernel-cache || fail "--no-kernel-cache finds kernels"
 [ "$(kernels "$folder")" = "$count" ] || fail "kernels were made again"
 cmp traced.png first.png || fail "another picture with kept kernels"
+
+# Nor does one that is over before code for it could be made, and it keeps nothing.
+LD_DEBUG=files CASCADE_KERNEL_CACHE=$PWD/short "$CASCADE" run short.cascade -q -o short.png 2>trace >out ||
+    fail "a short run failed"
+grep -q 'libLLVM' trace && fail "LLVM is loaded for two steps"
+[ ! -e short ] || fail "a run that compiles nothing keeps kernels"
+run 0 run short.cascade -q -o interpreted_short.png --backend interp
+cmp short.png interpreted_short.png || fail "another picture of two steps"
 
 # Damage, and folders of no use.
 for file in "$folder"/*.kernel; do truncate -s 1000 "$file"; done

@@ -26,6 +26,9 @@ public:
     Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) override {
         return std::make_shared<const Compiled>(kernel, stencil);
     }
+    KernelPointer find(const CellKernel& kernel, Stencil stencil) override {
+        return *compile(kernel, stencil);
+    }
 
 private:
     class Compiled : public Kernel {

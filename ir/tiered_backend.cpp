@@ -1,0 +1,254 @@
+#include "ir/tiered_backend.h"
+
+#include "ir/interpreter.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cfenv>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace cascade {
+namespace {
+
+/// Of any grid: a row costs about as much as so many cells besides.
+constexpr std::int64_t cells_per_row = 64;
+
+}  // namespace
+
+/// The thread that compiles, and what it is asked for.
+class TieredBackend::Worker {
+public:
+    class TieredKernel;
+
+    explicit Worker(Backend& native) : native_(native) {}
+
+    /// Begins the thread if that was not done. False where there can be none.
+    bool start();
+    /// Compiles what is wanted and ends the thread.
+    void stop();
+    void abandon();
+    void add(const std::shared_ptr<TieredKernel>& kernel);
+    void expect(const CellKernel& kernel, Stencil stencil);
+    /// Kernels that are wanted have changed. Allocates nothing: threads that compute call it.
+    void wake();
+
+private:
+    struct Source {
+        CellKernel kernel;
+        Stencil stencil;
+    };
+
+    void work();
+    std::shared_ptr<TieredKernel> next_wanted();
+
+    Backend& native_;  ///< Used by the thread alone, which ends before the backend does.
+    std::thread thread_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool is_stopping_ = false;
+    std::vector<std::shared_ptr<TieredKernel>> begun_;  ///< Those not compiled yet, in order.
+    std::deque<Source> expected_;
+};
+
+/// Interpreted, then native.
+class TieredBackend::Worker::TieredKernel final : public Kernel {
+public:
+    TieredKernel(const CellKernel& kernel, Stencil stencil, KernelPointer interpreted,
+                 std::weak_ptr<Worker> worker, bool is_wanted)
+        : source_(std::make_unique<Source>(kernel, stencil)),
+          interpreted_(std::move(interpreted)),
+          worker_(std::move(worker)),
+          present_(interpreted_.get()),
+          is_wanted_(is_wanted) {}
+
+    void run(const KernelArgumentsOf<float>& arguments, RowRange rows) const override {
+        run_present(arguments, rows);
+    }
+    void run(const KernelArgumentsOf<double>& arguments, RowRange rows) const override {
+        run_present(arguments, rows);
+    }
+    bool is_provisional() const override { return !is_settled_.load(std::memory_order_acquire); }
+    const Failure* refusal() const override {
+        return !is_provisional() && refusal_ ? &*refusal_ : nullptr;
+    }
+
+    bool is_wanted() const { return is_wanted_.load(std::memory_order_relaxed); }
+
+    /// Makes code. Called once, by the worker's thread.
+    void compile(Backend& native) {
+        try {
+            auto made = native.compile(source_->kernel, source_->stencil);
+            if (made) {
+                native_ = std::move(*made);
+                present_.store(native_.get(), std::memory_order_release);
+            } else {
+                refusal_ = std::move(made.error());
+            }
+        } catch (const std::bad_alloc&) {
+            refusal_ = Failure{"there is not enough memory to compile it", ""};
+        }
+        source_.reset();
+        is_settled_.store(true, std::memory_order_release);
+    }
+
+private:
+    template <typename Number>
+    void run_present(const KernelArgumentsOf<Number>& arguments, RowRange rows) const {
+        const Kernel* const present = present_.load(std::memory_order_acquire);
+        present->run(arguments, rows);
+        if (present != interpreted_.get() || is_wanted() || rows.empty()) return;
+        const std::int64_t cells = (rows.end - rows.begin) * (arguments.layout.width + cells_per_row);
+        const std::int64_t before = interpreted_cells_.fetch_add(cells, std::memory_order_relaxed);
+        if (before + cells < cells_worth_compiling || is_wanted_.exchange(true)) return;
+        if (const auto worker = worker_.lock()) worker->wake();
+    }
+
+    std::unique_ptr<Source> source_;  ///< Until it is compiled.
+    KernelPointer interpreted_, native_;
+    std::optional<Failure> refusal_;
+    std::weak_ptr<Worker> worker_;
+    std::atomic<const Kernel*> present_;
+    std::atomic<bool> is_settled_{false};  ///< Compiled, or refused.
+    mutable std::atomic<bool> is_wanted_;
+    mutable std::atomic<std::int64_t> interpreted_cells_{0};
+};
+
+bool TieredBackend::Worker::start() {
+    const std::lock_guard lock(mutex_);
+    if (thread_.joinable()) return true;
+    try {
+        thread_ = std::thread([this] { work(); });
+    } catch (const std::system_error&) {
+        return false;
+    }
+    return true;
+}
+
+void TieredBackend::Worker::stop() {
+    {
+        const std::lock_guard lock(mutex_);
+        is_stopping_ = true;
+        expected_.clear();
+    }
+    changed_.notify_all();
+    if (thread_.joinable()) thread_.join();
+    begun_.clear();
+}
+
+void TieredBackend::Worker::abandon() {
+    std::vector<std::shared_ptr<TieredKernel>> kernels;  // Gone without the lock.
+    const std::lock_guard lock(mutex_);
+    kernels.swap(begun_);
+    expected_.clear();
+}
+
+void TieredBackend::Worker::add(const std::shared_ptr<TieredKernel>& kernel) {
+    {
+        const std::lock_guard lock(mutex_);
+        // Nobody else knows them any more, and they have hardly been used.
+        std::erase_if(begun_, [](const auto& known) {
+            return known.use_count() == 1 && !known->is_wanted();
+        });
+        begun_.push_back(kernel);
+    }
+    changed_.notify_all();
+}
+
+void TieredBackend::Worker::expect(const CellKernel& kernel, Stencil stencil) {
+    {
+        const std::lock_guard lock(mutex_);
+        expected_.push_back({kernel, stencil});
+    }
+    changed_.notify_all();
+}
+
+void TieredBackend::Worker::wake() {
+    // The thread either has not looked yet, or waits: nothing falls between.
+    { const std::lock_guard lock(mutex_); }
+    changed_.notify_all();
+}
+
+std::shared_ptr<TieredBackend::Worker::TieredKernel> TieredBackend::Worker::next_wanted() {
+    const auto found = std::find_if(begun_.begin(), begun_.end(),
+                                    [](const auto& kernel) { return kernel->is_wanted(); });
+    if (found == begun_.end()) return nullptr;
+    auto kernel = std::move(*found);
+    begun_.erase(found);
+    return kernel;
+}
+
+void TieredBackend::Worker::work() {
+    // A thread begins with its maker's rules of arithmetic; compilers expect the usual ones.
+    std::fesetenv(FE_DFL_ENV);
+    std::unique_lock lock(mutex_);
+    while (true) {
+        if (auto kernel = next_wanted()) {
+            lock.unlock();
+            kernel->compile(native_);
+            kernel.reset();  // It may be the last to know it, and then it goes without the lock.
+            lock.lock();
+        } else if (!expected_.empty()) {
+            const Source source = std::move(expected_.front());
+            expected_.pop_front();
+            lock.unlock();
+            try {
+                // What it refuses is refused again when somebody asks for it.
+                (void)native_.compile(source.kernel, source.stencil);
+            } catch (const std::bad_alloc&) {
+            }
+            lock.lock();
+        } else if (is_stopping_) {
+            return;
+        } else {
+            changed_.wait(lock);
+        }
+    }
+}
+
+TieredBackend::TieredBackend(std::unique_ptr<Backend> native)
+    : native_(std::move(native)),
+      interpreter_(make_interpreter()),
+      worker_(std::make_shared<Worker>(*native_)) {}
+
+TieredBackend::~TieredBackend() { worker_->stop(); }
+
+std::string_view TieredBackend::name() const { return native_->name(); }
+
+Result<KernelPointer> TieredBackend::compile(const CellKernel& kernel, Stencil stencil) {
+    return native_->compile(kernel, stencil);
+}
+
+KernelPointer TieredBackend::find(const CellKernel& kernel, Stencil stencil) {
+    return native_->find(kernel, stencil);
+}
+
+KernelCounts TieredBackend::counts() const { return native_->counts(); }
+
+KernelPointer TieredBackend::begin(const CellKernel& kernel, Stencil stencil, When when) {
+    if (auto found = native_->find(kernel, stencil)) return found;
+    KernelPointer interpreted = *interpreter_->compile(kernel, stencil);
+    auto begun = std::make_shared<Worker::TieredKernel>(kernel, stencil, std::move(interpreted), worker_,
+                                                        when == When::now);
+    if (worker_->start()) {
+        worker_->add(begun);
+    } else {
+        begun->compile(*native_);
+    }
+    return begun;
+}
+
+void TieredBackend::abandon() { worker_->abandon(); }
+
+void TieredBackend::expect(const CellKernel& kernel, Stencil stencil) {
+    if (!native_->find(kernel, stencil) && worker_->start()) worker_->expect(kernel, stencil);
+}
+
+}  // namespace cascade
