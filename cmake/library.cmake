@@ -22,12 +22,11 @@ add_library(Cascade::cascade ALIAS cascade_library)
 
 file(RELATIVE_PATH libraries_from_programs
   ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+# Both are linked as they are installed: CMake ends a path that it will replace by an empty entry, and the
+# loader takes that for the current folder. In the build folder the module lies beside them.
 set_target_properties(cascade_program PROPERTIES
-  INSTALL_RPATH "$ORIGIN/${libraries_from_programs}")
-# A path that is shorter in the build folder would be filled up to the length of the installed one by an empty
-# entry, and the loader takes that for the current folder.
-set_property(TARGET cascade_program cascade_library PROPERTY BUILD_RPATH
-  "${PROJECT_BINARY_DIR};$ORIGIN/${libraries_from_programs}")
+  INSTALL_RPATH "$ORIGIN/${libraries_from_programs};$ORIGIN")
+set_target_properties(cascade_program cascade_library PROPERTIES BUILD_WITH_INSTALL_RPATH ON)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Cascade)
 configure_package_config_file(cmake/CascadeConfig.cmake.in CascadeConfig.cmake
