@@ -2,6 +2,7 @@
 
 #include "app/quantities.h"
 #include "core/with_commas.h"
+#include "run/memory.h"
 
 #include <fmt/format.h>
 
@@ -14,13 +15,7 @@ namespace {
 
 std::string sides_of(const Grid& grid) {
     if (grid.linked) return fmt::format("{} cells of a model", with_commas(grid.cell_count()));
-    std::string sides = fmt::format("{} × {}", grid.width, grid.height);
-    if (grid.depth > 1) sides += fmt::format(" × {}", grid.depth);
-    return sides + " cells";
-}
-
-std::string plural(std::size_t count, std::string_view one, std::string_view many) {
-    return fmt::format("{} {}", count, count == 1 ? one : many);
+    return describe_sides(grid) + " cells";
 }
 
 /// Up to one digit behind the point: counts are whole but for links.
@@ -60,7 +55,7 @@ std::string work_lines(const StageBench& bench) {
     text += ", " + counted(work.cost.loads, "load", "loads");
     text += ", " + counted(work.cost.stores, "store", "stores");
     if (work.links > 0) text += fmt::format(", {:.2f} links", work.links);
-    text += ", in " + plural(work.passes, "pass", "passes");
+    text += ", in " + counted(static_cast<double>(work.passes), "pass", "passes");
     std::string lines = line("work a cell-step", text);
     lines += line("planes", fmt::format("{} bytes a cell-step; {} in all", number(work.bytes),
                                         byte_size(work.working_set)));
@@ -134,8 +129,8 @@ std::string bench_table(const std::string& script, const StageBench& bench) {
     text += line("speed", fmt::format("{} cell-steps/s, {} a step", with_prefix(bench.cell_steps_per_second()),
                                       with_unit(bench.step, "s")));
     text += line("measured", fmt::format("{} steps, the median of {}, {}{}", with_commas(bench.steps),
-                                         plural(bench.batches, "batch", "batches"),
-                                         plural(static_cast<std::size_t>(bench.threads), "thread", "threads"),
+                                         counted(static_cast<double>(bench.batches), "batch", "batches"),
+                                         counted(bench.threads, "thread", "threads"),
                                          bench.stepping.empty() ? "" : "; " + bench.stepping));
     text += line("before", fmt::format("starting values {}, first step {}, compiling {} in all",
                                        with_unit(bench.starting, "s"), with_unit(bench.first_step, "s"),

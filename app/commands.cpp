@@ -4,6 +4,7 @@
 #include "core/file.h"
 #include "lang/parse.h"
 #include "run/dump.h"
+#include "run/memory.h"
 
 #include <fmt/format.h>
 
@@ -51,11 +52,9 @@ std::string summary(const Script& script) {
         is_known = is_known && !time.has_duration() && !time.open_end;
         steps += program.stages[k].iterations;
     }
-    const Grid& grid = program.domain.grid;
-    std::string sides = fmt::format("{} × {}", grid.width, grid.height);
-    if (grid.depth > 1) sides += fmt::format(" × {}", grid.depth);
     return fmt::format("{} {}, {}{} cells", count, count == 1 ? "stage" : "stages",
-                       is_known ? fmt::format("{} steps, ", steps) : "", sides);
+                       is_known ? fmt::format("{} steps, ", steps) : "",
+                       describe_sides(program.domain.grid));
 }
 
 int check_one(const std::string& path, const Options& options, Console& console) {

@@ -22,6 +22,12 @@ std::string describe_bytes(double bytes) {
                         : fmt::format("{:.1f} MB", bytes / 1e6);
 }
 
+std::string describe_sides(const Grid& grid) {
+    std::string sides = fmt::format("{} × {}", grid.width, grid.height);
+    if (grid.depth > 1) sides += fmt::format(" × {}", grid.depth);
+    return sides;
+}
+
 std::uint64_t available_memory() {
     std::ifstream meminfo("/proc/meminfo");
     std::string key, unit;
@@ -120,10 +126,9 @@ double memory_of(const Program& program, StagePlans& plans) {
 
 Result<void> check_memory(const Grid& grid, double needed, std::uint64_t limit) {
     const auto fails = [&](double bytes, std::string_view what) {
-        std::string sides = fmt::format("{} × {}", grid.width, grid.height);
-        if (grid.depth > 1) sides += fmt::format(" × {}", grid.depth);
-        const std::string who = grid.linked ? "the cells of this model need"
-                                            : fmt::format("a grid of {} cells needs", sides);
+        const std::string who = grid.linked
+                                    ? "the cells of this model need"
+                                    : fmt::format("a grid of {} cells needs", describe_sides(grid));
         return failure(fmt::format("{} {} for this script, but {} {}", who, describe_bytes(needed),
                                    describe_bytes(bytes), what),
                        grid.linked ? "use fewer cells" : "use a smaller grid");

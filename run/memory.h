@@ -13,6 +13,9 @@ namespace cascade {
 /// "3.2 GB", "40.5 MB".
 std::string describe_bytes(double bytes);
 
+/// The cells along the axes of a grid: "128 × 64", with slices "128 × 64 × 32".
+std::string describe_sides(const Grid& grid);
+
 /// Bytes of all planes that a run keeps at one time. The plans are those that it will run.
 double memory_of(const Program& program, StagePlans& plans);
 double memory_of(const Program& program);

@@ -82,10 +82,6 @@ void PassRunner::run(Worker& worker, Team& team, Registers registers, const Step
     }
 }
 
-bool PassRunner::needs_all_rows(std::size_t pass) const {
-    return !problem_.passes[pass].reductions.empty() || problem_.passes[pass].filter;
-}
-
 void PassRunner::prepare_pass(Worker& worker, Team& team, std::size_t number, Registers registers,
                               const StepMoment& moment) {
     const StepProblem::Pass& pass = problem_.passes[number];

@@ -71,8 +71,6 @@ public:
     void run(Worker& worker, Team& team, Registers registers, const StepMoment& moment,
              std::size_t first_pass = 0);
 
-    /// Must all rows be complete before a pass begins, because it reads aggregates or filters waves?
-    bool needs_all_rows(std::size_t pass) const;
     /// Does what such a pass does before its kernel is run. As run(), for all threads of the team.
     void prepare_pass(Worker& worker, Team& team, std::size_t pass, Registers registers,
                       const StepMoment& moment);

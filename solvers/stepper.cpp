@@ -186,7 +186,7 @@ std::size_t Stepper::levels_from(const Level& level, std::size_t left) const {
     const auto most = static_cast<std::size_t>(tiles_->levels());
     const std::size_t passes = problem_->passes.size();
     std::size_t free = 1;
-    while (free < left && !runner_->needs_all_rows((level.pass + free) % passes)) {
+    while (free < left && !needs_all_rows(problem_->passes[(level.pass + free) % passes])) {
         if (++free > 2 * most) return most;
     }
     const std::size_t tiles = (free + most - 1) / most;

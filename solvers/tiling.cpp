@@ -63,10 +63,11 @@ Tiling tiling_of_slices(const Grid& grid, std::int64_t slice_bytes, const CacheS
     return tiling;
 }
 
-/// May a pass begin before the one in front of it is complete?
-bool is_local(const StepProblem::Pass& pass) { return pass.reductions.empty() && !pass.filter; }
-
 }  // namespace
+
+bool needs_all_rows(const StepProblem::Pass& pass) {
+    return !pass.reductions.empty() || pass.filter;
+}
 
 std::int64_t bytes_of_step(const StepProblem& problem) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> species, temporaries;
@@ -135,7 +136,7 @@ Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const Cache
     const Grid& grid = problem.grid;
     const std::int64_t bytes = bytes_of_step(problem);
     if (stays_in_cache(problem, caches)) return {};
-    if (std::none_of(problem.passes.begin(), problem.passes.end(), is_local)) return {};
+    if (std::all_of(problem.passes.begin(), problem.passes.end(), needs_all_rows)) return {};
     if (grid.depth > 1) return tiling_of_slices(grid, bytes / grid.depth, caches);
     Tiling tiling;
     tiling.outer_layer = std::clamp<std::int64_t>(
@@ -153,7 +154,7 @@ bool stays_in_cache(const StepProblem& problem, const CacheSizes& caches) {
 
 std::string words_for_stepping(const StepProblem& problem, int levels) {
     const std::size_t passes = problem.passes.size();
-    const bool all_local = std::all_of(problem.passes.begin(), problem.passes.end(), is_local);
+    const bool all_local = std::none_of(problem.passes.begin(), problem.passes.end(), needs_all_rows);
     if (problem.error_register != 0) return "one step a pass: each may be taken back";
     if (levels > 1 && all_local) {
         return passes == 1 ? fmt::format("{} steps a pass", levels)

@@ -20,6 +20,10 @@ struct Tiling {
     bool is_near = false;
 };
 
+/// Must the passes in front of this one be complete in all rows before it begins: for an aggregate, or a
+/// filter of waves?
+bool needs_all_rows(const StepProblem::Pass& pass);
+
 /// Bytes of all planes, masks and links that the passes of a step read or write, each counted once,
 /// both copies of what the steps change included.
 std::int64_t bytes_of_step(const StepProblem& problem);
