@@ -165,11 +165,11 @@ void ring_row(const float* __restrict a, const float* __restrict b, const float*
 [[gnu::noinline]]
 void conductivity_row(const float* __restrict c, float* __restrict conductivity,
                       std::int64_t width, std::int64_t stride, StraightConstants k) {
-    const float least = 1.0F / (k.edge * k.edge);
+    const float square = k.edge * k.edge;
     for (std::int64_t i = 0; i < width; ++i) {
         const float along_x = 0.5F * (c[i + 1] - c[i - 1]);
         const float along_y = 0.5F * (c[i + stride] - c[i - stride]);
-        conductivity[i] = expf(-(along_x * along_x + along_y * along_y) * least);
+        conductivity[i] = expf(-(along_x * along_x + along_y * along_y) / square);
     }
 }
 
