@@ -115,7 +115,7 @@ KernelLoops::KernelLoops(KernelFrame& frame)
     : frame_(frame),
       levels_(levels_of(frame.kernel())),
       lane_(frame, frame.builder(), nullptr),
-      scope_(frame.kernel(), levels_, Level::call, frame.builder(), lane_, frame.lanes(), nullptr) {
+      scope_(frame.kernel(), levels_, Level::call, frame.builder(), lane_, frame.shape(), nullptr) {
     scope_.emit();
 }
 
@@ -128,7 +128,9 @@ void KernelLoops::rows(Builder& place, Cells cells) {
     place.CreateBr(test);
 
     place.SetInsertPoint(test);
+    // The number of the first row is said at once: LLVM takes a number that comes from nowhere for not 0.
     llvm::PHINode* row = place.CreatePHI(place.getInt64Ty(), 2, "row");
+    row->addIncoming(frame_.row_begin(), before);
     place.CreateCondBr(place.CreateICmpSLT(row, frame_.row_end()), start, after);
 
     place.SetInsertPoint(start);
@@ -137,7 +139,6 @@ void KernelLoops::rows(Builder& place, Cells cells) {
     place.SetInsertPoint(next);
     Value* behind = place.CreateNSWAdd(row, place.getInt64(1));
     place.CreateBr(test);
-    row->addIncoming(frame_.row_begin(), before);
     row->addIncoming(behind, next);
     place.SetInsertPoint(after);
 }
@@ -149,7 +150,7 @@ void KernelLoops::columns(Value* row, Builder& place, llvm::BasicBlock* next, Ce
     Value* start = place.CreateNSWMul(row, frame_.stride(), "row_start");
     Value* end = place.CreateNSWAdd(start, frame_.width());
     OuterLane row_lane(frame_, place, row);
-    BodyScope row_scope(frame_.kernel(), levels_, Level::row, place, row_lane, frame_.lanes(),
+    BodyScope row_scope(frame_.kernel(), levels_, Level::row, place, row_lane, frame_.shape(),
                         &scope_);
     row_scope.emit();
 
@@ -167,7 +168,7 @@ void KernelLoops::columns(Value* row, Builder& place, llvm::BasicBlock* next, Ce
 
 void KernelLoops::body(CellLane& lane, Builder& builder, BodyScope& row_scope) {
     const CellKernel& kernel = frame_.kernel();
-    BodyScope scope(kernel, levels_, Level::cell, builder, lane, frame_.lanes(), &row_scope);
+    BodyScope scope(kernel, levels_, Level::cell, builder, lane, frame_.shape(), &row_scope);
     scope.emit();
     for (std::size_t result = 0; result < kernel.results.size(); ++result) {
         lane.store(result, scope.number(kernel.results[result]));

@@ -316,6 +316,18 @@ TEST(JitAgreement, ChoicesAreComparedInFrontOfTheLoops) {
     }
 }
 
+// LLVM would draw conclusions from a loop that is not finished.
+TEST(JitAgreement, TheFirstRowIsNumberZero) {
+    for (const Precision precision : {Precision::single, Precision::binary64}) {
+        KernelBuilder builder(precision);
+        const ValueId row = builder.cell_row();
+        const ValueId is_behind = builder.apply(Op::bits_to_number, row);
+        builder.result("r", builder.select(is_behind, row, builder.number(7)));
+        const CellKernel kernel = std::move(builder).finish();
+        EXPECT_EQ(difference(*jit_of(0, 2), kernel, Grid{20, 3, Boundary::periodic}, 1), "");
+    }
+}
+
 // The comparison above can fail: a kernel that differs in one operation is noticed.
 TEST(JitAgreement, AnotherKernelDiffers) {
     const auto jit = jit_of(0, 2);
