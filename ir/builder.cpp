@@ -31,7 +31,9 @@ std::uint32_t slot_of(const std::string& name, std::vector<std::string>& names,
 }
 
 /// Operations whose result is read as a number by everyone, so that any NaN may stand for any.
-bool yields_number(Op op) { return (op >= Op::add && op <= Op::divide) || op == Op::square_root; }
+bool yields_number(Op op) {
+    return (op >= Op::add && op <= Op::divide) || (op >= Op::square_root && op <= Op::scale_by_power);
+}
 
 /// Operations whose result is the number 1 or 0.
 bool yields_truth(Op op) { return op == Op::mask || (op >= Op::less && op <= Op::logical_not); }

@@ -76,29 +76,29 @@ constexpr ByPrecision<double> tanh_border = {0x1.19999ap-1, 0.55};
 /// A number as m · 2^n with m about 1.
 struct Scaled {
     Expression factor;
-    Expression exponent;  ///< As a word.
+    Expression exponent;
 };
 
 /// e^x. Beyond the reach the result is infinite or 0 as it is there.
 Scaled scaled_exponential(Expression argument) {
     const Expression x = argument.clamped(-argument.pick(exp_reach), argument.pick(exp_reach));
-    const Rounded n = round_to_whole(x * x.pick(log2_of_e));
-    const Expression r = (x - n.number * x.pick(ln2).head) - n.number * x.pick(ln2).tail;
+    const Expression n = (x * x.pick(log2_of_e)).rounded();
+    const Expression r = (x - n * x.pick(ln2).head) - n * x.pick(ln2).tail;
     const Expression curved = (r * r) * polynomial(r, x.pick(exp_coefficients));
-    return {(r + curved) + 1, n.word};
+    return {(r + curved) + 1, n};
 }
 
 /// e^x / 2, which is finite wherever sinh and cosh are.
 Expression half_exponential(Expression x) {
     const Scaled power = scaled_exponential(x);
-    return scale(power.factor, power.exponent.plus_word(~std::uint64_t{0}));
+    return power.factor.scaled(power.exponent - 1);
 }
 
 }  // namespace
 
 ValueId KernelBuilder::exponential(ValueId argument) {
     const Scaled power = scaled_exponential(Expression(*this, argument));
-    return scale(power.factor, power.exponent).id();
+    return power.factor.scaled(power.exponent).id();
 }
 
 ValueId KernelBuilder::hyperbolic_sine(ValueId argument) {

@@ -31,17 +31,6 @@ Rounded round_to_whole(Expression x) {
     return {sum - rounder, sum.plus_word(-((exponent << format.fraction_bits) + half))};
 }
 
-Expression scale(Expression x, Expression n) {
-    // One factor 2^n may be out of range where the product is not; so there are two, of about the
-    // same size. Their exponents plus the bias are the halves of n plus twice the bias.
-    const WordFormat format = x.format();
-    const Expression sum = n.plus_word(static_cast<std::uint64_t>(2 * format.bias));
-    const Expression first = sum.shifted_right(1);
-    const Expression second = sum.binary(Op::bits_subtract, first);
-    const Expression scaled = x * first.shifted_left(format.fraction_bits);
-    return scaled * second.shifted_left(format.fraction_bits);
-}
-
 Decomposed decompose(Expression x) {
     const WordFormat format = x.format();
     const std::uint64_t root_half = x.pick(root_half_bits);

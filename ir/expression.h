@@ -36,6 +36,10 @@ public:
     }
 
     Expression absolute() const { return unary(Op::absolute); }
+    /// To the nearest whole number, ties to even.
+    Expression rounded() const { return unary(Op::round_to_even); }
+    /// Times 2^n, for a whole number n of −252 … 252 (−2044 … 2044). Exact, or flushed, or infinite.
+    Expression scaled(Expression n) const { return binary(Op::scale_by_power, n); }
     Expression clamped(double low, double high) const {
         const ValueId below = builder_->clamp_below(id_, builder_->number(low));
         return {*builder_, builder_->clamp_above(below, builder_->number(high))};
@@ -109,9 +113,6 @@ struct Rounded {
     Expression word;    ///< As a word in two's complement.
 };
 Rounded round_to_whole(Expression x);
-
-/// x · 2^n for a whole word n of −254 … 254 (−2046 … 2046). Exact, or flushed, or infinite.
-Expression scale(Expression x, Expression n);
 
 /// A positive normal number as m · 2^e with m in [√½, √2).
 struct Decomposed {

@@ -103,9 +103,9 @@ Split logarithm_to_base_2(Expression x) {
 
 /// 2^(p + q), where q is small beside p or beside 1 and |p| is not above the largest logarithm.
 Expression exponential_to_base_2(Expression p, Expression q) {
-    const Rounded n = round_to_whole(p + q);
-    const Expression f = (p - n.number) + q;
-    return scale(f * polynomial(f, f.pick(exp2_coefficients)) + 1, n.word);
+    const Expression n = (p + q).rounded();
+    const Expression f = (p - n) + q;
+    return (f * polynomial(f, f.pick(exp2_coefficients)) + 1).scaled(n);
 }
 
 /// |x|^y, for any words.

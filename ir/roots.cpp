@@ -52,12 +52,12 @@ ValueId KernelBuilder::cube_root(ValueId argument) {
     const Expression x(*this, argument);
     const Expression a = x.absolute();
     const auto [m, e] = decompose(a);
-    const Rounded third = round_to_whole(e * x.pick(third_of_one));
-    const Expression left = e - third.number * 3;  // −1, 0 or 1.
+    const Expression third = (e * x.pick(third_of_one)).rounded();
+    const Expression left = e - third * 3;  // −1, 0 or 1.
     const Expression y = m * by_sign(left, 0.5, 1, 2);
     const Expression guess = polynomial(m, x.pick(cube_root_coefficients)) *
                              by_sign(left, x.pick(cube_root_of_half), 1, x.pick(cube_root_of_2));
-    const Expression magnitude = scale(halley_step(guess.head(), y), third.word);
+    const Expression magnitude = halley_step(guess.head(), y).scaled(third);
     const Expression root = magnitude.with_sign_of(x);
     // Zero, infinity and NaN are their own; the sum flushes a denormal number.
     return both(0 < a, a < infinity).choose(root, x + x).id();

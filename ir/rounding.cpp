@@ -10,23 +10,12 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// From here on all numbers are whole.
-constexpr ByPrecision<double> all_whole = {0x1p23, 0x1p52};
-
 // Quotients from here on leave no rest that could be found: below, both halves of a whole quotient have
 // few enough bits for their products to be exact.
 constexpr ByPrecision<double> largest_quotient = {0x1p24, 0x1p52};
 
-Expression whole_nearest(Expression x) {
-    const Expression a = x.absolute();
-    const double border = x.pick(all_whole);
-    const Expression rounded = (a + border) - border;
-    const Expression with_sign = rounded.with_sign_of(x);
-    return (a < border).choose(with_sign, x);
-}
-
 Expression whole_below(Expression x) {
-    const Expression nearest = whole_nearest(x);
+    const Expression nearest = x.rounded();
     return (x < nearest).choose(nearest - 1, nearest);
 }
 
@@ -49,7 +38,7 @@ Expression differ_in_sign(Expression a, Expression b) {
 }  // namespace
 
 ValueId KernelBuilder::round_to_even(ValueId argument) {
-    return whole_nearest(Expression(*this, argument)).id();
+    return apply(Op::round_to_even, argument);
 }
 
 ValueId KernelBuilder::round_down(ValueId argument) {

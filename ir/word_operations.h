@@ -48,6 +48,31 @@ Number arithmetic(Number a, Number b) {
     if constexpr (op == Op::divide) return a / b;
 }
 
+/// The nearest whole number: the sum of 2^23 (2^52) and a smaller number has no digits behind the point.
+template <typename Number>
+Number round_to_even(Number a) {
+    constexpr auto all_whole =
+        static_cast<Number>(std::uint64_t{1} << format_of(precision_of<Number>).fraction_bits);
+    const Number size = std::abs(a);
+    return size < all_whole ? std::copysign((size + all_whole) - all_whole, a) : a;
+}
+
+/// a · 2^b. One factor 2^b may be out of range where the product is not; so there are two, of about the same
+/// size. Their exponents plus the bias are the halves of b plus twice the bias, which are the last bits of
+/// a sum, as whole numbers; a shift leaves no others.
+template <typename Number>
+Number scale_by_power(Number a, Number b) {
+    using Word = WordOf<Number>;
+    constexpr WordFormat format = format_of(precision_of<Number>);
+    constexpr auto whole = static_cast<Number>(std::uint64_t{3} << (format.fraction_bits - 1));
+    const auto sum = std::bit_cast<Word>(b + (whole + Number{2 * format.bias}));
+    const Word half = sum >> 1;
+    const auto power = [](Word exponent) {
+        return std::bit_cast<Number>(static_cast<Word>(exponent << format.fraction_bits));
+    };
+    return (a * power(half)) * power(sum - half);
+}
+
 template <Op op, typename Number>
 bool comparison(Number a, Number b) {
     if constexpr (op == Op::less) return a < b;
@@ -92,6 +117,10 @@ inline Word word_operation(Word a, Word b, Word c) {
         return a & ~sign_bit<Number>;
     } else if constexpr (op == Op::square_root) {
         return std::bit_cast<Word>(std::sqrt(x));
+    } else if constexpr (op == Op::round_to_even) {
+        return std::bit_cast<Word>(round_to_even(x));
+    } else if constexpr (op == Op::scale_by_power) {
+        return std::bit_cast<Word>(scale_by_power(x, y));
     } else if constexpr (is_comparison<op>) {
         return comparison<op>(x, y) ? one_bits<Number> : 0;
     } else if constexpr (is_logic<op>) {

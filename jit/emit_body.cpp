@@ -34,18 +34,19 @@ llvm::APFloat number_constant(std::uint64_t word, Precision precision) {
 }
 
 BodyScope::BodyScope(const CellKernel& kernel, std::span<const Level> levels, Level level,
-                     Builder& builder, Lane& lane, int lanes, BodyScope* outer)
+                     Builder& builder, Lane& lane, const KernelShape& shape, BodyScope* outer)
     : kernel_(kernel),
       format_(format_of(kernel.precision)),
       levels_(levels),
       level_(level),
+      shape_(shape),
       builder_(builder),
       lane_(lane),
       outer_(outer),
       number_type_(llvm::FixedVectorType::get(number_type(builder, kernel.precision),
-                                              static_cast<unsigned>(lanes))),
+                                              static_cast<unsigned>(shape.lanes))),
       bits_type_(llvm::FixedVectorType::get(word_type(builder, kernel.precision),
-                                            static_cast<unsigned>(lanes))),
+                                            static_cast<unsigned>(shape.lanes))),
       values_(kernel.code.size()) {}
 
 void BodyScope::emit() {
@@ -197,7 +198,9 @@ BodyScope::Forms BodyScope::emit(const Instruction& instruction) {
         case Op::divide:
         case Op::negate:
         case Op::absolute:
-        case Op::square_root: return emit_arithmetic(instruction);
+        case Op::square_root:
+        case Op::round_to_even:
+        case Op::scale_by_power: return emit_arithmetic(instruction);
         case Op::less:
         case Op::less_equal:
         case Op::equal:
@@ -287,6 +290,8 @@ BodyScope::Forms BodyScope::emit_arithmetic(const Instruction& instruction) {
             value.number = builder_.CreateUnaryIntrinsic(llvm::Intrinsic::fabs, number(a));
             value.may_be_denormal = forms(a).may_be_denormal;
             break;
+        case Op::round_to_even: value.number = rounded_to_even(a); break;
+        case Op::scale_by_power: value.number = scaled_by_power(a, b); break;
         default:
             value.number = builder_.CreateUnaryIntrinsic(llvm::Intrinsic::sqrt, operand(a));
             break;
@@ -359,14 +364,6 @@ BodyScope::Forms BodyScope::emit_select(const Instruction& instruction) {
     return value;
 }
 
-/// Whether shifting left by this amount leaves nothing but sign and exponent: no denormal number is
-/// so made. Powers of two are, as in exp.
-bool BodyScope::clears_significand(ValueId amount) {
-    const std::optional<std::uint64_t> word = constant_word(amount);
-    return word && (*word & static_cast<std::uint64_t>(format_.bits - 1)) >=
-                       static_cast<std::uint64_t>(format_.fraction_bits);
-}
-
 BodyScope::Forms BodyScope::emit_word(const Instruction& instruction) {
     llvm::Value* a = bits(instruction.operands[0]);
     Forms value;
@@ -391,10 +388,7 @@ BodyScope::Forms BodyScope::emit_word(const Instruction& instruction) {
         case Op::bits_and: value.bits = builder_.CreateAnd(a, b); break;
         case Op::bits_or: value.bits = builder_.CreateOr(a, b); break;
         case Op::bits_xor: value.bits = builder_.CreateXor(a, b); break;
-        case Op::bits_shift_left:
-            value.bits = builder_.CreateShl(a, amount());
-            value.may_be_denormal = !clears_significand(instruction.operands[1]);
-            break;
+        case Op::bits_shift_left: value.bits = builder_.CreateShl(a, amount()); break;
         default: value.bits = builder_.CreateLShr(a, amount()); break;
     }
     return value;

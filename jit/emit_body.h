@@ -14,6 +14,7 @@
 #pragma once
 
 #include "ir/cell_kernel.h"
+#include "jit/kernel_shape.h"
 
 #include <llvm/Analysis/InstSimplifyFolder.h>
 #include <llvm/IR/IRBuilder.h>
@@ -65,7 +66,7 @@ class BodyScope {
 public:
     /// `builder` writes at the end of this level's block, which is still without a terminator.
     BodyScope(const CellKernel& kernel, std::span<const Level> levels, Level level,
-              Builder& builder, Lane& lane, int lanes, BodyScope* outer);
+              Builder& builder, Lane& lane, const KernelShape& shape, BodyScope* outer);
 
     /// Emits all instructions of this level.
     void emit();
@@ -98,8 +99,10 @@ private:
     Forms emit_logic(const Instruction& instruction);
     Forms emit_select(const Instruction& instruction);
     Forms emit_word(const Instruction& instruction);
+    llvm::Value* rounded_to_even(ValueId a);
+    llvm::Value* scaled_by_power(ValueId a, ValueId b);
+    llvm::Value* scaled_by_instruction(llvm::Value* a, llvm::Value* b);
     std::optional<std::uint64_t> constant_word(ValueId id);
-    bool clears_significand(ValueId amount);
     llvm::Value* branch(ValueId id, ValueId other);
     llvm::Value* hidden(std::uint64_t word);
     llvm::Value* operand(ValueId id);
@@ -112,6 +115,7 @@ private:
     WordFormat format_;
     std::span<const Level> levels_;
     Level level_;
+    const KernelShape& shape_;
     Builder& builder_;
     Lane& lane_;
     BodyScope* outer_;

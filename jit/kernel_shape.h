@@ -14,6 +14,8 @@ struct KernelShape {
     // What the processor is good at: see tuned() in jit/target_machine.h.
     bool has_multiply_add = false;   ///< Of one rounding, in one instruction.
     bool is_short_of_loads = false;
+    bool has_rounding = false;       ///< To whole numbers, in one instruction.
+    bool has_scaling = false;        ///< Of vectors of 64 bytes by powers of two, in one instruction.
 };
 
 /// The shape with vectors as wide as `lanes` cells of binary32.

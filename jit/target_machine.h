@@ -36,6 +36,9 @@ bool has_multiply_add(const llvm::TargetMachine& machine);
 /// Zen 4 loads 64 bytes a cycle and 32 a cycle across lines, while it shifts and computes 64.
 bool is_short_of_loads(const llvm::TargetMachine& machine);
 
+/// Whether rounding to whole numbers, ties to even, is an instruction.
+bool has_rounding(const llvm::TargetMachine& machine);
+
 /// The same shape with what this processor is good at.
 KernelShape tuned(KernelShape shape, const llvm::TargetMachine& machine);
 

@@ -76,8 +76,10 @@ private:
             const Value c = operand();
             keep(builder_.select(a.id, b.id, c.id), b.is_exact && c.is_exact);
         } else if (info(op).arity == 1) {
-            const bool is_exact = op == Op::logical_not || (op != Op::square_root && a.is_exact);
-            keep(builder_.apply(op, a.id), is_exact);
+            const bool keeps_bits = op == Op::negate || op == Op::absolute;
+            keep(builder_.apply(op, a.id), op == Op::logical_not || (keeps_bits && a.is_exact));
+        } else if (op == Op::scale_by_power) {
+            keep(builder_.apply(op, a.id, power_of_two()), false);
         } else {
             keep(builder_.apply(op, a.id, b.id), op >= Op::less);
         }
@@ -135,6 +137,15 @@ private:
     ValueId trouble() {
         return builder_.word(options_.precision == Precision::single ? hostile_word(stream_)
                                                                      : hostile_long_word(stream_));
+    }
+
+    /// A whole number that scaling takes: of −128 … 127, or in binary64 of −1024 … 1023.
+    ValueId power_of_two() {
+        const std::uint64_t half = options_.precision == Precision::single ? 128 : 1024;
+        const ValueId word =
+            builder_.apply(Op::bits_and, exact_operand(), builder_.word(2 * half - 1));
+        return builder_.apply(Op::bits_to_number,
+                              builder_.apply(Op::bits_subtract, word, builder_.word(half)));
     }
 
     void word_operation(Op op) {

@@ -16,7 +16,7 @@ namespace cascade::testing {
 /// `expand(builder, x, y)` gives the value of the function, in the precision of the arguments.
 template <typename Expand, typename Number>
 std::vector<Number> apply_to_all(const Expand& expand, const std::vector<Number>& x,
-                                 const std::vector<Number>& y) {
+                                 const std::vector<Number>& y, Backend& backend) {
     KernelBuilder builder(precision_of<Number>);
     const ValueId first = builder.field(builder.field_slot("x"));
     const ValueId second = builder.field(builder.field_slot("y"));
@@ -30,9 +30,15 @@ std::vector<Number> apply_to_all(const Expand& expand, const std::vector<Number>
     const Number* fields[] = {a.origin(), b.origin()};
     Number* results[] = {out.origin()};
     const FlushDenormals environment;
-    const KernelPointer compiled = *make_interpreter()->compile(kernel, Stencil::row);
+    const KernelPointer compiled = *backend.compile(kernel, Stencil::row);
     compiled->run({fields, {}, {}, results, layout}, {0, 1});
     return {out.origin(), out.origin() + x.size()};
+}
+
+template <typename Expand, typename Number>
+std::vector<Number> apply_to_all(const Expand& expand, const std::vector<Number>& x,
+                                 const std::vector<Number>& y) {
+    return apply_to_all(expand, x, y, *make_interpreter());
 }
 
 /// How far `value` is from `exact`, in units in the last place of binary32 numbers of its size.

@@ -47,6 +47,8 @@ inline std::uint32_t oracle(Op op, std::uint32_t a, std::uint32_t b, std::uint32
         case Op::negate: return a ^ 0x80000000u;
         case Op::absolute: return a & 0x7fffffffu;
         case Op::square_root: return write_number(std::sqrt(x));
+        case Op::round_to_even: return write_number(std::nearbyint(x));
+        case Op::scale_by_power: return write_number(std::ldexp(x, static_cast<int>(y)));
         case Op::less: return truth(x < y);
         case Op::less_equal: return truth(x <= y);
         case Op::equal: return truth(x == y);

@@ -35,11 +35,17 @@ struct Words {
     std::uint32_t a, b, c;
 };
 
+/// The word of a whole number of −252 … 252.
+std::uint32_t whole_power(testing::RandomStream& stream) {
+    return to_bits(static_cast<float>(stream.below(505)) - 252.0f);
+}
+
 Words hostile_words(testing::RandomStream& stream, Op op) {
     Words words{testing::hostile_word(stream), testing::hostile_word(stream),
                 testing::hostile_word(stream)};
     if (stream.chance(10)) words.b = words.a;
     if (is_shift(op)) words.b = stream.below(32);
+    if (op == Op::scale_by_power) words.b = whole_power(stream);
     return words;
 }
 
@@ -96,6 +102,7 @@ struct Row {
             fields.emplace_back(layout);
             uniforms.push_back(to_number(testing::hostile_word(stream)));
         }
+        if (op == Op::scale_by_power) uniforms[1] = to_number(whole_power(stream));
         for (std::int64_t i = 0; i < cells; ++i) {
             const Words words = hostile_words(stream, op);
             fields[0].at(i, 0) = to_number(words.a);
@@ -184,6 +191,14 @@ TEST(Operations, SpecialValues) {
     EXPECT_TRUE(std::isnan(value(Op::square_root, -1)));
     EXPECT_EQ(to_bits(value(Op::square_root, -0.0f)), 0x80000000u);
     EXPECT_EQ(to_bits(value(Op::square_root, -denormal)), 0x80000000u);
+    EXPECT_EQ(value(Op::round_to_even, 2.5f), 2);
+    EXPECT_EQ(to_bits(value(Op::round_to_even, -0.5f)), 0x80000000u);
+    EXPECT_EQ(to_bits(value(Op::round_to_even, -denormal)), 0x80000000u);
+    EXPECT_EQ(value(Op::round_to_even, -INFINITY), -INFINITY);
+    EXPECT_EQ(value(Op::scale_by_power, 0x1.8p-126f, 252), 0x1.8p126f);
+    EXPECT_EQ(value(Op::scale_by_power, 0x1p126f, -252), 0x1p-126f);
+    EXPECT_EQ(to_bits(value(Op::scale_by_power, -0x1.8p0f, -127)), 0x80000000u);
+    EXPECT_EQ(value(Op::scale_by_power, 1, 128), INFINITY);
     EXPECT_EQ(value(Op::bits_to_number, to_number(0xffffffff)), -1.0f);
     EXPECT_EQ(value(Op::bits_to_number, to_number(0x7fffffff)), 0x1p31f);
 }

@@ -47,7 +47,7 @@ private:
         }
     }
 
-    ValueId unary() { return emit(one_of(Op::negate, Op::square_root), {operand(), 0, 0}, 0); }
+    ValueId unary() { return emit(one_of(Op::negate, Op::round_to_even), {operand(), 0, 0}, 0); }
 
     ValueId binary(Op first, Op last) {
         const ValueId a = operand(), b = operand();
