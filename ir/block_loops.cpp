@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "ir/interpreter.h"
+#include "ir/multiply_add.h"
 #include "ir/word_operations.h"
 
 #include <array>
@@ -81,6 +82,9 @@ Word evaluate_words(Op op, Word a, Word b, Word c) {
 template <typename Number>
 BlockLoop<Number> block_loop(Op op, unsigned scalar_operands) {
     CHECK(scalar_operands < scalar_choices, "interpreter: operations have up to three operands");
+    if (op == Op::multiply_add && has_multiply_add()) {
+        return multiply_add_loop<Number>(scalar_operands);
+    }
     const BlockLoop<Number> result = loops<Number>[static_cast<std::size_t>(op)][scalar_operands];
     CHECK(result, "interpreter: the operation has an operand that varies over the cells");
     return result;

@@ -32,7 +32,7 @@ std::uint32_t slot_of(const std::string& name, std::vector<std::string>& names,
 
 /// Operations whose result is read as a number by everyone, so that any NaN may stand for any.
 bool yields_number(Op op) {
-    return (op >= Op::add && op <= Op::divide) || (op >= Op::square_root && op <= Op::scale_by_power);
+    return (op >= Op::add && op <= Op::divide) || (op >= Op::square_root && op <= Op::multiply_add);
 }
 
 /// Operations whose result is the number 1 or 0.
@@ -95,8 +95,9 @@ ValueId KernelBuilder::apply(Op op, ValueId a, ValueId b) {
     return emit({op, {a, b, 0}, 0});
 }
 
-ValueId KernelBuilder::select(ValueId condition, ValueId then, ValueId otherwise) {
-    return emit({Op::select, {condition, then, otherwise}, 0});
+ValueId KernelBuilder::apply(Op op, ValueId a, ValueId b, ValueId c) {
+    CHECK(info(op).arity == 3, "builder: the operation takes three operands");
+    return emit({op, {a, b, c}, 0});
 }
 
 ValueId KernelBuilder::minimum(ValueId a, ValueId b) {

@@ -47,11 +47,16 @@ public:
     ValueId cell_row();
     ValueId cell_slice();
 
+    /// Any instruction of the table.
+    ValueId emit(Instruction instruction);
     /// Any operation of the table without payload, by its operands.
     ValueId apply(Op op, ValueId a);
     ValueId apply(Op op, ValueId a, ValueId b);
-    ValueId select(ValueId condition, ValueId then, ValueId otherwise);
+    ValueId apply(Op op, ValueId a, ValueId b, ValueId c);
 
+    ValueId select(ValueId condition, ValueId then, ValueId otherwise) {
+        return apply(Op::select, condition, then, otherwise);
+    }
     ValueId add(ValueId a, ValueId b) { return apply(Op::add, a, b); }
     ValueId subtract(ValueId a, ValueId b) { return apply(Op::subtract, a, b); }
     ValueId multiply(ValueId a, ValueId b) { return apply(Op::multiply, a, b); }
@@ -123,7 +128,6 @@ public:
     double constant(ValueId id) const { return number_of(kernel_.code[id].payload, precision()); }
 
 private:
-    ValueId emit(Instruction instruction);
     std::optional<ValueId> simplify(const Instruction& instruction);
     std::optional<ValueId> simplify_logic(Op op, ValueId x, std::uint64_t known);
     bool is_true_word(std::uint64_t word) const;

@@ -137,6 +137,20 @@ bool CellKernel::reads_neighbours(std::uint32_t field_slot) const {
     return false;
 }
 
+std::vector<bool> varying(const CellKernel& kernel) {
+    std::vector<bool> varies;
+    varies.reserve(kernel.code.size());
+    for (const Instruction& instruction : kernel.code) {
+        const auto arity = static_cast<std::size_t>(info(instruction.op).arity);
+        bool differs = arity == 0 && instruction.op != Op::constant && instruction.op != Op::uniform;
+        for (std::size_t k = 0; k < arity; ++k) {
+            differs = differs || varies[instruction.operands[k]];
+        }
+        varies.push_back(differs);
+    }
+    return varies;
+}
+
 std::uint64_t hash(const CellKernel& kernel) {
     std::uint64_t result = mix(kernel.code.size(), kernel.results.size());
     if (kernel.precision != Precision::single) result = mix(result, bytes_of(kernel.precision));

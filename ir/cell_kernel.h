@@ -117,6 +117,9 @@ struct CellKernel {
     bool reads_neighbours(std::uint32_t field_slot) const;
 };
 
+/// By value: can it differ between cells? What depends on constants and uniforms alone does not.
+std::vector<bool> varying(const CellKernel& kernel);
+
 /// A hash of everything that decides the generated code (not of the names).
 std::uint64_t hash(const CellKernel& kernel);
 

@@ -11,6 +11,20 @@ namespace cascade {
 
 namespace {
 
+/// By value: is it a sign that multiply-adds alone turn over, which they do by themselves?
+std::vector<bool> signs_of_multiply_adds(const CellKernel& kernel) {
+    std::vector<bool> is_sign;
+    for (const Instruction& instruction : kernel.code) {
+        is_sign.push_back(instruction.op == Op::negate);
+        if (instruction.op == Op::multiply_add) continue;
+        for (int k = 0; k < info(instruction.op).arity; ++k) {
+            is_sign[instruction.operands[static_cast<std::size_t>(k)]] = false;
+        }
+    }
+    for (const ValueId id : kernel.results) is_sign[id] = false;
+    return is_sign;
+}
+
 /// Adds up one kernel.
 class Counter {
 public:
@@ -19,11 +33,12 @@ public:
           stencil_(stencil),
           links_(links),
           word_(static_cast<double>(format_of(kernel.precision).bits) / 8),
-          varies_(kernel.code.size(), false) {}
+          varies_(varying(kernel)),
+          is_folded_(signs_of_multiply_adds(kernel)) {}
 
     KernelCost count() {
         for (std::size_t k = 0; k < kernel_.code.size(); ++k) {
-            varies_[k] = add(kernel_.code[k]);
+            if (varies_[k] && !is_folded_[k]) add(kernel_.code[k]);
         }
         const auto stores = static_cast<double>(kernel_.results.size());
         cost_.stores += stores;
@@ -34,40 +49,31 @@ public:
 private:
     using Place = std::tuple<std::uint32_t, int, int, int>;
 
-    /// Returns whether the value differs between cells.
-    bool add(const Instruction& instruction) {
+    void add(const Instruction& instruction) {
         switch (instruction.op) {
-            case Op::constant:
-            case Op::uniform: return false;
             case Op::cell_column:
             case Op::cell_row:
-            case Op::cell_slice: return true;
-            case Op::field: load({instruction.slot(), 0, 0, 0}); return true;
-            case Op::neighbour: load(within_stencil(Neighbour::of(instruction.slot()))); return true;
-            case Op::mask: load_mask(instruction.slot()); return true;
-            case Op::laplacian: add_laplacian(instruction.slot()); return true;
+            case Op::cell_slice: break;
+            case Op::field: load({instruction.slot(), 0, 0, 0}); break;
+            case Op::neighbour: load(within_stencil(Neighbour::of(instruction.slot()))); break;
+            case Op::mask: load_mask(instruction.slot()); break;
+            case Op::laplacian: add_laplacian(instruction.slot()); break;
             case Op::link_flow: {
                 const Flow flow = Flow::with(instruction.payload);
                 add_link_sum({flow.factor, flow.of}, Op::laplacian, 5);
-                return true;
+                break;
             }
-            case Op::link_squares: add_link_sum({instruction.slot()}, Op::laplacian, 4); return true;
+            case Op::link_squares: add_link_sum({instruction.slot()}, Op::laplacian, 4); break;
             case Op::gradient_x:
             case Op::gradient_y:
-            case Op::gradient_z: add_link_sum({instruction.slot()}, instruction.op, 3); return true;
-            default: return add_operation(instruction);
+            case Op::gradient_z: add_link_sum({instruction.slot()}, instruction.op, 3); break;
+            default: add_operation(instruction);
         }
     }
 
-    bool add_operation(const Instruction& instruction) {
-        bool varies = false;
-        for (int k = 0; k < info(instruction.op).arity; ++k) {
-            varies = varies || varies_[instruction.operands[static_cast<std::size_t>(k)]];
-        }
-        if (!varies) return false;
+    void add_operation(const Instruction& instruction) {
         cost_.operations += 1;
         if (instruction.op == Op::divide || instruction.op == Op::square_root) cost_.divisions += 1;
-        return true;
     }
 
     /// Along an axis of one cell the neighbour is the cell itself.
@@ -127,7 +133,7 @@ private:
     Stencil stencil_;
     double links_;
     double word_;  ///< Bytes.
-    std::vector<bool> varies_;
+    std::vector<bool> varies_, is_folded_;
     std::set<Place> loaded_;
     std::set<std::uint32_t> masks_, gathered_;
     std::set<Op> weights_;

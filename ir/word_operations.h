@@ -121,6 +121,8 @@ inline Word word_operation(Word a, Word b, Word c) {
         return std::bit_cast<Word>(round_to_even(x));
     } else if constexpr (op == Op::scale_by_power) {
         return std::bit_cast<Word>(scale_by_power(x, y));
+    } else if constexpr (op == Op::multiply_add) {
+        return std::bit_cast<Word>(std::fma(x, y, std::bit_cast<Number>(c)));
     } else if constexpr (is_comparison<op>) {
         return comparison<op>(x, y) ? one_bits<Number> : 0;
     } else if constexpr (is_logic<op>) {

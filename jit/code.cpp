@@ -46,6 +46,12 @@ std::size_t size_of(const CellKernel& kernel) {
     return size;
 }
 
+bool multiplies_and_adds(const CellKernel& kernel) {
+    return std::any_of(kernel.code.begin(), kernel.code.end(), [](const Instruction& instruction) {
+        return instruction.op == Op::multiply_add;
+    });
+}
+
 /// Takes a machine's optimisation away while it lives.
 class SimpleGenerator {
 public:
@@ -80,6 +86,11 @@ Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const Kernel
         return failure(fmt::format("a kernel of size {} is too large for native code, which ends "
                                    "at {}",
                                    size, largest_native_kernel));
+    }
+    if (!has_multiply_add(machine) && multiplies_and_adds(kernel)) {
+        return failure(fmt::format("{} does not multiply and add with one rounding",
+                                   machine.getTargetCPU().str()),
+                       "x86-64-v3 does; without --fast every operation is rounded");
     }
     code.is_large = code.is_large || size > largest_optimised_kernel;
     const auto build = shape.stencil.links ? build_linked_function : build_grid_function;

@@ -201,6 +201,7 @@ BodyScope::Forms BodyScope::emit(const Instruction& instruction) {
         case Op::square_root:
         case Op::round_to_even:
         case Op::scale_by_power: return emit_arithmetic(instruction);
+        case Op::multiply_add: return emit_multiply_add(instruction);
         case Op::less:
         case Op::less_equal:
         case Op::equal:
@@ -296,6 +297,17 @@ BodyScope::Forms BodyScope::emit_arithmetic(const Instruction& instruction) {
             value.number = builder_.CreateUnaryIntrinsic(llvm::Intrinsic::sqrt, operand(a));
             break;
     }
+    return value;
+}
+
+// LLVM drops a factor of ±1, and then what is added, if that is 0.
+BodyScope::Forms BodyScope::emit_multiply_add(const Instruction& instruction) {
+    const auto [a, b, c] = instruction.operands;
+    Forms value;
+    value.may_be_neutral =
+        forms(a).may_be_neutral || forms(b).may_be_neutral || forms(c).may_be_neutral;
+    value.number = builder_.CreateIntrinsic(llvm::Intrinsic::fma, {number_type_},
+                                            {operand(a, b, 1), operand(b, a, 1), operand(c)});
     return value;
 }
 

@@ -95,6 +95,7 @@ private:
     bool is_evaluated(const Instruction& instruction, Forms& value);
     Forms emit_source(const Instruction& instruction);
     Forms emit_arithmetic(const Instruction& instruction);
+    Forms emit_multiply_add(const Instruction& instruction);
     Forms emit_comparison(const Instruction& instruction);
     Forms emit_logic(const Instruction& instruction);
     Forms emit_select(const Instruction& instruction);

@@ -66,15 +66,17 @@ public:
 private:
     void step() {
         if (stream_.chance(options_.composed_percent)) return composed();
-        const Op op = static_cast<Op>(stream_.below(static_cast<std::uint64_t>(op_count)));
+        Op op = static_cast<Op>(stream_.below(static_cast<std::uint64_t>(op_count)));
+        if (op == Op::multiply_add && !options_.multiply_adds) op = Op::select;
         if (info(op).arity == 0) return source(op);
         const bool is_word_operation = op >= Op::bits_add;
         if (is_word_operation) return word_operation(op);
         const Value a = operand();
         const Value b = operand();
-        if (op == Op::select) {
+        if (info(op).arity == 3) {
             const Value c = operand();
-            keep(builder_.select(a.id, b.id, c.id), b.is_exact && c.is_exact);
+            keep(builder_.apply(op, a.id, b.id, c.id),
+                 op == Op::select && b.is_exact && c.is_exact);
         } else if (info(op).arity == 1) {
             const bool keeps_bits = op == Op::negate || op == Op::absolute;
             keep(builder_.apply(op, a.id), op == Op::logical_not || (keeps_bits && a.is_exact));
@@ -262,7 +264,9 @@ std::string OperationCounts::missing(bool links) const {
     std::string names;
     for (std::size_t k = 0; k < counts.size(); ++k) {
         const Op op = static_cast<Op>(k);
-        const bool is_foreign = links ? op == Op::neighbour : is_link_sum(op) && op != Op::laplacian;
+        const bool is_foreign =
+            (op == Op::multiply_add && !has_multiply_add()) ||
+            (links ? op == Op::neighbour : is_link_sum(op) && op != Op::laplacian);
         if (counts[k] != 0 || is_foreign) continue;
         names += fmt::format("{}{}", names.empty() ? "" : " ", info(static_cast<Op>(k)).name);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ir/cell_kernel.h"
+#include "ir/multiply_add.h"
 
 #include <array>
 #include <cstdint>
@@ -15,6 +16,7 @@ struct RandomKernelOptions {
     Precision precision = Precision::single;
     bool laplacians = true;      ///< And neighbours.
     bool links = false;          ///< For linked cells: sums over links, and no neighbours.
+    bool multiply_adds = has_multiply_add();
     int composed_percent = 5;    ///< Share of elementary functions, clamps, random numbers.
 };
 

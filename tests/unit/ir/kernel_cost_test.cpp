@@ -27,6 +27,18 @@ TEST(KernelCost, DiffusionOnAPlane) {
     EXPECT_EQ(cost.store_bytes, 4);
 }
 
+TEST(KernelCost, AMultiplyAddIsOneOperationWithItsSign) {
+    KernelBuilder builder;
+    const ValueId a = builder.field(builder.field_slot("a")), b = builder.field(builder.field_slot("b"));
+    const ValueId sign = builder.apply(Op::negate, b);
+    const ValueId sum = builder.apply(Op::multiply_add, a, sign, b);
+    builder.result("r", sum);
+    CellKernel kernel = std::move(builder).finish();
+    EXPECT_EQ(cost_of(kernel, Stencil::plane, 0).operations, 1);
+    kernel.results = {2};  // The sign itself is written: now it takes an operation.
+    EXPECT_EQ(cost_of(kernel, Stencil::plane, 0).operations, 2);
+}
+
 TEST(KernelCost, OtherStencilsHaveOtherSums) {
     EXPECT_EQ(cost_of(diffusion(false), Stencil::row, 0).operations, 5);
     EXPECT_EQ(cost_of(diffusion(false), Stencil::row, 0).loads, 3);

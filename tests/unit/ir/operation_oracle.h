@@ -4,6 +4,7 @@
 
 #include "ir/cell_kernel.h"
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -33,6 +34,18 @@ inline std::uint32_t write_number(double value) {
     return to_bits(static_cast<float>(enlarged * 0x1p-200));
 }
 
+/// x · y + z of three binary32 numbers, whose last bit says whether digits are missing behind it (rounding to
+/// odd): rounded to fewer digits it is then right.
+inline double multiply_add(double x, double y, double z) {
+    const double product = x * y;  // Exact.
+    const double sum = product + z;
+    const double added = sum - product;
+    const double missing = (product - (sum - added)) + (z - added);
+    if (!std::isfinite(sum) || missing == 0) return sum;
+    const bool is_odd = (std::bit_cast<std::uint64_t>(sum) & 1) != 0;
+    return is_odd ? sum : std::nextafter(sum, missing > 0 ? INFINITY : -INFINITY);
+}
+
 inline std::uint32_t truth(bool value) { return value ? to_bits(1.0f) : 0u; }
 
 /// The word that an operation other than a source makes of three words.
@@ -49,6 +62,7 @@ inline std::uint32_t oracle(Op op, std::uint32_t a, std::uint32_t b, std::uint32
         case Op::square_root: return write_number(std::sqrt(x));
         case Op::round_to_even: return write_number(std::nearbyint(x));
         case Op::scale_by_power: return write_number(std::ldexp(x, static_cast<int>(y)));
+        case Op::multiply_add: return write_number(multiply_add(x, y, read_number(c)));
         case Op::less: return truth(x < y);
         case Op::less_equal: return truth(x <= y);
         case Op::equal: return truth(x == y);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
 namespace cascade {
@@ -46,6 +47,10 @@ Words hostile_words(testing::RandomStream& stream, Op op) {
     if (stream.chance(10)) words.b = words.a;
     if (is_shift(op)) words.b = stream.below(32);
     if (op == Op::scale_by_power) words.b = whole_power(stream);
+    // What is left when the rounded product is taken away is what one rounding keeps.
+    if (op == Op::multiply_add && stream.chance(30)) {
+        words.c = oracle(Op::multiply, words.a, words.b, 0) ^ 0x80000000u;
+    }
     return words;
 }
 
@@ -82,7 +87,7 @@ TEST(Operations, FoldingIsWhatTheTableSays) {
             const int arity = info(op).arity;
             const ValueId value = arity == 1   ? builder.apply(op, a)
                                   : arity == 2 ? builder.apply(op, a, b)
-                                               : builder.select(a, b, c);
+                                               : builder.apply(op, a, b, c);
             ASSERT_TRUE(builder.is_constant(value)) << say(op, words);
             const std::uint32_t expected = oracle(op, words.a, words.b, words.c);
             ASSERT_TRUE(same_word(builder[value].slot(), expected)) << say(op, words);
@@ -199,6 +204,11 @@ TEST(Operations, SpecialValues) {
     EXPECT_EQ(value(Op::scale_by_power, 0x1p126f, -252), 0x1p-126f);
     EXPECT_EQ(to_bits(value(Op::scale_by_power, -0x1.8p0f, -127)), 0x80000000u);
     EXPECT_EQ(value(Op::scale_by_power, 1, 128), INFINITY);
+    EXPECT_EQ(value(Op::multiply_add, 0x1.000002p0f, 0x1.000002p0f, -0x1.000004p0f), 0x1p-46f);
+    EXPECT_EQ(to_bits(value(Op::multiply_add, denormal, 2, denormal)), 0u);
+    EXPECT_EQ(to_bits(value(Op::multiply_add, 0x1p-70f, -0x1p-70f, 0)), 0x80000000u);
+    EXPECT_EQ(value(Op::multiply_add, 0x1p100f, 0x1p100f, -std::numeric_limits<float>::infinity()),
+              -std::numeric_limits<float>::infinity());
     EXPECT_EQ(value(Op::bits_to_number, to_number(0xffffffff)), -1.0f);
     EXPECT_EQ(value(Op::bits_to_number, to_number(0x7fffffff)), 0x1p31f);
 }

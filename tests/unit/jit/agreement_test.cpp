@@ -2,6 +2,7 @@
 // vector widths, stencils and shapes of grids.
 #include "ir/builder.h"
 #include "ir/interpreter.h"
+#include "ir/multiply_add.h"
 #include "jit/jit.h"
 #include "tests/support/kernel_comparison.h"
 #include "tests/support/random_kernels.h"
@@ -294,6 +295,33 @@ TEST(JitAgreement, FlushingIsNotOptimisedAway) {
                     << print(kernel);
                 EXPECT_EQ(difference(*backends.optimised[width], kernel, grid, seed), "")
                     << print(kernel);
+            }
+        }
+    }
+}
+
+// The same where a factor of 1, and then a 0 that is added, would be dropped.
+TEST(JitAgreement, MultiplyAddsFlush) {
+    if (!has_multiply_add()) GTEST_SKIP() << "this processor has none";
+    Backends backends;
+    constexpr std::uint32_t words[] = {0x3f800000, 0xbf800000, 0,         0x80000000,
+                                       0x40000000, 0x00000123, 0x80400000};
+    for (const std::uint32_t factor : words) {
+        for (const std::uint32_t added : words) {
+            for (const bool adds_field : {false, true}) {
+                KernelBuilder builder;
+                const ValueId x = builder.field(builder.field_slot("x"));
+                const ValueId a = builder.word(factor), b = builder.word(added);
+                builder.result("r", adds_field ? builder.apply(Op::multiply_add, a, b, x)
+                                               : builder.apply(Op::multiply_add, x, a, b));
+                const CellKernel kernel = std::move(builder).finish();
+                for (int width = 0; width < 3; ++width) {
+                    const Grid grid{64, 4, Boundary::periodic};
+                    EXPECT_EQ(difference(*backends.plain[width], kernel, grid, 1), "")
+                        << print(kernel);
+                    EXPECT_EQ(difference(*backends.optimised[width], kernel, grid, 1), "")
+                        << print(kernel);
+                }
             }
         }
     }

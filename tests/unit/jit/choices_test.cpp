@@ -1,6 +1,7 @@
 // Small kernels in which conditions choose between constants: where LLVM's folding would like to
 // compute with constants itself, and does not flush denormals when it does.
 #include "ir/interpreter.h"
+#include "ir/multiply_add.h"
 #include "jit/jit.h"
 #include "tests/support/kernel_comparison.h"
 #include "tests/support/random_stream.h"
@@ -36,18 +37,21 @@ public:
 
 private:
     ValueId step() {
-        switch (stream_.below(5)) {
-            case 0: {
-                const ValueId condition = operand(), then = operand(), otherwise = operand();
-                return emit(Op::select, {condition, then, otherwise}, 0);
-            }
-            case 1: return unary();
+        switch (stream_.below(6)) {
+            case 0: return ternary(Op::select);
+            case 1: return ternary(has_multiply_add() ? Op::multiply_add : Op::select);
+            case 5: return unary();
             case 2: return binary(Op::less, Op::logical_or);
             default: return binary(Op::add, Op::divide);
         }
     }
 
     ValueId unary() { return emit(one_of(Op::negate, Op::round_to_even), {operand(), 0, 0}, 0); }
+
+    ValueId ternary(Op op) {
+        const ValueId a = operand(), b = operand(), c = operand();
+        return emit(op, {a, b, c}, 0);
+    }
 
     ValueId binary(Op first, Op last) {
         const ValueId a = operand(), b = operand();

@@ -73,16 +73,18 @@ Result<std::vector<std::uint8_t>> object_of(const CellKernel& kernel, Stencil st
     return compile_object({{{name, kernel}}}, stencil, target);
 }
 
-/// A kernel with every operation of the table.
+/// A kernel with every operation of the table, but for what only some targets have.
 CellKernel kernel_with_all_operations() {
     for (std::uint64_t seed = 1;; ++seed) {
         RandomKernelOptions options;
+        options.multiply_adds = false;
         options.operations = 500;
         options.results = 60;
         const CellKernel kernel = random_kernel(seed, options);
         OperationCounts counts;
         counts.add(kernel);
-        if (counts.missing().empty()) return kernel;
+        const std::string missing = counts.missing();
+        if (missing.empty() || missing == "multiply_add") return kernel;
     }
 }
 
@@ -172,6 +174,22 @@ TEST(JitObject, WrongRequestsAreFailures) {
     for (const char* name : {"", "9lives", "a b", "a-b", "é"}) {
         EXPECT_FALSE(object_of(kernel, Stencil::plane, name, "")) << name;
     }
+}
+
+TEST(JitObject, MultiplyAddsAreForTargetsThatHaveThem) {
+    KernelBuilder builder;
+    const ValueId a = builder.field(builder.field_slot("a"));
+    builder.result("r", builder.apply(Op::multiply_add, a, a, a));
+    const CellKernel kernel = std::move(builder).finish();
+    for (const char* target : {"x86-64", "x86-64-v2"}) {
+        const auto refused = object_of(kernel, Stencil::plane, "f", target);
+        ASSERT_FALSE(refused) << target;
+        EXPECT_EQ(refused.error().message,
+                  std::string(target) + " does not multiply and add with one rounding");
+    }
+    const auto object = object_of(kernel, Stencil::plane, "f", "x86-64-v3");
+    ASSERT_TRUE(object) << object.error().message;
+    EXPECT_THAT(symbols_of(*object).undefined, IsEmpty());
 }
 
 TEST(JitObject, TargetsAreNamed) {

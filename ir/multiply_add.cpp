@@ -1,0 +1,63 @@
+#include "ir/multiply_add.h"
+
+#include <array>
+#include <type_traits>
+#include <utility>
+
+#if defined(__x86_64__)
+#define CASCADE_WITH_MULTIPLY_ADD [[gnu::target("avx2,fma")]]
+#else
+#define CASCADE_WITH_MULTIPLY_ADD
+#endif
+
+namespace cascade {
+namespace {
+
+/// All but the choice in which nothing varies.
+constexpr unsigned scalar_choices = 7;
+
+template <unsigned scalars, typename Number>
+CASCADE_WITH_MULTIPLY_ADD void loop(Number* __restrict out, const Number* a, const Number* b,
+                                    const Number* c, std::int64_t count) {
+    for (std::int64_t i = 0; i < count; ++i) {
+        const Number x = a[scalars & 1 ? 0 : i];
+        const Number y = b[scalars & 2 ? 0 : i];
+        const Number z = c[scalars & 4 ? 0 : i];
+        if constexpr (std::is_same_v<Number, float>) {
+            out[i] = __builtin_fmaf(x, y, z);
+        } else {
+            out[i] = __builtin_fma(x, y, z);
+        }
+    }
+}
+
+template <typename Number, unsigned... scalars>
+constexpr std::array<BlockLoop<Number>, scalar_choices> loops_of(
+    std::integer_sequence<unsigned, scalars...>) {
+    return {&loop<scalars, Number>...};
+}
+
+}  // namespace
+
+bool has_multiply_add() {
+#if defined(__x86_64__)
+    static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    return has;
+#elif defined(__aarch64__)
+    return true;
+#else
+    return false;
+#endif
+}
+
+template <typename Number>
+BlockLoop<Number> multiply_add_loop(unsigned scalar_operands) {
+    static constexpr auto loops =
+        loops_of<Number>(std::make_integer_sequence<unsigned, scalar_choices>{});
+    return loops.at(scalar_operands);
+}
+
+template BlockLoop<float> multiply_add_loop<float>(unsigned);
+template BlockLoop<double> multiply_add_loop<double>(unsigned);
+
+}  // namespace cascade
