@@ -207,6 +207,8 @@ CellKernel KernelBuilder::finish() && {
         kernel_.code.push_back(instruction);
     }
     for (ValueId& id : kernel_.results) id = renamed[id];
+    std::erase_if(kernel_.kept, [&](ValueId id) { return !needed[id]; });
+    for (ValueId& id : kernel_.kept) id = renamed[id];
     return std::move(kernel_);
 }
 

@@ -115,6 +115,13 @@ public:
     /// Gaussian, of mean 0 and variance 1, at most 6.7 in magnitude: a function of the same.
     ValueId random_normal(ValueId draw, std::uint64_t key);
 
+    /// Contraction shall leave this product or quotient as it is.
+    void keep(ValueId id) { kernel_.kept.push_back(id); }
+    /// All from this one on.
+    void keep_from(ValueId first) {
+        for (ValueId id = first; id < kernel_.code.size(); ++id) keep(id);
+    }
+
     /// Appends an output.
     void result(const std::string& name, ValueId value);
 

@@ -111,6 +111,7 @@ struct CellKernel {
     std::vector<std::string> uniform_names;
     std::vector<std::string> result_names;
     Precision precision = Precision::single;  ///< Of all words.
+    std::vector<ValueId> kept = {};           ///< What contraction leaves as it is (ir/contraction.h).
 
     /// True if some instruction reads this field slot in other cells (on grids its halo must be
     /// filled).

@@ -35,6 +35,12 @@ public:
         return {*builder_, builder_->apply(op, id_, other.id_)};
     }
 
+    /// The same product or quotient, which contraction leaves as it is.
+    Expression kept() const {
+        builder_->keep(id_);
+        return *this;
+    }
+
     Expression absolute() const { return unary(Op::absolute); }
     /// To the nearest whole number, ties to even.
     Expression rounded() const { return unary(Op::round_to_even); }

@@ -60,9 +60,9 @@ ValueId KernelBuilder::sign_of(ValueId argument) {
 ValueId KernelBuilder::modulus(ValueId x, ValueId y) {
     const Expression a(*this, x);
     const Expression b(*this, y);
-    const Expression quotient = a / b;
+    const Expression quotient = (a / b).kept();
     const Expression q = whole_below(quotient);
-    const Expression product = q * b;
+    const Expression product = (q * b).kept();
     const Expression rest = (a - product) - product_error(q, b, product);
     // A quotient that was rounded up to a whole number leaves a small rest of the other sign.
     const Expression moved = differ_in_sign(rest, b).choose(rest + b, rest);
@@ -77,7 +77,7 @@ ValueId KernelBuilder::smooth_step(ValueId low, ValueId high, ValueId argument) 
     const Expression from(*this, low);
     const Expression position = (Expression(*this, argument) - from) /
                                 (Expression(*this, high) - from);
-    const Expression t = position.clamped(0, 1);
+    const Expression t = position.kept().clamped(0, 1);
     return ((t * t) * (3 - t * 2)).id();
 }
 

@@ -203,7 +203,9 @@ ValueId KernelAssembly::step() { return uniform("step", {SlotSource::Kind::step,
 ValueId KernelAssembly::coordinate(ValueId cell, std::int64_t side) {
     const ValueId number = builder_.apply(Op::bits_to_number, cell);
     const ValueId centre = builder_.add(number, builder_.number(0.5));
-    return builder_.divide(centre, builder_.number(static_cast<double>(side)));
+    const ValueId place = builder_.divide(centre, builder_.number(static_cast<double>(side)));
+    builder_.keep(place);  // Where a cell lies is one number everywhere.
+    return place;
 }
 
 /// The number of a cell beside, along one axis: beyond a side that of the opposite one, or of the

@@ -12,6 +12,7 @@ namespace {
 
 using testing::apply_to_all;
 using testing::error_in_ulp;
+using testing::Form;
 
 static_assert(std::numeric_limits<long double>::digits >= 64, "exact values have digits to spare");
 
@@ -53,10 +54,11 @@ constexpr Function functions[] = {exp_function,  log_function,  sin_function,  c
                                   tan_function,  asin_function, acos_function, sinh_function,
                                   cosh_function, tanh_function, cbrt_function};
 
-std::vector<double> values_of(const Function& function, const std::vector<double>& x) {
+std::vector<double> values_of(const Function& function, const std::vector<double>& x,
+                              Form form = Form::strict) {
     return apply_to_all(
         [&](KernelBuilder& builder, ValueId a, ValueId) { return (builder.*function.expand)(a); },
-        x, x);
+        x, x, form);
 }
 
 double value_of(const Function& function, double x) { return values_of(function, {x})[0]; }
@@ -64,8 +66,8 @@ double value_of(const Function& function, double x) { return values_of(function,
 /// Denormal arguments count as zeros.
 double flushed(double x) { return std::fabs(x) < 0x1p-1022 ? std::copysign(0.0, x) : x; }
 
-double worst_error(const Function& function, const std::vector<double>& x) {
-    const std::vector<double> values = values_of(function, x);
+double worst_error(const Function& function, const std::vector<double>& x, Form form) {
+    const std::vector<double> values = values_of(function, x, form);
     double worst = 0;
     for (std::size_t k = 0; k < x.size(); ++k) {
         if (std::fabs(x[k]) > function.largest_argument) continue;
@@ -73,10 +75,14 @@ double worst_error(const Function& function, const std::vector<double>& x) {
             error_in_ulp(values[k], function.exact(static_cast<long double>(flushed(x[k]))));
         worst = std::max(worst, error);
         EXPECT_LE(error, function.largest_error)
-            << function.name << "(" << x[k] << ") = " << values[k];
+            << function.name << "(" << x[k] << ") = " << values[k] << ", " << name_of(form);
         if (error > function.largest_error) break;
     }
     return worst;
+}
+
+void expect_accurate(const Function& function, const std::vector<double>& x) {
+    for (const Form form : testing::forms()) worst_error(function, x, form);
 }
 
 // Words at equal distances: all exponents, both signs, NaN and infinities.
@@ -86,7 +92,7 @@ TEST(Binary64, FunctionsAreAccurateForAllMagnitudes) {
     for (std::uint64_t word = 0; word < ~std::uint64_t{0} - stride; word += stride) {
         x.push_back(std::bit_cast<double>(word));
     }
-    for (const Function& function : functions) worst_error(function, x);
+    for (const Function& function : functions) expect_accurate(function, x);
 }
 
 double fine_number(testing::RandomStream& stream) {
@@ -101,9 +107,11 @@ TEST(Binary64, FunctionsAreAccurateWhereTheyAreUsed) {
     for (int k = 0; k < 200000; ++k) x.push_back(1 + fine_number(stream) * 0.01);
     for (int k = 0; k < 100000; ++k) x.push_back(fine_number(stream) * 700);
     for (const Function& function : functions) {
-        const double worst = worst_error(function, x);
-        EXPECT_GE(worst, 0.49) << function.name << ": arguments that test nothing";
-        std::printf("%s: %.3f ulp\n", function.name, worst);
+        for (const Form form : testing::forms()) {
+            const double worst = worst_error(function, x, form);
+            EXPECT_GE(worst, 0.49) << function.name << ": arguments that test nothing";
+            std::printf("%s: %.3f ulp, %s\n", function.name, worst, name_of(form));
+        }
     }
 }
 
@@ -122,7 +130,7 @@ TEST(Binary64, AnglesBesideMultiplesOfAQuarterTurn) {
         }
     }
     for (const Function& function : {sin_function, cos_function, tan_function}) {
-        worst_error(function, x);
+        expect_accurate(function, x);
     }
 }
 
@@ -194,19 +202,28 @@ double hostile(testing::RandomStream& stream) {
 
 void expect_accurate(const char* name, ValueId (KernelBuilder::*expand)(ValueId, ValueId),
                      long double (*exact)(long double, long double), double largest_error,
-                     const Pairs& arguments) {
+                     const Pairs& arguments, Form form) {
     const std::vector<double> values = apply_to_all(
         [&](KernelBuilder& builder, ValueId a, ValueId b) { return (builder.*expand)(a, b); },
-        arguments.x, arguments.y);
+        arguments.x, arguments.y, form);
     double worst = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {
         const double x = flushed(arguments.x[k]), y = flushed(arguments.y[k]);
         const double error = error_in_ulp(
             values[k], exact(static_cast<long double>(x), static_cast<long double>(y)));
-        ASSERT_LE(error, largest_error) << name << "(" << x << ", " << y << ") = " << values[k];
+        ASSERT_LE(error, largest_error)
+            << name << "(" << x << ", " << y << ") = " << values[k] << ", " << name_of(form);
         worst = std::max(worst, error);
     }
-    std::printf("%s: %.3f ulp\n", name, worst);
+    std::printf("%s: %.3f ulp, %s\n", name, worst, name_of(form));
+}
+
+void expect_accurate(const char* name, ValueId (KernelBuilder::*expand)(ValueId, ValueId),
+                     long double (*exact)(long double, long double), double largest_error,
+                     const Pairs& arguments) {
+    for (const Form form : testing::forms()) {
+        expect_accurate(name, expand, exact, largest_error, arguments, form);
+    }
 }
 
 TEST(Binary64, FunctionsOfTwoNumbers) {

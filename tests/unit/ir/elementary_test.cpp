@@ -11,6 +11,7 @@ namespace {
 
 using testing::apply_to_all;
 using testing::error_in_ulp;
+using testing::Form;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -50,10 +51,11 @@ constexpr Function functions[] = {exp_function,  log_function,  sin_function,  c
                                   tanh_function, tan_function,  asin_function, acos_function,
                                   sinh_function, cosh_function, cbrt_function};
 
-std::vector<float> values_of(const Function& function, const std::vector<float>& x) {
+std::vector<float> values_of(const Function& function, const std::vector<float>& x,
+                             Form form = Form::strict) {
     return apply_to_all(
         [&](KernelBuilder& builder, ValueId a, ValueId) { return (builder.*function.expand)(a); },
-        x, x);
+        x, x, form);
 }
 
 float value_of(const Function& function, float x) {
@@ -65,8 +67,8 @@ double flushed(float x) {
     return std::fabs(x) < 0x1p-126f ? std::copysign(0.0, x) : x;
 }
 
-void expect_accurate(const Function& function, const std::vector<float>& x) {
-    const std::vector<float> values = values_of(function, x);
+void expect_accurate(const Function& function, const std::vector<float>& x, Form form) {
+    const std::vector<float> values = values_of(function, x, form);
     double worst = 0;
     std::size_t at = 0;
     for (std::size_t k = 0; k < x.size(); ++k) {
@@ -76,8 +78,12 @@ void expect_accurate(const Function& function, const std::vector<float>& x) {
         worst = std::max(worst, error);
     }
     EXPECT_LE(worst, function.largest_error)
-        << function.name << "(" << x[at] << ") = " << values[at];
+        << function.name << "(" << x[at] << ") = " << values[at] << ", " << name_of(form);
     EXPECT_GE(worst, 0.49) << function.name << ": arguments that test nothing";
+}
+
+void expect_accurate(const Function& function, const std::vector<float>& x) {
+    for (const Form form : testing::forms()) expect_accurate(function, x, form);
 }
 
 // Every 4099th of all words: all exponents, both signs, NaN and infinities.

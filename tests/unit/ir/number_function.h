@@ -4,7 +4,9 @@
 #include "core/floating_point.h"
 #include "core/plane.h"
 #include "ir/builder.h"
+#include "ir/contraction.h"
 #include "ir/interpreter.h"
+#include "ir/multiply_add.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +15,27 @@
 
 namespace cascade::testing {
 
+/// How a function is computed: as it is expanded, or contracted.
+enum class Form { strict, contracted };
+
+/// Those that this processor has.
+inline std::vector<Form> forms() {
+    return has_multiply_add() ? std::vector{Form::strict, Form::contracted} : std::vector{Form::strict};
+}
+
+inline const char* name_of(Form form) { return form == Form::strict ? "strict" : "contracted"; }
+
 /// `expand(builder, x, y)` gives the value of the function, in the precision of the arguments.
 template <typename Expand, typename Number>
 std::vector<Number> apply_to_all(const Expand& expand, const std::vector<Number>& x,
-                                 const std::vector<Number>& y, Backend& backend) {
+                                 const std::vector<Number>& y, Backend& backend,
+                                 Form form = Form::strict) {
     KernelBuilder builder(precision_of<Number>);
     const ValueId first = builder.field(builder.field_slot("x"));
     const ValueId second = builder.field(builder.field_slot("y"));
     builder.result("r", expand(builder, first, second));
-    const CellKernel kernel = std::move(builder).finish();
+    CellKernel kernel = std::move(builder).finish();
+    if (form == Form::contracted) kernel = contracted(kernel);
     const Grid grid{static_cast<std::int64_t>(x.size()), 1, Boundary::periodic};
     const PlaneLayout layout(grid);
     Plane<Number> a(layout), b(layout), out(layout);
@@ -37,8 +51,8 @@ std::vector<Number> apply_to_all(const Expand& expand, const std::vector<Number>
 
 template <typename Expand, typename Number>
 std::vector<Number> apply_to_all(const Expand& expand, const std::vector<Number>& x,
-                                 const std::vector<Number>& y) {
-    return apply_to_all(expand, x, y, *make_interpreter());
+                                 const std::vector<Number>& y, Form form = Form::strict) {
+    return apply_to_all(expand, x, y, *make_interpreter(), form);
 }
 
 /// How far `value` is from `exact`, in units in the last place of binary32 numbers of its size.

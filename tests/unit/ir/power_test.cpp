@@ -9,6 +9,7 @@ namespace {
 
 using testing::apply_to_all;
 using testing::error_in_ulp;
+using testing::Form;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -18,23 +19,29 @@ float flushed(float x) {
     return std::fabs(x) < 0x1p-126f ? std::copysign(0.0f, x) : x;
 }
 
-std::vector<float> powers(const std::vector<float>& x, const std::vector<float>& y) {
+std::vector<float> powers(const std::vector<float>& x, const std::vector<float>& y,
+                          Form form = Form::strict) {
     return apply_to_all(
-        [](KernelBuilder& builder, ValueId a, ValueId b) { return builder.power(a, b); }, x, y);
+        [](KernelBuilder& builder, ValueId a, ValueId b) { return builder.power(a, b); }, x, y, form);
 }
 
 float power(float x, float y) {
     return powers({x}, {y})[0];
 }
 
-void expect_accurate(const std::vector<float>& x, const std::vector<float>& y) {
-    const std::vector<float> values = powers(x, y);
+void expect_accurate(const std::vector<float>& x, const std::vector<float>& y, Form form) {
+    const std::vector<float> values = powers(x, y, form);
     for (std::size_t k = 0; k < x.size(); ++k) {
         const double exact =
             std::pow(static_cast<double>(flushed(x[k])), static_cast<double>(flushed(y[k])));
         ASSERT_LE(error_in_ulp(values[k], exact), largest_error)
-            << x[k] << " ^ " << y[k] << " = " << values[k] << ", not " << exact;
+            << x[k] << " ^ " << y[k] << " = " << values[k] << ", not " << exact << ", "
+            << name_of(form);
     }
+}
+
+void expect_accurate(const std::vector<float>& x, const std::vector<float>& y) {
+    for (const Form form : testing::forms()) expect_accurate(x, y, form);
 }
 
 /// Arguments that `draw(stream)` makes, as two lists.

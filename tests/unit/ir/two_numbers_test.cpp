@@ -12,6 +12,7 @@ namespace {
 
 using testing::apply_to_all;
 using testing::error_in_ulp;
+using testing::Form;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -36,10 +37,10 @@ constexpr Function hypotenuse = {"hypot", &KernelBuilder::hypotenuse,
 constexpr Function modulus = {"mod", &KernelBuilder::modulus, floored_rest, 0.5001};
 
 std::vector<float> values_of(const Function& function, const std::vector<float>& a,
-                             const std::vector<float>& b) {
+                             const std::vector<float>& b, Form form = Form::strict) {
     return apply_to_all([&](KernelBuilder& builder, ValueId x,
                             ValueId y) { return (builder.*function.expand)(x, y); },
-                        a, b);
+                        a, b, form);
 }
 
 float value_of(const Function& function, float a, float b) {
@@ -49,8 +50,8 @@ float value_of(const Function& function, float a, float b) {
 double flushed(float x) { return std::fabs(x) < 0x1p-126f ? std::copysign(0.0, x) : x; }
 
 void expect_accurate(const Function& function, const std::vector<float>& a,
-                     const std::vector<float>& b) {
-    const std::vector<float> values = values_of(function, a, b);
+                     const std::vector<float>& b, Form form) {
+    const std::vector<float> values = values_of(function, a, b, form);
     double worst = 0;
     std::size_t at = 0;
     for (std::size_t k = 0; k < a.size(); ++k) {
@@ -59,7 +60,13 @@ void expect_accurate(const Function& function, const std::vector<float>& a,
         worst = std::max(worst, error);
     }
     EXPECT_LE(worst, function.largest_error)
-        << function.name << "(" << a[at] << ", " << b[at] << ") = " << values[at];
+        << function.name << "(" << a[at] << ", " << b[at] << ") = " << values[at] << ", "
+        << name_of(form);
+}
+
+void expect_accurate(const Function& function, const std::vector<float>& a,
+                     const std::vector<float>& b) {
+    for (const Form form : testing::forms()) expect_accurate(function, a, b, form);
 }
 
 std::vector<float> symmetric_numbers(std::uint64_t seed, float scale) {
@@ -118,10 +125,12 @@ TEST(TwoNumbers, ModulusIsExactOrRoundedOnce) {
         a.push_back(divisor * static_cast<float>(stream.below(1000)));  // About a whole quotient.
         b.push_back(divisor);
     }
-    const std::vector<float> values = values_of(modulus, a, b);
-    for (std::size_t k = 0; k < a.size(); ++k) {
-        const double exact = floored_rest(a[k], b[k]);
-        ASSERT_EQ(values[k], static_cast<float>(exact)) << a[k] << " mod " << b[k];
+    for (const Form form : testing::forms()) {
+        const std::vector<float> values = values_of(modulus, a, b, form);
+        for (std::size_t k = 0; k < a.size(); ++k) {
+            const double exact = floored_rest(a[k], b[k]);
+            ASSERT_EQ(values[k], static_cast<float>(exact)) << a[k] << " mod " << b[k];
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 // Native code and the interpreter compute the same bits: random kernels, hostile numbers, all
 // vector widths, stencils and shapes of grids.
 #include "ir/builder.h"
+#include "ir/contraction.h"
 #include "ir/interpreter.h"
 #include "ir/multiply_add.h"
 #include "jit/jit.h"
@@ -75,6 +76,32 @@ TEST(JitAgreement, RandomKernelsOfBinary64) { compare_random_kernels(Precision::
 TEST(JitAgreement, RandomKernelsOfLinkedCells) {
     compare_random_kernels(Precision::single, 800, true);
     compare_random_kernels(Precision::binary64, 800, true);
+}
+
+// Contraction makes kernels that are valid, and mean the same to both.
+TEST(JitAgreement, ContractedKernels) {
+    if (!has_multiply_add()) GTEST_SKIP() << "this processor has no multiply-add";
+    Backends backends;
+    std::size_t fused = 0;
+    for (std::uint64_t seed = 1; seed <= 1200; ++seed) {
+        RandomKernelOptions options;
+        options.precision = seed % 2 == 0 ? Precision::single : Precision::binary64;
+        options.operations = 10 + static_cast<int>(seed % 30);
+        options.composed_percent = seed % 8 == 0 ? 8 : 0;
+        const CellKernel strict = random_kernel(seed, options), kernel = contracted(strict);
+        ASSERT_EQ(verify(kernel), "");
+        OperationCounts before, after;
+        before.add(strict);
+        after.add(kernel);
+        const auto index = static_cast<std::size_t>(Op::multiply_add);
+        fused += after.counts[index] - before.counts[index];
+        const Grid grid = random_grid(seed, 67, 5, 3);
+        SCOPED_TRACE(fmt::format("seed {}, grid {}", seed, describe(grid)));
+        ASSERT_EQ(difference(*backends.plain[seed % 3], kernel, grid, seed), "") << print(kernel);
+        ASSERT_EQ(difference(*backends.optimised[(seed / 3) % 3], kernel, grid, seed), "")
+            << print(kernel);
+    }
+    EXPECT_GT(fused, 300u);
 }
 
 /// All sums over links, of two fields, and what depends on a cell's own place.

@@ -1,0 +1,104 @@
+#include "ir/contraction.h"
+
+#include "ir/builder.h"
+
+#include <optional>
+#include <vector>
+
+namespace cascade {
+namespace {
+
+/// A product that need not be rounded: its factors in the new kernel. If one of them is the same in all cells
+/// that is the first.
+struct Product {
+    ValueId first;
+    ValueId second;
+    bool has_coefficient;  ///< The first is the same in all cells.
+};
+
+class Contraction {
+public:
+    explicit Contraction(const CellKernel& kernel)
+        : kernel_(kernel),
+          builder_(kernel.precision),
+          varies_(varying(kernel)),
+          is_kept_(kernel.code.size()),
+          products_(kernel.code.size()),
+          renamed_(kernel.code.size()) {
+        for (const std::string& name : kernel.field_names) builder_.field_slot(name);
+        for (const std::string& name : kernel.mask_names) builder_.mask_slot(name);
+        for (const std::string& name : kernel.uniform_names) builder_.uniform_slot(name);
+        for (const ValueId id : kernel.kept) is_kept_[id] = true;
+    }
+
+    /// Products that nobody reads any more are dropped at the end.
+    CellKernel contracted() && {
+        for (ValueId id = 0; id < kernel_.code.size(); ++id) renamed_[id] = rewritten(id);
+        for (std::size_t k = 0; k < kernel_.results.size(); ++k) {
+            builder_.result(kernel_.result_names[k], renamed_[kernel_.results[k]]);
+        }
+        return std::move(builder_).finish();
+    }
+
+private:
+    ValueId rewritten(ValueId id) {
+        const Instruction& instruction = kernel_.code[id];
+        const auto [a, b, c] = instruction.operands;
+        const bool may_change = varies_[id] && !is_kept_[id];
+        if (instruction.op == Op::multiply && may_change) {
+            const bool swaps = varies_[a] && !varies_[b];
+            return product(id, renamed_[swaps ? b : a], renamed_[swaps ? a : b],
+                           !varies_[a] || !varies_[b]);
+        }
+        if (instruction.op == Op::divide && may_change && !varies_[b]) {
+            const ValueId reciprocal = builder_.divide(builder_.number(1), renamed_[b]);
+            return product(id, reciprocal, renamed_[a], true);
+        }
+        if ((instruction.op == Op::add || instruction.op == Op::subtract) && a != b) {
+            if (const std::optional<ValueId> fused = product_of_sum(a, b)) {
+                return multiply_add(instruction, *fused);
+            }
+        }
+        Instruction copy = instruction;
+        for (int k = 0; k < info(copy.op).arity; ++k) {
+            ValueId& operand = copy.operands[static_cast<std::size_t>(k)];
+            operand = renamed_[operand];
+        }
+        return builder_.emit(copy);
+    }
+
+    ValueId product(ValueId id, ValueId first, ValueId second, bool has_coefficient) {
+        products_[id] = {first, second, has_coefficient};
+        return builder_.multiply(first, second);
+    }
+
+    std::optional<ValueId> product_of_sum(ValueId a, ValueId b) const {
+        if (!products_[a] && !products_[b]) return std::nullopt;
+        if (!products_[a] || !products_[b]) return products_[a] ? a : b;
+        return products_[a]->has_coefficient && !products_[b]->has_coefficient ? a : b;
+    }
+
+    /// The factor whose sign is turned over is one that varies: no other register holds it.
+    ValueId multiply_add(const Instruction& sum, ValueId fused) {
+        const bool is_second = sum.operands[1] == fused;
+        auto [first, second, has_coefficient] = *products_[fused];
+        ValueId added = renamed_[sum.operands[is_second ? 0 : 1]];
+        if (sum.op == Op::subtract) {
+            ValueId& turned = is_second ? second : added;
+            turned = builder_.apply(Op::negate, turned);
+        }
+        return builder_.apply(Op::multiply_add, first, second, added);
+    }
+
+    const CellKernel& kernel_;
+    KernelBuilder builder_;
+    std::vector<bool> varies_, is_kept_;
+    std::vector<std::optional<Product>> products_;  ///< By old value.
+    std::vector<ValueId> renamed_;                  ///< New values.
+};
+
+}  // namespace
+
+CellKernel contracted(const CellKernel& kernel) { return Contraction(kernel).contracted(); }
+
+}  // namespace cascade
