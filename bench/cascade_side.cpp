@@ -3,6 +3,8 @@
 
 #include "run/bound_kernel.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -21,14 +23,16 @@ T must(Result<T> result) {
     return std::move(*result);
 }
 
-std::string domain(std::int64_t side) {
-    return fmt::format("domain {{ grid: {}, {}; boundary: periodic; seed: 1 }}\n", side, side);
+std::string domain(const GridSize& grid) {
+    const std::string slices = grid.depth > 1 ? fmt::format(", {}", grid.depth) : "";
+    return fmt::format("domain {{ grid: {}, {}{}; boundary: periodic; seed: 1 }}\n", grid.width,
+                       grid.height, slices);
 }
 
 }  // namespace
 
-std::string turing_text(std::int64_t side) {
-    return domain(side) + R"(stage spots: turing_spots {
+std::string turing_text(const GridSize& grid) {
+    return domain(grid) + R"(stage spots: turing_spots {
   iterations: 1000000
   frozen: disc(0.3, 0.4, 0.2)
   beta: random(12, 0.1)
@@ -36,14 +40,14 @@ std::string turing_text(std::int64_t side) {
 )";
 }
 
-std::string gray_scott_text(std::int64_t side) {
-    return domain(side) + R"(system gray_scott {
+std::string gray_scott_text(const GridSize& grid) {
+    return domain(grid) + R"(system gray_scott {
   u: 1 - 0.5 * disc(0.5, 0.5, 0.1)
   v: 0.25 * disc(0.5, 0.5, 0.1) + random(0.01, 0.01)
   feed: 0.037
   kill: 0.060
-  diff_u: 0.16
-  diff_v: 0.08
+  diff_u: 0.12
+  diff_v: 0.06
   rate = u * v^2
   u' = diff_u * lap(u) - rate + feed * (1 - u)
   v' = diff_v * lap(v) + rate - (feed + kill) * v
@@ -52,12 +56,12 @@ stage only: gray_scott { iterations: 1000000 }
 )";
 }
 
-std::string stripes_text(std::int64_t side) {
-    return domain(side) + "stage only: stripes { iterations: 1000000 }\n";
+std::string stripes_text(const GridSize& grid) {
+    return domain(grid) + "stage only: stripes { iterations: 1000000 }\n";
 }
 
-std::string cahn_hilliard_text(std::int64_t side) {
-    return domain(side) + R"(system mixing {
+std::string cahn_hilliard_text(const GridSize& grid) {
+    return domain(grid) + R"(system mixing {
   c: random(0, 0.1)
   gamma: 0.5
   mu = c^3 - c - gamma * lap(c)
@@ -67,8 +71,8 @@ stage only: mixing { iterations: 1000000; speed: 0.02 }
 )";
 }
 
-std::string chemotaxis_text(std::int64_t side) {
-    return domain(side) + R"(system swarm {
+std::string chemotaxis_text(const GridSize& grid) {
+    return domain(grid) + R"(system swarm {
   cells: random(1, 0.01)
   bait: 1
   chi: 5
@@ -80,8 +84,8 @@ stage only: swarm { iterations: 1000000; speed: 0.02 }
 )";
 }
 
-std::string tensor_text(std::int64_t side) {
-    return domain(side) + R"(system smear {
+std::string tensor_text(const GridSize& grid) {
+    return domain(grid) + R"(system smear {
   c: random(0, 1)
   a1: 1
   a2: 0.3
@@ -92,16 +96,16 @@ stage only: smear { iterations: 1000000; speed: 0.1 }
 )";
 }
 
-std::string allen_cahn_text(std::int64_t side) {
-    return domain(side) + "stage only: allen_cahn { iterations: 1000000 }\n";
+std::string allen_cahn_text(const GridSize& grid) {
+    return domain(grid) + "stage only: allen_cahn { iterations: 1000000 }\n";
 }
 
-std::string rock_scissors_paper_text(std::int64_t side) {
-    return domain(side) + "stage only: rock_scissors_paper { iterations: 1000000 }\n";
+std::string rock_scissors_paper_text(const GridSize& grid) {
+    return domain(grid) + "stage only: rock_scissors_paper { iterations: 1000000 }\n";
 }
 
-std::string perona_malik_text(std::int64_t side) {
-    return domain(side) + "stage only: perona_malik { iterations: 1000000 }\n";
+std::string perona_malik_text(const GridSize& grid) {
+    return domain(grid) + "stage only: perona_malik { iterations: 1000000 }\n";
 }
 
 CascadeSide::CascadeSide(const std::string& text, Backend& backend)
@@ -143,6 +147,25 @@ const Field& CascadeSide::parameter(const std::string& name) const {
         if (system.quantities[item].name == name) return start().field(item);
     }
     give_up("no parameter '" + name + "'");
+}
+
+std::int64_t cell_count(const GridSize& grid) { return grid.width * grid.height * grid.depth; }
+
+std::int64_t steps_between_looks(const GridSize& grid) {
+    return cell_count(grid) > std::int64_t{1} << 22 ? 16 : 64;
+}
+
+double largest_difference(std::span<const Field> a, std::span<const Field> b) {
+    double largest = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        for (std::int64_t row = 0; row < a[k].layout().row_count(); ++row) {
+            for (std::int64_t i = 0; i < a[k].layout().width; ++i) {
+                const double difference = std::abs(double{a[k].row(row)[i]} - b[k].row(row)[i]);
+                largest = std::max(largest, std::isnan(difference) ? INFINITY : difference);
+            }
+        }
+    }
+    return largest;
 }
 
 }  // namespace cascade::bench

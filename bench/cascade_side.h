@@ -1,6 +1,7 @@
 // Our side of the benchmarks: a Cascade text, parsed, checked, lowered, compiled and stepped.
 #pragma once
 
+#include "core/grid.h"
 #include "ir/backend.h"
 #include "lang/lower.h"
 #include "run/input_files.h"
@@ -17,16 +18,16 @@
 
 namespace cascade::bench {
 
-/// The texts that are measured, for an N × N grid.
-std::string turing_text(std::int64_t side);      ///< beta and frozen vary over the cells.
-std::string gray_scott_text(std::int64_t side);
-std::string stripes_text(std::int64_t side);     ///< ai varies.
-std::string cahn_hilliard_text(std::int64_t side);  ///< Two passes a step.
-std::string chemotaxis_text(std::int64_t side);     ///< Fluxes at faces.
-std::string tensor_text(std::int64_t side);         ///< Diffusion with a direction, flux form.
-std::string allen_cahn_text(std::int64_t side);     ///< One species: what least can be done a cell.
-std::string rock_scissors_paper_text(std::int64_t side);  ///< Three species.
-std::string perona_malik_text(std::int64_t side);   ///< An exponential a cell, fluxes, two passes.
+/// The texts that are measured, for a grid of squares or cubes.
+std::string turing_text(const GridSize& grid);  ///< beta and frozen vary over the cells.
+std::string gray_scott_text(const GridSize& grid);
+std::string stripes_text(const GridSize& grid);  ///< ai varies.
+std::string cahn_hilliard_text(const GridSize& grid);  ///< Two passes a step.
+std::string chemotaxis_text(const GridSize& grid);  ///< Fluxes at faces.
+std::string tensor_text(const GridSize& grid);  ///< Diffusion with a direction, flux form.
+std::string allen_cahn_text(const GridSize& grid);  ///< One species: what least can be done a cell.
+std::string rock_scissors_paper_text(const GridSize& grid);  ///< Three species.
+std::string perona_malik_text(const GridSize& grid);  ///< An exponential a cell, fluxes, two passes.
 
 /// The first stage of a text, ready to step on one thread with kernels of `backend`. Ends the
 /// program with a message where something fails: a benchmark has no user to talk to.
@@ -56,5 +57,14 @@ private:
     std::optional<Stepper> stepper_;
     std::int64_t steps_ = 0;
 };
+
+std::int64_t cell_count(const GridSize& grid);
+
+/// As a run takes them: 64, but fewer where they would take more than half a second, and then as many as a
+/// tile has.
+std::int64_t steps_between_looks(const GridSize& grid);
+
+/// Between cells of two states of a grid, over all species; infinite where one is not a number.
+double largest_difference(std::span<const Field> a, std::span<const Field> b);
 
 }  // namespace cascade::bench

@@ -2,18 +2,16 @@
 #include "bench/comparison.h"
 
 #include "bench/cascade_side.h"
+#include "bench/medians.h"
 #include "bench/straight_cpp.h"
 #include "bench/straight_side.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
+#include <cstdint>
 #include <cstdlib>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,69 +19,50 @@
 namespace cascade::bench {
 namespace {
 
-constexpr std::int64_t steps_between_looks = 64;  // As Schedule::check_every has it.
-constexpr std::array<std::int64_t, 4> sides = {64, 256, 512, 2048};
-
 struct System {
     std::string name;
-    std::string (*text)(std::int64_t side);
+    std::string (*text)(const GridSize& grid);
     std::string varying;
     StraightStep StraightSteps::*step;
+    int dimensions = 2;
+    std::vector<std::int64_t> sides = {64, 256, 512, 2048};
+
+    GridSize grid(std::int64_t side) const { return {side, side, dimensions == 3 ? side : 1}; }
 };
 
 std::vector<System> systems() {
-    return {{"turing", turing_text, "beta", &StraightSteps::turing},
-            {"gray_scott", gray_scott_text, "", &StraightSteps::gray_scott},
+    const std::vector<std::int64_t> up_to_huge = {64, 256, 512, 2048, 8192}, in_space = {128, 256};
+    return {{"turing", turing_text, "beta", &StraightSteps::turing, 2, up_to_huge},
+            {"gray_scott", gray_scott_text, "", &StraightSteps::gray_scott, 2, up_to_huge},
             {"stripes", stripes_text, "ai", &StraightSteps::stripes},
             {"cahn_hilliard", cahn_hilliard_text, "", &StraightSteps::cahn_hilliard},
             {"chemotaxis", chemotaxis_text, "", &StraightSteps::chemotaxis},
             {"tensor", tensor_text, "", &StraightSteps::tensor},
             {"allen_cahn", allen_cahn_text, "", &StraightSteps::allen_cahn},
             {"three_species", rock_scissors_paper_text, "", &StraightSteps::rock_scissors_paper},
-            {"perona_malik", perona_malik_text, "", &StraightSteps::perona_malik}};
+            {"perona_malik", perona_malik_text, "", &StraightSteps::perona_malik},
+            {"turing_3d", turing_text, "beta", &StraightSteps::turing_in_space, 3, in_space},
+            {"gray_scott_3d", gray_scott_text, "", &StraightSteps::gray_scott_in_space, 3,
+             in_space}};
 }
 
-/// One system at one size, on both sides. Made when first needed: the large ones take memory.
+/// One system at one size, on both sides.
 struct Contest {
     Contest(const System& system, std::int64_t side, Backend& backend)
-        : ours(system.text(side), backend), theirs(ours, system.varying) {}
+        : steps(steps_between_looks(system.grid(side))),
+          ours(system.text(system.grid(side)), backend),
+          theirs(ours, system.varying) {}
+    std::int64_t steps;
     CascadeSide ours;
     StraightSide theirs;
 };
-
-class Contests {
-public:
-    explicit Contests(Backend& backend) : backend_(backend) {}
-    Contest& get(const System& system, std::int64_t side) {
-        auto& contest = made_[{system.name, side}];
-        if (!contest) contest = std::make_unique<Contest>(system, side, backend_);
-        return *contest;
-    }
-
-private:
-    Backend& backend_;
-    std::map<std::pair<std::string, std::int64_t>, std::unique_ptr<Contest>> made_;
-};
-
-double largest_difference(std::span<const Field> a, std::span<const Field> b) {
-    double largest = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) {
-        for (std::int64_t j = 0; j < a[k].layout().height; ++j) {
-            for (std::int64_t i = 0; i < a[k].layout().width; ++i) {
-                const double difference = std::abs(double{a[k].at(i, j)} - b[k].at(i, j));
-                largest = std::max(largest, std::isnan(difference) ? INFINITY : difference);
-            }
-        }
-    }
-    return largest;
-}
 
 /// A contest between different computations would be worth nothing.
 void check_agreement(Backend& backend) {
     for (const System& system : systems()) {
         for (const StraightSteps& steps :
              {straight_contracted(), straight_wide(), straight_strict()}) {
-            Contest contest(system, 64, backend);
+            Contest contest(system, system.dimensions == 3 ? 32 : 64, backend);
             contest.ours.advance(100);
             contest.theirs.advance(steps.*system.step, 100);
             const double difference =
@@ -96,65 +75,43 @@ void check_agreement(Backend& backend) {
     }
 }
 
-/// Keeps every repetition's time; prints nothing until all are there.
-class Collector : public benchmark::BenchmarkReporter {
-public:
-    bool ReportContext(const Context&) override { return true; }
-    void ReportRuns(const std::vector<Run>& runs) override {
-        for (const Run& run : runs) {
-            if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
-            seconds_[run.run_name.function_name].push_back(
-                run.cpu_accumulated_time /
-                static_cast<double>(run.iterations * steps_between_looks));
-        }
-    }
-    /// Median of seconds per step; 0 where the benchmark was filtered out.
-    double median(const std::string& name) {
-        std::vector<double>& times = seconds_[name];
-        if (times.empty()) return 0;
-        std::sort(times.begin(), times.end());
-        const std::size_t half = times.size() / 2;
-        return times.size() % 2 ? times[half] : (times[half - 1] + times[half]) / 2;
-    }
-
-private:
-    std::map<std::string, std::vector<double>> seconds_;
-};
-
 std::string title(const System& system, std::int64_t side, const std::string& who) {
     return fmt::format("{}/{}/{}", system.name, side, who);
 }
 
-void register_contest(Contests& contests, const System& system, std::int64_t side) {
+/// Both sides take turns. They are made when first needed and freed behind it: the large ones take memory.
+void run_contest(Backend& backend, const System& system, std::int64_t side, Medians& times) {
+    std::unique_ptr<Contest> contest;
     const auto add = [&](const std::string& who, auto advance) {
         benchmark::RegisterBenchmark(
             title(system, side, who).c_str(),
-            [&contests, system, side, advance](benchmark::State& state) {
-                Contest& contest = contests.get(system, side);
-                for (auto _ : state) advance(contest);
+            [&, advance](benchmark::State& state) {
+                if (!contest) contest = std::make_unique<Contest>(system, side, backend);
+                for (auto _ : state) advance(*contest);
             })
             ->Unit(benchmark::kMicrosecond);
     };
-    add("jit", [](Contest& contest) { contest.ours.advance(steps_between_looks); });
+    add("jit", [](Contest& it) { it.ours.advance(it.steps); });
     const auto straight = [&](const std::string& who, const StraightSteps& steps) {
-        add(who, [step = steps.*system.step](Contest& contest) {
-            contest.theirs.advance(step, steps_between_looks);
-        });
+        add(who, [step = steps.*system.step](Contest& it) { it.theirs.advance(step, it.steps); });
     };
     straight("g++", straight_contracted());
     straight("g++ 512", straight_wide());
     straight("g++ strict", straight_strict());
+    benchmark::RunSpecifiedBenchmarks(&times);
+    benchmark::ClearRegisteredBenchmarks();
 }
 
-void print_table(Collector& times) {
+void print_table(Medians& times) {
     fmt::print("\nMillions of cell steps a second, medians; in brackets our speed over theirs.\n"
                "{:<14}{:>6}{:>9}{:>16}{:>16}{:>16}\n",
                "system", "side", "jit", "g++", "g++ 512", "g++ strict");
     for (const System& system : systems()) {
-        for (const std::int64_t side : sides) {
+        for (const std::int64_t side : system.sides) {
             const double ours = times.median(title(system, side, "jit"));
             if (ours <= 0) continue;
-            const double cells = static_cast<double>(side * side);
+            const GridSize grid = system.grid(side);
+            const auto cells = static_cast<double>(cell_count(grid) * steps_between_looks(grid));
             std::string line = fmt::format("{:<14}{:>6}{:>9.0f}", system.name, side,
                                            cells / ours * 1e-6);
             for (const char* who : {"g++", "g++ 512", "g++ strict"}) {
@@ -172,12 +129,10 @@ void print_table(Collector& times) {
 
 void compare_throughput(Backend& backend) {
     check_agreement(backend);
-    Contests contests(backend);
+    Medians times;
     for (const System& system : systems()) {
-        for (const std::int64_t side : sides) register_contest(contests, system, side);
+        for (const std::int64_t side : system.sides) run_contest(backend, system, side, times);
     }
-    Collector times;
-    benchmark::RunSpecifiedBenchmarks(&times);
     print_table(times);
 }
 

@@ -40,7 +40,7 @@ void print(const std::string& what, double milliseconds, double wanted) {
 
 /// A Gray-Scott whose equation holds another number in each repetition: a kernel not seen before.
 std::string changed_equation(int repetition) {
-    std::string text = gray_scott_text(64);
+    std::string text = gray_scott_text({64, 64});
     const std::string old = "feed * (1 - u)";
     const std::size_t place = text.find(old);
     if (place == std::string::npos) std::abort();
@@ -48,7 +48,7 @@ std::string changed_equation(int repetition) {
 }
 
 std::string changed_number(int repetition) {
-    std::string text = gray_scott_text(64);
+    std::string text = gray_scott_text({64, 64});
     const std::string old = "feed: 0.037";
     const std::size_t place = text.find(old);
     if (place == std::string::npos) std::abort();
@@ -66,7 +66,7 @@ std::unique_ptr<Backend> first_use(int lanes) {
             std::exit(1);
         }
         backend = std::move(*made);
-        CascadeSide(turing_text(64), *backend).advance(1);
+        CascadeSide(turing_text({64, 64}), *backend).advance(1);
     });
     fmt::print("{}\n", describe_jit());
     print("text to first step, first use (turing_spots, 64 x 64)", took, 50);
@@ -78,7 +78,7 @@ void later_use(Backend& backend) {
           median_of([&](int n) { CascadeSide(changed_equation(n), backend).advance(1); }), 20);
     print("text to first step, another uniform number: no compiling",
           median_of([&](int n) { CascadeSide(changed_number(n), backend).advance(1); }), 20);
-    const CascadeSide prepared(turing_text(64), backend);
+    const CascadeSide prepared(turing_text({64, 64}), backend);
     print("2000 steps of Turing's system on 64 x 64",
           median_of([&](int) {
               Stepper stepper = prepared.fresh_stepper();

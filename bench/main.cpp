@@ -4,14 +4,11 @@
 // All flags of Google Benchmark work (--benchmark_filter=turing/512, --benchmark_repetitions=21).
 #include "bench/comparison.h"
 #include "bench/latency.h"
+#include "bench/medians.h"
 #include "core/floating_point.h"
 
-#include <benchmark/benchmark.h>
-
 #include <cstdlib>
-#include <string>
 #include <string_view>
-#include <vector>
 
 int main(int argc, char** argv) {
     // Both sides work in the one environment of the spec's numerics.
@@ -26,15 +23,6 @@ int main(int argc, char** argv) {
     const auto backend = cascade::bench::first_use(lanes);
     cascade::bench::later_use(*backend);
 
-    // Defaults come first, so that the command line wins.
-    std::vector<std::string> words = {argv[0], "--benchmark_repetitions=9",
-                                      "--benchmark_min_time=0.05",
-                                      "--benchmark_enable_random_interleaving=true"};
-    words.insert(words.end(), argv + 1, argv + argc);
-    std::vector<char*> pointers;
-    for (std::string& word : words) pointers.push_back(word.data());
-    int count = static_cast<int>(pointers.size());
-    benchmark::Initialize(&count, pointers.data());
-    if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 64;
+    if (!cascade::bench::initialize_benchmarks(argc, argv)) return 64;
     cascade::bench::compare_throughput(*backend);
 }

@@ -7,22 +7,22 @@
 
 namespace cascade::bench {
 
-/// Planes of one layout; pointers are to cell (0, 0).
+/// Planes of one layout; pointers are to cell (0, 0, 0).
 struct StraightFields {
     const float* now[5];          ///< Species of the old step, halo filled.
     float* next[5];               ///< Species of the new step.
     const float* varying;         ///< beta of Turing's system, ai of the stripes.
-    const std::uint8_t* frozen;   ///< Turing's system only.
+    const std::uint8_t* frozen;   ///< Turing's system only, unless it is that without a mask.
     float* scratch;               ///< Between two passes: Cahn-Hilliard's chemical potential, how
                                   ///< well heat goes with Perona and Malik.
-    std::int64_t width, height, stride;
+    std::int64_t width, height, depth, stride, slice_stride;
 };
 
 /// Constants of the systems, held in variables so that no compiler can fold them.
 struct StraightConstants {
     float speed = 1;
     float ka = 0.0125F, diff_a = 0.125F, diff_b = 0.03125F;                    // Turing.
-    float feed = 0.037F, kill = 0.060F, diff_u = 0.16F, diff_v = 0.08F;        // Gray-Scott.
+    float feed = 0.037F, kill = 0.060F, diff_u = 0.12F, diff_v = 0.06F;        // Gray-Scott.
     float p1 = 0.04F, p2 = 0.06F, p3 = 0.04F, diff1 = 0.04F, diff2 = 0.06F;    // Stripes.
     float gamma = 0.5F, mixing_speed = 0.02F;                                  // Cahn-Hilliard.
     float chi = 5.0F, spread = 10.0F, swarm_speed = 0.02F;                     // Chemotaxis.
@@ -39,6 +39,8 @@ using StraightStep = void (*)(const StraightFields&, const StraightConstants&);
 struct StraightSteps {
     StraightStep turing, gray_scott, stripes, cahn_hilliard, chemotaxis, tensor, allen_cahn,
         rock_scissors_paper, perona_malik;
+    StraightStep turing_in_space, gray_scott_in_space;
+    StraightStep turing_without_mask;
 };
 
 StraightSteps straight_contracted();  ///< -O3 -march=native -ffp-contract=fast, g++'s default.

@@ -16,6 +16,16 @@ inline float laplacian(const float* __restrict c, std::int64_t i, std::int64_t s
     return c[i - stride] + c[i + stride] + c[i + 1] + c[i - 1] - 4.0F * c[i];
 }
 
+/// From a row to the next, and from a slice to the next.
+struct SpaceStride {
+    std::int64_t row, slice;
+};
+
+inline float laplacian(const float* __restrict c, std::int64_t i, SpaceStride to) {
+    return c[i - to.row] + c[i + to.row] + c[i + 1] + c[i - 1] + c[i - to.slice] + c[i + to.slice] -
+           6.0F * c[i];
+}
+
 void fill_halo(float* cells, const StraightFields& f) {
     for (std::int64_t j = 0; j < f.height; ++j) {
         float* row = cells + j * f.stride;
@@ -28,17 +38,28 @@ void fill_halo(float* cells, const StraightFields& f) {
     std::memcpy(cells + f.height * f.stride - 1, cells - 1, bytes);
 }
 
+void fill_halo_in_space(float* cells, const StraightFields& f) {
+    for (std::int64_t k = 0; k < f.depth; ++k) fill_halo(cells + k * f.slice_stride, f);
+    // From the first corner of a slice's halo to the last.
+    float* first = cells - f.stride - 1;
+    const auto bytes =
+        static_cast<std::size_t>((f.height + 1) * f.stride + f.width + 2) * sizeof(float);
+    std::memcpy(first - f.slice_stride, first + (f.depth - 1) * f.slice_stride, bytes);
+    std::memcpy(first + f.depth * f.slice_stride, first, bytes);
+}
+
 // g++ honours __restrict on parameters, and only of functions that it does not inline: with either
 // undone it proves nothing about overlaps and leaves these loops scalar. Hence a function a row.
 
+template <bool has_mask = true, typename Stride>
 [[gnu::noinline]]
 void turing_row(const float* __restrict a, const float* __restrict b,
                 const float* __restrict beta, const std::uint8_t* __restrict frozen,
                 float* __restrict new_a, float* __restrict new_b, std::int64_t width,
-                std::int64_t stride, StraightConstants k) {
+                Stride stride, StraightConstants k) {
     for (std::int64_t i = 0; i < width; ++i) {
         // A weight and not a choice of results: g++ 12 vectorises this form of the mask.
-        const float weight = frozen[i] ? 0.0F : k.speed;
+        const float weight = has_mask && frozen[i] ? 0.0F : k.speed;
         const float ab = a[i] * b[i];
         const float rate_a = k.ka * (16.0F - ab) + k.diff_a * laplacian(a, i, stride);
         const float rate_b = k.ka * (ab - b[i] - beta[i]) + k.diff_b * laplacian(b, i, stride);
@@ -48,10 +69,11 @@ void turing_row(const float* __restrict a, const float* __restrict b,
     }
 }
 
+template <typename Stride>
 [[gnu::noinline]]
 void gray_scott_row(const float* __restrict u, const float* __restrict v,
                     float* __restrict new_u, float* __restrict new_v, std::int64_t width,
-                    std::int64_t stride, StraightConstants k) {
+                    Stride stride, StraightConstants k) {
     const float loss = k.feed + k.kill;
     for (std::int64_t i = 0; i < width; ++i) {
         const float rate = u[i] * v[i] * v[i];
@@ -199,12 +221,46 @@ void turing_step(const StraightFields& f, const StraightConstants& k) {
     for (int s = 0; s < 2; ++s) fill_halo(f.next[s], f);
 }
 
+void turing_without_mask_step(const StraightFields& f, const StraightConstants& k) {
+    for (std::int64_t at = 0; at < f.height * f.stride; at += f.stride) {
+        turing_row<false>(f.now[0] + at, f.now[1] + at, f.varying + at, nullptr, f.next[0] + at,
+                          f.next[1] + at, f.width, f.stride, k);
+    }
+    for (int s = 0; s < 2; ++s) fill_halo(f.next[s], f);
+}
+
 void gray_scott_step(const StraightFields& f, const StraightConstants& k) {
     for (std::int64_t at = 0; at < f.height * f.stride; at += f.stride) {
         gray_scott_row(f.now[0] + at, f.now[1] + at, f.next[0] + at, f.next[1] + at, f.width,
                        f.stride, k);
     }
     for (int s = 0; s < 2; ++s) fill_halo(f.next[s], f);
+}
+
+/// Calls `row` with the place of each row's first cell, slice after slice.
+template <typename Row>
+void for_rows_in_space(const StraightFields& f, Row row) {
+    for (std::int64_t k = 0; k < f.depth; ++k) {
+        for (std::int64_t j = 0; j < f.height; ++j) row(k * f.slice_stride + j * f.stride);
+    }
+}
+
+void turing_in_space_step(const StraightFields& f, const StraightConstants& k) {
+    const SpaceStride stride = {f.stride, f.slice_stride};
+    for_rows_in_space(f, [&](std::int64_t at) {
+        turing_row(f.now[0] + at, f.now[1] + at, f.varying + at, f.frozen + at, f.next[0] + at,
+                   f.next[1] + at, f.width, stride, k);
+    });
+    for (int s = 0; s < 2; ++s) fill_halo_in_space(f.next[s], f);
+}
+
+void gray_scott_in_space_step(const StraightFields& f, const StraightConstants& k) {
+    const SpaceStride stride = {f.stride, f.slice_stride};
+    for_rows_in_space(f, [&](std::int64_t at) {
+        gray_scott_row(f.now[0] + at, f.now[1] + at, f.next[0] + at, f.next[1] + at, f.width,
+                       stride, k);
+    });
+    for (int s = 0; s < 2; ++s) fill_halo_in_space(f.next[s], f);
 }
 
 void stripes_step(const StraightFields& f, const StraightConstants& k) {
@@ -274,7 +330,8 @@ void perona_malik_step(const StraightFields& f, const StraightConstants& k) {
 StraightSteps STRAIGHT_CPP_FLAVOUR() {
     return {turing_step,     gray_scott_step,          stripes_step,
             cahn_hilliard_step, chemotaxis_step,       tensor_step,
-            allen_cahn_step, rock_scissors_paper_step, perona_malik_step};
+            allen_cahn_step, rock_scissors_paper_step, perona_malik_step,
+            turing_in_space_step, gray_scott_in_space_step, turing_without_mask_step};
 }
 
 }  // namespace cascade::bench

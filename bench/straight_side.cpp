@@ -21,8 +21,8 @@ std::vector<Field> StraightSide::species() const {
     std::vector<Field> copies;
     for (const StraightPlane<float>& plane : now_) {
         Field& copy = copies.emplace_back(layout_);
-        for (std::int64_t j = 0; j < layout_.height; ++j) {
-            std::memcpy(copy.row(j), plane.origin() + j * layout_.stride,
+        for (std::int64_t row = 0; row < layout_.row_count(); ++row) {
+            std::memcpy(copy.row(row), plane.origin() + layout_.row_start(row),
                         static_cast<std::size_t>(layout_.width) * sizeof(float));
         }
     }
@@ -33,7 +33,9 @@ void StraightSide::advance(StraightStep step, std::int64_t count) {
     StraightFields fields{};
     fields.width = grid_.width;
     fields.height = grid_.height;
+    fields.depth = grid_.depth;
     fields.stride = layout_.stride;
+    fields.slice_stride = layout_.slice_stride;
     fields.varying = varying_.empty() ? nullptr : varying_.origin();
     fields.frozen = frozen_.empty() ? nullptr : frozen_.origin();
     fields.scratch = scratch_.origin();
