@@ -1,6 +1,7 @@
 #include "run/bind_side.h"
 
 #include "core/check.h"
+#include "run/plan_runner.h"
 
 namespace cascade {
 

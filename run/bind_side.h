@@ -1,6 +1,7 @@
 // Values of sides that change with time: what their formulas read, along the side.
 #pragma once
 
+#include "core/parallel.h"
 #include "lang/lower.h"
 #include "run/bound_kernel.h"
 #include "solvers/changing_side.h"

@@ -2,10 +2,8 @@
 
 #include "core/check.h"
 #include "core/floating_point.h"
-#include "solvers/pass_runner.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -354,20 +352,8 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     return whole;
 }
 
-std::vector<Field> run_plan(const StepPlan& plan, const Compile& compile,
-                            const BindingContext& context, const Grid& on, Team& team) {
-    BindingContext here = context;
-    here.grid = on;
-    const StepProblem problem = Binder(plan, here, nullptr, 0).bind(compile);
-    const PlaneLayout layout(on);
-    std::vector<Field> results;
-    std::vector<void*> cells;
-    for (std::uint32_t k = 0; k < plan.result_count; ++k) {
-        cells.push_back(results.emplace_back(layout, context.precision).address());
-    }
-    const std::array<std::span<void* const>, 2> registers{std::span<void* const>(), cells};
-    run_once(problem, team, registers, {context.steps, context.t, 0, context.t});
-    return results;
+StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context) {
+    return Binder(plan, context, nullptr, 0).bind(compile);
 }
 
 namespace {

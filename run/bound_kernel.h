@@ -1,7 +1,6 @@
 // Puts the values of a run into the slots of plans.
 #pragma once
 
-#include "core/parallel.h"
 #include "core/plane.h"
 #include "ir/backend.h"
 #include "lang/lower.h"
@@ -51,9 +50,9 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
                         const StepPlan& before, const Compile& compile, const BindingContext& context,
                         const System& system, std::uint32_t stage);
 
-/// Runs a plan once over the present values, its rows shared by the team; one field per result.
-std::vector<Field> run_plan(const StepPlan& plan, const Compile& compile,
-                            const BindingContext& context, const Grid& on, Team& team);
+/// The passes of a plan that is no part of a stage's steps: no species is a register of it, and results go to
+/// register 1.
+StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context);
 
 /// 1 where the value is not 0 (NaN counts as not 0, as everywhere in the language).
 Mask to_mask(const Field& field);

@@ -3,6 +3,7 @@
 #include "ir/interpreter.h"
 #include "lang/lower.h"
 #include "run/placeholders.h"
+#include "run/plan_runner.h"
 
 #include <algorithm>
 

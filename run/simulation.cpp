@@ -256,9 +256,10 @@ void Simulation::Implementation::account_for(std::uint32_t k, std::int64_t steps
 StageTools Simulation::Implementation::tools(std::uint32_t k, Compile steps) const {
     StageTools tools;
     tools.numbers = [this, k](std::span<const Formula* const> formulas) {
-        return [this, k, plan = plan_view(*program, formulas, k), compile = often()] {
+        const auto runner = std::make_shared<PlanRunner>(plan_view(*program, formulas, k), often());
+        return [this, k, runner] {
             std::vector<double> numbers;
-            for (const Field& field : run_plan(plan, compile, context(k), grid, *team)) {
+            for (const Field& field : runner->run(context(k), *team)) {
                 numbers.push_back(field.number_at(0, 0));
             }
             return numbers;

@@ -8,6 +8,7 @@
 #include "run/domain_mask.h"
 #include "run/input_files.h"
 #include "run/metric_planes.h"
+#include "run/plan_runner.h"
 #include "run/simulation.h"
 #include "run/stage_plans.h"
 #include "run/stage_time.h"

@@ -231,14 +231,12 @@ void PassRunner::fill_halo_of(const Level<Number>& level, std::size_t number, Ro
     fill(changed);
 }
 
-void run_once(const StepProblem& problem, Team& team, Registers registers,
-              const StepMoment& moment) {
-    PassRunner runner(problem);
+void PassRunner::run_once(Team& team, Registers registers, const StepMoment& moment) {
     team.run([&](int index) {
         const FlushDenormals environment;
-        PassRunner::Worker worker;
-        runner.prepare(worker, index, team.size());
-        runner.run(worker, team, registers, moment);
+        Worker worker;
+        prepare(worker, index, team.size());
+        run(worker, team, registers, moment);
     });
 }
 

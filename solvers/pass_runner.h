@@ -71,6 +71,9 @@ public:
     void run(Worker& worker, Team& team, Registers registers, const StepMoment& moment,
              std::size_t first_pass = 0);
 
+    /// All passes once, rows shared by the team.
+    void run_once(Team& team, Registers registers, const StepMoment& moment);
+
     /// Does what such a pass does before its kernel is run. As run(), for all threads of the team.
     void prepare_pass(Worker& worker, Team& team, std::size_t pass, Registers registers,
                       const StepMoment& moment);
@@ -113,9 +116,5 @@ private:
     std::vector<void*> temporary_cells_;
     std::vector<std::vector<double>> row_values_;  ///< By aggregate and row.
 };
-
-/// Runs a problem once, its rows shared by the team; results go to register 1.
-void run_once(const StepProblem& problem, Team& team, Registers registers,
-              const StepMoment& moment);
 
 }  // namespace cascade

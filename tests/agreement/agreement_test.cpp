@@ -8,6 +8,7 @@
 #include "lang/lower.h"
 #include "run/bound_kernel.h"
 #include "run/input_files.h"
+#include "run/plan_runner.h"
 #include "run/simulation.h"
 #include "support/kernel_comparison.h"
 #include "support/random_kernels.h"
