@@ -16,9 +16,9 @@ namespace cascade {
 struct SweepTerm {
     enum class Source : std::uint8_t {
         value,       ///< The species' own value in an input.
-        difference,  ///< The same minus its value in the old step. So the sum of a scheme's
-                     ///< coefficients is exactly what it should be, and a state without change
-                     ///< stays as it is to the bit.
+        difference,  ///< The same minus its value in the form's base input. So the sum of a
+                     ///< scheme's coefficients is exactly what it should be, and a state without
+                     ///< change stays as it is to the bit.
         rate,        ///< The species' rate, evaluated at input 0.
     };
     enum class Weight : std::uint8_t {
@@ -38,7 +38,7 @@ struct SweepTerm {
 /// left.
 struct SweepOutput {
     enum class Kind : std::uint8_t {
-        state,   ///< Values of species: a frozen cell keeps its value of the old step.
+        state,   ///< Values of species: a frozen cell keeps its value.
         change,  ///< Rates, increments, errors: 0 where a cell is frozen.
     };
     Kind kind = Kind::state;
@@ -51,7 +51,8 @@ struct SweepForm {
     /// How many registers are read. Rates are evaluated at input 0 and read neighbours there;
     /// of the others only the own cell is read.
     std::uint32_t inputs = 1;
-    std::uint32_t old_input = 0;      ///< The input that is the old step.
+    /// The input that differences are from and whose values frozen cells keep: the old step, or a stage.
+    std::uint32_t base_input = 0;
     std::uint32_t coefficients = 0;   ///< How many coefficients the terms use.
     std::vector<SweepOutput> outputs; ///< Result o·S + s is output o of the s-th species written.
     /// Numbers of the species that are written (0 is the system's first); empty for all.

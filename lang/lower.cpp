@@ -169,8 +169,8 @@ private:
                                  species_.end();
     }
 
-    ValueId old(KernelAssembly& assembly, std::uint32_t item) const {
-        return assembly.input(form_.old_input, item);
+    ValueId base(KernelAssembly& assembly, std::uint32_t item) const {
+        return assembly.input(form_.base_input, item);
     }
 
     ValueId term(KernelAssembly& assembly, const PassLowering& values, const SweepTerm& term,
@@ -180,7 +180,7 @@ private:
         switch (term.source) {
             case SweepTerm::Source::value: value = assembly.input(term.input, item); break;
             case SweepTerm::Source::difference:
-                value = builder.subtract(assembly.input(term.input, item), old(assembly, item));
+                value = builder.subtract(assembly.input(term.input, item), base(assembly, item));
                 break;
             case SweepTerm::Source::rate: value = values.value(rates_[item])[0]; break;
         }
@@ -212,7 +212,7 @@ private:
         for (const std::uint32_t item : species_) {
             if (freezes) {
                 const ValueId kept = output.kind == SweepOutput::Kind::state
-                                         ? old(assembly, item)
+                                         ? base(assembly, item)
                                          : builder.number(0);
                 next[item] = builder.select(assembly.own_item(system_.frozen_item()), kept,
                                             next[item]);

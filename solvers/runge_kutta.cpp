@@ -79,7 +79,7 @@ private:
         sweep.outputs = {register_of(stage + 1)};
         sweep.time = time_of(tableau_.a[stage]);
         if (stage > 0) {
-            form.old_input = form.inputs++;
+            form.base_input = form.inputs++;
             sweep.inputs.push_back(old_register);
         }
         SweepOutput state;
@@ -97,7 +97,7 @@ private:
         }
         state.terms.push_back(own_rate(form, sweep, row.back()));
         // The old values come last: the small terms are added to each other before.
-        state.terms.push_back({Source::value, form.old_input});
+        state.terms.push_back({Source::value, form.base_input});
         form.outputs = {std::move(state)};
         add(scheme_, std::move(form), std::move(sweep));
     }
@@ -190,14 +190,14 @@ private:
         SweepForm form;
         Sweep sweep;
         form.last = stage + 1 == tableau_.b.size();
-        form.old_input = form.inputs++;
+        form.base_input = form.inputs++;
         sweep.inputs = {state_register(stage), old_register};
         sweep.time = time_of(tableau_.a[stage]);
         SweepOutput state;
         const std::vector<double>& weights = row_behind(stage);
         add_kept_rates(form, sweep, state, weights);
         state.terms.push_back(own_rate(form, sweep, weights.back()));
-        state.terms.push_back({Source::value, form.old_input});
+        state.terms.push_back({Source::value, form.base_input});
         form.outputs.push_back(std::move(state));
         sweep.outputs = {form.last ? new_register : state_register(stage + 1)};
         if (is_read_later(stage)) {
@@ -212,7 +212,7 @@ private:
         Sweep sweep;
         form.last = false;
         form.inputs = 2;
-        form.old_input = 1;
+        form.base_input = 1;
         sweep.inputs = {new_register, old_register};
         sweep.time = 1;
         SweepOutput error;

@@ -49,7 +49,61 @@ Scheme symplectic(std::uint32_t species, bool by_item) {
     return scheme;
 }
 
-/// Coefficients of one stage j of a Runge-Kutta-Legendre step, by their names in the paper.
+/// Registers of Runge-Kutta-Legendre: 0; two of stages in turn, the last stage in 1, for stage j may
+/// overwrite stage j − 2 cell by cell.
+std::uint32_t place_of_stage(std::uint32_t j, std::uint32_t stages) {
+    return j == 0 ? old_register : new_register + (stages - j) % 2;
+}
+constexpr std::uint32_t legendre_registers = 3;
+
+/// Y₁ = Y₀ + μ̃₁ τ L(Y₀).
+SweepForm first_legendre_form() {
+    SweepForm form;
+    form.last = false;
+    form.coefficients = 1;
+    form.outputs = {{SweepOutput::Kind::state, {{}, {Source::rate, 0, Weight::coefficient, 0}}}};
+    return form;
+}
+
+/// Y_j = ((j − 1)/j (Y_{j−1} − Y_{j−2}) + μ̃ τ L(Y_{j−1})) + Y_{j−1}, which is the paper's sum in another
+/// order: its factors of Y_{j−1} and Y_{j−2} have the sum 1. So a sweep reads no third stage. Inputs:
+/// Y_{j−1}, Y_{j−2}.
+SweepForm rkl1_form(bool last) {
+    SweepForm form;
+    form.last = last;
+    form.inputs = 2;
+    form.base_input = 1;
+    form.coefficients = 2;
+    form.outputs = {{SweepOutput::Kind::state,
+                     {{Source::difference, 0, Weight::coefficient, 0},
+                      {Source::rate, 0, Weight::coefficient, 1},
+                      {Source::value, 0}}}};
+    return form;
+}
+
+Scheme rkl1(std::uint32_t stages) {
+    const double s = stages, w = 2 / (s * s + s);
+    Scheme scheme;
+    scheme.registers = legendre_registers;
+    scheme.forms = {first_legendre_form(), rkl1_form(false), rkl1_form(true)};
+    for (std::uint32_t j = 1; j <= stages; ++j) {
+        const double n = j;
+        Sweep sweep;
+        sweep.form = j == 1 ? 0 : j < stages ? 1 : 2;
+        sweep.time = (n * n - n) / (s * s + s);
+        sweep.inputs = {place_of_stage(j - 1, stages)};
+        sweep.outputs = {place_of_stage(j, stages)};
+        if (j > 1) {
+            sweep.inputs.push_back(place_of_stage(j - 2, stages));
+            sweep.coefficients.push_back({(n - 1) / n, false});
+        }
+        sweep.coefficients.push_back({(2 * n - 1) / n * w, true});
+        scheme.sweeps.push_back(std::move(sweep));
+    }
+    return scheme;
+}
+
+/// Coefficients of one stage j of rkl2, by their names in the paper.
 struct LegendreStage {
     double mu = 0, nu = 0, mu_tilde = 0, gamma_tilde = 0;
 };
@@ -60,17 +114,10 @@ double b(std::uint32_t j) {
     return (n * n + n - 2) / (2 * n * (n + 1));
 }
 
-LegendreStage legendre_stage(Solver solver, std::uint32_t j, std::uint32_t stages) {
+LegendreStage rkl2_stage(std::uint32_t j, std::uint32_t stages) {
     const double n = j, s = stages;
-    LegendreStage stage;
-    if (solver == Solver::rkl1) {
-        const double w = 2 / (s * s + s);
-        stage.mu = (2 * n - 1) / n;
-        stage.nu = (1 - n) / n;
-        stage.mu_tilde = stage.mu * w;
-        return stage;
-    }
     const double w = 4 / (s * s + s - 2);
+    LegendreStage stage;
     if (j == 1) {
         stage.mu_tilde = b(1) * w;
         return stage;
@@ -83,30 +130,20 @@ LegendreStage legendre_stage(Solver solver, std::uint32_t j, std::uint32_t stage
 }
 
 /// The moment of stage j, as a part of the step.
-double legendre_time(Solver solver, std::uint32_t j, std::uint32_t stages) {
+double rkl2_time(std::uint32_t j, std::uint32_t stages) {
     const double n = j, s = stages;
-    if (solver == Solver::rkl1) return (n * n + n) / (s * s + s);
+    if (j == 0) return 0;
     if (j == 1) return b(1) * 4 / (s * s + s - 2);
     return (n * n + n - 2) / (s * s + s - 2);
 }
 
-/// Y₁ = Y₀ + μ̃₁ τ L(Y₀), with L(Y₀) kept for the second order.
-SweepForm first_legendre_form(bool keeps_rates) {
-    SweepForm form;
-    form.last = false;
-    form.coefficients = 1;
-    form.outputs = {{SweepOutput::Kind::state, {{}, {Source::rate, 0, Weight::coefficient, 0}}}};
-    if (keeps_rates) form.outputs.push_back({SweepOutput::Kind::change, {{Source::rate}}});
-    return form;
-}
-
 /// Y_j = ((μ (Y_{j−1} − Y₀) + ν (Y_{j−2} − Y₀)) + μ̃ τ L(Y_{j−1}) + γ̃ τ L(Y₀)) + Y₀, which is the
 /// paper's sum in another order. Inputs: Y_{j−1}, Y₀, then Y_{j−2} unless it is Y₀, then L(Y₀).
-SweepForm legendre_form(bool second, bool keeps_rates, bool last) {
+SweepForm rkl2_form(bool second, bool last) {
     SweepForm form;
     form.last = last;
     form.inputs = 2;
-    form.old_input = 1;
+    form.base_input = 1;
     std::vector<SweepTerm> terms;
     const auto add = [&](Source source, std::uint32_t input) {
         terms.push_back({source, input, Weight::coefficient, form.coefficients++});
@@ -114,51 +151,47 @@ SweepForm legendre_form(bool second, bool keeps_rates, bool last) {
     add(Source::difference, 0);
     if (!second) add(Source::difference, form.inputs++);
     add(Source::rate, 0);
-    if (keeps_rates) add(Source::value, form.inputs++);
+    add(Source::value, form.inputs++);
     terms.push_back({Source::value, 1});
     form.outputs = {{SweepOutput::Kind::state, std::move(terms)}};
     return form;
 }
 
-/// Registers: 0; two of stages in turn, the last stage in 1, for Y_j may overwrite Y_{j−2} cell by
-/// cell; L(Y₀).
-Scheme legendre(Solver solver, std::uint32_t stages) {
-    CHECK(stages >= least_stages(solver) && stages % 2 == 1, "an odd number of stages");
-    if (stages == 1) return euler(false);
-    constexpr std::uint32_t rates_register = 3;
-    const bool keeps_rates = solver == Solver::rkl2;
-    const auto place = [&](std::uint32_t j) {
-        return j == 0 ? old_register : new_register + (stages - j) % 2;
-    };
+/// Behind the registers of stages is that of L(Y₀).
+Scheme rkl2(std::uint32_t stages) {
+    constexpr std::uint32_t rates_register = legendre_registers;
     Scheme scheme;
-    scheme.registers = keeps_rates ? 4 : 3;
-    scheme.forms = {first_legendre_form(keeps_rates), legendre_form(true, keeps_rates, false),
-                    legendre_form(false, keeps_rates, false),
-                    legendre_form(false, keeps_rates, true)};
+    scheme.registers = rates_register + 1;
+    scheme.forms = {first_legendre_form(), rkl2_form(true, false), rkl2_form(false, false),
+                    rkl2_form(false, true)};
+    scheme.forms[0].outputs.push_back({SweepOutput::Kind::change, {{Source::rate}}});
     for (std::uint32_t j = 1; j <= stages; ++j) {
-        const LegendreStage stage = legendre_stage(solver, j, stages);
+        const LegendreStage stage = rkl2_stage(j, stages);
         Sweep sweep;
         sweep.form = j == 1 ? 0 : j == 2 ? 1 : j < stages ? 2 : 3;
-        sweep.inputs = {place(j - 1)};
-        sweep.outputs = {place(j)};
+        sweep.time = rkl2_time(j - 1, stages);
+        sweep.inputs = {place_of_stage(j - 1, stages)};
+        sweep.outputs = {place_of_stage(j, stages)};
         if (j > 1) {
-            sweep.time = legendre_time(solver, j - 1, stages);
             sweep.inputs.push_back(old_register);
             sweep.coefficients.push_back({stage.mu, false});
         }
         if (j > 2) {
-            sweep.inputs.push_back(place(j - 2));
+            sweep.inputs.push_back(place_of_stage(j - 2, stages));
             sweep.coefficients.push_back({stage.nu, false});
         }
         sweep.coefficients.push_back({stage.mu_tilde, true});
-        if (keeps_rates && j == 1) sweep.outputs.push_back(rates_register);
-        if (keeps_rates && j > 1) {
-            sweep.inputs.push_back(rates_register);
-            sweep.coefficients.push_back({stage.gamma_tilde, true});
-        }
+        (j == 1 ? sweep.outputs : sweep.inputs).push_back(rates_register);
+        if (j > 1) sweep.coefficients.push_back({stage.gamma_tilde, true});
         scheme.sweeps.push_back(std::move(sweep));
     }
     return scheme;
+}
+
+Scheme legendre(Solver solver, std::uint32_t stages) {
+    CHECK(stages >= least_stages(solver) && stages % 2 == 1, "an odd number of stages");
+    if (stages == 1) return euler(false);
+    return solver == Solver::rkl1 ? rkl1(stages) : rkl2(stages);
 }
 
 }  // namespace

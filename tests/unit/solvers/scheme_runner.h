@@ -79,7 +79,7 @@ private:
                         double value = rates[s][cell];
                         if (term.source != SweepTerm::Source::rate) value = inputs[term.input][s][cell];
                         if (term.source == SweepTerm::Source::difference) {
-                            value -= inputs[form.old_input][s][cell];
+                            value -= inputs[form.base_input][s][cell];
                         }
                         if (term.weight == SweepTerm::Weight::speed) value *= speed_;
                         if (term.weight == SweepTerm::Weight::coefficient) {
