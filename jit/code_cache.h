@@ -1,20 +1,14 @@
 // Compiled kernels kept on disk, for the next process that asks for them.
 //
-// Internal to jit/. A folder with a file for each kernel. Everything that can be wrong with a file, its
-// owner or the folder means that the kernel is not known; nothing here can fail a run. Processes
-// may share the folder: files appear under their names whole. A file holds the whole key, so that a
-// hash that two kernels have in common does no harm, and a checksum of everything. The checksum
-// stands against accidents; against other people stands that the files and the folder must belong to
-// the user and nobody else may write to them.
+// Internal to jit/. Whatever is wrong with a file means that the kernel is not known (core/kept_files.h).
 #pragma once
 
+#include "core/kept_files.h"
 #include "jit/code_image.h"
 
-#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <string_view>
 
 namespace cascade {
@@ -26,9 +20,7 @@ public:
 
     /// An empty folder: nothing is kept or found.
     explicit CodeCache(std::filesystem::path folder, std::uint64_t limit = usual_limit)
-        : folder_(std::move(folder)), limit_(limit) {}
-
-    bool is_on() const { return !folder_.empty(); }
+        : files_(std::move(folder), {".kernel", "CascKrn2", limit}) {}
 
     /// The image kept under this key. Safe to call from several threads, as is `keep`.
     std::optional<CodeImage> find(std::string_view key) const;
@@ -37,12 +29,7 @@ public:
     void keep(std::string_view key, const CodeImage& image);
 
 private:
-    std::filesystem::path path_of(std::string_view key) const;
-    void remove_oldest() const;
-
-    std::filesystem::path folder_;
-    std::uint64_t limit_;
-    std::atomic<unsigned> kept_{0};  ///< How many times.
+    KeptFiles files_;
 };
 
 }  // namespace cascade
