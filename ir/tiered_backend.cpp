@@ -34,6 +34,7 @@ public:
     bool start();
     /// Compiles what is wanted and ends the thread.
     void stop();
+    void settle();
     void abandon();
     void add(const std::shared_ptr<TieredKernel>& kernel);
     void expect(const CellKernel& kernel, Stencil stencil);
@@ -47,6 +48,7 @@ private:
     };
 
     void work();
+    bool has_wanted() const;
     std::shared_ptr<TieredKernel> next_wanted();
 
     Backend& native_;  ///< Used by the thread alone, which ends before the backend does.
@@ -54,6 +56,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     bool is_stopping_ = false;
+    bool is_compiling_ = false;  ///< What is wanted; not what is only expected.
     std::vector<std::shared_ptr<TieredKernel>> begun_;  ///< Those not compiled yet, in order.
     std::deque<Source> expected_;
 };
@@ -143,6 +146,15 @@ void TieredBackend::Worker::stop() {
     begun_.clear();
 }
 
+void TieredBackend::Worker::settle() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !is_compiling_ && !has_wanted(); });
+}
+
+bool TieredBackend::Worker::has_wanted() const {
+    return std::any_of(begun_.begin(), begun_.end(), [](const auto& kernel) { return kernel->is_wanted(); });
+}
+
 void TieredBackend::Worker::abandon() {
     std::vector<std::shared_ptr<TieredKernel>> kernels;  // Gone without the lock.
     const std::lock_guard lock(mutex_);
@@ -191,10 +203,13 @@ void TieredBackend::Worker::work() {
     std::unique_lock lock(mutex_);
     while (true) {
         if (auto kernel = next_wanted()) {
+            is_compiling_ = true;
             lock.unlock();
             kernel->compile(native_);
             kernel.reset();  // It may be the last to know it, and then it goes without the lock.
             lock.lock();
+            is_compiling_ = false;
+            changed_.notify_all();
         } else if (!expected_.empty()) {
             const Source source = std::move(expected_.front());
             expected_.pop_front();
@@ -246,6 +261,8 @@ KernelPointer TieredBackend::begin(const CellKernel& kernel, Stencil stencil, Wh
 }
 
 void TieredBackend::abandon() { worker_->abandon(); }
+
+void TieredBackend::settle() { worker_->settle(); }
 
 void TieredBackend::expect(const CellKernel& kernel, Stencil stencil) {
     if (!native_->find(kernel, stencil) && worker_->start()) worker_->expect(kernel, stencil);

@@ -46,6 +46,8 @@ public:
     void expect(const CellKernel& kernel, Stencil stencil);
     /// Forgets the kernels that wait: those that were begun stay interpreted. Only the one being compiled, which
     /// nothing can interrupt, is finished.
+    /// Waits until there is code for all kernels that have been used enough by now, or none can be made.
+    void settle();
     void abandon();
 
 private:

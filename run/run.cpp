@@ -36,6 +36,10 @@ public:
         : script_(script), request_(request), control_(control) {}
 
     Result<RunReport> run();
+    /// Says what turned out only when its stage was over.
+    void settle() {
+        if (simulation_) simulation_->settle(control_);
+    }
 
 private:
     Result<void> prepare();
@@ -396,7 +400,10 @@ Result<RunReport> Runner::run() {
 }  // namespace
 
 Result<RunReport> run(Script& script, const RunRequest& request, RunControl& control) {
-    return Runner(script, request, control).run();
+    Runner runner(script, request, control);
+    auto report = runner.run();
+    runner.settle();
+    return report;
 }
 
 }  // namespace cascade

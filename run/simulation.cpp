@@ -133,8 +133,8 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     const TimeAccount::Scope spent(self.account, Spent::stepping, k);
     const std::int64_t steps_before = state.steps;
 
-    StepKernels kernels(stage.name, control);
-    StageTimer timer(*self.program, k, state, self.tools(k, self.compiled(k, kernels)));
+    StepKernels kernels(stage.name);
+    StageTimer timer(*self.program, k, state, self.tools(k, self.compiled(k, kernels, control)));
     if (timer.substeps() > 1 && state.steps == 0 && control.warn) {
         control.warn(fmt::format("stage '{}': each step is split into {}, so that it is stable in the "
                                  "smallest cells of the model", stage.name, timer.substeps()));
@@ -168,7 +168,8 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
                                              if (observe) observe();
                                              return true;
                                          });
-    kernels.warn_of_refused();
+    self.unsettled.insert_or_assign(k, std::move(kernels));
+    self.warn_of_refused(control);
     if (outcome.cancelled) self.stepper->abandon();
     state.lasting.clear();
     state.steps = outcome.steps;

@@ -125,6 +125,10 @@ public:
                                    std::int64_t every = 0);
 
     /// Replaces the species of a started stage (resume, the prompt's :load).
+    /// Waits for code that is being made for stages that were over before it was there, and says of which
+    /// there is none, so that they were interpreted.
+    void settle(RunControl& control);
+
     void set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps,
                      bool done);
 

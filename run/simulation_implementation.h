@@ -34,6 +34,8 @@ struct Simulation::Implementation {
     bool starts_interpreted = false;
     bool has_expected = false;  ///< Does the stepper know what later stages need?
     std::unique_ptr<Team> team;
+    /// By stage, of those that were over before it was known whether there can be code for all.
+    std::map<std::uint32_t, StepKernels> unsettled;
     InputFiles files;
     std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
     std::optional<DomainMask> mask;
@@ -122,7 +124,9 @@ struct Simulation::Implementation {
     // Kernels (simulation_kernels.cpp).
 
     /// Steps are compiled: before the first, or while the first ones are interpreted.
-    Compile compiled(std::uint32_t k, StepKernels& kernels) const;
+    Compile compiled(std::uint32_t k, StepKernels& kernels, RunControl& control) const;
+    /// Says which kernels of stages that are behind have been refused.
+    void warn_of_refused(RunControl& control);
     /// What is computed every few steps is compiled where there are many cells.
     Compile often() const;
     /// What is computed once is interpreted, unless that would take longer than making code for it.

@@ -6,12 +6,13 @@
 
 namespace cascade {
 
-void StepKernels::warn(const Failure& refusal) {
-    if (!control_.warn || !said_.insert(refusal.message).second) return;
-    control_.warn(fmt::format("stage '{}' is interpreted, which is slow: {}", stage_, refusal.message));
+void StepKernels::warn(const Failure& refusal, RunControl& control) {
+    if (!control.warn || !said_.insert(refusal.message).second) return;
+    control.warn(fmt::format("stage '{}' is interpreted, which is slow: {}", stage_, refusal.message));
 }
 
-Compile Simulation::Implementation::compiled(std::uint32_t k, StepKernels& kernels) const {
+Compile Simulation::Implementation::compiled(std::uint32_t k, StepKernels& kernels,
+                                             RunControl& control) const {
     using When = TieredBackend::When;
     return [this, &kernels, when = is_long(k) ? When::now : When::when_used](const CellKernel& kernel) {
         if (runs_meanwhile()) {
@@ -21,12 +22,24 @@ Compile Simulation::Implementation::compiled(std::uint32_t k, StepKernels& kerne
         }
         auto made = stepper->compile(kernel, grid.stencil());
         if (made) return *made;
-        kernels.warn(made.error());
+        kernels.warn(made.error(), control);
         return *interpreter->compile(kernel, grid.stencil());
     };
 }
 
 Compile Simulation::Implementation::often() const {
+void Simulation::Implementation::warn_of_refused(RunControl& control) {
+    for (auto& [k, kernels] : unsettled) kernels.warn_of_refused(control);
+    std::erase_if(unsettled, [](const auto& of_stage) { return !of_stage.second.is_provisional(); });
+}
+
+void Simulation::settle(RunControl& control) {
+    if (self_->unsettled.empty()) return;
+    const TimeAccount::Scope spent(self_->account, Spent::compiling);
+    self_->stepper->settle();
+    self_->warn_of_refused(control);
+}
+
     if (is_small()) return interpreted(grid);
     return [this, interpret = interpreted(grid)](const CellKernel& kernel) {
         const TimeAccount::Scope spent(account, Spent::compiling);

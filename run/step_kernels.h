@@ -4,6 +4,8 @@
 #include "core/run_control.h"
 #include "ir/tiered_backend.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <utility>
@@ -13,24 +15,27 @@ namespace cascade {
 
 class StepKernels {
 public:
-    /// Both must outlive it.
-    StepKernels(const std::string& stage, RunControl& control) : stage_(stage), control_(control) {}
+    explicit StepKernels(std::string stage) : stage_(std::move(stage)) {}
 
     void add(KernelPointer kernel) { kernels_.push_back(std::move(kernel)); }
 
     /// Says of kernels that could not be compiled, as far as that is known, that they are interpreted.
-    void warn_of_refused() {
+    void warn_of_refused(RunControl& control) {
         for (const KernelPointer& kernel : kernels_) {
-            if (const Failure* const refusal = kernel->refusal()) warn(*refusal);
+            if (const Failure* const refusal = kernel->refusal()) warn(*refusal, control);
         }
     }
 
     /// Says that a kernel is interpreted; the same reason is given once.
-    void warn(const Failure& refusal);
+    void warn(const Failure& refusal, RunControl& control);
 
 private:
-    const std::string& stage_;
-    RunControl& control_;
+    /// May more of them be refused yet?
+    bool is_provisional() const {
+        return std::any_of(kernels_.begin(), kernels_.end(),
+                           [](const KernelPointer& kernel) { return kernel->is_provisional(); });
+    }
+    std::string stage_;
     std::vector<KernelPointer> kernels_;
     std::set<std::string> said_;
 };

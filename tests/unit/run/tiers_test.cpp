@@ -133,6 +133,41 @@ TEST(Tiers, WhatIsRefusedLateIsSaidBehindTheStage) {
                 ElementsAre(HasSubstr("stage 'a' is interpreted, which is slow: it has too many corners")));
 }
 
+TEST(Tiers, WhatIsRefusedWhenTheRunIsOverIsSaidToo) {
+    // The refusal comes when all steps are taken.
+    class SlowBackend final : public Backend {
+    public:
+        std::string_view name() const override { return "slow"; }
+        Result<KernelPointer> compile(const CellKernel&, Stencil) override {
+            while (!is_over) std::this_thread::yield();
+            return failure("it has too many corners");
+        }
+        KernelPointer find(const CellKernel&, Stencil) override { return nullptr; }
+        std::atomic<bool> is_over = false;
+    };
+    auto slow = std::make_unique<SlowBackend>();
+    SlowBackend& backend = *slow;
+    Script script = load_script(
+        "test", "domain { grid: 32, 32 }\nstage a: turing_spots { iterations: 600 }", ".", {});
+    ASSERT_TRUE(script.program);
+    SimulationOptions options;
+    options.stepper = tiered(std::move(slow));
+    options.starts_interpreted = true;
+    const auto simulation = Simulation::create(script, options).value();
+    std::vector<std::string> warnings;
+    RunControl control;
+    control.warn = [&](const std::string& message) { warnings.push_back(message); };
+    ASSERT_TRUE(simulation->start_stage(0));
+    ASSERT_TRUE(simulation->advance_stage(0, 600, control, {}));
+    EXPECT_THAT(warnings, IsEmpty());
+    backend.is_over = true;
+    simulation->settle(control);
+    EXPECT_THAT(warnings,
+                ElementsAre(HasSubstr("stage 'a' is interpreted, which is slow: it has too many corners")));
+    simulation->settle(control);
+    EXPECT_EQ(warnings.size(), 1u);
+}
+
 TEST(Tiers, AShortRunCompilesNothing) {
     if (!has_jit()) GTEST_SKIP() << "there is no compiler";
     const std::string text = "domain { grid: 64, 64 }\nstage a: turing_spots { iterations: 3 }\n"
