@@ -8,16 +8,21 @@ namespace {
 
 std::int64_t layers_of(std::int64_t count, std::int64_t each) { return (count + each - 1) / each; }
 
+/// Are layers whole slices, and else rows?
+bool is_of_slices(const Grid& grid, const Tiling& tiling) {
+    return grid.depth > 1 && tiling.along == Tiling::Along::slices;
+}
+
 TileAxis outer_axis(const StepProblem& problem, const Tiling& tiling, int threads) {
     const Grid& grid = problem.grid;
-    const bool has_slices = grid.depth > 1;
-    return {layers_of(has_slices ? grid.depth : grid.height, tiling.outer_layer), threads,
-            !grid.linked && wraps(problem, has_slices ? Side::front : Side::top)};
+    const bool of_slices = is_of_slices(grid, tiling);
+    return {layers_of(of_slices ? grid.depth : grid.height, tiling.outer_layer), threads,
+            !grid.linked && wraps(problem, of_slices ? Side::front : Side::top)};
 }
 
 /// An axis that is not cut is one layer.
 TileAxis inner_axis(const StepProblem& problem, const Tiling& tiling) {
-    if (problem.grid.depth == 1 || tiling.inner_bands <= 1) return {1, 1, false};
+    if (!is_of_slices(problem.grid, tiling) || tiling.inner_bands <= 1) return {1, 1, false};
     return {layers_of(problem.grid.height, tiling.inner_layer), tiling.inner_bands,
             wraps(problem, Side::top)};
 }
@@ -84,11 +89,16 @@ void TileRunner::run_layer(PassRunner::Worker& worker, int level, std::int64_t l
     const auto run = [&](std::int64_t begin, std::int64_t end) {
         if (begin < end) runner_.run_rows(worker, static_cast<std::size_t>(level), {begin, end});
     };
-    const bool has_slices = layout.depth > 1;
+    const bool of_slices = is_of_slices(runner_.problem().grid, tiling_);
     const std::int64_t first = layer * tiling_.outer_layer;
     const std::int64_t last =
-        std::min(first + tiling_.outer_layer, has_slices ? layout.depth : layout.height);
-    if (!has_slices) return run(first, last);
+        std::min(first + tiling_.outer_layer, of_slices ? layout.depth : layout.height);
+    if (!of_slices) {
+        for (std::int64_t slice = 0; slice < layout.depth; ++slice) {
+            run(slice * layout.height + first, slice * layout.height + last);
+        }
+        return;
+    }
     if (inner_.layers() == 1) return run(first * layout.height, last * layout.height);
     const auto rows_of = [&](std::int64_t slice, std::int64_t begin, std::int64_t end) {
         const std::int64_t start = slice * layout.height;

@@ -1,7 +1,8 @@
 // Runs several levels (passes of steps) while what they read is in the cache: tiles in the shapes
 // of solvers/tile_shape.h, shared by a team of threads.
 //
-// A grid is cut along its rows, a grid with slices along its slices and, within each, its rows. With two
+// A grid is cut along its rows, a grid with slices along its slices and, within each, its rows; or along its
+// rows alone, which are then those of all slices, where slices are few. With two
 // axes a tile is a part of the one times a part of the other, and there are four phases: a cell's
 // phase along each axis never decreases from level to level, so what it reads is done before it. Tiles of
 // the two phases that are upright along one axis and inverted along the other do not depend on each other.

@@ -13,9 +13,10 @@ namespace {
 
 using PlaneRef = StepProblem::PlaneRef;
 
-// A call of a kernel for fewer cells than this costs more than what it saves to keep them near.
-// Layers of rows of 1024 cells are one row: two are 7 % slower, for their levels fill more of the cache.
-constexpr std::int64_t cells_of_a_layer = 1536;
+// A call of a kernel for fewer cells than this, those counted that stand around rows, costs more than what it
+// saves to keep them near: for three rows of 512. Layers of rows of 1024 cells are one row: two are 7 %
+// slower, for their levels fill more of the cache.
+constexpr std::int64_t cells_of_a_layer = 1632;
 // So much of a cache do levels share; the rest is for what they do not touch again.
 constexpr double part_of_second = 0.6, part_of_third = 0.5;
 // Layers that are in use besides one for each level: those that are read around it.
@@ -44,23 +45,56 @@ bool is_near(std::int64_t layer_bytes, const CacheSizes& caches) {
     return (1 + layers_besides) * layer_bytes <= caches.second;
 }
 
-/// Whole slices, or bands of their rows where too few whole ones have room.
-Tiling tiling_of_slices(const Grid& grid, std::int64_t slice_bytes, const CacheSizes& caches) {
+/// How many rows or slices, `count` of which there are, a layer has.
+std::int64_t height_of_layer(std::int64_t cells_of_each, std::int64_t count) {
+    return std::clamp<std::int64_t>(cells_of_a_layer / cells_of_each, 1, count);
+}
+
+/// Layers of so many rows or slices, of which there are `count` with so many bytes in all.
+Tiling tiling_of_layers(std::int64_t height, std::int64_t count, std::int64_t bytes,
+                        const CacheSizes& caches) {
     Tiling tiling;
-    tiling.outer_layer = std::clamp<std::int64_t>(
-        cells_of_a_layer / std::max<std::int64_t>(grid.width * grid.height, 1), 1, grid.depth);
-    const double bytes = bytes_for_layers(caches);
-    const std::int64_t layer_bytes = slice_bytes * tiling.outer_layer;
-    tiling.levels = levels_in(bytes, layer_bytes);
+    if (height >= count) return tiling;  // One layer has no other to wait for.
+    tiling.outer_layer = height;
+    const std::int64_t layer_bytes = bytes / count * height;
+    tiling.levels = levels_in(bytes_for_layers(caches), layer_bytes);
     tiling.is_near = is_near(layer_bytes, caches);
-    if (tiling.levels >= few_levels) return tiling;
-    const double band_bytes = bytes / (levels_in_bands + layers_besides);
-    const double bands = std::ceil(static_cast<double>(layer_bytes) / band_bytes);
-    // Bands must be wider than what two borders take of them.
-    if (bands * 2 * levels_in_bands > static_cast<double>(grid.height)) return tiling;
-    tiling.levels = levels_in_bands;
-    tiling.inner_bands = static_cast<int>(bands);
     return tiling;
+}
+
+/// Whole slices, the same rows of all slices where those are flat, or bands of the rows of slices where
+/// neither has room.
+Tiling tiling_of_slices(const Grid& grid, std::int64_t bytes, const CacheSizes& caches) {
+    const std::int64_t stride = PlaneLayout(grid).stride;
+    const std::int64_t slices = height_of_layer(stride * grid.height, grid.depth);
+    const std::int64_t rows = height_of_layer(stride * grid.depth, grid.height);
+    const Tiling of_slices = tiling_of_layers(slices, grid.depth, bytes, caches);
+    // Where an axis wraps, levels shrink by a layer at both ends of it.
+    const bool is_flat = grid.depth / slices < 2 * enough_levels;
+    if (of_slices.levels >= few_levels && !is_flat) return of_slices;
+    Tiling of_rows = tiling_of_layers(rows, grid.height, bytes, caches);
+    of_rows.along = Tiling::Along::rows;
+    if (of_rows.levels >= few_levels && grid.height > grid.depth) return of_rows;
+    if (of_slices.levels >= few_levels) return of_slices;
+    const double band_bytes = bytes_for_layers(caches) / (levels_in_bands + layers_besides);
+    const double bands = std::ceil(static_cast<double>(bytes / grid.depth * slices) / band_bytes);
+    // Bands must be wider than what two borders take of them.
+    if (bands * 2 * levels_in_bands > static_cast<double>(grid.height)) return of_slices;
+    Tiling in_bands = of_slices;
+    in_bands.levels = levels_in_bands;
+    in_bands.inner_bands = static_cast<int>(bands);
+    return in_bands;
+}
+
+/// The tiling of planes of which most must come from memory in every step.
+Tiling tiling_beyond_cache(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches) {
+    const Grid& grid = problem.grid;
+    if (std::all_of(problem.passes.begin(), problem.passes.end(), needs_all_rows)) return {};
+    const std::int64_t bytes = bytes_of_step(problem);
+    if (grid.depth > 1) return tiling_of_slices(grid, bytes, caches);
+    std::int64_t rows = height_of_layer(PlaneLayout(grid).stride, grid.height);
+    if (grid.linked) rows = std::max(rows, reach);
+    return tiling_of_layers(rows, grid.height, bytes, caches);
 }
 
 }  // namespace
@@ -133,19 +167,7 @@ bool wraps(const StepProblem& problem, Side side) {
 }
 
 Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches) {
-    const Grid& grid = problem.grid;
-    const std::int64_t bytes = bytes_of_step(problem);
-    if (stays_in_cache(problem, caches)) return {};
-    if (std::all_of(problem.passes.begin(), problem.passes.end(), needs_all_rows)) return {};
-    if (grid.depth > 1) return tiling_of_slices(grid, bytes / grid.depth, caches);
-    Tiling tiling;
-    tiling.outer_layer = std::clamp<std::int64_t>(
-        cells_of_a_layer / std::max<std::int64_t>(grid.width, 1), 1, grid.height);
-    if (grid.linked) tiling.outer_layer = std::max(tiling.outer_layer, reach);
-    const std::int64_t layer_bytes = bytes / grid.height * tiling.outer_layer;
-    tiling.levels = levels_in(bytes_for_layers(caches), layer_bytes);
-    tiling.is_near = is_near(layer_bytes, caches);
-    return tiling;
+    return stays_in_cache(problem, caches) ? Tiling() : tiling_beyond_cache(problem, reach, caches);
 }
 
 bool stays_in_cache(const StepProblem& problem, const CacheSizes& caches) {

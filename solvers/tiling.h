@@ -12,12 +12,21 @@ namespace cascade {
 /// The outer axis is that of rows or, where the grid has them, of slices; the inner one that of the rows
 /// within slices. A layer is several of them, so that a call of a kernel is worth it.
 struct Tiling {
+    /// What a layer of the outer axis is made of, where the grid has slices.
+    enum class Along : std::uint8_t {
+        slices,  ///< Whole slices.
+        rows,    ///< The same rows of all slices.
+    };
+
     int levels = 1;                 ///< At most; 1: every pass by itself.
     std::int64_t outer_layer = 1;   ///< Rows or slices of a layer.
     std::int64_t inner_layer = 1;   ///< Of a grid with slices: rows of a layer within them,
     int inner_bands = 1;            ///< and bands of those layers; 1: slices are not cut.
     /// What a level reads is in the second-level cache, but for the first, so nothing need be fetched ahead.
     bool is_near = false;
+    Along along = Along::slices;
+
+    friend bool operator==(const Tiling&, const Tiling&) = default;
 };
 
 /// Must the passes in front of this one be complete in all rows before it begins: for an aggregate, or a

@@ -280,9 +280,11 @@ void compare(const Grid& grid, std::uint64_t seed) {
         tiling.outer_layer = reach + dice.below(3);
         tiling.inner_layer = 1 + dice.below(2);
         tiling.inner_bands = static_cast<int>(1 + dice.below(4));
+        if (!dice.often()) tiling.along = Tiling::Along::rows;
         EXPECT_TRUE(plain == steps_of(system, tiling, threads))
             << "seed " << seed << ", " << threads << " threads, " << tiling.levels << " levels of "
             << tiling.outer_layer << ", " << tiling.inner_bands << " bands of " << tiling.inner_layer
+            << (tiling.along == Tiling::Along::rows ? ", along rows" : "")
             << ", grid " << grid.width << " x " << grid.height << " x " << grid.depth;
     }
 }
@@ -305,7 +307,7 @@ Boundaries boundary_of(std::uint64_t seed) {
 TEST(TiledSteps, OnSmallGrids) {
     const std::vector<GridSize> sizes{{1, 1, 1}, {1, 37, 1}, {41, 1, 1}, {16, 2, 1}, {13, 3, 1},
                                       {48, 23, 1}, {80, 31, 1}, {97, 29, 1}, {7, 5, 2}, {9, 11, 7},
-                                      {5, 23, 13}, {1, 9, 6}};
+                                      {5, 23, 13}, {1, 9, 6}, {33, 40, 4}};
     std::uint64_t seed = 1;
     for (const GridSize& size : sizes) {
         for (int repetition = 0; repetition < 6; ++repetition, ++seed) {

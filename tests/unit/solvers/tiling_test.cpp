@@ -20,7 +20,6 @@ TEST(Tiling, TakesManyStepsAtOnceBeyondIt) {
     const Tiling tiling = choose_tiling(problem, 1, caches);
     EXPECT_EQ(tiling.levels, 16);
     EXPECT_TRUE(tiling.is_near);
-    EXPECT_EQ(words_for_stepping(problem, tiling.levels), "16 steps a pass");
 }
 
 TEST(Tiling, CountsEveryPlaneOnce) {
@@ -44,11 +43,42 @@ TEST(Tiling, StepsThatNeedAllCellsAreTakenOneByOne) {
     StepProblem problem = heat_problem(Grid{2048, 2048}, 0.1f);
     problem.passes[0].reductions = {{ReductionKind::sum, problem.passes[0].fields[0], 0}};
     EXPECT_EQ(choose_tiling(problem, 1, caches).levels, 1);
-    EXPECT_EQ(words_for_stepping(problem, 1), "one step a pass: its aggregates need every step");
+}
+
+TEST(Tiling, LayersOfThinGridsHaveWhatACallIsWorth) {
+    // A row of one cell takes up as much as one of 48.
+    const StepProblem thin = heat_problem(Grid{1, 100000}, 0.1f);
+    const Tiling tiling = choose_tiling(thin, 1, caches);
+    EXPECT_EQ(tiling.levels, 16);
+    EXPECT_EQ(tiling.outer_layer, 34);
+    EXPECT_TRUE(tiling.is_near);
+    EXPECT_EQ(choose_tiling(heat_problem(Grid{512, 8192}, 0.1f), 1, caches).outer_layer, 3);
+    EXPECT_EQ(choose_tiling(heat_problem(Grid{1024, 8192}, 0.1f), 1, caches).outer_layer, 1);
+    for (const GridSize size : {GridSize{2, 1000003}, GridSize{17, 100003}, GridSize{1021, 4093}}) {
+        const Tiling of_prime = choose_tiling(heat_problem(Grid{size.width, size.height}, 0.1f), 1, caches);
+        EXPECT_EQ(of_prime.levels, 16) << size.width;
+        EXPECT_TRUE(of_prime.is_near) << size.width;
+    }
+}
+
+TEST(Tiling, ARowAloneIsNoTile) {
+    const StepProblem problem = heat_problem(Grid{10000019, 1}, 0.1f);
+    EXPECT_EQ(choose_tiling(problem, 1, caches), Tiling());
+}
+
+TEST(Tiling, LayersOfFlatGridsAreRowsOfAllSlices) {
+    const StepProblem flat = heat_problem(Grid{512, 512, Boundary::periodic, 4}, 0.1f);
+    const Tiling tiling = choose_tiling(flat, 1, {1 << 20, 4 << 20});
+    EXPECT_EQ(tiling.along, Tiling::Along::rows);
+    EXPECT_EQ(tiling.outer_layer, 1);
+    EXPECT_EQ(tiling.levels, 16);
+    EXPECT_TRUE(tiling.is_near);
+    const Grid cube{128, 128, Boundary::periodic, 128};
+    EXPECT_EQ(choose_tiling(heat_problem(cube, 0.1f), 1, caches).along, Tiling::Along::slices);
 }
 
 TEST(Tiling, CutsLargeSlices) {
-    const StepProblem problem = heat_problem(Grid{512, 512, Boundary::periodic, 64}, 0.1f);
+    const StepProblem problem = heat_problem(Grid{1024, 1024, Boundary::periodic, 1024}, 0.1f);
     const Tiling tiling = choose_tiling(problem, 1, caches);
     EXPECT_GT(tiling.levels, 1);
     EXPECT_GT(tiling.inner_bands, 1);
