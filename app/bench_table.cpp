@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -29,6 +30,7 @@ std::string amount(const Bound& bound, double value) {
         case Bound::Kind::operations:
         case Bound::Kind::divisions: return with_unit(value, "op/s");
         case Bound::Kind::nearest:
+        case Bound::Kind::tiles:
         case Bound::Kind::home: return with_unit(value, "B/s");
         case Bound::Kind::meetings: return with_unit(value, "/s");
     }
@@ -59,6 +61,12 @@ std::string work_lines(const StageBench& bench) {
     std::string lines = line("work a cell-step", text);
     lines += line("planes", fmt::format("{} bytes a cell-step; {} in all", number(work.bytes),
                                         byte_size(work.working_set)));
+    if (bench.stepping.sweeps_at_once > 1) {
+        const double at_once = bench.stepping.sweeps_at_once;
+        lines += line("tiles", fmt::format("{} sweeps at once, {:.2g} of those bytes through memory; "
+                                           "{} in use", number(at_once), work.bytes / at_once,
+                                           byte_size(bench.stepping.bytes_in_use)));
+    }
     if (work.has_waves) {
         lines += line("", "waves are filtered besides, which is not counted");
     }
@@ -75,17 +83,17 @@ std::string limit_lines(const StageBench& bench) {
                              100 * bound.share());
     }
     for (const auto& memory : bench.limits->memories) {
-        const bool is_listed = &memory == &bench.limits->memories.front() ||
-                               &memory == &bench.limits->home_of(bench.work.working_set);
+        const bool is_listed = std::any_of(bounds.begin(), bounds.end(), [&](const Bound& bound) {
+            return bound.name.ends_with(", " + memory.name);
+        });
         if (is_listed) continue;
         lines += fmt::format("  {:<36}{:>14}{:>16}\n", memory.name, "",
                              with_unit(memory.bytes_per_second, "B/s"));
     }
-    const double most = attainable(bench);
-    lines += line("roofline", fmt::format("{} cell-steps/s from {}, of which {:.0f} % are reached",
-                                          with_prefix(most),
-                                          bench.limits->home_of(bench.work.working_set).name,
-                                          100 * bench.cell_steps_per_second() / most));
+    const Roof roof = *attainable(bench);
+    lines += line("roofline", fmt::format("{} cell-steps/s by {}, of which {:.0f} % are reached",
+                                          with_prefix(roof.cell_steps_per_second), roof.name,
+                                          100 * bench.cell_steps_per_second() / roof.cell_steps_per_second));
     return lines;
 }
 
@@ -105,8 +113,9 @@ std::string bound_sentence(const StageBench& bench) {
                            ? fmt::format("{}: {}", bound.name, figures)
                            : fmt::format("no limit is near; the nearest is {}: {}", bound.name, figures);
     for (const Bound& other : bounds) {
-        if (other.kind == Bound::Kind::home && other.share() > 1.1) {
-            text += fmt::format("; {}: more than a pass for each step could have", other.name);
+        if (is_outdone(other)) {
+            text += fmt::format("; {}: {:.0f} %, since part of it stays nearer", other.name,
+                                100 * other.share());
         }
     }
     if (bench.threads < bench.most_threads) {
@@ -128,10 +137,10 @@ std::string bench_table(const std::string& script, const StageBench& bench) {
     if (!bench.nothing.empty()) return text + line("nothing", bench.nothing) + "\n";
     text += line("speed", fmt::format("{} cell-steps/s, {} a step", with_prefix(bench.cell_steps_per_second()),
                                       with_unit(bench.step, "s")));
-    text += line("measured", fmt::format("{} steps, the median of {}, {}{}", with_commas(bench.steps),
+    text += line("measured", fmt::format("{} steps, the median of {}, {}; {}", with_commas(bench.steps),
                                          counted(static_cast<double>(bench.batches), "batch", "batches"),
                                          counted(bench.threads, "thread", "threads"),
-                                         bench.stepping.empty() ? "" : "; " + bench.stepping));
+                                         bench.stepping.in_words()));
     text += line("before", fmt::format("starting values {}, first step {}, compiling {} in all",
                                        with_unit(bench.starting, "s"), with_unit(bench.first_step, "s"),
                                        with_unit(bench.compiling, "s")));

@@ -66,7 +66,7 @@ std::string remark_on_steps(const TimeAccount::Stage& stage) {
         const double work = static_cast<double>(stage.steps) * static_cast<double>(stage.cells);
         text += fmt::format(", {} cell-steps/s", with_prefix(work / seconds));
     }
-    if (!stage.stepping.empty()) text += "; " + stage.stepping;
+    if (!stage.stepping.words.empty()) text += "; " + stage.stepping.in_words();
     return text;
 }
 

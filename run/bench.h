@@ -36,7 +36,7 @@ struct StageBench {
     std::int64_t steps = 0;            ///< That were measured.
     int threads = 1;                   ///< That took the last of them.
     int most_threads = 1;              ///< That might have.
-    std::string stepping;              ///< How, in a few words; mostly nothing.
+    Stepping stepping;                 ///< How these went through memory.
     double starting = 0;               ///< Seconds until the starting values were there, each time.
     double compiling = 0;              ///< Seconds until there was code.
     double first_step = 0;             ///< Seconds from starting values to the first complete step.
@@ -49,7 +49,7 @@ struct StageBench {
 
 /// One thing that may bound a step.
 struct Bound {
-    enum class Kind { operations, divisions, nearest, home, meetings };
+    enum class Kind { operations, divisions, nearest, tiles, home, meetings };
     Kind kind = Kind::operations;
     std::string name;
     double reached = 0;  ///< Operations, divisions, bytes or meetings a second.
@@ -57,18 +57,27 @@ struct Bound {
     double share() const { return most > 0 ? reached / most : 0; }
 };
 
-/// What bounds the steps of a stage, in the order above; empty without limits. `home` is the memory
-/// that is large enough for all planes; its share is above 1 where several steps are taken in one pass
-/// through it, which is what such passes are for.
+/// What bounds the steps of a stage, in the order above; empty without limits. `home` is the memory that is
+/// large enough for all planes. Where several sweeps are done for each pass through it they share its
+/// bytes, and `tiles` is the cache that holds the layers in use and feeds each of them. A share above 1
+/// says that less was asked of a memory than is counted.
 std::vector<Bound> bounds_of(const StageBench& bench);
 
-/// The one whose share is the largest, `home` only where its share is no more than 1 or so.
+/// The one whose share is the largest; one that is far above 1 bounds nothing.
 const Bound& tightest(const std::vector<Bound>& bounds);
+/// Is its share so far above 1 that less was asked of it than is counted?
+bool is_outdone(const Bound& bound);
 
-/// Cell-steps a second that a roofline allows: the smaller of the peak of arithmetic over the operations
-/// of a cell-step and the bandwidth of the planes' home over its bytes (Williams, Waterman, Patterson,
-/// "Roofline", CACM 52(4), 2009). 0 without limits.
-double attainable(const StageBench& bench);
+/// What a roofline allows.
+struct Roof {
+    double cell_steps_per_second = 0;
+    std::string name;  ///< What is used up then.
+};
+
+/// The smallest of the peak of arithmetic over the operations of a cell-step and the bandwidths of `tiles`
+/// and `home` over its bytes that they move (Williams, Waterman, Patterson, "Roofline", CACM 52(4), 2009).
+/// Nothing without limits.
+std::optional<Roof> attainable(const StageBench& bench);
 
 /// Measures the stages one after the other; `tell` gets each as soon as it is known. Every stage begins
 /// with its starting values, as earlier stages were left, and again whenever it ends. Fails as runs fail;

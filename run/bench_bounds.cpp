@@ -2,14 +2,19 @@
 #include "run/bench.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace cascade {
 
 namespace {
 
-/// Planes that are found in cache more often than the counting knows may reach a little more.
-constexpr double most_of_home = 1.1;
+/// What holds the layers that all threads have in use; nullptr where there are no tiles.
+const MachineLimits::Memory* cache_of_tiles(const StageBench& bench) {
+    const double bytes = bench.stepping.bytes_in_use * bench.threads;
+    return bytes > 0 ? &bench.limits->home_of(bytes) : nullptr;
+}
+
+/// That a cell-step moves from and to where all planes lie: sweeps of a tile share them.
+double home_bytes(const StageBench& bench) { return bench.work.bytes / bench.stepping.sweeps_at_once; }
 
 }  // namespace
 
@@ -30,34 +35,47 @@ std::vector<Bound> bounds_of(const StageBench& bench) {
                       rate * (work.cost.load_bytes + work.cost.store_bytes),
                       nearest.bytes_per_second});
     const auto& home = limits.home_of(work.working_set);
+    const auto* const tiles = cache_of_tiles(bench);
+    if (tiles != nullptr && tiles != &nearest) {
+        bounds.push_back({Kind::tiles, "tiles, " + tiles->name, rate * work.bytes, tiles->bytes_per_second});
+    }
     if (&home != &nearest) {
-        bounds.push_back({Kind::home, "planes, " + home.name, rate * work.bytes, home.bytes_per_second});
+        bounds.push_back({Kind::home, "planes, " + home.name, rate * home_bytes(bench),
+                          home.bytes_per_second});
     }
     if (bench.threads > 1 && limits.meeting > 0) {
-        bounds.push_back({Kind::meetings, "meetings of threads",
-                          static_cast<double>(work.meetings) / bench.step, 1 / limits.meeting});
+        bounds.push_back({Kind::meetings, "meetings of threads", bench.stepping.meetings / bench.step,
+                          1 / limits.meeting});
     }
     return bounds;
 }
 
+bool is_outdone(const Bound& bound) {
+    constexpr double most = 1.1;
+    return bound.share() > most;
+}
+
 const Bound& tightest(const std::vector<Bound>& bounds) {
     CHECK(!bounds.empty(), "there are limits");
-    const auto weight = [](const Bound& bound) {
-        const bool is_outdone = bound.kind == Bound::Kind::home && bound.share() > most_of_home;
-        return is_outdone ? -1 : bound.share();
-    };
+    const auto weight = [](const Bound& bound) { return is_outdone(bound) ? -1 : bound.share(); };
     return *std::max_element(bounds.begin(), bounds.end(), [&](const Bound& a, const Bound& b) {
         return weight(a) < weight(b);
     });
 }
 
-double attainable(const StageBench& bench) {
-    if (!bench.limits) return 0;
+std::optional<Roof> attainable(const StageBench& bench) {
+    if (!bench.limits) return std::nullopt;
     const StepWork& work = bench.work;
-    const double bandwidth = bench.limits->home_of(work.working_set).bytes_per_second;
-    double most = std::numeric_limits<double>::infinity();
-    if (work.cost.operations > 0) most = bench.limits->operations / work.cost.operations;
-    return std::min(most, bandwidth / work.bytes);
+    const auto& home = bench.limits->home_of(work.working_set);
+    Roof roof{home.bytes_per_second / home_bytes(bench), home.name};
+    const auto lower = [&](double cell_steps, const std::string& name) {
+        if (cell_steps < roof.cell_steps_per_second) roof = {cell_steps, name};
+    };
+    if (const auto* const tiles = cache_of_tiles(bench)) {
+        lower(tiles->bytes_per_second / work.bytes, tiles->name);
+    }
+    if (work.cost.operations > 0) lower(bench.limits->operations / work.cost.operations, "arithmetic");
+    return roof;
 }
 
 }  // namespace cascade

@@ -44,7 +44,6 @@ public:
         for (const StepProblem::Pass& pass : problem_.passes) add(pass);
         const auto cells = static_cast<double>(problem_.grid.cell_count());
         work_.passes = problem_.passes.size();
-        work_.meetings += work_.passes;
         work_.working_set = cells * (static_cast<double>(touched_.size()) * word_ +
                                      static_cast<double>(masks_.size()) + link_bytes_);
         return work_;
@@ -75,7 +74,6 @@ private:
         work_.cost.loads += 1;
         work_.cost.load_bytes += word_;
         work_.bytes += word_;
-        work_.meetings += 1;
         touched_.insert(key_of(reduction.operand));
     }
 

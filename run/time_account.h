@@ -5,6 +5,7 @@
 #pragma once
 
 #include "ir/backend.h"
+#include "solvers/stepping.h"
 
 #include <array>
 #include <chrono>
@@ -38,7 +39,7 @@ public:
         std::int64_t steps = 0;
         std::int64_t cells = 0;
         int threads = 1;       ///< That took its last steps.
-        std::string stepping;  ///< How its steps were taken, in a few words; mostly nothing.
+        Stepping stepping;     ///< How these went through memory.
     };
 
     /// Begins now, with the rest.

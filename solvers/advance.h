@@ -11,6 +11,7 @@
 #include "core/run_control.h"
 #include "solvers/stage_clock.h"
 #include "solvers/step_problem.h"
+#include "solvers/stepping.h"
 #include "solvers/tiling.h"
 
 #include <cstdint>
@@ -83,7 +84,7 @@ struct StageOutcome {
     std::int64_t steps = 0;           ///< Complete steps when the loop ended.
     double t = 0;                     ///< The time then.
     TimeState time;                   ///< To go on from there.
-    std::string stepping;             ///< How steps went through memory, as "16 steps a pass".
+    Stepping stepping;                ///< How the last steps went through memory.
     bool cancelled = false;
     bool ended = false;               ///< By its end time or by `ends`.
     int threads = 1;                  ///< In use when the loop ended.

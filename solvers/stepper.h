@@ -11,6 +11,7 @@
 #include "solvers/pass_runner.h"
 #include "solvers/stage_clock.h"
 #include "solvers/step_problem.h"
+#include "solvers/stepping.h"
 #include "solvers/tile_runner.h"
 #include "solvers/tiling.h"
 
@@ -94,8 +95,10 @@ public:
         const auto passes = static_cast<std::int64_t>(problem_->passes.size());
         return (tiles_->levels() + passes - 1) / passes;
     }
-    /// How steps go through memory, in words.
-    std::string stepping() const { return words_for_stepping(*problem_, tiles_->levels()); }
+    /// How steps go through memory.
+    Stepping stepping() const {
+        return stepping_with(*problem_, tiling_, tiles_->levels(), tiles_->phases());
+    }
 
 private:
     struct Worker {

@@ -28,6 +28,8 @@ public:
 
     /// Levels of a tile; 1 where tiles are of no use.
     int levels() const { return levels_; }
+    /// Parts of a tile that are run one after the other; threads meet between them.
+    int phases() const { return (outer_.borders() > 0 ? 2 : 1) * (inner_.borders() > 0 ? 2 : 1); }
 
     /// Runs levels 0 … `levels` − 1 of all workers, which all of them have bound alike. All threads of
     /// the team in use call it. When it returns, another meeting of the team makes what was written

@@ -1,7 +1,5 @@
 #include "solvers/tiling.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -174,25 +172,13 @@ bool stays_in_cache(const StepProblem& problem, const CacheSizes& caches) {
     return static_cast<double>(bytes_of_step(problem)) <= bytes_for_layers(caches);
 }
 
-std::string words_for_stepping(const StepProblem& problem, int levels) {
-    const std::size_t passes = problem.passes.size();
-    const bool all_local = std::none_of(problem.passes.begin(), problem.passes.end(), needs_all_rows);
-    if (problem.error_register != 0) return "one step a pass: each may be taken back";
-    if (levels > 1 && all_local) {
-        return passes == 1 ? fmt::format("{} steps a pass", levels)
-                           : fmt::format("{} sweeps a pass", levels);
-    }
-    if (levels > 1 && passes > 2) {
-        return fmt::format("up to {} sweeps a pass between its aggregates", std::min<std::size_t>(
-                               static_cast<std::size_t>(levels), passes));
-    }
-    if (std::any_of(problem.passes.begin(), problem.passes.end(),
-                    [](const auto& pass) { return pass.filter.has_value(); })) {
-        return "one step a pass: its waves need all cells";
-    }
-    if (!all_local) return "one step a pass: its aggregates need every step";
-    if (stays_in_cache(problem, CacheSizes::here())) return "one step a pass: all stays in the cache";
-    return "one step a pass: layers are too large for more";
+double bytes_in_use(const StepProblem& problem, const Tiling& tiling, int levels) {
+    const Grid& grid = problem.grid;
+    const bool along_slices = grid.depth > 1 && tiling.along == Tiling::Along::slices;
+    const auto layers = static_cast<double>(along_slices ? grid.depth : grid.height) /
+                        static_cast<double>(tiling.outer_layer);
+    return static_cast<double>(bytes_of_step(problem)) / layers / tiling.inner_bands *
+           static_cast<double>(levels + layers_besides);
 }
 
 }  // namespace cascade

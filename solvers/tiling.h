@@ -5,7 +5,6 @@
 #include "solvers/step_problem.h"
 
 #include <cstdint>
-#include <string>
 
 namespace cascade {
 
@@ -49,7 +48,7 @@ bool stays_in_cache(const StepProblem& problem, const CacheSizes& caches);
 /// The tiling that keeps what its levels touch in the caches. `reach`: see rows_reached().
 Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches);
 
-/// How a problem is stepped with so many levels, in words for people: "16 steps a pass", or why not.
-std::string words_for_stepping(const StepProblem& problem, int levels);
+/// Bytes of the layers that a tile of so many levels has in use at a time, of one thread.
+double bytes_in_use(const StepProblem& problem, const Tiling& tiling, int levels);
 
 }  // namespace cascade

@@ -53,7 +53,8 @@ StageBench stage_at(double share_of_memory) {
 TEST(BenchTable, SaysWhatBounds) {
     EXPECT_EQ(bound_sentence(stage_at(0.8)), "planes, memory: 8.00 GB/s of 10.0 GB/s, 80 %");
     EXPECT_THAT(bound_sentence(stage_at(0.2)), HasSubstr("no limit is near; the nearest is planes, memory"));
-    EXPECT_THAT(bound_sentence(stage_at(2)), HasSubstr("more than a pass for each step could have"));
+    EXPECT_THAT(bound_sentence(stage_at(2)),
+                HasSubstr("planes, memory: 200 %, since part of it stays nearer"));
     EXPECT_THAT(bound_sentence(stage_at(2)), HasSubstr("nearest is arithmetic"));
     StageBench few = stage_at(0.8);
     few.most_threads = 2;
@@ -61,6 +62,10 @@ TEST(BenchTable, SaysWhatBounds) {
     few.is_native = false;
     EXPECT_THAT(bound_sentence(few), HasSubstr("the interpreter takes the steps"));
     EXPECT_EQ(bound_sentence(StageBench()), "");
+    StageBench tiled = stage_at(0.8);
+    tiled.stepping.sweeps_at_once = 16;
+    tiled.stepping.bytes_in_use = 2e4;
+    EXPECT_THAT(bound_sentence(tiled), HasSubstr("no limit is near; the nearest is arithmetic"));
 }
 
 TEST(BenchTable, HasAllNumbers) {
@@ -69,12 +74,17 @@ TEST(BenchTable, HasAllNumbers) {
          {"a.cascade, stage 's': euler, 1000 × 1000 cells, single, native code",
           "1.00 G cell-steps/s, 1.00 ms a step", "1,234 steps, the median of 11 batches, 1 thread",
           "10 operations, 5 loads, 0 stores, in 0 passes", "8 bytes a cell-step; 7.63 MiB in all",
-          "1.25 G cell-steps/s from memory, of which 80 % are reached"}) {
+          "1.25 G cell-steps/s by memory, of which 80 % are reached"}) {
         EXPECT_THAT(table, HasSubstr(part));
     }
     StageBench one = stage_at(0.8);
     one.work.cost.stores = 1;
     EXPECT_THAT(bench_table("a.cascade", one), HasSubstr("5 loads, 1 store,"));
+    StageBench tiled = stage_at(0.8);
+    tiled.stepping = {"16 steps a pass", "", 16, 1, 20480};
+    EXPECT_THAT(bench_table("a.cascade", tiled), HasSubstr("1 thread; 16 steps a pass"));
+    EXPECT_THAT(bench_table("a.cascade", tiled),
+                HasSubstr("16 sweeps at once, 0.5 of those bytes through memory; 20 KiB in use"));
     StageBench nothing;
     nothing.nothing = "it takes no step";
     EXPECT_THAT(bench_table("a.cascade", nothing), HasSubstr("it takes no step"));
@@ -91,7 +101,7 @@ TEST(BenchTable, RowsHaveTheColumnsOfTheirHeader) {
 TEST(TimeTable, HasBarsInATerminalOnly) {
     TimeAccount account;
     account.stage(0).name = "large";
-    account.stage(0).stepping = "16 steps a pass";
+    account.stage(0).stepping.words = "16 steps a pass";
     account.stage(0).steps = 1000;
     account.stage(0).cells = 2000000;
     account.stage(0).seconds[static_cast<std::size_t>(Spent::stepping)] = 2;

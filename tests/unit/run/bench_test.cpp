@@ -39,7 +39,6 @@ stage s: heat { iterations: 10; speed: 1 }
     EXPECT_EQ(work.bytes, 8);
     EXPECT_EQ(work.working_set, 2 * 4 * 32 * 16);
     EXPECT_EQ(work.passes, 1u);
-    EXPECT_EQ(work.meetings, 1u);
     EXPECT_FALSE(work.has_waves);
 }
 
@@ -62,7 +61,6 @@ stage s: heat { iterations: 10; speed: 0.5; solver: rk4 }
 )";
     const StepWork work = work_of_text(text);
     EXPECT_EQ(work.passes, 4u);
-    EXPECT_EQ(work.meetings, 4u);
     EXPECT_GE(work.cost.operations, 4 * 6);
     EXPECT_GE(work.bytes, 4 * 8);
 }
@@ -121,7 +119,7 @@ StageBench known_bench() {
     bench.work.cost.store_bytes = 4;
     bench.work.bytes = 8;
     bench.work.working_set = 5000;
-    bench.work.meetings = 2;
+    bench.stepping.meetings = 2;
     MachineLimits limits;
     limits.operations = 4e9;
     limits.divisions = 1e9;
@@ -141,13 +139,36 @@ TEST(Bounds, TheLargestShareBounds) {
     EXPECT_NEAR(bounds[1].share(), 0.2, 1e-12);
     EXPECT_NEAR(bounds[2].share(), 0.2, 1e-12);
     EXPECT_EQ(tightest(bounds).kind, Bound::Kind::operations);
-    EXPECT_NEAR(attainable(bench), 4e8, 1);
+    EXPECT_NEAR(attainable(bench)->cell_steps_per_second, 4e8, 1);
+    EXPECT_EQ(attainable(bench)->name, "arithmetic");
     bench.work.working_set = 1e6;
     EXPECT_EQ(tightest(bounds_of(bench)).kind, Bound::Kind::home);
-    EXPECT_NEAR(attainable(bench), 1.25e8, 1);
-    // More than a pass for each step could have: something else bounds it.
+    EXPECT_NEAR(attainable(bench)->cell_steps_per_second, 1.25e8, 1);
+    EXPECT_EQ(attainable(bench)->name, "memory");
+    // Less is asked of memory than is counted: something else bounds it.
     bench.step = 1e-7;
     EXPECT_NE(tightest(bounds_of(bench)).kind, Bound::Kind::home);
+}
+
+TEST(Bounds, TilesShareTheBytesOfMemoryAndAreFedByACache) {
+    StageBench bench = known_bench();
+    bench.work.working_set = 1e6;
+    bench.threads = 2;
+    bench.stepping.sweeps_at_once = 16;
+    bench.stepping.bytes_in_use = 4000;  // Of each thread: 8000 are in the second-level cache.
+    const auto bounds = bounds_of(bench);
+    ASSERT_EQ(bounds.size(), 4u);
+    EXPECT_EQ(bounds[2].name, "tiles, second-level cache");
+    EXPECT_NEAR(bounds[2].share(), 0.2, 1e-12);
+    EXPECT_EQ(bounds[3].name, "planes, memory");
+    EXPECT_NEAR(bounds[3].share(), 0.8 / 16, 1e-12);
+    // 1e9 bytes a second from memory for half a byte, 4e9 from the cache for 8, 4e9 operations for 10.
+    EXPECT_NEAR(attainable(bench)->cell_steps_per_second, 4e8, 1);
+    bench.work.bytes = 80;
+    EXPECT_NEAR(attainable(bench)->cell_steps_per_second, 5e7, 1);
+    EXPECT_EQ(attainable(bench)->name, "second-level cache");
+    bench.stepping.bytes_in_use = 400;  // The first level, which loads and stores stand for.
+    EXPECT_EQ(bounds_of(bench).size(), 3u);
 }
 
 TEST(Bounds, ThreadsThatMeetTooOften) {
@@ -159,7 +180,7 @@ TEST(Bounds, ThreadsThatMeetTooOften) {
     EXPECT_NEAR(tightest(bounds).share(), 0.8, 1e-12);
     bench.limits.reset();
     EXPECT_TRUE(bounds_of(bench).empty());
-    EXPECT_EQ(attainable(bench), 0);
+    EXPECT_FALSE(attainable(bench));
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ std::unique_ptr<TiledRun> run_text(const std::string& text, const Way& way, RunC
         ran->failure = end.error().message + " | " + end.error().hint;
     }
     ran->steps = ran->simulation->state(0).steps;
-    ran->stepping = account.stage(0).stepping;
+    ran->stepping = account.stage(0).stepping.in_words();
     return ran;
 }
 
