@@ -6,6 +6,7 @@
 #include "solvers/pace.h"
 #include "solvers/stepper.h"
 #include "solvers/thread_tuner.h"
+#include "solvers/tile_tuner.h"
 
 #include <algorithm>
 #include <chrono>
@@ -17,6 +18,7 @@ namespace cascade {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
 
 /// The first species, and in it the first cell, that is not finite.
 std::optional<NotFinite> find_not_finite(const std::vector<Field>& species, std::int64_t step) {
@@ -42,16 +44,17 @@ public:
           stepper_(problem, std::move(species), schedule.threads),
           progress_(std::move(progress)),
           pace_(Clock::now(), schedule.first_step),
-          tuner_(stepper_.most_threads()),
+          thread_tuner_(stepper_.most_threads()),
+          tile_tuner_(tuner_of(tilings_to_try())),
           time_(schedule.time),
           control_of_steps_(schedule.time.control, schedule.error_order),
           step_(schedule.first_step),
-          kept_step_(schedule.first_step) {
+          kept_step_(schedule.first_step),
+          began_(Clock::now()) {
         progress_.steps = std::max(progress_.steps, schedule.last_step);
         if (has_end_time()) progress_.duration = schedule.end_time;
         tenths_seen_ = tenths_reached(now(), schedule.end_time);
         stepper_.set_clock(time_.clock);
-        if (schedule.tiling) stepper_.use_tiling(*schedule.tiling);
     }
 
     StageOutcome run() {
@@ -66,8 +69,9 @@ public:
         if (outcome_.cancelled && !stepper_.is_finite()) replay();
         outcome_.steps = step_;
         outcome_.t = now();
-        outcome_.threads = tuner_.threads();
+        outcome_.threads = thread_tuner_.threads();
         outcome_.stepping = stepper_.stepping();
+        if (const std::string how = tile_tuner_.how_found(); !how.empty()) outcome_.stepping.why = how;
         time_.control = control_of_steps_.state();
         outcome_.time = time_;
         species_ = std::move(stepper_.current());
@@ -83,25 +87,60 @@ private:
     /// Takes some steps and does what is due behind them; false ends the loop.
     bool batch() {
         const std::int64_t stop = next_stop();
-        const std::int64_t count = std::min(pace_.batch(stepper_.steps_at_once()), stop - step_);
+        stepper_.use_threads(thread_tuner_.threads());
+        stepper_.use_tiling(tile_tuner_.tiling());
+        const std::int64_t count = std::min(steps_of_batch(), stop - step_);
         const bool look = step_ + count == stop;
-        stepper_.use_threads(tuner_.threads());
-        const bool was_provisional = stepper_.problem().is_provisional();
+        // What is best for interpreted steps, or for some of either kind, is no matter.
+        const bool is_good_measure = !stepper_.problem().is_provisional() && !tile_tuner_.is_trying();
         const Clock::time_point before = Clock::now();
         const bool good = is_adaptive() ? take_adaptive_step() : take_steps(count, look);
         const Clock::time_point after = Clock::now();
         pace_.took(count, after - before);
-        // How many threads are best for interpreted steps, or for some of either kind, is no matter.
-        if (!was_provisional) tuner_.took(count, after - before);
+        if (is_good_measure) thread_tuner_.took(count, after - before);
         if (!good) return false;
         if (pace_.report_due(after)) report(after, false);
         return !look || do_what_is_due();
     }
 
+    std::int64_t steps_of_batch() const {
+        const std::int64_t steps = pace_.batch(stepper_.steps_at_once());
+        if (!tile_tuner_.is_trying()) return steps;
+        const std::int64_t sweeps = sweeps_of_step();
+        return std::min(steps, (tile_tuner_.sweeps_of_trial() + sweeps - 1) / sweeps);
+    }
+    std::int64_t sweeps_of_step() const {
+        return static_cast<std::int64_t>(stepper_.problem().passes.size());
+    }
+
+    /// How long the steps ahead will take; where nobody knows their number, as long as those before.
+    Seconds time_left(Seconds of_step) const {
+        if (schedule_.check > 0) return Clock::now() - began_;
+        const auto by_number = static_cast<double>(schedule_.last_step - step_);
+        return of_step * std::min(by_number, (schedule_.end_time - now()) / time_.clock.step);
+    }
+
+    std::vector<Tiling> tilings_to_try() const {
+        return schedule_.tiling ? std::vector{*schedule_.tiling} : stepper_.tilings_to_try();
+    }
+    TileTuner tuner_of(std::vector<Tiling> tilings) const {
+        return TileTuner(std::move(tilings), schedule_.tilings, stepper_.most_threads());
+    }
+
     /// Steps of one length.
     bool take_steps(std::int64_t count, bool look) {
-        const bool finite = stepper_.advance(step_, count, look);
+        const bool is_native = !stepper_.problem().is_provisional();
+        // What is tried is how steps are taken, not how they are looked at, and on one number of threads.
+        const bool is_trial = tile_tuner_.is_trying();
+        const Clock::time_point before = Clock::now();
+        bool finite = stepper_.advance(step_, count, look && !is_trial);
+        const Seconds duration = Clock::now() - before;
         step_ += count;
+        if (is_native && !thread_tuner_.is_trying()) {
+            const Seconds of_step = duration / static_cast<double>(count);
+            tile_tuner_.took(count * sweeps_of_step(), duration, time_left(of_step));
+        }
+        if (look && is_trial) finite = stepper_.is_finite();
         if (!finite) {
             replay();
             return false;
@@ -171,9 +210,16 @@ private:
     void choose() {
         if (schedule_.choose_every <= 0 || step_ % schedule_.choose_every != 0) return;
         const StepChoice choice = lend([&] { return schedule_.choose(step_, species_); });
-        if (choice.problem != nullptr) stepper_.use(*choice.problem);
+        if (choice.problem != nullptr) use(*choice.problem);
         time_.stages = choice.stages;
         set_step(choice.step);
+    }
+
+    /// What was found about tilings stays where the new passes have the same ones to choose from.
+    void use(const StepProblem& problem) {
+        stepper_.use(problem);
+        auto tilings = tilings_to_try();
+        if (tilings != tile_tuner_.candidates()) tile_tuner_ = tuner_of(std::move(tilings));
     }
 
     bool observation_due() {
@@ -298,11 +344,13 @@ private:
     Stepper stepper_;
     Progress progress_;
     Pace pace_;
-    ThreadTuner tuner_;
+    ThreadTuner thread_tuner_;
+    TileTuner tile_tuner_;
     TimeState time_;
     StepControl control_of_steps_;
     std::int64_t step_;
     std::int64_t kept_step_;
+    Clock::time_point began_;
     double tenths_seen_ = 0;
     StageOutcome outcome_;
 };

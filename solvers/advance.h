@@ -12,7 +12,7 @@
 #include "solvers/stage_clock.h"
 #include "solvers/step_problem.h"
 #include "solvers/stepping.h"
-#include "solvers/tiling.h"
+#include "solvers/tiling_memory.h"
 
 #include <cstdint>
 #include <functional>
@@ -58,8 +58,10 @@ struct Schedule {
     int error_order = 1;              ///< The error of an adaptive step is proportional to step^this.
     std::int64_t check_every = 64;    ///< Steps between two looks for values that are not finite.
     int threads = 1;
-    /// How steps go through memory; none: as fits. No result depends on it.
+    /// How steps go through memory; none: as fits, or as turns out to be faster. No result depends on it.
     std::optional<Tiling> tiling = {};
+    /// Knows what earlier runs found to be faster, and is told what this one finds; nullptr: nobody does.
+    TilingMemory* tilings = nullptr;
 };
 
 /// How many tenths of the way to the end time are behind; 0 where there is none.

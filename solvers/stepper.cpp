@@ -77,14 +77,16 @@ void Stepper::use(const StepProblem& problem) {
 }
 
 void Stepper::use_tiling(const Tiling& tiling) {
+    if (is_tiling_given_ && tiling == tiling_) return;
     is_tiling_given_ = true;
     set_tiling(tiling);
 }
 
 void Stepper::set_tiling(const Tiling& tiling) {
     tiling_ = tiling;
-    if (layout_.depth == 1) tiling_.outer_layer = std::max(tiling_.outer_layer, reach_);
-    tiles_.emplace(*runner_, tiling_, static_cast<int>(workers_.size()));
+    Tiling reaching = tiling;
+    if (layout_.depth == 1) reaching.outer_layer = std::max(reaching.outer_layer, reach_);
+    tiles_.emplace(*runner_, reaching, static_cast<int>(workers_.size()));
 }
 
 double Stepper::attempt(std::int64_t complete, double tolerance) {

@@ -85,6 +85,10 @@ public:
 
     /// The tiling that fits the machine's caches.
     const Tiling& fitting_tiling() const { return fitting_tiling_; }
+    /// That one, and others that may be faster.
+    std::vector<Tiling> tilings_to_try() const {
+        return cascade::tilings_to_try(*problem_, reach_, CacheSizes::here());
+    }
     /// Goes through memory like that from now on, also where the problem changes; no result depends on it.
     /// Layers are made as large as links reach.
     void use_tiling(const Tiling& tiling);

@@ -20,7 +20,7 @@ constexpr double worth_changing = 0.95;
 void ThreadTuner::took(std::int64_t count, std::chrono::duration<double> duration) {
     if (most_ == 1) return;
     const auto steps = static_cast<double>(count);
-    if (current_ != best_) {
+    if (is_trying()) {
         trial_.seconds += duration.count();
         trial_.steps += steps;
         if (trial_.seconds >= trial_seconds) end_trial();

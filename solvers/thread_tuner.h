@@ -15,6 +15,8 @@ public:
 
     /// How many the next batch of steps is to use.
     int threads() const { return current_; }
+    /// Are they being tried?
+    bool is_trying() const { return current_ != best_; }
 
     /// A batch of `count` steps by threads() threads took so long.
     void took(std::int64_t count, std::chrono::duration<double> duration);

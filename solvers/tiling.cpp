@@ -168,6 +168,24 @@ Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const Cache
     return stays_in_cache(problem, caches) ? Tiling() : tiling_beyond_cache(problem, reach, caches);
 }
 
+std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reach,
+                                   const CacheSizes& caches) {
+    std::vector<Tiling> tilings = {choose_tiling(problem, reach, caches)};
+    const Tiling tiled = tiling_beyond_cache(problem, reach, caches);
+    const bool is_small = static_cast<double>(bytes_of_step(problem)) <=
+                          part_of_second * static_cast<double>(caches.second);
+    if (tiled.levels == 1 || is_small || problem.error_register != 0) return tilings;
+    const auto add = [&](const Tiling& other) {
+        if (std::find(tilings.begin(), tilings.end(), other) == tilings.end()) tilings.push_back(other);
+    };
+    add(tiled);
+    Tiling fewer = tiled;
+    fewer.levels = std::max(2, tiled.levels / 2);
+    add(fewer);
+    add({});
+    return tilings;
+}
+
 bool stays_in_cache(const StepProblem& problem, const CacheSizes& caches) {
     return static_cast<double>(bytes_of_step(problem)) <= bytes_for_layers(caches);
 }

@@ -5,6 +5,7 @@
 #include "solvers/step_problem.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace cascade {
 
@@ -47,6 +48,12 @@ bool stays_in_cache(const StepProblem& problem, const CacheSizes& caches);
 
 /// The tiling that keeps what its levels touch in the caches. `reach`: see rows_reached().
 Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches);
+
+/// That one first, and others that may be faster on this machine or for these kernels: one step a pass,
+/// fewer levels; tiles where planes stay in a third-level cache. No others where steps can be taken in one
+/// way only, or all planes stay in the second-level cache.
+std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reach,
+                                   const CacheSizes& caches);
 
 /// Bytes of the layers that a tile of so many levels has in use at a time, of one thread.
 double bytes_in_use(const StepProblem& problem, const Tiling& tiling, int levels);

@@ -99,6 +99,40 @@ std::vector<std::vector<float>> steps_without_halo(const Mixture& mixture, int s
     return now;
 }
 
+/// Knows one tiling, of any number of threads.
+class OneTiling : public TilingMemory {
+public:
+    explicit OneTiling(const Tiling& tiling) : tiling_(tiling) {}
+    std::optional<Tiling> find(int) override { return tiling_; }
+    void keep(int, const Tiling&) override { FAIL() << "nothing is tried where one is known"; }
+
+private:
+    Tiling tiling_;
+};
+
+TEST(ChosenTilings, ChangeNoBit) {
+    // More than a usual second-level cache holds, so that there is something to choose.
+    for (const Grid& grid : {Grid{640, 400, Boundary::periodic}, Grid{211, 1013, Boundary::no_flux}}) {
+        const Mixture mixture(grid);
+        const std::vector<Tiling> candidates = tilings_to_try(mixture.problem, 1, CacheSizes::here());
+        std::vector<std::vector<float>> expected;
+        for (const Tiling& tiling : candidates) {
+            OneTiling memory(tiling);
+            for (const int threads : {1, 2}) {
+                std::vector<Field> species = mixture.start();
+                Schedule schedule;
+                schedule.last_step = 21;
+                schedule.check_every = 20;
+                schedule.threads = threads;
+                schedule.tilings = &memory;
+                advance_quietly(mixture.problem, schedule, species);
+                if (expected.empty()) expected = all_cells(species);
+                EXPECT_EQ(all_cells(species), expected) << tiling.levels << " levels";
+            }
+        }
+    }
+}
+
 class Grids : public ::testing::TestWithParam<Grid> {};
 
 TEST_P(Grids, EqualStepsWithoutHalo) {

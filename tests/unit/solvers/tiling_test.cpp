@@ -3,6 +3,7 @@
 
 #include "tests/unit/solvers/cell_function_kernel.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace cascade::testing {
@@ -64,6 +65,7 @@ TEST(Tiling, LayersOfThinGridsHaveWhatACallIsWorth) {
 TEST(Tiling, ARowAloneIsNoTile) {
     const StepProblem problem = heat_problem(Grid{10000019, 1}, 0.1f);
     EXPECT_EQ(choose_tiling(problem, 1, caches), Tiling());
+    EXPECT_EQ(tilings_to_try(problem, 1, caches).size(), 1u);
 }
 
 TEST(Tiling, LayersOfFlatGridsAreRowsOfAllSlices) {
@@ -75,6 +77,26 @@ TEST(Tiling, LayersOfFlatGridsAreRowsOfAllSlices) {
     EXPECT_TRUE(tiling.is_near);
     const Grid cube{128, 128, Boundary::periodic, 128};
     EXPECT_EQ(choose_tiling(heat_problem(cube, 0.1f), 1, caches).along, Tiling::Along::slices);
+}
+
+TEST(Tiling, CandidatesBeginWithWhatFits) {
+    const StepProblem large = heat_problem(Grid{2048, 2048}, 0.1f);
+    const std::vector<Tiling> beyond = tilings_to_try(large, 1, caches);
+    EXPECT_EQ(beyond[0], choose_tiling(large, 1, caches));
+    EXPECT_GT(beyond.size(), 2u);
+    // In the third-level cache tiles are tried, in the second nothing is.
+    const StepProblem medium = heat_problem(Grid{640, 640}, 0.1f);
+    const std::vector<Tiling> in_third = tilings_to_try(medium, 1, caches);
+    EXPECT_EQ(in_third[0], Tiling());
+    EXPECT_GT(in_third.size(), 1u);
+    EXPECT_GT(in_third[1].levels, 1);
+    EXPECT_EQ(tilings_to_try(heat_problem(Grid{128, 128}, 0.1f), 1, caches).size(), 1u);
+    for (const auto& tilings : {beyond, in_third}) {
+        for (std::size_t k = 1; k < tilings.size(); ++k) {
+            const auto at = tilings.begin() + static_cast<std::ptrdiff_t>(k);
+            EXPECT_EQ(std::find(tilings.begin(), at, *at), at) << "each is tried once";
+        }
+    }
 }
 
 TEST(Tiling, CutsLargeSlices) {

@@ -1,0 +1,70 @@
+// Which tiling a run uses. What is fastest depends on more than the sizes of caches, so a run that goes on
+// for long enough tries a few tilings on steps of its own, by turns in several rounds, and goes on with
+// the best. No result depends on it.
+//
+// What fits by the sizes of caches is the first candidate. Another one takes its place only if it was clearly
+// faster in every round; one that was not is tried no more. So no disturbed moment decides, and behind the
+// first round time is spent only on what seems to be faster.
+#pragma once
+
+#include "solvers/tiling_memory.h"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// Times come from outside, so that a test can make them up.
+class TileTuner {
+public:
+    using Seconds = std::chrono::duration<double>;
+
+    /// At least one candidate; of one alone nothing is tried. What `memory` knows of so many threads is
+    /// used, and it is told what is found; nullptr: there is none.
+    explicit TileTuner(std::vector<Tiling> candidates, TilingMemory* memory = nullptr, int threads = 1);
+
+    const std::vector<Tiling>& candidates() const { return candidates_; }
+    /// That of the next batch of steps.
+    const Tiling& tiling() const { return candidates_[current_]; }
+
+    bool is_trying() const { return state_ == State::trying; }
+    /// How tiling() was found to be the best, in words; empty before that.
+    std::string how_found() const;
+
+    /// Sweeps (passes of steps) that a batch takes while trying, so that each candidate has whole tiles.
+    std::int64_t sweeps_of_trial() const;
+
+    /// A batch of `sweeps` took so long with tiling(). At that speed the run is expected to go on for
+    /// `left`; trials begin where they cost little of it.
+    void took(std::int64_t sweeps, Seconds duration, Seconds left);
+
+private:
+    enum class State : std::uint8_t { waiting, trying, found, recalled };
+    /// What is known of a candidate.
+    struct Tried {
+        std::size_t candidate = 0;
+        double seconds = 0, sweeps = 0;  ///< In this round,
+        double seconds_in_all = 0;       ///< and of a sweep, summed over all rounds.
+        double seconds_per_sweep() const { return seconds / sweeps; }
+    };
+
+    void recall();
+    void end_round();
+
+    std::vector<Tiling> candidates_;
+    TilingMemory* memory_;
+    int threads_;
+    int most_levels_ = 1;
+    State state_ = State::waiting;
+    std::size_t current_ = 0;
+    double warm_seconds_ = 0;       ///< Of steps before the first trial,
+    double seconds_per_sweep_ = 1;  ///< and of a sweep in the last of them.
+    int round_ = 0;
+    std::vector<Tried> tried_;      ///< Those that are still in; the first is the first candidate.
+    std::size_t turn_ = 0;          ///< Whose turn it is, of those.
+};
+
+}  // namespace cascade

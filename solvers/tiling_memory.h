@@ -1,0 +1,19 @@
+// What earlier runs found out about tilings.
+#pragma once
+
+#include "solvers/tiling.h"
+
+#include <optional>
+
+namespace cascade {
+
+/// Of the steps of one stage.
+class TilingMemory {
+public:
+    virtual ~TilingMemory() = default;
+    /// The tiling that was found to be the fastest on so many threads; it may be one for other steps.
+    virtual std::optional<Tiling> find(int threads) = 0;
+    virtual void keep(int threads, const Tiling& tiling) = 0;
+};
+
+}  // namespace cascade
