@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace cascade {
@@ -77,6 +78,9 @@ public:
     virtual KernelPointer find(const CellKernel& kernel, Stencil stencil) = 0;
     /// So far.
     virtual KernelCounts counts() const { return {}; }
+    /// All that decides the code of kernels besides themselves, such as the processor, as bytes; empty where
+    /// it is not known.
+    virtual std::string code_identity() const { return {}; }
 };
 
 }  // namespace cascade

@@ -247,6 +247,8 @@ KernelPointer TieredBackend::find(const CellKernel& kernel, Stencil stencil) {
 
 KernelCounts TieredBackend::counts() const { return native_->counts(); }
 
+std::string TieredBackend::code_identity() const { return native_->code_identity(); }
+
 KernelPointer TieredBackend::begin(const CellKernel& kernel, Stencil stencil, When when) {
     if (auto found = native_->find(kernel, stencil)) return found;
     KernelPointer interpreted = *interpreter_->compile(kernel, stencil);
@@ -260,9 +262,9 @@ KernelPointer TieredBackend::begin(const CellKernel& kernel, Stencil stencil, Wh
     return begun;
 }
 
-void TieredBackend::abandon() { worker_->abandon(); }
-
 void TieredBackend::settle() { worker_->settle(); }
+
+void TieredBackend::abandon() { worker_->abandon(); }
 
 void TieredBackend::expect(const CellKernel& kernel, Stencil stencil) {
     if (!native_->find(kernel, stencil) && worker_->start()) worker_->expect(kernel, stencil);

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 
 namespace cascade {
@@ -32,6 +33,7 @@ public:
     Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) override;
     KernelPointer find(const CellKernel& kernel, Stencil stencil) override;
     KernelCounts counts() const override;
+    std::string code_identity() const override;
 
     /// When code is made for a kernel that is interpreted meanwhile.
     enum class When : std::uint8_t {
@@ -44,10 +46,10 @@ public:
     KernelPointer begin(const CellKernel& kernel, Stencil stencil, When when);
     /// The kernel will be begun, or compiled, later: it is compiled when nothing else is to be.
     void expect(const CellKernel& kernel, Stencil stencil);
-    /// Forgets the kernels that wait: those that were begun stay interpreted. Only the one being compiled, which
-    /// nothing can interrupt, is finished.
     /// Waits until there is code for all kernels that have been used enough by now, or none can be made.
     void settle();
+    /// Forgets the kernels that wait: those that were begun stay interpreted. Only the one being compiled, which
+    /// nothing can interrupt, is finished.
     void abandon();
 
 private:

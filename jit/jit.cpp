@@ -139,6 +139,10 @@ public:
 
     KernelCounts counts() const override { return {compiled_, found_}; }
 
+    std::string code_identity() const override {
+        return environment_.empty() ? "" : environment_ + std::to_string(lanes_) + "|";
+    }
+
 private:
     /// What is known without waiting; null of a kernel that is being made.
     std::optional<Result<KernelPointer>> find_known(const std::string& key) {

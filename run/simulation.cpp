@@ -101,6 +101,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
         if (!stepper) return tl::unexpected(stepper.error());
         self.stepper = std::move(*stepper);
     }
+    self.tilings.emplace(options.kernel_cache, self.stepper->code_identity());
     self.starts_interpreted = options.starts_interpreted;
     self.team = std::make_unique<Team>(self.is_small() ? 1 : self.threads);
     self.states.resize(self.program->stages.size());
@@ -161,6 +162,10 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     schedule.tenths = stage.interval == 0;
     schedule.threads = self.threads;
     schedule.tiling = self.tiling;
+    std::optional<StageTilings> tilings;
+    if (self.tilings) {
+        schedule.tilings = &tilings.emplace(*self.tilings, timer.problem(), kernels.identity());
+    }
     const StageOutcome outcome = advance(timer.problem(), schedule, state.species, control, progress,
                                          [&](std::int64_t step, double t, std::span<const Field>) {
                                              state.steps = step;

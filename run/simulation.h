@@ -84,7 +84,8 @@ struct SimulationOptions {
     RunControl* control = nullptr;
     TimeAccount* account = nullptr;   ///< Is told where the time goes; none: nobody is.
     std::filesystem::path cell_cache = {};  ///< A folder in which cells of models are kept; empty: none.
-    /// A folder in which compiled kernels are kept for later processes; empty: none.
+    /// A folder in which compiled kernels, and what is found about tilings, are kept for later processes;
+    /// empty: none.
     std::filesystem::path kernel_cache = {};
     /// Take steps while code for them is made? Their first ones are interpreted then, unless there are so
     /// many cells that waiting is quicker. No result depends on it, but how long a step takes does.
@@ -124,11 +125,11 @@ public:
                                    RunControl& control, const std::function<void()>& observe,
                                    std::int64_t every = 0);
 
-    /// Replaces the species of a started stage (resume, the prompt's :load).
     /// Waits for code that is being made for stages that were over before it was there, and says of which
     /// there is none, so that they were interpreted.
     void settle(RunControl& control);
 
+    /// Replaces the species of a started stage (resume, the prompt's :load).
     void set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps,
                      bool done);
 

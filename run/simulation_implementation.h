@@ -7,6 +7,7 @@
 #include "run/bound_kernel.h"
 #include "run/domain_mask.h"
 #include "run/input_files.h"
+#include "run/kept_tilings.h"
 #include "run/metric_planes.h"
 #include "run/plan_runner.h"
 #include "run/simulation.h"
@@ -29,13 +30,14 @@ struct Simulation::Implementation {
     Grid grid;
     int threads = 1;
     std::optional<Tiling> tiling;        ///< None: as fits.
+    std::optional<KeptTilings> tilings;  ///< None on coarser grids.
     std::unique_ptr<Backend> interpreter;
     std::shared_ptr<TieredBackend> stepper;
     bool starts_interpreted = false;
-    bool has_expected = false;  ///< Does the stepper know what later stages need?
-    std::unique_ptr<Team> team;
     /// By stage, of those that were over before it was known whether there can be code for all.
     std::map<std::uint32_t, StepKernels> unsettled;
+    bool has_expected = false;  ///< Does the stepper know what later stages need?
+    std::unique_ptr<Team> team;
     InputFiles files;
     std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
     std::optional<DomainMask> mask;

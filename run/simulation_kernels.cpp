@@ -14,7 +14,8 @@ void StepKernels::warn(const Failure& refusal, RunControl& control) {
 Compile Simulation::Implementation::compiled(std::uint32_t k, StepKernels& kernels,
                                              RunControl& control) const {
     using When = TieredBackend::When;
-    return [this, &kernels, when = is_long(k) ? When::now : When::when_used](const CellKernel& kernel) {
+    return [this, &kernels, &control, when = is_long(k) ? When::now : When::when_used](const CellKernel& kernel) {
+        kernels.identify(kernel);
         if (runs_meanwhile()) {
             KernelPointer begun = stepper->begin(kernel, grid.stencil(), when);
             kernels.add(begun);
@@ -27,7 +28,6 @@ Compile Simulation::Implementation::compiled(std::uint32_t k, StepKernels& kerne
     };
 }
 
-Compile Simulation::Implementation::often() const {
 void Simulation::Implementation::warn_of_refused(RunControl& control) {
     for (auto& [k, kernels] : unsettled) kernels.warn_of_refused(control);
     std::erase_if(unsettled, [](const auto& of_stage) { return !of_stage.second.is_provisional(); });
@@ -40,6 +40,7 @@ void Simulation::settle(RunControl& control) {
     self_->warn_of_refused(control);
 }
 
+Compile Simulation::Implementation::often() const {
     if (is_small()) return interpreted(grid);
     return [this, interpret = interpreted(grid)](const CellKernel& kernel) {
         const TimeAccount::Scope spent(account, Spent::compiling);

@@ -19,25 +19,31 @@ public:
 
     void add(KernelPointer kernel) { kernels_.push_back(std::move(kernel)); }
 
+    /// A kernel belongs to the steps, however it is run.
+    void identify(const CellKernel& kernel) { identity_ = 0x100000001b3 * (identity_ ^ hash(kernel)); }
+    /// A hash of all of them so far.
+    std::uint64_t identity() const { return identity_; }
+
     /// Says of kernels that could not be compiled, as far as that is known, that they are interpreted.
     void warn_of_refused(RunControl& control) {
         for (const KernelPointer& kernel : kernels_) {
             if (const Failure* const refusal = kernel->refusal()) warn(*refusal, control);
         }
     }
-
-    /// Says that a kernel is interpreted; the same reason is given once.
-    void warn(const Failure& refusal, RunControl& control);
-
-private:
     /// May more of them be refused yet?
     bool is_provisional() const {
         return std::any_of(kernels_.begin(), kernels_.end(),
                            [](const KernelPointer& kernel) { return kernel->is_provisional(); });
     }
+
+    /// Says that a kernel is interpreted; the same reason is given once.
+    void warn(const Failure& refusal, RunControl& control);
+
+private:
     std::string stage_;
     std::vector<KernelPointer> kernels_;
     std::set<std::string> said_;
+    std::uint64_t identity_ = 0;
 };
 
 }  // namespace cascade

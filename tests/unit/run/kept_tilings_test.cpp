@@ -1,0 +1,76 @@
+// What is found about tilings, remembered in a process and on disk.
+#include "run/kept_tilings.h"
+#include "tests/unit/solvers/cell_function_kernel.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+namespace cascade {
+namespace {
+
+namespace fs = std::filesystem;
+
+class KeptTilingsTest : public ::testing::Test {
+protected:
+    KeptTilingsTest() {
+        std::string pattern = (fs::temp_directory_path() / "cascade-tilings-XXXXXX").string();
+        EXPECT_NE(::mkdtemp(pattern.data()), nullptr);
+        folder_ = pattern;
+        fs::permissions(folder_, fs::perms::owner_all);
+    }
+    ~KeptTilingsTest() override { fs::remove_all(folder_); }
+
+    fs::path folder_;
+};
+
+const Tiling some{12, 3, 1, 4, true, Tiling::Along::rows};
+
+TEST_F(KeptTilingsTest, AreFoundByLaterProcesses) {
+    KeptTilings(folder_, "code").keep("key", some);
+    EXPECT_EQ(KeptTilings(folder_, "code").find("key"), some);
+    EXPECT_EQ(KeptTilings(folder_, "code").find("other"), std::nullopt);
+    KeptTilings(folder_, "code").keep("key", Tiling());
+    EXPECT_EQ(KeptTilings(folder_, "code").find("key"), Tiling());
+}
+
+TEST_F(KeptTilingsTest, WithoutAFolderOrACodeAreKnownToTheProcess) {
+    for (const auto& [folder, code] : {std::pair<fs::path, std::string>{"", "code"}, {folder_, ""}}) {
+        KeptTilings tilings(folder, code);
+        tilings.keep("key", some);
+        EXPECT_EQ(tilings.find("key"), some);
+        EXPECT_EQ(KeptTilings(folder, code).find("key"), std::nullopt);
+    }
+    EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(KeptTilingsTest, TextsGoBackAndForth) {
+    for (const Tiling& tiling : {some, Tiling(), Tiling{16, 1, 1, 1, true}}) {
+        EXPECT_EQ(tiling_of(text_of(tiling)), tiling);
+    }
+    for (const char* const text : {"", "16", "16 1 1 1 2 0", "sixteen 1 1 1 0 0", "\xff\xff"}) {
+        EXPECT_EQ(tiling_of(text), std::nullopt) << text;
+    }
+}
+
+TEST_F(KeptTilingsTest, KeysDifferInAllThatDecides) {
+    KeptTilings tilings(folder_, "code"), other_machine(folder_, "other code");
+    const auto problem = [](const Grid& grid) { return testing::heat_problem(grid, 0.1f); };
+    const Grid grid{40, 30};
+    StageTilings(tilings, problem(grid), 1).keep(2, some);
+    EXPECT_EQ(StageTilings(tilings, problem(grid), 1).find(2), some);
+    EXPECT_EQ(StageTilings(tilings, problem(grid), 1).find(1), std::nullopt);
+    EXPECT_EQ(StageTilings(tilings, problem(grid), 2).find(2), std::nullopt);
+    EXPECT_EQ(StageTilings(tilings, problem(Grid{30, 40}), 1).find(2), std::nullopt);
+    EXPECT_EQ(StageTilings(tilings, problem(Grid{40, 30, Boundary::no_flux}), 1).find(2), std::nullopt);
+    StepProblem more = problem(grid);
+    more.passes.push_back(more.passes[0]);
+    EXPECT_EQ(StageTilings(tilings, more, 1).find(2), std::nullopt);
+    EXPECT_EQ(StageTilings(other_machine, problem(grid), 1).find(2), std::nullopt);
+}
+
+}  // namespace
+}  // namespace cascade
