@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -61,11 +62,13 @@ public:
         return {};
     }
 
-    Result<void> measure(StageBench& bench) {
+    /// Batches have whole tiles of so many steps.
+    Result<void> measure(StageBench& bench, std::int64_t steps_of_tile) {
         begin_ = Clock::now();
         const double batch = std::clamp(seconds_ / batches_wanted, 1e-4, 0.25);
         std::int64_t every = static_cast<std::int64_t>(
             std::clamp(batch / std::max(step_seconds_, 1e-9), 1.0, 1e9));
+        every = (every + steps_of_tile - 1) / steps_of_tile * steps_of_tile;
         while (!is_enough() && !control_.cancel) {
             if (auto ready = begin_again_where_done(); !ready) return ready;
             const std::size_t before = batches_.size();
@@ -209,7 +212,10 @@ private:
         }
         bench.compiling = account_.seconds(Spent::compiling) - compiled_;
         compiled_ = account_.seconds(Spent::compiling);
-        if (auto done = meter.measure(bench); !done) return tl::unexpected(done.error());
+        const double at_once = std::ceil(account_.stage(k).stepping.sweeps_at_once);
+        if (auto done = meter.measure(bench, static_cast<std::int64_t>(at_once)); !done) {
+            return tl::unexpected(done.error());
+        }
         if (control_.cancel) return bench;
         if (bench.step <= 0) {
             bench.nothing = "it ends before it takes a step";
