@@ -18,6 +18,9 @@ constexpr double trial_seconds = 0.002;
 constexpr double warm_up_seconds = 0.01;
 // So much of a run may trials take that bring nothing: those of the first round.
 constexpr double share_of_run = 0.02;
+// And so much of the time between trials, when all is tried again; less where nothing changes.
+constexpr double share_of_rest = 0.005;
+constexpr double most_patience = 64;
 // So much less time must a sweep take to be clearly faster.
 constexpr double clearly_faster = 0.95;
 
@@ -26,10 +29,7 @@ constexpr double clearly_faster = 0.95;
 TileTuner::TileTuner(std::vector<Tiling> candidates, TilingMemory* memory, int threads)
     : candidates_(std::move(candidates)), memory_(memory), threads_(threads) {
     CHECK(!candidates_.empty(), "there is a way to go through memory");
-    for (std::size_t k = 0; k < candidates_.size(); ++k) {
-        tried_.push_back({k});
-        most_levels_ = std::max(most_levels_, candidates_[k].levels);
-    }
+    for (const Tiling& tiling : candidates_) most_levels_ = std::max(most_levels_, tiling.levels);
     if (memory_ != nullptr && candidates_.size() > 1) recall();
 }
 
@@ -39,12 +39,12 @@ void TileTuner::recall() {
     const auto found = known ? std::find(candidates_.begin(), candidates_.end(), *known) : candidates_.end();
     if (found == candidates_.end()) return;
     current_ = static_cast<std::size_t>(found - candidates_.begin());
-    state_ = State::recalled;
+    choice_ = Choice::recalled;
 }
 
 std::string TileTuner::how_found() const {
-    if (state_ == State::recalled) return "the fastest in an earlier run";
-    return state_ == State::found ? fmt::format("the fastest of {} ways", candidates_.size()) : "";
+    if (choice_ == Choice::recalled) return "the fastest in an earlier run";
+    return choice_ == Choice::by_time ? fmt::format("the fastest of {} ways", candidates_.size()) : "";
 }
 
 std::int64_t TileTuner::sweeps_of_trial() const {
@@ -52,40 +52,64 @@ std::int64_t TileTuner::sweeps_of_trial() const {
     return most_levels_ * static_cast<std::int64_t>(std::clamp(tiles, 1.0, 1e9));
 }
 
+bool TileTuner::is_due(double left) const {
+    if (candidates_.size() < 2 || rested_seconds_ < warm_up_seconds) return false;
+    const double trial = seconds_per_sweep_ * static_cast<double>(sweeps_of_trial());
+    const double cost = trial * static_cast<double>(candidates_.size());
+    return cost <= share_of_run * left &&
+           (choice_ == Choice::by_size || patience_ * cost <= share_of_rest * rested_seconds_);
+}
+
 void TileTuner::took(std::int64_t sweeps, Seconds duration, Seconds left) {
     const double seconds = std::max(duration.count(), 1e-9);
-    if (state_ == State::waiting && candidates_.size() > 1) {
-        warm_seconds_ += seconds;
+    if (!is_trying_) {
+        rested_seconds_ += seconds;
         seconds_per_sweep_ = seconds / static_cast<double>(sweeps);
-        const double trial = seconds_per_sweep_ * static_cast<double>(sweeps_of_trial());
-        const double cost = trial * static_cast<double>(candidates_.size());
-        if (warm_seconds_ >= warm_up_seconds && cost <= share_of_run * left.count()) state_ = State::trying;
-    } else if (state_ == State::trying) {
-        Tried& tried = tried_[turn_];
-        tried.seconds += seconds;
-        tried.sweeps += static_cast<double>(sweeps);
-        if (tried.sweeps < most_levels_ || tried.seconds < trial_seconds) return;
-        if (++turn_ == tried_.size()) end_round();
-        current_ = tried_[turn_].candidate;
+        if (is_due(left.count())) begin();
+        return;
+    }
+    Tried& tried = tried_[turn_];
+    tried.seconds += seconds;
+    tried.sweeps += static_cast<double>(sweeps);
+    if (tried.sweeps < most_levels_ || tried.seconds < trial_seconds) return;
+    if (++turn_ == tried_.size()) end_round();
+    if (is_trying_) current_ = tried_[turn_].candidate;
+}
+
+void TileTuner::begin() {
+    is_trying_ = true;
+    round_ = 0;
+    turn_ = 0;
+    tried_.assign(1, Tried{current_});
+    for (std::size_t k = 0; k < candidates_.size(); ++k) {
+        if (k != current_) tried_.push_back({k});
     }
 }
 
 void TileTuner::end_round() {
     const double most = clearly_faster * tried_[0].seconds_per_sweep();
-    std::erase_if(tried_, [&](const Tried& tried) {
-        return tried.candidate != 0 && tried.seconds_per_sweep() > most;
-    });
+    const auto is_slow = [&](const Tried& tried) { return tried.seconds_per_sweep() > most; };
+    tried_.erase(std::remove_if(tried_.begin() + 1, tried_.end(), is_slow), tried_.end());
     for (Tried& tried : tried_) {
         tried.seconds_in_all += tried.seconds_per_sweep();
         tried.seconds = tried.sweeps = 0;
     }
     turn_ = 0;
     if (++round_ < rounds && tried_.size() > 1) return;
-    tried_ = {*std::min_element(tried_.begin(), tried_.end(), [](const Tried& a, const Tried& b) {
+    end(std::min_element(tried_.begin(), tried_.end(), [](const Tried& a, const Tried& b) {
         return a.seconds_in_all < b.seconds_in_all;
-    })};
-    state_ = State::found;
-    if (memory_ != nullptr) memory_->keep(threads_, candidates_[tried_[0].candidate]);
+    })->candidate);
+}
+
+void TileTuner::end(std::size_t best) {
+    const bool is_new = best != tried_[0].candidate;
+    const bool is_news = is_new || choice_ == Choice::by_size;
+    if (memory_ != nullptr && is_news) memory_->keep(threads_, candidates_[best]);
+    patience_ = is_new ? 1 : std::min(2 * patience_, most_patience);
+    choice_ = Choice::by_time;
+    current_ = best;
+    is_trying_ = false;
+    rested_seconds_ = 0;
 }
 
 }  // namespace cascade

@@ -2,9 +2,10 @@
 // for long enough tries a few tilings on steps of its own, by turns in several rounds, and goes on with
 // the best. No result depends on it.
 //
-// What fits by the sizes of caches is the first candidate. Another one takes its place only if it was clearly
-// faster in every round; one that was not is tried no more. So no disturbed moment decides, and behind the
-// first round time is spent only on what seems to be faster.
+// What fits by the sizes of caches is used first, or what an earlier run found. Another one takes its place
+// only if it was clearly faster in every round; one that was not is tried no more. So no disturbed moment
+// decides, and behind the first round time is spent only on what seems to be faster. But other programs may
+// be at work for as long as all rounds take, so now and then all is tried again.
 #pragma once
 
 #include "solvers/tiling_memory.h"
@@ -23,15 +24,15 @@ public:
     using Seconds = std::chrono::duration<double>;
 
     /// At least one candidate; of one alone nothing is tried. What `memory` knows of so many threads is
-    /// used, and it is told what is found; nullptr: there is none.
+    /// used at first, and it is told what is found; nullptr: there is none.
     explicit TileTuner(std::vector<Tiling> candidates, TilingMemory* memory = nullptr, int threads = 1);
 
     const std::vector<Tiling>& candidates() const { return candidates_; }
     /// That of the next batch of steps.
     const Tiling& tiling() const { return candidates_[current_]; }
 
-    bool is_trying() const { return state_ == State::trying; }
-    /// How tiling() was found to be the best, in words; empty before that.
+    bool is_trying() const { return is_trying_; }
+    /// How a tiling was found to be the best, in words; empty before that.
     std::string how_found() const;
 
     /// Sweeps (passes of steps) that a batch takes while trying, so that each candidate has whole tiles.
@@ -42,7 +43,7 @@ public:
     void took(std::int64_t sweeps, Seconds duration, Seconds left);
 
 private:
-    enum class State : std::uint8_t { waiting, trying, found, recalled };
+    enum class Choice : std::uint8_t { by_size, recalled, by_time };
     /// What is known of a candidate.
     struct Tried {
         std::size_t candidate = 0;
@@ -52,18 +53,23 @@ private:
     };
 
     void recall();
+    bool is_due(double left) const;
+    void begin();
     void end_round();
+    void end(std::size_t best);
 
     std::vector<Tiling> candidates_;
     TilingMemory* memory_;
     int threads_;
     int most_levels_ = 1;
-    State state_ = State::waiting;
+    Choice choice_ = Choice::by_size;
     std::size_t current_ = 0;
-    double warm_seconds_ = 0;       ///< Of steps before the first trial,
-    double seconds_per_sweep_ = 1;  ///< and of a sweep in the last of them.
+    bool is_trying_ = false;
+    double rested_seconds_ = 0;     ///< Steps since trials, or from the start;
+    double seconds_per_sweep_ = 1;  ///< of a sweep in the last of them.
+    double patience_ = 1;           ///< So many times as rarely as at first is all tried again.
     int round_ = 0;
-    std::vector<Tried> tried_;      ///< Those that are still in; the first is the first candidate.
+    std::vector<Tried> tried_;      ///< Those that are still in; the first is the one to be replaced.
     std::size_t turn_ = 0;          ///< Whose turn it is, of those.
 };
 
