@@ -1,9 +1,10 @@
-# Writes OUTPUT from TEMPLATE: a hash of SOURCES (separated by commas) and of EXTRA, as @version@.
+# Writes OUTPUT from TEMPLATE: a hash of SOURCES (names in FOLDER, separated by commas) and of EXTRA, as
+# @version@.
 string(REPLACE "," ";" sources "${SOURCES}")
 set(all "${EXTRA}")
 foreach(source IN LISTS sources)
-  file(SHA256 ${source} hash)
+  file(SHA256 "${FOLDER}/${source}" hash)
   string(APPEND all " ${hash}")
 endforeach()
 string(SHA256 version "${all}")
-configure_file(${TEMPLATE} ${OUTPUT} @ONLY)
+configure_file("${TEMPLATE}" "${OUTPUT}" @ONLY)

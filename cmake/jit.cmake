@@ -8,7 +8,7 @@ file(GLOB jit_with_llvm CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/jit/*.cpp)
 list(REMOVE_ITEM jit_with_llvm ${jit_without_llvm})
 
 # What is kept on disk is found again by programs whose code generator is the same.
-file(GLOB code_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/jit/*.cpp
+file(GLOB code_sources RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/jit/*.cpp
   ${PROJECT_SOURCE_DIR}/jit/*.h ${PROJECT_SOURCE_DIR}/ir/*.cpp ${PROJECT_SOURCE_DIR}/ir/*.h
   ${PROJECT_SOURCE_DIR}/ir/*.def ${PROJECT_SOURCE_DIR}/core/grid.h
   ${PROJECT_SOURCE_DIR}/core/links.h ${PROJECT_SOURCE_DIR}/core/plane.h)
@@ -16,7 +16,8 @@ list(JOIN code_sources "," code_sources_text)
 set(code_version_folder ${PROJECT_BINARY_DIR}/generated)
 add_custom_command(
   OUTPUT ${code_version_folder}/jit/code_version.h
-  COMMAND ${CMAKE_COMMAND} -DSOURCES=${code_sources_text} "-DEXTRA=LLVM ${LLVM_PACKAGE_VERSION}"
+  COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR} -DSOURCES=${code_sources_text}
+    "-DEXTRA=LLVM ${LLVM_PACKAGE_VERSION}"
     -DTEMPLATE=${PROJECT_SOURCE_DIR}/jit/code_version.h.in
     -DOUTPUT=${code_version_folder}/jit/code_version.h -P ${PROJECT_SOURCE_DIR}/cmake/code_version.cmake
   DEPENDS ${code_sources} ${PROJECT_SOURCE_DIR}/jit/code_version.h.in
