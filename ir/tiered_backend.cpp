@@ -40,6 +40,8 @@ public:
     void expect(const CellKernel& kernel, Stencil stencil);
     /// Kernels that are wanted have changed. Allocates nothing: threads that compute call it.
     void wake();
+    /// Returns when the kernel is settled, or will never be. Threads that compute call it.
+    void wait_for(const TieredKernel& kernel);
 
 private:
     struct Source {
@@ -50,14 +52,17 @@ private:
     void work();
     bool has_wanted() const;
     std::shared_ptr<TieredKernel> next_wanted();
+    /// Is it being compiled, or waits to be?
+    bool is_coming(const TieredKernel& kernel) const;
 
     Backend& native_;  ///< Used by the thread alone, which ends before the backend does.
     std::thread thread_;
     std::mutex mutex_;
     std::condition_variable changed_;
     bool is_stopping_ = false;
-    bool is_compiling_ = false;  ///< What is wanted; not what is only expected.
+    std::condition_variable settled_;  ///< Fewer kernels are coming.
     std::vector<std::shared_ptr<TieredKernel>> begun_;  ///< Those not compiled yet, in order.
+    const TieredKernel* in_work_ = nullptr;             ///< The one being compiled, if it is wanted.
     std::deque<Source> expected_;
 };
 
@@ -105,13 +110,21 @@ public:
 private:
     template <typename Number>
     void run_present(const KernelArgumentsOf<Number>& arguments, RowRange rows) const {
-        const Kernel* const present = present_.load(std::memory_order_acquire);
-        present->run(arguments, rows);
-        if (present != interpreted_.get() || is_wanted() || rows.empty()) return;
-        const std::int64_t cells = (rows.end - rows.begin) * (arguments.layout.width + cells_per_row);
+        if (is_provisional()) {
+            count((rows.end - rows.begin) * (arguments.layout.width + cells_per_row));
+        }
+        present_.load(std::memory_order_acquire)->run(arguments, rows);
+    }
+
+    /// Before so many cells are interpreted: is it worth compiling now, or even waiting for that?
+    void count(std::int64_t cells) const {
         const std::int64_t before = interpreted_cells_.fetch_add(cells, std::memory_order_relaxed);
-        if (before + cells < cells_worth_compiling || is_wanted_.exchange(true)) return;
-        if (const auto worker = worker_.lock()) worker->wake();
+        if (before + cells < cells_worth_compiling) return;
+        const auto worker = worker_.lock();
+        if (!worker) return;
+        if (is_wanted_.exchange(true)) return worker->wait_for(*this);
+        interpreted_cells_.store(0, std::memory_order_relaxed);
+        worker->wake();
     }
 
     std::unique_ptr<Source> source_;  ///< Until it is compiled.
@@ -143,12 +156,12 @@ void TieredBackend::Worker::stop() {
     }
     changed_.notify_all();
     if (thread_.joinable()) thread_.join();
-    begun_.clear();
+    abandon();
 }
 
 void TieredBackend::Worker::settle() {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return !is_compiling_ && !has_wanted(); });
+    settled_.wait(lock, [this] { return in_work_ == nullptr && !has_wanted(); });
 }
 
 bool TieredBackend::Worker::has_wanted() const {
@@ -157,9 +170,12 @@ bool TieredBackend::Worker::has_wanted() const {
 
 void TieredBackend::Worker::abandon() {
     std::vector<std::shared_ptr<TieredKernel>> kernels;  // Gone without the lock.
-    const std::lock_guard lock(mutex_);
-    kernels.swap(begun_);
-    expected_.clear();
+    {
+        const std::lock_guard lock(mutex_);
+        kernels.swap(begun_);
+        expected_.clear();
+    }
+    settled_.notify_all();
 }
 
 void TieredBackend::Worker::add(const std::shared_ptr<TieredKernel>& kernel) {
@@ -188,6 +204,17 @@ void TieredBackend::Worker::wake() {
     changed_.notify_all();
 }
 
+void TieredBackend::Worker::wait_for(const TieredKernel& kernel) {
+    std::unique_lock lock(mutex_);
+    settled_.wait(lock, [&] { return !is_coming(kernel); });
+}
+
+bool TieredBackend::Worker::is_coming(const TieredKernel& kernel) const {
+    return in_work_ == &kernel || std::any_of(begun_.begin(), begun_.end(), [&](const auto& begun) {
+               return begun.get() == &kernel;
+           });
+}
+
 std::shared_ptr<TieredBackend::Worker::TieredKernel> TieredBackend::Worker::next_wanted() {
     const auto found = std::find_if(begun_.begin(), begun_.end(),
                                     [](const auto& kernel) { return kernel->is_wanted(); });
@@ -203,13 +230,13 @@ void TieredBackend::Worker::work() {
     std::unique_lock lock(mutex_);
     while (true) {
         if (auto kernel = next_wanted()) {
-            is_compiling_ = true;
+            in_work_ = kernel.get();
             lock.unlock();
             kernel->compile(native_);
             kernel.reset();  // It may be the last to know it, and then it goes without the lock.
             lock.lock();
-            is_compiling_ = false;
-            changed_.notify_all();
+            in_work_ = nullptr;
+            settled_.notify_all();
         } else if (!expected_.empty()) {
             const Source source = std::move(expected_.front());
             expected_.pop_front();

@@ -2,7 +2,9 @@
 //
 // Loading a code generator takes longer than a small run. So begin() hands out a kernel that is
 // interpreted; a thread of the backend's own compiles it, and from then on its calls run native code.
-// Both give the same bits, so nobody sees from the results when that was.
+// Both give the same bits, so nobody sees from the results when that was. A kernel that has been interpreted
+// for about as long as code takes to be made waits for it: interpreting further would only slow the
+// compiler down.
 #pragma once
 
 #include "ir/backend.h"
@@ -41,8 +43,9 @@ public:
         when_used,  ///< Once it has run over `cells_worth_compiling` cells.
     };
     /// A kernel that can run now: that of find(), or one that is interpreted until it is compiled
-    /// (Kernel::is_provisional), for good where that fails (Kernel::refusal). Kernels are compiled in the
-    /// order in which they were begun.
+    /// (Kernel::is_provisional), for good where that fails (Kernel::refusal). Calls wait for code that is wanted
+    /// once they have interpreted `cells_worth_compiling` cells meanwhile. Kernels are compiled in the order in
+    /// which they were begun.
     KernelPointer begin(const CellKernel& kernel, Stencil stencil, When when);
     /// The kernel will be begun, or compiled, later: it is compiled when nothing else is to be.
     void expect(const CellKernel& kernel, Stencil stencil);

@@ -107,6 +107,13 @@ protected:
         while (kernel.is_provisional()) std::this_thread::yield();
     }
     int native_calls() const { return *shop_->native_calls; }
+    /// More often than kernels are interpreted before they wait.
+    void run_often(const Kernel& kernel, std::atomic<int>& calls) const {
+        for (; calls < interpreted_calls + 50; ++calls) inputs_.run(kernel);
+    }
+
+    /// Calls for the whole grid before one waits: a row counts as 64 cells more than it has.
+    static constexpr int interpreted_calls = cells_worth_compiling / (9 * (40 + 64));
 
     Grid grid_{40, 9, Boundary::periodic};
     HostileInputs inputs_{kernel(), grid_, 3};
@@ -130,17 +137,37 @@ TEST_F(TieredBackendTest, KernelsRunBeforeAndBehindTheSwap) {
 
 TEST_F(TieredBackendTest, WhatMayBeShortIsCompiledOnceItHasRunForLong) {
     const KernelPointer begun = begin(When::when_used);
-    // Rows count a little more than their cells.
-    const std::int64_t calls = cells_worth_compiling / (9 * 200);
-    for (std::int64_t k = 0; k < calls; ++k) inputs_.run(*begun);
+    for (int k = 0; k < interpreted_calls; ++k) inputs_.run(*begun);
     EXPECT_EQ(shop_->count(shop_->begun), 0);
     shop_->allow(1);
-    for (std::int64_t k = 0; k < 5 * calls; ++k) inputs_.run(*begun);
+    inputs_.run(*begun);
     settle(*begun);
     EXPECT_EQ(shop_->count(shop_->begun), 1);
     const int before = native_calls();
     EXPECT_EQ(same_bits(inputs_.run(*begun), expected_), "");
     EXPECT_EQ(native_calls(), before + 1);
+}
+
+TEST_F(TieredBackendTest, WhatHasBeenInterpretedForLongWaitsForItsCode) {
+    const KernelPointer begun = begin(When::now);
+    std::atomic<int> calls{0};
+    std::thread thread([&] { run_often(*begun, calls); });
+    while (calls < interpreted_calls) std::this_thread::yield();
+    shop_->allow(1);
+    thread.join();
+    EXPECT_EQ(native_calls(), calls - interpreted_calls);
+}
+
+TEST_F(TieredBackendTest, NobodyWaitsForWhatIsAbandoned) {
+    const KernelPointer first = begin(When::now), second = begin(When::now);
+    shop_->wait_for(shop_->begun, 1);
+    std::atomic<int> calls{0};
+    std::thread thread([&] { run_often(*second, calls); });
+    while (calls < interpreted_calls) std::this_thread::yield();
+    backend_->abandon();
+    thread.join();
+    EXPECT_EQ(native_calls(), 0);
+    EXPECT_TRUE(second->is_provisional());
 }
 
 TEST_F(TieredBackendTest, RefusedKernelsStayInterpretedAndSayWhy) {

@@ -126,7 +126,7 @@ TEST(Tiers, SwapsAtAnyMomentChangeNoBit) {
 }
 
 TEST(Tiers, WhatIsRefusedLateIsSaidBehindTheStage) {
-    // So many steps that the refusal is known before they are taken.
+    // So many steps that they wait for the refusal.
     const std::string text = "domain { grid: 32, 32 }\nstage a: turing_spots { iterations: 8000 }";
     const Ran ran = run_text(text, tiered(std::make_unique<RefusingBackend>()));
     EXPECT_THAT(ran.warnings,
