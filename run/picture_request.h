@@ -31,6 +31,7 @@ struct PictureRequest {
 
     /// Is the surface seen from another place than usual?
     bool is_turned() const;
+    PngDepth png_depth() const { return depth == 16 ? PngDepth::sixteen : PngDepth::eight; }
 };
 
 std::string to_json(const PictureRequest& request);

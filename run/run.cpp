@@ -25,10 +25,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-PngDepth depth_of(const PictureRequest& request) {
-    return request.depth == 16 ? PngDepth::sixteen : PngDepth::eight;
-}
-
 /// One run from its first stage to its files.
 class Runner {
 public:
@@ -217,7 +213,7 @@ std::string Runner::place() const {
 }
 
 Result<void> Runner::write_picture(const std::filesystem::path& path, const Image& image) {
-    auto done = write_png(path, image, depth_of(request_.picture),
+    auto done = write_png(path, image, request_.picture.png_depth(),
                           embed_script(script_, painter_->request()));
     if (done) report_.written.push_back(path);
     return done;
@@ -313,7 +309,7 @@ Result<void> Runner::write_outputs() {
 
 Result<void> Runner::write_frames() {
     if (auto failed = frames_->failure()) return tl::unexpected(*failed);
-    auto written = frames_->write(*painter_, depth_of(request_.picture),
+    auto written = frames_->write(*painter_, request_.picture.png_depth(),
                                   embed_script(script_, request_.picture));
     if (!written) return tl::unexpected(written.error());
     report_.written.insert(report_.written.end(), written->begin(), written->end());

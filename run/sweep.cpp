@@ -338,12 +338,10 @@ Result<void> Sweeper::write_outputs() {
     const auto sheet = folder_ / "sheet.png", table = folder_ / "features.csv";
     std::vector<std::string> varied;
     for (const Variation& variation : request_.varied) varied.push_back(text_of(variation));
-    const PngDepth depth =
-        request_.picture.depth == 16 ? PngDepth::sixteen : PngDepth::eight;
     const bool has_mask = script_.program && script_.program->domain.mask;
     auto drawn = write_png(sheet,
-                           draw_sweep(results_, request_.varied, request_.picture, has_mask), depth,
-                           embed_sweep(script_, request_.picture, varied));
+                           draw_sweep(results_, request_.varied, request_.picture, has_mask),
+                           request_.picture.png_depth(), embed_sweep(script_, request_.picture, varied));
     if (!drawn) return drawn;
     report_.written.push_back(sheet);
     auto written = write_file(table, sweep_table(results_, request_.varied));
