@@ -54,17 +54,6 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
 /// register 1.
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context);
 
-/// 1 where the value is not 0 (NaN counts as not 0, as everywhere in the language).
-Mask to_mask(const Field& field);
-
-/// The smallest value of a field's cells inside the mask; NaN if one is NaN.
-double smallest(const Field& field, const DomainMask* mask);
-/// The largest.
-double largest_value(const Field& field, const DomainMask* mask);
-
-/// Do all cells hold the same word?
-bool is_same_everywhere(const Field& field);
-
 /// The name of species number `species`.
 std::string species_name(const System& system, std::size_t species);
 

@@ -2,6 +2,7 @@
 
 #include "ir/interpreter.h"
 #include "run/bound_diffusion.h"
+#include "run/field_values.h"
 #include "run/memory.h"
 #include "run/simulation_implementation.h"
 #if CASCADE_HAS_JIT

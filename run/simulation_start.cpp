@@ -2,6 +2,7 @@
 // step changes.
 #include "lang/models.h"
 #include "run/bind_side.h"
+#include "run/field_values.h"
 #include "run/memory.h"
 #include "run/simulation_implementation.h"
 
