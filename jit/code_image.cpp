@@ -208,7 +208,8 @@ std::optional<CodeImage> link_image(std::string_view object, std::string_view na
 Result<std::unique_ptr<LoadedFunction>> load_image(const CodeImage& image) {
     const auto refused = [] {
         return failure(fmt::format("native code could not be loaded: {}",
-                                   std::generic_category().message(errno)));
+                                   std::generic_category().message(errno)),
+                       "the system may forbid programs to make code; --backend interp goes without");
     };
     const std::size_t size = image.bytes.size();
     void* pages = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
