@@ -1,6 +1,7 @@
 #include "app/bench_table.h"
 
-#include "app/quantities.h"
+#include "core/counted.h"
+#include "core/quantities.h"
 #include "core/with_commas.h"
 #include "run/memory.h"
 
@@ -42,30 +43,30 @@ std::string line(std::string_view name, const std::string& text) {
 }
 
 /// Of what may be a fraction a cell, such as loads of links.
-std::string counted(double count, std::string_view one, std::string_view many) {
+std::string mean_count(double count, std::string_view one, std::string_view many) {
     const std::string text = number(count);
     return fmt::format("{} {}", text, text == "1" ? one : many);
 }
 
 std::string work_lines(const StageBench& bench) {
     const StepWork& work = bench.work;
-    std::string text = counted(work.cost.operations, "operation", "operations");
+    std::string text = mean_count(work.cost.operations, "operation", "operations");
     if (work.cost.divisions > 0) {
-        text += fmt::format(" ({})", counted(work.cost.divisions, "division or root",
-                                             "divisions or roots"));
+        text += fmt::format(" ({})", mean_count(work.cost.divisions, "division or root",
+                                                "divisions or roots"));
     }
-    text += ", " + counted(work.cost.loads, "load", "loads");
-    text += ", " + counted(work.cost.stores, "store", "stores");
+    text += ", " + mean_count(work.cost.loads, "load", "loads");
+    text += ", " + mean_count(work.cost.stores, "store", "stores");
     if (work.links > 0) text += fmt::format(", {:.2f} links", work.links);
-    text += ", in " + counted(static_cast<double>(work.passes), "pass", "passes");
+    text += ", in " + counted(work.passes, "pass");
     std::string lines = line("work a cell-step", text);
     lines += line("planes", fmt::format("{} bytes a cell-step; {} in all", number(work.bytes),
-                                        byte_size(work.working_set)));
+                                        with_unit(work.working_set, "B")));
     if (bench.stepping.sweeps_at_once > 1) {
         const double at_once = bench.stepping.sweeps_at_once;
         lines += line("tiles", fmt::format("{} sweeps at once, {:.2g} of those bytes through memory; "
                                            "{} in use", number(at_once), work.bytes / at_once,
-                                           byte_size(bench.stepping.bytes_in_use)));
+                                           with_unit(static_cast<double>(bench.stepping.bytes_in_use), "B")));
     }
     if (work.has_waves) {
         lines += line("", "waves are filtered besides, which is not counted");
@@ -138,8 +139,8 @@ std::string bench_table(const std::string& script, const StageBench& bench) {
     text += line("speed", fmt::format("{} cell-steps/s, {} a step", with_prefix(bench.cell_steps_per_second()),
                                       with_unit(bench.step, "s")));
     text += line("measured", fmt::format("{} steps, the median of {}, {}; {}", with_commas(bench.steps),
-                                         counted(static_cast<double>(bench.batches), "batch", "batches"),
-                                         counted(bench.threads, "thread", "threads"),
+                                         counted(bench.batches, "batch"),
+                                         counted(bench.threads, "thread"),
                                          bench.stepping.in_words()));
     text += line("before", fmt::format("starting values {}, first step {}, compiling {} in all",
                                        with_unit(bench.starting, "s"), with_unit(bench.first_step, "s"),

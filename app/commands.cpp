@@ -1,6 +1,7 @@
 #include "app/commands.h"
 
 #include "app/exit_status.h"
+#include "core/counted.h"
 #include "core/file.h"
 #include "lang/parse.h"
 #include "run/dump.h"
@@ -52,7 +53,7 @@ std::string summary(const Script& script) {
         is_known = is_known && !time.has_duration() && !time.open_end;
         steps += program.stages[k].iterations;
     }
-    return fmt::format("{} {}, {}{} cells", count, count == 1 ? "stage" : "stages",
+    return fmt::format("{}, {}{} cells", counted(count, "stage"),
                        is_known ? fmt::format("{} steps, ", steps) : "",
                        describe_sides(program.domain.grid));
 }

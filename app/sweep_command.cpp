@@ -6,6 +6,8 @@
 #include "app/limits.h"
 #include "app/option_values.h"
 #include "app/progress_display.h"
+#include "core/counted.h"
+#include "core/with_commas.h"
 
 #include <fmt/format.h>
 
@@ -15,14 +17,10 @@ namespace cascade {
 
 namespace {
 
-std::string runs(std::size_t count) {
-    return fmt::format("{} run{}", count, count == 1 ? "" : "s");
-}
-
 /// "81 runs (12 done before), 2,430,000 steps in 41.20 s".
 std::string summary(const SweepReport& report) {
-    std::string text = runs(report.runs);
-    if (report.done_before > 0) text += fmt::format(" ({} done before)", report.done_before);
+    std::string text = counted(report.runs, "run");
+    if (report.done_before > 0) text += fmt::format(" ({} done before)", with_commas(report.done_before));
     if (report.steps > 0) {
         text += fmt::format(", {} steps in {:.2f} s", with_commas(report.steps), report.seconds);
     }
@@ -43,12 +41,12 @@ int tell(const SweepReport& report, const Options& options, int signal, bool lim
                                                   describe_duration(options.limit_seconds))
                                     : std::string("interrupted");
         console.say(fmt::format("cascade: {}; {} of {} are done, and the same command goes on\n",
-                                why, report.runs - report.missing, runs(report.runs)));
+                                why, with_commas(report.runs - report.missing), counted(report.runs, "run")));
         return limit_reached ? exit_status::time_limit : exit_status::signal_base + signal;
     }
     if (report.failed == 0) return exit_status::success;
-    console.fail({fmt::format("{} of {} failed: {}", report.failed, runs(report.runs),
-                              report.first_failure),
+    console.fail({fmt::format("{} of {} failed: {}", with_commas(report.failed),
+                              counted(report.runs, "run"), report.first_failure),
                   "features.csv says why of each"});
     return exit_status::failed_run;
 }

@@ -1,7 +1,7 @@
 #include "app/time_table.h"
 
-#include "app/quantities.h"
-#include "core/with_commas.h"
+#include "core/counted.h"
+#include "core/quantities.h"
 
 #include <fmt/format.h>
 
@@ -61,7 +61,7 @@ private:
 std::string remark_on_steps(const TimeAccount::Stage& stage) {
     if (stage.steps == 0) return "";
     const double seconds = stage.seconds[static_cast<std::size_t>(Spent::stepping)];
-    std::string text = fmt::format("{} {}", with_commas(stage.steps), stage.steps == 1 ? "step" : "steps");
+    std::string text = counted(stage.steps, "step");
     if (seconds > 0) {
         const double work = static_cast<double>(stage.steps) * static_cast<double>(stage.cells);
         text += fmt::format(", {} cell-steps/s", with_prefix(work / seconds));
@@ -76,7 +76,7 @@ std::string remark_on_kernels(const KernelCounts& kernels) {
     const auto add = [&](std::int64_t count, std::string_view what) {
         if (count == 0) return;
         if (text.empty()) {
-            text = fmt::format("{} {} {}", count, count == 1 ? "kernel" : "kernels", what);
+            text = fmt::format("{} {}", counted(count, "kernel"), what);
         } else {
             text += fmt::format(", {} {}", count, what);
         }

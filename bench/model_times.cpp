@@ -8,10 +8,10 @@
 // kernels compiled within it.
 #include "core/floating_point.h"
 #include "core/parallel.h"
+#include "core/quantities.h"
 #include "mesh/make_mesh.h"
 #include "mesh/model_file.h"
 #include "mesh/shapes.h"
-#include "run/memory.h"
 #include "run/script.h"
 #include "run/simulation.h"
 #include "surface/cell_gradient.h"
@@ -146,7 +146,7 @@ void measure(const std::string& path, std::size_t count, int threads) {
     whole(path, count, threads);
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
-    fmt::print("{:<24}{:>18}\n", "memory at most", describe_bytes(1024.0 * double(used.ru_maxrss)));
+    fmt::print("{:<24}{:>18}\n", "memory at most", with_unit(1024.0 * double(used.ru_maxrss), "B"));
     phases(path, count, threads);
 }
 

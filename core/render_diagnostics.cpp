@@ -1,4 +1,5 @@
 // What a message looks like: the only file that knows.
+#include "core/counted.h"
 #include "core/diagnostics.h"
 #include "core/utf8.h"
 
@@ -135,10 +136,6 @@ std::string draw_note(const Note& note, const Sources& sources, const Colours& c
     return result;
 }
 
-std::string plural(std::size_t count, std::string_view noun) {
-    return fmt::format("{} more {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 }  // namespace
 
 std::string render(const Diagnostic& diagnostic, const Sources& sources,
@@ -170,8 +167,8 @@ std::string render(const Diagnostics& diagnostics, const Sources& sources,
         --(diagnostic.severity == Severity::error ? errors_left : warnings_left);
     }
     std::string rest;
-    if (errors_left > 0) rest = plural(errors_left, "error");
-    if (warnings_left > 0) rest += (rest.empty() ? "" : " and ") + plural(warnings_left, "warning");
+    if (errors_left > 0) rest = counted(errors_left, "more error");
+    if (warnings_left > 0) rest += (rest.empty() ? "" : " and ") + counted(warnings_left, "more warning");
     if (!rest.empty()) result += fmt::format("{} not shown\n", rest);
     return result;
 }

@@ -1,6 +1,7 @@
 #include "export/bake.h"
 
 #include "core/check.h"
+#include "core/counted.h"
 #include "export/fill_gaps.h"
 #include "export/render_vertices.h"
 #include "export/texture_layout.h"
@@ -235,9 +236,6 @@ private:
     }
 
     void warn(Bake& bake) const {
-        const auto triangles = [](std::size_t count) {
-            return fmt::format("{} triangle{}", count, count == 1 ? "" : "s");
-        };
         if (bake.overlapping >= 5e-4) {
             bake.warnings.push_back(fmt::format(
                 "{:.1f} % of the model lies over other parts of it in the texture and shows their "
@@ -245,13 +243,13 @@ private:
                 100 * bake.overlapping));
         }
         if (layout_.skipped().without_area > 0) {
-            bake.warnings.push_back(triangles(layout_.skipped().without_area) +
+            bake.warnings.push_back(counted(layout_.skipped().without_area, "triangle") +
                                     " without area in the texture left out");
         }
         if (layout_.skipped().without_place > 0) {
             bake.warnings.push_back(
                 fmt::format("{} with texture coordinates that are not finite or beyond ±{} left out",
-                            triangles(layout_.skipped().without_place),
+                            counted(layout_.skipped().without_place, "triangle"),
                             TextureLayout::largest_place));
         }
     }

@@ -1,4 +1,5 @@
 // Plans in words, for `--dump plan`.
+#include "core/counted.h"
 #include "lang/plan_builder.h"
 #include "lang/print_formula.h"
 
@@ -14,10 +15,6 @@ namespace {
 
 /// Longer formulas are only counted.
 constexpr std::uint32_t most_parts_shown = 60;
-
-std::string plural(std::size_t count, std::string_view what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : what.ends_with("s") ? "es" : "s");
-}
 
 /// Parts that nobody has written: those of a tensor, and of operators on a surface.
 std::string describe_made(const PartGraph& graph, const Part& part) {
@@ -50,7 +47,7 @@ std::string describe_brought(const PartGraph& graph, const PassPlanner::Brought&
     if (brought.places == 0) {
         return fmt::format("{} is written to a plane: {} takes all its cells", operand, reader);
     }
-    const std::string neighbours = plural(brought.places, "neighbour");
+    const std::string neighbours = counted(brought.places, "neighbour");
     if (brought.is_open) {
         return fmt::format("{} is computed again at {} for {}: beyond a side it is made of what "
                            "stands there", operand, neighbours, reader);
@@ -75,17 +72,17 @@ std::string describe_lasting(const PartGraph& graph, PartId id) {
 }  // namespace
 
 std::string describe(const PartGraph& graph, const PassPlanner& planner, const StepPlan& plan) {
-    std::string text = plural(plan.passes.size(), "pass");
-    if (plan.temporaries > 0) text += ", " + plural(plan.temporaries, "temporary plane");
-    if (plan.aggregates > 0) text += ", " + plural(plan.aggregates, "aggregate");
-    if (plan.lasting > 0) text += ", " + plural(plan.lasting, "lasting part");
+    std::string text = counted(plan.passes.size(), "pass");
+    if (plan.temporaries > 0) text += ", " + counted(plan.temporaries, "temporary plane");
+    if (plan.aggregates > 0) text += ", " + counted(plan.aggregates, "aggregate");
+    if (plan.lasting > 0) text += ", " + counted(plan.lasting, "lasting part");
     for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
         const std::vector<std::string>& results = plan.passes[pass].bound.kernel.result_names;
         if (results.empty()) continue;
         text += fmt::format("\n  pass {}", pass + 1);
         if (!plan.passes[pass].reductions.empty()) {
             text += fmt::format(", after {}",
-                                plural(plan.passes[pass].reductions.size(), "aggregate"));
+                                counted(plan.passes[pass].reductions.size(), "aggregate"));
         }
         text += ": ";
         for (std::size_t k = 0; k < results.size(); ++k) text += (k > 0 ? ", " : "") + results[k];

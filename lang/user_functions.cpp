@@ -1,6 +1,7 @@
 // Checking the functions of a script: their names, what they read, and that none calls itself.
 #include "lang/user_functions.h"
 
+#include "core/counted.h"
 #include "lang/order.h"
 
 #include <fmt/format.h>
@@ -186,9 +187,8 @@ bool has_right_count(Workspace& work, const UserFunction& function, const ast::C
         form += parameter.text;
     }
     work.diagnostics.error(span,
-                           fmt::format("{} takes {} value{}, not {}",
-                                       function.definition->name.text, count,
-                                       count == 1 ? "" : "s", call.argument_count),
+                           fmt::format("{} takes {}, not {}", function.definition->name.text,
+                                       counted(count, "value"), call.argument_count),
                            "it is defined as " + form + ")");
     return false;
 }

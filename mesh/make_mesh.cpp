@@ -1,5 +1,6 @@
 #include "mesh/make_mesh.h"
 
+#include "core/counted.h"
 #include "mesh/edge_pairs.h"
 #include "mesh/exchange_edges.h"
 #include "mesh/place_table.h"
@@ -18,11 +19,6 @@ namespace cascade {
 namespace {
 
 constexpr double least_size = 1e-70, largest_size = 1e70;
-
-/// "1 point was", "3 points were".
-std::string counted(std::size_t count, std::string_view one, std::string_view many) {
-    return fmt::format("{} {}", count, count == 1 ? one : many);
-}
 
 class MeshMaker {
 public:
@@ -126,7 +122,7 @@ private:
             return failure("the model has more triangles than can be numbered");
         }
         if (without_area > 0) {
-            say(counted(without_area, "face", "faces") +
+            say(counted(without_area, "face") +
                 " of fewer than three different corners left out");
         }
         return {};
@@ -172,7 +168,7 @@ private:
         if (pairs.crowded_edges > 0) {
             say(fmt::format("{} of more than two faces: faces that continue each other stay "
                             "together, the others end there",
-                            counted(pairs.crowded_edges, "edge", "edges")));
+                            counted(pairs.crowded_edges, "edge")));
         }
         const Orientation sides = orient(soup_.points, mesh().triangles, pairs.across);
         mesh().across = std::move(pairs.across);
@@ -182,7 +178,7 @@ private:
         }
         if (sides.cut_edges > 0) {
             say(fmt::format("the surface had one side only and was cut along {}",
-                            counted(sides.cut_edges, "edge", "edges")));
+                            counted(sides.cut_edges, "edge")));
         }
         if (sides.inside_out > 0) {
             say(counted(sides.inside_out, "piece was", "pieces were") + " turned inside out");
@@ -230,11 +226,11 @@ private:
     void exchange_long_edges() {
         const ExchangedEdges done = remove_flat_triangles(mesh());
         if (done.exchanged + done.left_out > 0) {
-            say(counted(done.exchanged + done.left_out, "triangle", "triangles") +
+            say(counted(done.exchanged + done.left_out, "triangle") +
                 " without area merged with neighbours");
         }
         if (done.remaining > 0) {
-            say(counted(done.remaining, "triangle", "triangles") + " without area stayed");
+            say(counted(done.remaining, "triangle") + " without area stayed");
         }
     }
 

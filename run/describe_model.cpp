@@ -1,6 +1,7 @@
 #include "run/describe_model.h"
 
-#include "core/with_commas.h"
+#include "core/counted.h"
+#include "core/quantities.h"
 #include "mesh/make_mesh.h"
 #include "mesh/model_file.h"
 #include "run/memory.h"
@@ -14,15 +15,10 @@ namespace cascade {
 
 namespace {
 
-std::string counted(std::size_t count, std::string_view noun) {
-    return fmt::format("{} {}{}", with_commas(static_cast<std::int64_t>(count)), noun,
-                       count == 1 ? "" : "s");
-}
-
 /// What a closed surface of one piece can be bent into.
 std::string kind_of(const MeshFacts& facts) {
     if (facts.boundaries > 0) {
-        return fmt::format("{} {}", facts.boundaries, facts.boundaries == 1 ? "boundary" : "boundaries");
+        return counted(facts.boundaries, "boundary", "boundaries");
     }
     if (facts.pieces > 1) return "closed";
     const std::int64_t holes = 1 - facts.euler_characteristic / 2;
@@ -71,8 +67,8 @@ Result<void> check_memory_of_cells(const SurfaceMesh& mesh, const CellOptions& o
     const auto free = static_cast<double>(available_memory());
     if (free == 0 || needed <= free) return {};
     return failure(fmt::format("{} need about {}, but {} are free",
-                               counted(count_cells(mesh, options), "cell"), describe_bytes(needed),
-                               describe_bytes(free)),
+                               counted(count_cells(mesh, options), "cell"), with_unit(needed, "B"),
+                               with_unit(free, "B")),
                    "use fewer cells");
 }
 

@@ -1,6 +1,7 @@
 #include "run/memory.h"
 
 #include "core/plane.h"
+#include "core/quantities.h"
 #include "core/resample.h"
 #include "lang/derivative.h"
 #include "lang/diffusion.h"
@@ -16,11 +17,6 @@
 #include <string_view>
 
 namespace cascade {
-
-std::string describe_bytes(double bytes) {
-    return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9)
-                        : fmt::format("{:.1f} MB", bytes / 1e6);
-}
 
 std::string describe_sides(const Grid& grid) {
     std::string sides = fmt::format("{} × {}", grid.width, grid.height);
@@ -129,8 +125,8 @@ Result<void> check_memory(const Grid& grid, double needed, std::uint64_t limit) 
         const std::string who = grid.linked
                                     ? "the cells of this model need"
                                     : fmt::format("a grid of {} cells needs", describe_sides(grid));
-        return failure(fmt::format("{} {} for this script, but {} {}", who, describe_bytes(needed),
-                                   describe_bytes(bytes), what),
+        return failure(fmt::format("{} {} for this script, but {} {}", who, with_unit(needed, "B"),
+                                   with_unit(bytes, "B"), what),
                        grid.linked ? "use fewer cells" : "use a smaller grid");
     };
     if (limit > 0 && needed > static_cast<double>(limit)) {

@@ -10,9 +10,6 @@
 
 namespace cascade {
 
-/// "3.2 GB", "40.5 MB".
-std::string describe_bytes(double bytes);
-
 /// The cells along the axes of a grid: "128 × 64", with slices "128 × 64 × 32".
 std::string describe_sides(const Grid& grid);
 

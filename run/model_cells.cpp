@@ -2,6 +2,7 @@
 
 #include "core/check.h"
 #include "core/file.h"
+#include "core/quantities.h"
 #include "core/with_commas.h"
 #include "ir/word_format.h"
 #include "lang/evaluate.h"
@@ -201,7 +202,7 @@ private:
         const double bytes = memory_of_cells(model_->mesh, options);
         if (bytes > static_cast<double>(available_memory())) {
             return failure(fmt::format("making these cells takes {}, more than is free",
-                                       describe_bytes(bytes)), "fewer cells: --cells");
+                                       with_unit(bytes, "B")), "fewer cells: --cells");
         }
         report(fmt::format("spreading {} cells", with_commas(static_cast<std::int64_t>(
                                                      count_cells(model_->mesh, options)))));

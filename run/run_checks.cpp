@@ -1,9 +1,9 @@
 #include "run/run_checks.h"
 
 #include "core/file.h"
+#include "core/quantities.h"
 #include "export/bake.h"
 #include "render/draw.h"
-#include "run/memory.h"
 
 #include <fmt/format.h>
 
@@ -121,8 +121,8 @@ Result<void> check_picture_size(const DomainSettings& domain, const PictureReque
     if (memory_limit == 0 || bytes <= static_cast<double>(memory_limit)) return {};
     return failure(fmt::format("with a picture at scale {} this run needs {}, but {} are the limit "
                                "(--limit-memory)",
-                               picture.scale, describe_bytes(bytes),
-                               describe_bytes(static_cast<double>(memory_limit))),
+                               picture.scale, with_unit(bytes, "B"),
+                               with_unit(static_cast<double>(memory_limit), "B")),
                    hint);
 }
 

@@ -1,5 +1,6 @@
 #include "surface/make_cells.h"
 
+#include "core/counted.h"
 #include "core/with_commas.h"
 #include "surface/face_cells.h"
 #include "surface/scatter.h"
@@ -46,13 +47,9 @@ Result<void> check_count(const SurfaceMesh& mesh, std::uint64_t count) {
     const std::vector<std::uint32_t> pieces = pieces_of(mesh);
     const std::uint64_t needed = *std::max_element(pieces.begin(), pieces.end()) + std::uint64_t{1};
     if (count >= needed) return {};
-    const auto commas = [](std::uint64_t number) {
-        return with_commas(static_cast<std::int64_t>(number));
-    };
-    return failure(fmt::format("{} cell{} cannot cover a surface of {} pieces that do not hang "
-                               "together",
-                               commas(count), count == 1 ? "" : "s", commas(needed)),
-                   fmt::format("use {} cells or more, or join the pieces", commas(needed)));
+    return failure(fmt::format("{} cannot cover a surface of {} pieces that do not hang together",
+                               counted(count, "cell"), with_commas(needed)),
+                   fmt::format("use {} cells or more, or join the pieces", with_commas(needed)));
 }
 
 }  // namespace

@@ -12,7 +12,4 @@ std::string with_prefix(double value);
 /// The same with the symbol of a unit: "1.23 GB/s", "45.6 µs", "7.89 s".
 std::string with_unit(double value, std::string_view unit);
 
-/// Bytes in units of 1024: "32 KiB", "1.5 MiB".
-std::string byte_size(double bytes);
-
 }  // namespace cascade

@@ -1,4 +1,4 @@
-#include "app/quantities.h"
+#include "core/quantities.h"
 
 #include <fmt/format.h>
 
@@ -39,13 +39,6 @@ std::string with_prefix(double value) {
 std::string with_unit(double value, std::string_view unit) {
     const auto [digits, prefix] = scaled(value);
     return fmt::format("{} {}{}", digits, prefix, unit);
-}
-
-std::string byte_size(double bytes) {
-    constexpr std::array<std::string_view, 5> units = {"bytes", "KiB", "MiB", "GiB", "TiB"};
-    std::size_t unit = 0;
-    for (; unit + 1 < units.size() && bytes >= 1023.5; ++unit) bytes /= 1024;
-    return fmt::format("{:.3g} {}", bytes, units[unit]);
 }
 
 }  // namespace cascade

@@ -1,0 +1,15 @@
+// Counts of things, for people.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace cascade {
+
+/// "1 face was", "1,234 faces were".
+std::string counted(std::int64_t count, std::string_view one, std::string_view many);
+/// "1 step", "2 passes": of a noun whose plural ends in s, or in es behind an s.
+std::string counted(std::int64_t count, std::string_view noun);
+
+}  // namespace cascade
