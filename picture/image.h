@@ -67,7 +67,7 @@ Image paint(const Field& red, const Field& green, const Field& blue);
 void clear_where_nan(Image& image, const Field& field);
 
 /// Every pixel as a square of `factor` pixels (at least 1).
-Image enlarge(const Image& image, int factor);
+Image enlarge(Image image, int factor);
 
 enum class PngDepth { eight = 8, sixteen = 16 };
 

@@ -75,8 +75,9 @@ void clear_where_nan(Image& image, const Field& field) {
     }
 }
 
-Image enlarge(const Image& image, int factor) {
+Image enlarge(Image image, int factor) {
     CHECK(factor >= 1, "a picture is enlarged by a whole factor of at least 1");
+    if (factor == 1) return image;
     Image large(image.width * factor, image.height * factor);
     for (std::int64_t y = 0; y < large.height; ++y) {
         for (std::int64_t x = 0; x < image.width; ++x) {

@@ -210,9 +210,9 @@ Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) c
 
 Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) const {
     if (model_) return on_model(canvas, range);
-    const Image flat = texture(canvas, range);
+    Image flat = texture(canvas, range);
     const DomainSettings& domain = script_->program->domain;
-    if (!domain.surface || request_.flat) return enlarge(flat, request_.scale);
+    if (!domain.surface || request_.flat) return enlarge(std::move(flat), request_.scale);
     DrawOptions options;
     options.width *= request_.scale;
     options.height *= request_.scale;
@@ -242,7 +242,7 @@ Image draw_sheet(const Simulation& simulation, const PictureRequest& request) {
             if (simulation.mask()) clear_where_nan(image, field);
             panels.push_back({fmt::format("{}.{} {:.4g}..{:.4g}", program.stages[k].name,
                                           system.item_name(item), range.low, range.high),
-                              enlarge(image, request.scale)});
+                              enlarge(std::move(image), request.scale)});
             ++in_stage;
         }
         columns = std::max(columns, in_stage);

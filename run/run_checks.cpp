@@ -116,7 +116,8 @@ Result<void> check_picture_size(const DomainSettings& domain, const PictureReque
                        hint);
     }
     // Painted, and then enlarged.
-    const auto pixels = static_cast<double>(grid.cell_count() * (1 + pixels_per_cell));
+    const std::int64_t pixels_of_cell = pixels_per_cell > 1 ? 1 + pixels_per_cell : 1;
+    const auto pixels = static_cast<double>(grid.cell_count() * pixels_of_cell);
     const double bytes = memory + pixels * sizeof(Colour);
     if (memory_limit == 0 || bytes <= static_cast<double>(memory_limit)) return {};
     return failure(fmt::format("with a picture at scale {} this run needs {}, but {} are the limit "
