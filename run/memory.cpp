@@ -7,6 +7,7 @@
 #include "lang/diffusion.h"
 #include "lang/lower.h"
 #include "run/stage_time.h"
+#include "solvers/advance.h"
 #include "solvers/scheme.h"
 
 #include <fmt/format.h>
@@ -37,8 +38,8 @@ std::uint64_t available_memory() {
 
 namespace {
 
-/// Planes that live as long as a stage is run: temporaries of passes, and the registers besides the
-/// old step and the new one.
+/// Planes that live as long as a stage is run: temporaries of passes, the registers besides the old
+/// step, and the kept copy of the species.
 std::uint64_t planes_while_running(const Program& program, std::uint32_t k, StagePlans& plans) {
     const Stage& stage = program.stages[k];
     const std::uint32_t species = program.system_of(k).species_count();
@@ -50,7 +51,9 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
     // What no step changes is kept beside them, and computed with temporaries of its own.
     const StepPlan& lasting = plans.lasting(k);
     temporaries = std::max(temporaries, lasting.temporaries) + lasting.result_count;
-    std::uint64_t planes = temporaries + std::uint64_t{scheme.registers - 2} * species;
+    const DomainSettings& domain = program.domain;
+    const bool keeps = keeps_copy(Schedule{}, species, domain.grid, domain.precision);
+    std::uint64_t planes = temporaries + std::uint64_t{scheme.registers - (keeps ? 0 : 1)} * species;
     if (!is_semi_implicit(stage.time.solver)) return planes;
     // Factors of diffusion that change are written to planes.
     for (const SpeciesDiffusion& diffusion : diffusion_of(program, k)) {
@@ -95,14 +98,14 @@ double memory_of(const Program& program) {
 }
 
 double memory_of(const Program& program, StagePlans& plans) {
-    // Two buffers and the kept copy of every species, its last look at whether it has settled, and
-    // every varying parameter, of all stages: later stages and pictures may read any of them.
+    // Every species, its last look at whether it has settled, and every varying parameter, of all stages:
+    // later stages and pictures may read any of them.
     std::uint64_t planes = 4;
     for (const Stage& stage : program.stages) {
         const System& system = program.systems[stage.system];
         for (std::uint32_t item = 0; item < system.item_count(); ++item) {
             if (system.is_species(item)) {
-                planes += stage.time.steady ? 4 : 3;
+                planes += stage.time.steady ? 2 : 1;
             } else if (!stage.uniform[item]) {
                 planes += 1;
             }

@@ -52,16 +52,19 @@ double largest_magnitude(const std::vector<Field>& species) {
 
 Failure describe(const NotFiniteReport& report) {
     Failure failure;
-    if (report.starting) {
+    if (report.found.at_start()) {
         failure.message =
             fmt::format("stage '{}' ({}): the starting value of {} is not finite at {}",
                         report.stage, report.system, report.species, report.place);
         failure.hint = "look for a division by zero, or a logarithm or root of a negative number";
         return failure;
     }
-    failure.message =
-        fmt::format("stage '{}' ({}): {} is not finite any more at {}, after step {}", report.stage,
-                    report.system, report.species, report.place, report.found.step);
+    const std::string when =
+        report.found.is_exact()
+            ? fmt::format("after step {}", report.found.step)
+            : fmt::format("between steps {} and {}", report.found.last_finite, report.found.step);
+    failure.message = fmt::format("stage '{}' ({}): {} is not finite any more at {}, {}", report.stage,
+                                  report.system, report.species, report.place, when);
     if (!report.semi_implicit.empty()) {
         failure.hint = fmt::format("{} takes diffusion alone for a step of any length, the reaction not; "
                                    "try 'speed: {:.2g}'", report.semi_implicit, report.speed / 2);
@@ -70,6 +73,8 @@ Failure describe(const NotFiniteReport& report) {
     const auto largest = limit(report);
     if (largest && explains(*largest, report.speed)) {
         failure.hint = advice(*largest, report.speed);
+    } else if (!report.found.is_exact()) {
+        failure.hint = "a smaller grid needs no memory to be spared, so it tells which step it was and why";
     } else if (report.largest_before < most_that_is_sane) {
         failure.hint = fmt::format(
             "no value was above {:.3g} before that step: look for a division by zero, or a logarithm "

@@ -14,9 +14,9 @@ struct NotFiniteReport {
     std::string stage, system, species;
     NotFinite found;
     std::string place;                     ///< Of the cell, in words.
-    bool starting = false;                 ///< It was so before the first step.
     double speed = 0;                      ///< NaN where it varies by cell.
     std::string semi_implicit;             ///< The solver's name, if it is such a one.
+    // Only where the step is exact:
     double largest_before = 0;             ///< Magnitude of any value before that step.
     StabilityEstimate estimate_before;     ///< At the last look before.
     StabilityEstimate estimate_at_start;   ///< At the stage's starting values.

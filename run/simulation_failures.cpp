@@ -31,21 +31,31 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
     report.found = *outcome.not_finite;
     report.place = place_in_words(report.found.column, report.found.row);
     report.speed = speed_number(k);
-    report.starting = outcome.last_checked.empty();
     if (const Solver solver = stage(k).time.solver; is_semi_implicit(solver)) {
         report.semi_implicit = name_of(solver);
     }
-    if (report.starting || !report.semi_implicit.empty()) return describe(report);
-    report.estimate_before = stability(k, outcome.last_checked);
-    report.largest_before = largest_magnitude(states[k].species);
+    if (report.found.at_start() || !report.semi_implicit.empty()) return describe(report);
+    std::vector<Field> last_finite;
+    if (report.found.is_exact()) {
+        report.estimate_before = stability(k, outcome.last_checked);
+        report.largest_before = largest_magnitude(states[k].species);
+        last_finite = std::move(states[k].species);
+    }
     // A state on its way to infinity says little about the speed that would have been right: the
     // start of the stage is asked as well.
-    std::vector<Field> last_finite = std::move(states[k].species);
+    const std::size_t count = states[k].species.size();
     states[k].species.clear();
-    states[k].species.resize(last_finite.size());
+    states[k].species.resize(count);
     start_varying_items(k);
     report.estimate_at_start = stability(k, states[k].species);
-    states[k].species = std::move(last_finite);
+    if (report.found.is_exact()) {
+        states[k].species = std::move(last_finite);
+    } else {
+        // What is spoiled is of no use: the stage stands where it began.
+        states[k].steps = 0;
+        states[k].t = 0;
+        states[k].time = {};
+    }
     return describe(report);
 }
 

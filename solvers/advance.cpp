@@ -21,10 +21,11 @@ using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
 /// The first species, and in it the first cell, that is not finite.
-std::optional<NotFinite> find_not_finite(const std::vector<Field>& species, std::int64_t step) {
+std::optional<NotFinite> find_not_finite(const std::vector<Field>& species, std::int64_t step,
+                                         std::int64_t last_finite) {
     for (std::size_t k = 0; k < species.size(); ++k) {
         if (const auto place = first_not_finite(species[k])) {
-            return NotFinite{k, place->column, place->row, step};
+            return NotFinite{k, place->column, place->row, step, last_finite};
         }
     }
     return std::nullopt;
@@ -41,7 +42,8 @@ public:
           control_(control),
           observe_(observe),
           species_(species),
-          stepper_(problem, std::move(species), schedule.threads),
+          stepper_(problem, std::move(species), schedule.threads,
+                   keeps_copy(schedule, problem.species_needs_halo.size(), problem.grid, problem.precision)),
           progress_(std::move(progress)),
           pace_(Clock::now(), schedule.first_step),
           thread_tuner_(stepper_.most_threads()),
@@ -49,7 +51,7 @@ public:
           time_(schedule.time),
           control_of_steps_(schedule.time.control, schedule.error_order),
           step_(schedule.first_step),
-          kept_step_(schedule.first_step),
+          last_look_(schedule.first_step),
           began_(Clock::now()) {
         progress_.steps = std::max(progress_.steps, schedule.last_step);
         if (has_end_time()) progress_.duration = schedule.end_time;
@@ -147,7 +149,7 @@ private:
         }
         if (look) {
             stepper_.keep();
-            kept_step_ = step_;
+            last_look_ = step_;
         }
         return true;
     }
@@ -169,7 +171,7 @@ private:
     /// since the last look can be taken again.
     std::int64_t next_stop() {
         if (is_adaptive()) return step_ + 1;
-        std::int64_t stop = kept_step_ + schedule_.check_every;
+        std::int64_t stop = last_look_ + schedule_.check_every;
         for (const std::int64_t of :
              {schedule_.interval, schedule_.check, schedule_.choose_every}) {
             if (of > 0) stop = std::min(stop, next_multiple(step_, of));
@@ -265,7 +267,7 @@ private:
         stepper_.set_clock(time_.clock);
         stepper_.accept();
         stepper_.keep();
-        kept_step_ = step_;
+        last_look_ = step_;
         return true;
     }
 
@@ -301,18 +303,23 @@ private:
     }
 
     /// Goes back to the kept copy and takes the same steps again, one by one, up to the one that
-    /// spoils a value; stops before it. The steps are the same bits, so that one is met.
+    /// spoils a value; stops before it. The steps are the same bits, so that one is met. Where nothing is
+    /// kept the spoiled values have to do.
     void replay() {
+        if (!stepper_.keeps()) {
+            outcome_.not_finite = find_not_finite(stepper_.current(), step_, last_look_);
+            return;
+        }
         outcome_.last_checked.reserve(stepper_.kept().size());
         for (const Field& field : stepper_.kept()) {
             outcome_.last_checked.push_back(field.clone());
         }
         const std::int64_t spoiled = step_;
         stepper_.back();
-        for (step_ = kept_step_; step_ < spoiled; ++step_) {
+        for (step_ = last_look_; step_ < spoiled; ++step_) {
             const CopyRoles before = stepper_.roles();
             if (stepper_.advance(step_, 1, true)) continue;
-            outcome_.not_finite = find_not_finite(stepper_.current(), step_ + 1);
+            outcome_.not_finite = find_not_finite(stepper_.current(), step_ + 1, step_);
             stepper_.undo(before);
             return;
         }
@@ -349,7 +356,7 @@ private:
     TimeState time_;
     StepControl control_of_steps_;
     std::int64_t step_;
-    std::int64_t kept_step_;
+    std::int64_t last_look_;
     Clock::time_point began_;
     double tenths_seen_ = 0;
     StageOutcome outcome_;
@@ -361,12 +368,17 @@ double tenths_reached(double t, double end_time) {
     return std::isfinite(end_time) ? std::floor(10 * t / end_time + 1e-9) : 0;
 }
 
+bool keeps_copy(const Schedule& schedule, std::size_t species, const Grid& grid, Precision precision) {
+    const auto bytes = PlaneLayout(grid).size() * static_cast<std::int64_t>(bytes_of(precision));
+    return bytes * static_cast<std::int64_t>(species) <= schedule.most_kept_bytes;
+}
+
 StageOutcome advance(const StepProblem& problem, const Schedule& schedule,
                      std::vector<Field>& species, RunControl& control, Progress progress,
                      const Observer& observe) {
     CHECK(!problem.passes.empty(), "a step has a pass");
     CHECK(schedule.check_every > 0, "steps between two looks");
-    if (auto found = find_not_finite(species, schedule.first_step)) {
+    if (auto found = find_not_finite(species, schedule.first_step, schedule.first_step)) {
         StageOutcome outcome;
         outcome.steps = schedule.first_step;
         outcome.not_finite = found;

@@ -57,6 +57,9 @@ struct Schedule {
     double tolerance = 0;             ///< Above 0: steps are adaptive, with this relative error.
     int error_order = 1;              ///< The error of an adaptive step is proportional to step^this.
     std::int64_t check_every = 64;    ///< Steps between two looks for values that are not finite.
+    /// A copy of all species of at most so many bytes is kept from look to look, to find out in which
+    /// step a value was spoiled. Larger ones would cost memory that their user needs for his cells.
+    std::int64_t most_kept_bytes = std::int64_t{256} << 20;
     int threads = 1;
     /// How steps go through memory; none: as fits, or as turns out to be faster. No result depends on it.
     std::optional<Tiling> tiling = {};
@@ -71,8 +74,14 @@ double tenths_reached(double t, double end_time);
 struct NotFinite {
     std::size_t species = 0;
     std::int64_t column = 0, row = 0;
-    std::int64_t step = 0;            ///< It appeared in this step (the first step is 1): exact.
+    std::int64_t step = 0;            ///< It appeared in this step (the first step is 1).
                                       ///< Schedule::first_step where a start value was so already.
+    /// The last step at which all values are known to have been finite: the one before, or, without
+    /// a kept copy, that of the look before. `step` where a start value was not.
+    std::int64_t last_finite = 0;
+
+    bool at_start() const { return last_finite == step; }
+    bool is_exact() const { return last_finite + 1 == step; }
 };
 
 /// An adaptive step that has become too short to get anywhere.
@@ -92,20 +101,24 @@ struct StageOutcome {
     int threads = 1;                  ///< In use when the loop ended.
     std::optional<StepTooShort> too_short;
     std::optional<NotFinite> not_finite;
-    /// Only with `not_finite`: the species at the last look before, up to `check_every` steps
-    /// earlier, when growth was slight still. A good state to estimate stability at.
+    /// Only with `not_finite` and a kept copy: the species at the last look before, up to `check_every`
+    /// steps earlier, when growth was slight still. A good state to estimate stability at.
     std::vector<Field> last_checked;
 };
 
+/// Is a copy kept of so many species, as Schedule::most_kept_bytes has it?
+bool keeps_copy(const Schedule& schedule, std::size_t species, const Grid& grid, Precision precision);
+
 /// Advances `species` (start values in, last complete step out). When a look finds a value that is
 /// not finite, the steps since the last look, at most `check_every`, are replayed from a kept copy
-/// to name step and cell; then `species` hold the last step at which all were finite.
+/// to name step and cell; then `species` hold the last step at which all were finite. Where no copy is
+/// kept the look itself names a cell, and `species` stay spoiled.
 /// `progress` carries the stage's name and numbers; the loop fills in the rest and reports through
 /// `control`: at once, about ten times a second, and with `stage_done` when the loop ends for
 /// whatever reason. If `control.cancel` is set it ends at the next complete step (batches of steps
 /// between two looks at it take about 20 ms).
 ///
-/// Needs memory for three copies of all species. Addresses of the fields' values change.
+/// Needs memory for three copies of all species, for two where none is kept. Addresses of the fields' values change.
 StageOutcome advance(const StepProblem& problem, const Schedule& schedule,
                      std::vector<Field>& species, RunControl& control, Progress progress,
                      const Observer& observe);

@@ -24,7 +24,7 @@ namespace {
 
 /// The error for diffusion on a plane is about 1 / (2 · iterations); big grids get fewer, so that a
 /// user whose run has failed is not kept waiting.
-constexpr std::size_t least_iterations = 48, most_iterations = 200;
+constexpr std::size_t least_iterations = 16, most_iterations = 200;
 constexpr std::size_t entries_to_visit = 50'000'000;
 
 /// The largest change of a value in a difference, in units of its species' root mean square: near

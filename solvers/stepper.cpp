@@ -28,7 +28,7 @@ int worthwhile_threads(const Grid& grid, std::size_t species, int most) {
 
 }  // namespace
 
-Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads)
+Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads, bool keeps)
     : problem_(&problem),
       layout_(problem.grid),
       team_(worthwhile_threads(problem.grid, species.size(), most_threads)),
@@ -41,8 +41,9 @@ Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int mos
         const auto number = static_cast<std::size_t>(&field - copies_[0].data());
         if (problem.has_halo()) fill_halo(field, problem.sides_of(number));
         copies_[1].emplace_back(layout_, problem.precision);
-        copies_[2].emplace_back(layout_, problem.precision);
+        if (keeps) copies_[2].emplace_back(layout_, problem.precision);
     }
+    if (!keeps) roles_.kept = CopyRoles::none;
     for (std::size_t copy = 0; copy < 3; ++copy) {
         for (Field& field : copies_[copy]) cells_[copy].push_back(field.address());
     }

@@ -1,11 +1,12 @@
-// Stepping: three copies of every species, a team of threads, and who writes where. Used by
+// Stepping: two or three copies of every species, a team of threads, and who writes where. Used by
 // advance(), which decides how many steps to take and when to look.
 //
-// Two copies change places from step to step. The third is the kept one: keep() declares the
-// current copy the kept one without moving a byte, and steps go on between the other two, so that
-// back() can return there. Keeping is therefore free.
+// Two copies change places from step to step. The third, where there is memory for it, is the kept
+// one: keep() declares the current copy the kept one without moving a byte, and steps go on between
+// the other two, so that back() can return there. Keeping is therefore free.
 #pragma once
 
+#include "core/check.h"
 #include "core/parallel.h"
 #include "core/plane.h"
 #include "solvers/pass_runner.h"
@@ -25,20 +26,24 @@
 
 namespace cascade {
 
-/// Which of the three copies is what.
+/// Which of the copies is what.
 struct CopyRoles {
-    int kept = 0;
+    static constexpr int none = -1;
+    int kept = 0;     ///< `none` of two copies.
     int current = 0;
 
     /// The copy that the next step writes: neither kept nor current.
-    int target() const { return current == kept ? (current + 1) % 3 : 3 - kept - current; }
+    int target() const {
+        if (kept == none) return 1 - current;
+        return current == kept ? (current + 1) % 3 : 3 - kept - current;
+    }
 };
 
 class Stepper {
 public:
-    /// Takes `species` as kept and current; their halo is filled here. All threads are in use at
-    /// first; `most_threads` is lowered to what the grid is worth.
-    Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads);
+    /// Takes `species` as current, and as kept unless it `keeps` nothing; their halo is filled here. All
+    /// threads are in use at first; `most_threads` is lowered to what the grid is worth.
+    Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads, bool keeps = true);
 
     /// Takes `count` steps, at least one; `complete` were complete before. With `look`, returns
     /// whether the new values are all finite; without, true.
@@ -66,8 +71,13 @@ public:
     /// Are all current values finite?
     bool is_finite();
 
-    void keep() { roles_.kept = roles_.current; }
+    /// Is there a kept copy? Without one nothing becomes of keep(), and nobody may go back().
+    bool keeps() const { return roles_.kept != CopyRoles::none; }
+    void keep() {
+        if (keeps()) roles_.kept = roles_.current;
+    }
     void back() {
+        CHECK(keeps(), "there is a copy to go back to");
         roles_.current = roles_.kept;
         knows_first_rates_ = false;
     }
@@ -142,7 +152,7 @@ private:
     const StepProblem* problem_;
     PlaneLayout layout_;
     StageClock clock_;
-    std::array<std::vector<Field>, 3> copies_;
+    std::array<std::vector<Field>, 3> copies_;  ///< The last is empty where nothing is kept.
     std::array<std::vector<void*>, 3> cells_;   ///< Species of a copy.
     std::vector<std::vector<Field>> scratch_;    ///< Registers from 2 on.
     std::vector<std::vector<void*>> scratch_cells_;

@@ -354,6 +354,7 @@ TEST(Advance, NamesTheStepAndTheCellOfABlowUp) {
                 EXPECT_EQ(outcome.not_finite->column, 299);
                 EXPECT_EQ(outcome.not_finite->row, 150);
                 EXPECT_EQ(outcome.not_finite->step, first + 64);
+                EXPECT_TRUE(outcome.not_finite->is_exact());
                 EXPECT_EQ(outcome.steps, first + 63);
                 EXPECT_EQ(species[1].at(299, 150), std::ldexp(1.0f, 126));
                 EXPECT_EQ(species[1].at(0, 0), 1.0f);
@@ -364,6 +365,40 @@ TEST(Advance, NamesTheStepAndTheCellOfABlowUp) {
             }
         }
     }
+}
+
+TEST(Advance, WithoutAKeptCopyTwoLooksEncloseABlowUp) {
+    const Grid grid{300, 200, Boundary::periodic};
+    Mask where{PlaneLayout(grid)};
+    where.at(299, 150) = where.at(7, 151) = 1;
+    const std::int64_t plane = 4 * PlaneLayout(grid).size();
+    for (const std::int64_t bytes : {2 * plane - 1, 2 * plane}) {
+        std::vector<Field> species;
+        species.push_back(make_field(grid, scatter));
+        species.push_back(make_field(grid, [](auto, auto) { return 1.0; }));
+        const StageOutcome outcome =
+            advance_quietly(exploding(grid, where), {.last_step = 500, .check_every = 10,
+                                                     .most_kept_bytes = bytes, .threads = 2}, species);
+        ASSERT_TRUE(outcome.not_finite);
+        EXPECT_EQ(outcome.not_finite->species, 1u);
+        EXPECT_EQ(outcome.not_finite->column, 299);
+        EXPECT_EQ(outcome.not_finite->row, 150);
+        const bool keeps = bytes == 2 * plane;
+        EXPECT_EQ(outcome.not_finite->is_exact(), keeps);
+        EXPECT_EQ(outcome.not_finite->last_finite, keeps ? 63 : 60);
+        EXPECT_EQ(outcome.not_finite->step, keeps ? 64 : 70);
+        EXPECT_EQ(outcome.last_checked.size(), keeps ? 2u : 0u);
+        EXPECT_FALSE(outcome.not_finite->at_start());
+    }
+}
+
+TEST(Advance, AKeptCopyChangesNoBit) {
+    const Grid grid{97, 61, Boundary::periodic};
+    const Mixture mixture(grid);
+    std::vector<Field> kept = mixture.start(), spared = mixture.start();
+    advance_quietly(mixture.problem, {.last_step = 75, .check_every = 7}, kept);
+    advance_quietly(mixture.problem, {.last_step = 75, .check_every = 7, .most_kept_bytes = 0}, spared);
+    EXPECT_EQ(all_cells(spared), all_cells(kept));
 }
 
 TEST(Advance, NoPictureIsMadeOfValuesThatAreNotFinite) {
@@ -409,6 +444,7 @@ TEST(Advance, StartValuesThatAreNotFinite) {
     const StageOutcome outcome = advance_quietly(mixture.problem, {.last_step = 10}, species);
     ASSERT_TRUE(outcome.not_finite);
     EXPECT_EQ(outcome.not_finite->step, 0);
+    EXPECT_TRUE(outcome.not_finite->at_start());
     EXPECT_EQ(outcome.not_finite->species, 1u);
     EXPECT_EQ(outcome.not_finite->column, 2);
     EXPECT_EQ(outcome.not_finite->row, 2);
