@@ -1,13 +1,20 @@
 // cascade_solver_times: how long each solver takes to an equally good pattern, and how good it is.
 //
-// usage: cascade_solver_times [--threads=N] [SIDE…]      256 and 1024 without a side
+// usage: cascade_solver_times [--threads=N] [--solver=NAME…] [--pattern=NAME…] [SIDE…]
+//        all solvers, large and small spots, 256 and 1024 without them
 //
 // Every solver of the language grows the same spots from the same noise for the same time, as
 // `cascade run --solver NAME` does. Beside Euler's pattern stand the correlation with it, the
 // wavelength and the number of spots: a solver that is fast and has another pattern shows. Quiet
 // machines only; the time is that on the wall, kernels compiled within it.
+//
+// The opponent is Euler's method in straight C++ (straight_cpp.h) on one thread. Its steps all take
+// the same time, so it takes some and their time is multiplied.
+#include "bench/cascade_side.h"
+#include "bench/straight_side.h"
 #include "core/floating_point.h"
 #include "ir/solver.h"
+#include "jit/jit.h"
 #include "measure/features.h"
 #include "run/measured.h"
 #include "run/script.h"
@@ -16,13 +23,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace cascade::bench {
@@ -33,10 +43,13 @@ struct Pattern {
     const char* text;
 };
 
-/// Turk's spots with the two sizes of his leopard: reaction limits the step of the first less.
+/// Turk's spots with the two sizes of his leopard, and larger ones: the larger, the less does reaction
+/// limit the step.
 constexpr Pattern patterns[] = {
-    {"large spots", "stage s: turing_spots { iterations: 28000; ka: 0.05/16 }\n"},
-    {"small spots", "stage s: turing_spots { iterations: 7000; ka: 0.2/16 }\n"},
+    {"large", "stage s: turing_spots { iterations: 28000; ka: 0.05/16 }\n"},
+    {"small", "stage s: turing_spots { iterations: 7000; ka: 0.2/16 }\n"},
+    {"larger", "stage s: turing_spots { iterations: 56000; ka: 0.05/32 }\n"},
+    {"largest", "stage s: turing_spots { iterations: 112000; ka: 0.05/64 }\n"},
 };
 
 struct Outcome {
@@ -47,13 +60,20 @@ struct Outcome {
     Field field;
 };
 
+std::string text_of(const Pattern& pattern, std::int64_t side) {
+    return fmt::format("domain {{ grid: {}, {} }}\n{}", side, side, pattern.text);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point before) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+}
+
 /// Empty, with a line on stderr, where the solver does not take this pattern.
 std::optional<Outcome> grow(const Pattern& pattern, const std::string& solver, std::int64_t side,
                             int threads) {
     Overrides changes;
-    changes.grid = GridSize{side, side};
     changes.solver = solver;
-    Script script = load_script(pattern.name, pattern.text, ".", std::move(changes));
+    Script script = load_script(pattern.name, text_of(pattern, side), ".", std::move(changes));
     const auto refused = [&](const std::string& why) {
         std::fprintf(stderr, "%s does not grow %s: %s\n", solver.c_str(), pattern.name,
                      why.c_str());
@@ -71,11 +91,11 @@ std::optional<Outcome> grow(const Pattern& pattern, const std::string& solver, s
     RunControl control;
     const auto before = std::chrono::steady_clock::now();
     const auto end = (*simulation)->advance_stage(0, most, control, {});
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
+    const double took = seconds_since(before);
     if (!end) return refused(end.error().message);
     const StageState& state = (*simulation)->state(0);
     Outcome outcome;
-    outcome.seconds = took.count();
+    outcome.seconds = took;
     outcome.steps = state.steps;
     outcome.t = state.t;
     outcome.field = state.species.back().clone();
@@ -93,48 +113,130 @@ double correlation(const Field& a, const Field& b) {
     return covariance / (of_a.deviation * of_b.deviation);
 }
 
-void compare(const Pattern& pattern, std::int64_t side, int threads) {
-    fmt::print("\n{}, {} × {}\n{:<12}{:>8}{:>9}{:>10}{:>9}{:>13}{:>12}{:>8}\n", pattern.name, side,
-               side, "solver", "steps", "t", "seconds", "Euler's", "correlation", "wavelength",
-               "spots");
-    const std::optional<Outcome> euler = grow(pattern, "euler", side, threads);
-    if (!euler) std::exit(1);
-    for (const std::string& solver : solver_names()) {
-        const std::optional<Outcome> found =
-            solver == "euler" ? std::nullopt : grow(pattern, solver, side, threads);
-        if (!found && solver != "euler") continue;
-        const Outcome& it = found ? *found : *euler;
-        // Spots of b are where it is low.
-        fmt::print("{:<12}{:>8}{:>9.0f}{:>10.2f}{:>9.2f}{:>13.4f}{:>12.2f}{:>8.0f}\n", solver,
-                   it.steps, it.t, it.seconds, it.seconds / euler->seconds,
-                   correlation(it.field, euler->field), it.features.wavelength, it.features.holes);
-        std::fflush(stdout);
+/// Euler's steps in straight C++, by the compilation that is the fastest.
+class StraightEuler {
+public:
+    StraightEuler(const Pattern& pattern, std::int64_t side, Backend& backend)
+        : side_(CascadeSide(text_of(pattern, side), backend), "beta") {
+        // So many steps take a tenth of a second.
+        side_.advance(straight_wide().turing_without_mask, 4);
+        const double four = time(straight_wide(), 4);
+        steps_ = std::max<std::int64_t>(4, static_cast<std::int64_t>(0.4 / four));
     }
+
+    /// Three looks at each compilation; the fastest of all that there were counts.
+    void look() {
+        for (int repetition = 0; repetition < 3; ++repetition) {
+            for (const StraightSteps& steps :
+                 {straight_contracted(), straight_wide(), straight_strict()}) {
+                const double each = time(steps, steps_) / static_cast<double>(steps_);
+                least_ = least_ > 0 ? std::min(least_, each) : each;
+            }
+        }
+    }
+    double seconds_of_step() const { return least_; }
+
+private:
+    double time(const StraightSteps& steps, std::int64_t count) {
+        const auto before = std::chrono::steady_clock::now();
+        side_.advance(steps.turing_without_mask, count);
+        return seconds_since(before);
+    }
+
+    StraightSide side_;
+    std::int64_t steps_ = 0;
+    double least_ = 0;
+};
+
+struct Choice {
+    std::vector<std::string> solvers = solver_names();
+    std::vector<std::string> patterns = {"large", "small"};
+    std::vector<std::int64_t> sides = {256, 1024};
+    int threads = 1;
+};
+
+void compare(const Pattern& pattern, std::int64_t side, const Choice& choice, Backend& backend) {
+    fmt::print("\n{} spots, {} × {}\n{:<14}{:>8}{:>9}{:>10}{:>9}{:>8}{:>13}{:>12}{:>8}\n",
+               pattern.name, side, side, "solver", "steps", "t", "seconds", "Euler's", "C++'s",
+               "correlation", "wavelength", "spots");
+    StraightEuler straight(pattern, side, backend);
+    straight.look();
+    std::vector<std::pair<std::string, Outcome>> all;
+    const auto add = [&](const std::string& solver) {
+        std::optional<Outcome> found = grow(pattern, solver, side, choice.threads);
+        if (found) all.emplace_back(solver, std::move(*found));
+        straight.look();
+    };
+    add("euler");
+    if (all.empty()) std::exit(1);
+    for (const std::string& solver : choice.solvers) {
+        if (solver != "euler") add(solver);
+    }
+    const Outcome& euler = all.front().second;
+    const double of_straight = straight.seconds_of_step() * static_cast<double>(euler.steps);
+    fmt::print("{:<14}{:>8}{:>9.0f}{:>10.2f}{:>9.2f}{:>8.2f}\n", "straight C++", euler.steps,
+               euler.t, of_straight, of_straight / euler.seconds, 1.0);
+    for (const auto& [solver, it] : all) {
+        // Spots of b are where it is low.
+        fmt::print("{:<14}{:>8}{:>9.0f}{:>10.2f}{:>9.2f}{:>8.3f}{:>13.4f}{:>12.2f}{:>8.0f}\n",
+                   solver, it.steps, it.t, it.seconds, it.seconds / euler.seconds,
+                   it.seconds / of_straight, correlation(it.field, euler.field),
+                   it.features.wavelength, it.features.holes);
+    }
+    std::fflush(stdout);
+}
+
+/// Empty where a word is none of the usage.
+std::optional<Choice> read_choice(int argc, char** argv) {
+    Choice choice;
+    std::vector<std::string> solvers, patterns;
+    std::vector<std::int64_t> sides;
+    const auto number_in = [](std::string_view word) { return std::atol(word.data()); };
+    for (int k = 1; k < argc; ++k) {
+        const std::string_view word = argv[k];
+        if (word.starts_with("--solver=")) {
+            solvers.emplace_back(word.substr(9));
+            if (!solver_of(solvers.back())) return std::nullopt;
+        } else if (word.starts_with("--pattern=")) {
+            patterns.emplace_back(word.substr(10));
+            const bool is_known = std::any_of(
+                std::begin(cascade::bench::patterns), std::end(cascade::bench::patterns),
+                [&](const Pattern& pattern) { return pattern.name == patterns.back(); });
+            if (!is_known) return std::nullopt;
+        } else {
+            const bool is_threads = word.starts_with("--threads=");
+            const long number = number_in(is_threads ? word.substr(10) : word);
+            if (number < 1 || number > 16384) return std::nullopt;
+            if (is_threads) choice.threads = static_cast<int>(number);
+            else sides.push_back(number);
+        }
+    }
+    if (!solvers.empty()) choice.solvers = solvers;
+    if (!patterns.empty()) choice.patterns = patterns;
+    if (!sides.empty()) choice.sides = sides;
+    return choice;
 }
 
 }  // namespace
 }  // namespace cascade::bench
 
 int main(int argc, char** argv) {
+    using namespace cascade::bench;
     const cascade::FlushDenormals environment;
-    int threads = 1;
-    std::vector<std::int64_t> sides;
-    for (int k = 1; k < argc; ++k) {
-        const std::string_view word = argv[k];
-        const bool is_threads = word.starts_with("--threads=");
-        const long number = std::atol(argv[k] + (is_threads ? 10 : 0));
-        if (number < 1 || number > 16384) {
-            std::fprintf(stderr, "usage: cascade_solver_times [--threads=N] [SIDE...]\n");
-            return 64;
-        }
-        if (is_threads) {
-            threads = static_cast<int>(number);
-        } else {
-            sides.push_back(number);
-        }
+    const std::optional<Choice> choice = read_choice(argc, argv);
+    if (!choice) {
+        std::fprintf(stderr, "usage: cascade_solver_times [--threads=N] [--solver=NAME...] "
+                             "[--pattern=small|large|larger|largest...] [SIDE...]\n");
+        return 64;
     }
-    if (sides.empty()) sides = {256, 1024};
-    for (const auto& pattern : cascade::bench::patterns) {
-        for (const std::int64_t side : sides) cascade::bench::compare(pattern, side, threads);
+    const auto backend = cascade::make_jit();
+    if (!backend) {
+        std::fprintf(stderr, "cascade_solver_times: %s\n", backend.error().message.c_str());
+        return 1;
+    }
+    for (const Pattern& pattern : patterns) {
+        const auto& wanted = choice->patterns;
+        if (std::find(wanted.begin(), wanted.end(), pattern.name) == wanted.end()) continue;
+        for (const std::int64_t side : choice->sides) compare(pattern, side, *choice, **backend);
     }
 }
