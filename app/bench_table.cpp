@@ -66,7 +66,7 @@ std::string work_lines(const StageBench& bench) {
         const double at_once = bench.stepping.sweeps_at_once;
         lines += line("tiles", fmt::format("{} sweeps at once, {:.2g} of those bytes through memory; "
                                            "{} in use", number(at_once), work.bytes / at_once,
-                                           with_unit(static_cast<double>(bench.stepping.bytes_in_use), "B")));
+                                           with_unit(bench.stepping.bytes_in_use, "B")));
     }
     if (work.has_waves) {
         lines += line("", "waves are filtered besides, which is not counted");
@@ -132,8 +132,9 @@ std::string bound_sentence(const StageBench& bench) {
 }
 
 std::string bench_table(const std::string& script, const StageBench& bench) {
-    std::string text = fmt::format("{}, stage '{}': {}, {}, {}, {}\n", script, bench.stage,
+    std::string text = fmt::format("{}, stage '{}': {}, {}, {}, {}{}\n", script, bench.stage,
                                    bench.solver, sides_of(bench.grid), name_of(bench.precision),
+                                   bench.fast ? "fast, " : "",
                                    bench.is_native ? "native code" : "interpreted");
     if (!bench.nothing.empty()) return text + line("nothing", bench.nothing) + "\n";
     text += line("speed", fmt::format("{} cell-steps/s, {} a step", with_prefix(bench.cell_steps_per_second()),

@@ -62,6 +62,9 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
               one_of({"single", "double"}),
               [&](const std::string& name) { overrides.precision = precision_of_name(name); })
         ->group(group);
+    app.add_flag("--fast", overrides.fast,
+                 "Steps with fewer roundings: a * b + c in one operation;\nother bits than without it")
+        ->group(group);
     app.add_option("--set", overrides.sets,
                    "A parameter or setting: ka=1/400, large.ka=1/400;\nmay be given again")
         ->allow_extra_args(false)

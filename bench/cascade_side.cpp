@@ -29,6 +29,12 @@ std::string domain(const GridSize& grid) {
                        grid.height, slices);
 }
 
+Overrides overrides_for(Rounding rounding) {
+    Overrides overrides;
+    overrides.fast = rounding == Rounding::fast;
+    return overrides;
+}
+
 }  // namespace
 
 std::string turing_text(const GridSize& grid) {
@@ -108,8 +114,8 @@ std::string perona_malik_text(const GridSize& grid) {
     return domain(grid) + "stage only: perona_malik { iterations: 1000000 }\n";
 }
 
-CascadeSide::CascadeSide(const std::string& text, Backend& backend)
-    : script_(load_script("bench", text, ".")) {
+CascadeSide::CascadeSide(const std::string& text, Backend& backend, Rounding rounding)
+    : script_(load_script("bench", text, ".", overrides_for(rounding))) {
     if (!script_.program) give_up(script_.messages(false));
     SimulationOptions options;
     options.backend = BackendKind::interpreter;  // For the starting values alone.

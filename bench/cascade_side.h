@@ -29,11 +29,14 @@ std::string allen_cahn_text(const GridSize& grid);  ///< One species: what least
 std::string rock_scissors_paper_text(const GridSize& grid);  ///< Three species.
 std::string perona_malik_text(const GridSize& grid);  ///< An exponential a cell, fluxes, two passes.
 
+/// Every operation by itself, or as with `--fast`.
+enum class Rounding { strict, fast };
+
 /// The first stage of a text, ready to step on one thread with kernels of `backend`. Ends the
 /// program with a message where something fails: a benchmark has no user to talk to.
 class CascadeSide {
 public:
-    CascadeSide(const std::string& text, Backend& backend);
+    CascadeSide(const std::string& text, Backend& backend, Rounding rounding = Rounding::strict);
 
     /// Takes steps and looks at them as a run does: once for all `count` (64 in a run).
     void advance(std::int64_t count);

@@ -153,7 +153,8 @@ public:
             wanted.push_back(bounds_.back());
         }
         const std::vector<std::uint32_t> slots = species_items(system_);
-        StepPlan plan = build_plan({step.graph, wanted, options, true, slots, step.lasting},
+        StepPlan plan = build_plan({step.graph, wanted, options, true, slots, step.lasting,
+                                    program_.domain.fast},
                                    [&](KernelAssembly& assembly, const PassLowering& values) {
             for (std::size_t o = 0; o < form_.outputs.size(); ++o) emit(assembly, values, o);
         });

@@ -179,10 +179,12 @@ ValueId PassLowering::face(PartId id, Face face) const {
 
 void PassLowering::compute_part(PartId id) {
     const Part& part = graph_[id];
+    const auto first = static_cast<ValueId>(builder_.size());
     if (is_vector(part)) {
         for_each_face(needs_[id], [&](Face face) {
             slot(id, face.number()) = {vector_at(id, face)};
         });
+        if (part.is_lasting) builder_.keep_from(first);
         return;
     }
     for_each_offset(needs_[id], [&](Offset offset) {
@@ -199,7 +201,11 @@ void PassLowering::compute_part(PartId id) {
         }
         slot(id, offset.number()) = value;
         assembly_.look_at({});
+        // What is read around a cell may lie in a plane, or not.
+        if (needs_[id] != own_cell) builder_.keep(value[0]);
     });
+    // What no step changes may be computed once, without contraction.
+    if (part.is_lasting) builder_.keep_from(first);
 }
 
 ValueId PassLowering::source(PartId id) {

@@ -2,6 +2,7 @@
 #include "lang/plan_builder.h"
 
 #include "core/check.h"
+#include "ir/contraction.h"
 
 #include <fmt/format.h>
 
@@ -90,6 +91,8 @@ private:
         }
         if (is_last) emit_(assembly, lowering);
         result.bound = std::move(assembly).finish({});
+        CellKernel& kernel = result.bound.kernel;
+        if (request_.contracts) kernel = contracted(kernel);
         if (is_last) {
             for (std::uint32_t k = 0; result.targets.size() < result.bound.kernel.results.size();
                  ++k) {

@@ -181,6 +181,7 @@ void print_domain(const Program& program, Output out) {
         print_grid(program, out);
     }
     fmt::format_to(out, "  seed: {}\n", program.domain.seed);
+    if (program.domain.fast) fmt::format_to(out, "  fast\n");
     if (program.domain.precision != Precision::single) {
         fmt::format_to(out, "  precision: {}\n", name_of(program.domain.precision));
     }

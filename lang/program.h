@@ -384,6 +384,7 @@ struct DomainSettings {
     std::optional<SurfaceSettings> surface;  ///< Without one the plane.
     std::uint32_t seed = 1;
     Precision precision = Precision::single;  ///< Of all numbers of a run.
+    bool fast = false;           ///< Steps are computed with fewer roundings (ir/contraction.h).
     std::array<std::optional<SideSetting>, side_count> sides;  ///< Of all species.
     Span grid_span;              ///< For messages about its size; empty when it is the default.
 };

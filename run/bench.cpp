@@ -196,6 +196,7 @@ private:
         bench.solver = name_of(stage.time.solver);
         bench.grid = simulation_->grid();
         bench.precision = script_.program->domain.precision;
+        bench.fast = script_.program->domain.fast;
         bench.is_native = request_.simulation.backend == BackendKind::jit;
         bench.most_threads = request_.simulation.threads > 0 ? request_.simulation.threads
                                                               : hardware_threads();

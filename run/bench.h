@@ -28,6 +28,7 @@ struct StageBench {
     std::string solver;
     Grid grid;
     Precision precision = Precision::single;
+    bool fast = false;                 ///< With fewer roundings.
     bool is_native = true;             ///< Else the interpreter takes the steps.
     std::string nothing;               ///< Why there is nothing to measure; then all else is empty.
 

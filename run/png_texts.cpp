@@ -52,6 +52,7 @@ std::string overrides_to_json(const Overrides& overrides) {
     if (!overrides.used.empty()) json["used"] = overrides.used;
     if (overrides.solver) json["solver"] = *overrides.solver;
     if (overrides.precision) json["precision"] = name_of(*overrides.precision);
+    if (overrides.fast) json["fast"] = true;
     if (overrides.model) json["mesh"] = *overrides.model;
     if (overrides.cells) json["cells"] = *overrides.cells;
     if (overrides.up) json["up"] = name_of(*overrides.up);
@@ -86,6 +87,7 @@ Result<Overrides> overrides_from_json(const std::string& text) {
             overrides.precision = precision_of_name(json.at("precision").get<std::string>());
             if (!overrides.precision) return failure(unreadable);
         }
+        if (json.contains("fast")) json.at("fast").get_to(overrides.fast);
         if (json.contains("mesh")) overrides.model = json.at("mesh").get<std::string>();
         if (json.contains("cells")) overrides.cells = json.at("cells").get<std::string>();
         if (json.contains("up")) {
@@ -105,6 +107,7 @@ Overrides merge(Overrides base, const Overrides& changes) {
     if (changes.steps) base.steps = changes.steps;
     if (changes.solver) base.solver = changes.solver;
     if (changes.precision) base.precision = changes.precision;
+    base.fast = base.fast || changes.fast;
     if (changes.until_stage) base.until_stage = changes.until_stage;
     if (changes.cells) base.cells = changes.cells;
     if (changes.model) {

@@ -149,8 +149,9 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
 Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes) {
     auto json = read_manifest(folder);
     if (!json) return tl::unexpected(json.error());
-    if (!changes.sets.empty() || changes.grid || changes.seed || changes.solver || changes.precision) {
-        return failure("a resumed run keeps its grid, seed, precision, parameters and solver",
+    if (!changes.sets.empty() || changes.grid || changes.seed || changes.solver || changes.precision ||
+        changes.fast) {
+        return failure("a resumed run keeps its grid, seed, precision, rounding, parameters and solver",
                        "only --steps and --until-stage can change");
     }
     try {

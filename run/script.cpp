@@ -2,6 +2,7 @@
 
 #include "core/file.h"
 #include "core/near_name.h"
+#include "ir/multiply_add.h"
 #include "lang/check.h"
 #include "lang/models.h"
 #include "lang/parse.h"
@@ -176,6 +177,15 @@ void apply_model(Script& script) {
     check_on_domain(*script.program, script.diagnostics);
 }
 
+/// What the processor has no instruction for is left aside.
+void apply_fast(Script& script) {
+    if (!script.overrides.fast) return;
+    script.program->domain.fast = has_multiply_add();
+    if (script.program->domain.fast) return;
+    script.diagnostics.warning(option_span(script.sources, "--fast", ""),
+                               "this processor does not multiply and add in one operation: --fast changes nothing");
+}
+
 void apply_solver(Script& script) {
     if (!script.overrides.solver) return;
     const Span span = option_span(script.sources, "--solver", *script.overrides.solver);
@@ -238,6 +248,7 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
     DomainSettings& domain = script.program->domain;
     domain.seed = script.overrides.seed.value_or(domain.seed);
     domain.precision = script.overrides.precision.value_or(domain.precision);
+    apply_fast(script);
     apply_grid(script);
     apply_solver(script);
     apply_model(script);

@@ -31,6 +31,7 @@ struct Overrides {
     ReadAccess reads;                                            ///< Travels nowhere.
     std::optional<std::string> solver;                           ///< Of every stage.
     std::optional<Precision> precision;
+    bool fast = false;                ///< Steps are computed with fewer roundings.
     /// The domain becomes this model: the file of one, or the name of a shape.
     std::optional<std::string> model;
     bool model_is_asked_for = false;  ///< By the user: the file may lie anywhere. Travels nowhere.

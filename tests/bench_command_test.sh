@@ -45,6 +45,11 @@ run 0 bench spots.cascade --seconds 0.02 --backend interp --stage 1
 says out interpreted
 says out 'the interpreter'
 
+if grep -qw fma /proc/cpuinfo; then
+    run 0 bench spots.cascade --seconds 0.02 --stage 1 --fast
+    says out "stage 'large': euler, 48 × 32 cells, single, fast, "
+fi
+
 # Stages with nothing to measure.
 printf 'stage s: turing_spots { iterations: 0 }\n' >none.cascade
 run 0 bench none.cascade --seconds 0.02

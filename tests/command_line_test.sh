@@ -30,6 +30,20 @@ mkdir again && cp first.png again/
     fail "a picture does not make itself again"
 "$CASCADE" run - -q <spots.cascade && [ -s cascade.png ] || fail "standard input is no script"
 
+# Fewer roundings: the code says so, the picture has other numbers and carries the option.
+if grep -qw fma /proc/cpuinfo; then
+    run 0 run spots.cascade --fast --dump ir
+    says out 'multiply_add'
+    run 0 run spots.cascade --dump ir
+    ! grep -q multiply_add out || fail "multiply_add without --fast"
+    run 0 run spots.cascade -q --fast -o fast.png
+    cmp -s first.png fast.png && fail "--fast changes nothing"
+    run 0 run spots.cascade -q --fast --backend interp --threads 1 -o fast_again.png
+    cmp -s fast.png fast_again.png || fail "another backend, another picture with --fast"
+    run 0 run fast.png -q -o fast_again.png
+    cmp -s fast.png fast_again.png || fail "a picture forgets --fast"
+fi
+
 # Files beside the picture.
 run 0 run spots.cascade --sheet sheet.png --frames film --save kept --scale 2
 says out 'wrote sheet.png'

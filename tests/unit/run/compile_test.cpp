@@ -2,6 +2,7 @@
 
 #include "run_fixture.h"
 
+#include "ir/multiply_add.h"
 #include "run/compile.h"
 
 #include <gmock/gmock.h>
@@ -66,7 +67,7 @@ protected:
     /// Compiles a stage and the program around it.
     void build(const std::string& text, const CompileRequest& request, const std::string& set = "",
                const std::string& flags = "-std=c99 -pedantic") {
-        Script script = load(text);
+        Script script = load(text, overrides_);
         const auto step = compile_step(script, request);
         ASSERT_TRUE(step) << step.error().message << script.messages(false);
         ASSERT_TRUE(write_file(path("step.o"), {reinterpret_cast<const char*>(step->object.data()),
@@ -85,7 +86,7 @@ protected:
 
     void save_stopped_at(const std::string& text, const std::string& stage, std::int64_t step,
                          const std::string& name) {
-        Script script = load(text);
+        Script script = load(text, overrides_);
         RunRequest wanted = request();
         wanted.save = path(name);
         wanted.stop_at = StopAt{stage, step};
@@ -116,8 +117,10 @@ protected:
         if (!HasFatalFailure()) expect_same_bits("only", species, "23");
     }
 
+    Overrides overrides_;
+
     Failure refused(const std::string& text, const CompileRequest& request = {}) {
-        Script script = load(text);
+        Script script = load(text, overrides_);
         const auto step = compile_step(script, request);
         EXPECT_FALSE(step);
         return step ? Failure{} : step.error();
@@ -244,6 +247,35 @@ domain { grid: 9, 7, 5; boundary: noflux }
 stage only: heat { u.front: flux(0.1 * sy); u.back: fixed(sx); u.top: fixed(1); u.left: flux(-0.2) }
 )",
                        {"u"});
+}
+
+// A run keeps what no step changes, a compiled stage computes it again.
+TEST_F(CompileTest, FastSteps) {
+    if (!has_multiply_add()) GTEST_SKIP() << "this processor has no multiply-add";
+    overrides_.fast = true;
+    expect_bits_of_run(R"(
+system smear {
+  c: random(0, 1)
+  size: 0.7
+  turn: sx * sy
+  c' = div(tensor(1, 0.3, turn) * grad(c)) + lap(sin(turn) * c) - c^3 / size + exp(-turn^2) * c
+}
+domain { grid: 21, 34 }
+stage only: smear { speed: 0.05 }
+)",
+                       {"c"});
+    expect_bits_of_run(R"(
+domain {
+  grid: 36, 12
+  surface: (3 + cos(2*pi*sy)) * cos(2*pi*sx), (3 + cos(2*pi*sy)) * sin(2*pi*sx), sin(2*pi*sy)
+}
+stage only: turing_spots { speed: 0.5; ka: 1/60 }
+)",
+                       {"a", "b"});
+    CompileRequest old;
+    old.target = "x86-64";
+    EXPECT_EQ(refused("stage only: turing_spots { }", old).message,
+              "x86-64 does not multiply and add with one rounding");
 }
 
 TEST_F(CompileTest, TheMetricOfASurface) {
