@@ -43,9 +43,9 @@ public:
         when_used,  ///< Once it has run over `cells_worth_compiling` cells.
     };
     /// A kernel that can run now: that of find(), or one that is interpreted until it is compiled
-    /// (Kernel::is_provisional), for good where that fails (Kernel::refusal). Calls wait for code that is wanted
-    /// once they have interpreted `cells_worth_compiling` cells meanwhile. Kernels are compiled in the order in
-    /// which they were begun.
+    /// (Kernel::is_provisional), for good where that fails (Kernel::refusal). Calls wait for code that is
+    /// wanted once they have interpreted `cells_worth_compiling` cells meanwhile. Kernels are compiled in the
+    /// order in which they were begun.
     KernelPointer begin(const CellKernel& kernel, Stencil stencil, When when);
     /// The kernel will be begun, or compiled, later: it is compiled when nothing else is to be.
     void expect(const CellKernel& kernel, Stencil stencil);
