@@ -100,7 +100,9 @@ TEST(Scheme, StepsWithoutAnErrorKeepFewPlanes) {
             if (scheme.error_register == 0 && solver != Solver::rkl2) {
                 EXPECT_EQ(sweep.outputs.size(), 1u) << name_of(solver);
             }
-            if (solver == Solver::rkl1) EXPECT_LE(sweep.inputs.size(), 2u);
+            if (solver == Solver::rkl1) {
+                EXPECT_LE(sweep.inputs.size(), 2u);
+            }
             for (const std::uint32_t output : sweep.outputs) {
                 EXPECT_NE(output, sweep.inputs[0]) << name_of(solver);
                 EXPECT_NE(output, old_register) << name_of(solver);
