@@ -45,7 +45,7 @@ struct Pattern {
 
 /// Turk's spots with the two sizes of his leopard, and larger ones: the larger, the less does reaction
 /// limit the step.
-constexpr Pattern patterns[] = {
+constexpr Pattern known_patterns[] = {
     {"large", "stage s: turing_spots { iterations: 28000; ka: 0.05/16 }\n"},
     {"small", "stage s: turing_spots { iterations: 7000; ka: 0.2/16 }\n"},
     {"larger", "stage s: turing_spots { iterations: 56000; ka: 0.05/32 }\n"},
@@ -200,7 +200,7 @@ std::optional<Choice> read_choice(int argc, char** argv) {
         } else if (word.starts_with("--pattern=")) {
             patterns.emplace_back(word.substr(10));
             const bool is_known = std::any_of(
-                std::begin(cascade::bench::patterns), std::end(cascade::bench::patterns),
+                std::begin(known_patterns), std::end(known_patterns),
                 [&](const Pattern& pattern) { return pattern.name == patterns.back(); });
             if (!is_known) return std::nullopt;
         } else {
@@ -234,7 +234,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "cascade_solver_times: %s\n", backend.error().message.c_str());
         return 1;
     }
-    for (const Pattern& pattern : patterns) {
+    for (const Pattern& pattern : known_patterns) {
         const auto& wanted = choice->patterns;
         if (std::find(wanted.begin(), wanted.end(), pattern.name) == wanted.end()) continue;
         for (const std::int64_t side : choice->sides) compare(pattern, side, *choice, **backend);

@@ -1,5 +1,6 @@
 #include "ir/multiply_add.h"
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 #include <utility>
@@ -48,6 +49,12 @@ bool has_multiply_add() {
 #else
     return false;
 #endif
+}
+
+bool multiplies_and_adds(const CellKernel& kernel) {
+    return std::any_of(kernel.code.begin(), kernel.code.end(), [](const Instruction& instruction) {
+        return instruction.op == Op::multiply_add;
+    });
 }
 
 template <typename Number>

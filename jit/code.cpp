@@ -1,6 +1,7 @@
 // Building modules and generating machine code.
 #include "jit/code.h"
 
+#include "ir/multiply_add.h"
 #include "jit/skeleton_grid.h"
 #include "jit/skeleton_linked.h"
 #include "jit/target_machine.h"
@@ -11,8 +12,6 @@
 #include <llvm/IR/LegacyPassManager.h>
 #include <llvm/IR/Verifier.h>
 #include <llvm/Support/raw_ostream.h>
-
-#include <algorithm>
 
 namespace cascade {
 namespace {
@@ -44,12 +43,6 @@ std::size_t size_of(const CellKernel& kernel) {
         if (instruction.op == Op::neighbour) size += loads_of_neighbour;
     }
     return size;
-}
-
-bool multiplies_and_adds(const CellKernel& kernel) {
-    return std::any_of(kernel.code.begin(), kernel.code.end(), [](const Instruction& instruction) {
-        return instruction.op == Op::multiply_add;
-    });
 }
 
 /// Takes a machine's optimisation away while it lives.

@@ -101,7 +101,7 @@ TEST(JitAgreement, ContractedKernels) {
         ASSERT_EQ(difference(*backends.optimised[(seed / 3) % 3], kernel, grid, seed), "")
             << print(kernel);
     }
-    EXPECT_GT(fused, 300u);
+    EXPECT_GT(fused, 200u);
 }
 
 /// All sums over links, of two fields, and what depends on a cell's own place.

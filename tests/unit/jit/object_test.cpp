@@ -1,6 +1,7 @@
 // Object files: a symbol of the name that was asked for, and nothing that would have to be linked.
 #include "ir/builder.h"
 #include "ir/interpreter.h"
+#include "ir/multiply_add.h"
 #include "jit/jit.h"
 #include "jit/native_session.h"
 #include "tests/support/kernel_comparison.h"
@@ -136,12 +137,12 @@ std::vector<std::string> targets_of_this_machine() {
     return targets;
 }
 
-// The processors' instructions differ, the bits do not.
+// The processors' instructions differ, the bits do not; and what a processor has no instruction for is refused.
 TEST(JitObject, AllTargetsComputeTheSameBits) {
     const auto session = NativeSession::make();
     ASSERT_TRUE(session);
     const auto interpreter = make_interpreter();
-    int number = 0;
+    int number = 0, compared = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         const CellKernel kernel = random_kernel(seed + 200000);
         const Grid grid = random_grid(seed, 40, 4);
@@ -149,12 +150,18 @@ TEST(JitObject, AllTargetsComputeTheSameBits) {
         for (const std::string& target : targets_of_this_machine()) {
             const std::string name = "step" + std::to_string(number++);
             const auto object = object_of(kernel, grid.stencil(), name, target);
-            ASSERT_TRUE(object);
+            if (multiplies_and_adds(kernel) && (target == "x86-64" || target == "x86-64-v2")) {
+                EXPECT_FALSE(object);
+                continue;
+            }
+            ++compared;
+            ASSERT_TRUE(object) << object.error().message;
             const ObjectKernel native(**session, *object, name);
             ASSERT_EQ(same_bits(expected, HostileInputs(kernel, grid, seed).run(native)), "")
                 << "target '" << target << "', seed " << seed;
         }
     }
+    EXPECT_GT(compared, 80);
 }
 
 TEST(JitObject, CodeDependsOnTheTarget) {
