@@ -139,8 +139,9 @@ std::string bench_table(const std::string& script, const StageBench& bench) {
     if (!bench.nothing.empty()) return text + line("nothing", bench.nothing) + "\n";
     text += line("speed", fmt::format("{} cell-steps/s, {} a step", with_prefix(bench.cell_steps_per_second()),
                                       with_unit(bench.step, "s")));
+    const auto batches = static_cast<std::int64_t>(bench.batches);
     text += line("measured", fmt::format("{} steps, the median of {}, {}; {}", with_commas(bench.steps),
-                                         counted(bench.batches, "batch"),
+                                         counted(batches, "batch", "batches"),
                                          counted(bench.threads, "thread"),
                                          bench.stepping.in_words()));
     text += line("before", fmt::format("starting values {}, first step {}, compiling {} in all",

@@ -35,6 +35,7 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
         report.semi_implicit = name_of(solver);
     }
     if (report.found.at_start() || !report.semi_implicit.empty()) return describe(report);
+    const std::size_t count = states[k].species.size();
     std::vector<Field> last_finite;
     if (report.found.is_exact()) {
         report.estimate_before = stability(k, outcome.last_checked);
@@ -43,7 +44,6 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
     }
     // A state on its way to infinity says little about the speed that would have been right: the
     // start of the stage is asked as well.
-    const std::size_t count = states[k].species.size();
     states[k].species.clear();
     states[k].species.resize(count);
     start_varying_items(k);

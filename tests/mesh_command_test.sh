@@ -46,7 +46,7 @@ says err "--seed means nothing without a number of --cells"
 run 64 mesh cube.obj --cells edges
 says err "or write 'faces' or 'vertices'"
 run 3 mesh cube.obj --cells 1000000000
-says err "1,000,000,000 cells need about 900.0 GB, but"
+says err "1,000,000,000 cells need about 900 GB, but"
 sed 's/^f 5 6 7 8$//; s/^f 1 2 6 5$//; s/^f 2 3 7 6$//; s/^f 3 4 8 7$//; s/^f 4 1 5 8$//' cube.obj > parts.obj
 printf 'v 9 0 0\nv 9 1 0\nv 9 0 1\nf 9 10 11\n' >> parts.obj
 run 3 mesh parts.obj --cells 1

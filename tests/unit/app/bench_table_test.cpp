@@ -68,7 +68,7 @@ TEST(BenchTable, HasAllNumbers) {
     tiled.stepping = {"16 steps a pass", "", 16, 1, 20480};
     EXPECT_THAT(bench_table("a.cascade", tiled), HasSubstr("1 thread; 16 steps a pass"));
     EXPECT_THAT(bench_table("a.cascade", tiled),
-                HasSubstr("16 sweeps at once, 0.5 of those bytes through memory; 20 KiB in use"));
+                HasSubstr("16 sweeps at once, 0.5 of those bytes through memory; 20.5 kB in use"));
     StageBench nothing;
     nothing.nothing = "it takes no step";
     EXPECT_THAT(bench_table("a.cascade", nothing), HasSubstr("it takes no step"));
