@@ -201,8 +201,8 @@ void PassLowering::compute_part(PartId id) {
         }
         slot(id, offset.number()) = value;
         assembly_.look_at({});
-        // What is read around a cell may lie in a plane, or not.
-        if (needs_[id] != own_cell) builder_.keep(value[0]);
+        // It may lie in a plane, or be computed again by whoever reads it.
+        builder_.keep(value[0]);
     });
     // What no step changes may be computed once, without contraction.
     if (part.is_lasting) builder_.keep_from(first);
