@@ -134,7 +134,7 @@ TEST(Tiers, WhatIsRefusedLateIsSaidBehindTheStage) {
 }
 
 TEST(Tiers, WhatIsRefusedWhenTheRunIsOverIsSaidToo) {
-    // The refusal comes when all steps are taken.
+    // The refusal comes when all steps are taken, which are too few to wait for the code.
     class SlowBackend final : public Backend {
     public:
         std::string_view name() const override { return "slow"; }
@@ -148,7 +148,7 @@ TEST(Tiers, WhatIsRefusedWhenTheRunIsOverIsSaidToo) {
     auto slow = std::make_unique<SlowBackend>();
     SlowBackend& backend = *slow;
     Script script = load_script(
-        "test", "domain { grid: 32, 32 }\nstage a: turing_spots { iterations: 600 }", ".", {});
+        "test", "domain { grid: 32, 32 }\nstage a: turing_spots { iterations: 120 }", ".", {});
     ASSERT_TRUE(script.program);
     SimulationOptions options;
     options.stepper = tiered(std::move(slow));
@@ -158,7 +158,7 @@ TEST(Tiers, WhatIsRefusedWhenTheRunIsOverIsSaidToo) {
     RunControl control;
     control.warn = [&](const std::string& message) { warnings.push_back(message); };
     ASSERT_TRUE(simulation->start_stage(0));
-    ASSERT_TRUE(simulation->advance_stage(0, 600, control, {}));
+    ASSERT_TRUE(simulation->advance_stage(0, 120, control, {}));
     EXPECT_THAT(warnings, IsEmpty());
     backend.is_over = true;
     simulation->settle(control);
