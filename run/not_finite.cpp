@@ -73,13 +73,13 @@ Failure describe(const NotFiniteReport& report) {
     const auto largest = limit(report);
     if (largest && explains(*largest, report.speed)) {
         failure.hint = advice(*largest, report.speed);
-    } else if (!report.found.is_exact()) {
+    } else if (!report.largest_before) {
         failure.hint = "a smaller grid needs no memory to be spared, so it tells which step it was and why";
-    } else if (report.largest_before < most_that_is_sane) {
+    } else if (*report.largest_before < most_that_is_sane) {
         failure.hint = fmt::format(
             "no value was above {:.3g} before that step: look for a division by zero, or a logarithm "
             "or root of a negative number, in its rate or in a parameter",
-            report.largest_before);
+            *report.largest_before);
     } else {
         failure.hint = "the reaction itself grows without bound here";
         if (largest) {

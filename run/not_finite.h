@@ -5,6 +5,7 @@
 #include "solvers/advance.h"
 #include "solvers/stability.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,8 @@ struct NotFiniteReport {
     std::string place;                     ///< Of the cell, in words.
     double speed = 0;                      ///< NaN where it varies by cell.
     std::string semi_implicit;             ///< The solver's name, if it is such a one.
-    // Only where the step is exact:
-    double largest_before = 0;             ///< Magnitude of any value before that step.
+    // Only of what was kept:
+    std::optional<double> largest_before;  ///< Magnitude of any value before that step.
     StabilityEstimate estimate_before;     ///< At the last look before.
     StabilityEstimate estimate_at_start;   ///< At the stage's starting values.
 };

@@ -36,8 +36,10 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
     }
     if (report.found.at_start() || !report.semi_implicit.empty()) return describe(report);
     const std::size_t count = states[k].species.size();
+    // Without a kept copy the values are those that are spoiled, also where two looks are one step apart.
+    const bool keeps = !outcome.last_checked.empty();
     std::vector<Field> last_finite;
-    if (report.found.is_exact()) {
+    if (keeps) {
         report.estimate_before = stability(k, outcome.last_checked);
         report.largest_before = largest_magnitude(states[k].species);
         last_finite = std::move(states[k].species);
@@ -48,7 +50,7 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
     states[k].species.resize(count);
     start_varying_items(k);
     report.estimate_at_start = stability(k, states[k].species);
-    if (report.found.is_exact()) {
+    if (keeps) {
         states[k].species = std::move(last_finite);
     } else {
         // What is spoiled is of no use: the stage stands where it began.
