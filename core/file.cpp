@@ -1,6 +1,8 @@
 // Reading and writing files on POSIX systems.
 #include "core/file.h"
 
+#include "core/descriptor.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -14,29 +16,6 @@ namespace cascade {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A file descriptor that closes itself.
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-
-    bool is_open() const { return number_ >= 0; }
-    int number() const { return number_; }
-    /// Closing can be the moment at which a network file system reports a full disk.
-    bool close() {
-        const int closing = number_;
-        number_ = -1;
-        return ::close(closing) == 0;
-    }
-
-private:
-    int number_;
-};
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
@@ -54,18 +33,6 @@ int open_file(const fs::path& path, int flags, mode_t mode = 0) {
         number = ::open(path.c_str(), flags | O_CLOEXEC, mode);
     } while (number < 0 && errno == EINTR);
     return number;
-}
-
-/// Returns 0 or the error. A write may take a part only.
-int write_all(int descriptor, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return errno;
-        if (written == 0) return ENOSPC;
-        bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return 0;
 }
 
 fs::path folder_of(const fs::path& path) {
@@ -97,7 +64,7 @@ fs::path behind_links(const fs::path& path) {
 Result<void> write_in_place(const fs::path& path, std::string_view bytes) {
     Descriptor file(open_file(path, O_WRONLY));
     if (!file.is_open()) return cannot("write", path, errno);
-    if (const int error = write_all(file.number(), bytes)) return cannot("write", path, error);
+    if (const int error = write_all(file, bytes)) return cannot("write", path, error);
     if (!file.close()) return cannot("write", path, errno);
     return {};
 }
@@ -108,7 +75,7 @@ int write_new(const fs::path& temporary, std::string_view bytes, const struct st
     if (!file.is_open()) return errno;
     // A file that is replaced keeps its permissions; refusing is no reason to lose the data.
     if (replaced && ::fchmod(file.number(), replaced->st_mode & 07777) != 0) errno = 0;
-    if (const int error = write_all(file.number(), bytes)) return error;
+    if (const int error = write_all(file, bytes)) return error;
     // Without it a crash of the machine may leave the new name with no content behind it.
     if (::fsync(file.number()) != 0 && errno != EINVAL) return errno;
     return file.close() ? 0 : errno;

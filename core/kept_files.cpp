@@ -1,6 +1,7 @@
 // Kept files, on POSIX systems.
 #include "core/kept_files.h"
 
+#include "core/descriptor.h"
 #include "core/hash.h"
 
 #include <fcntl.h>
@@ -33,17 +34,6 @@ struct Header {
 static_assert(sizeof(Header) == 32);
 constexpr std::size_t checked_from = 16;
 
-class Descriptor {
-public:
-    explicit Descriptor(int opened) : number(opened) {}
-    ~Descriptor() {
-        if (number >= 0) ::close(number);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    const int number;
-};
-
 /// May nobody but this user have put it there?
 bool is_private(const struct stat& status) {
     return status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
@@ -58,13 +48,13 @@ bool is_own_folder(const fs::path& folder) {
 std::string read_own_file(const fs::path& path) {
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
     struct stat status {};
-    if (file.number < 0 || ::fstat(file.number, &status) != 0) return {};
+    if (!file.is_open() || ::fstat(file.number(), &status) != 0) return {};
     if (!S_ISREG(status.st_mode) || !is_private(status)) return {};
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (size > largest_file) return {};
     std::string bytes(size, '\0');
     for (std::size_t used = 0; used < bytes.size();) {
-        const ssize_t got = ::read(file.number, bytes.data() + used, bytes.size() - used);
+        const ssize_t got = ::read(file.number(), bytes.data() + used, bytes.size() - used);
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0) return {};
         used += static_cast<std::size_t>(got);
@@ -72,21 +62,14 @@ std::string read_own_file(const fs::path& path) {
     // A file that was used is young again, so that those go first that nobody uses; once a day is
     // enough to know that.
     constexpr long day = 24 * 60 * 60;
-    if (status.st_mtime + day < ::time(nullptr)) ::futimens(file.number, nullptr);
+    if (status.st_mtime + day < ::time(nullptr)) ::futimens(file.number(), nullptr);
     return bytes;
 }
 
 bool write_new_file(const fs::path& path, std::string_view bytes) {
     const Descriptor file(
         ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600));
-    if (file.number < 0) return false;
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(file.number, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) return false;
-        bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return true;
+    return file.is_open() && write_all(file, bytes) == 0;
 }
 
 std::uint64_t checksum_of(std::string_view file) { return fnv1a(file.substr(checked_from)); }
