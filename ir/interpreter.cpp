@@ -65,7 +65,10 @@ template <typename Number>
 class Planner {
 public:
     explicit Planner(const CellKernel& kernel)
-        : kernel_(kernel), places_(kernel.code.size()), readers_(kernel.code.size()) {}
+        : kernel_(kernel),
+          varies_(varying(kernel)),
+          places_(kernel.code.size()),
+          readers_(kernel.code.size()) {}
 
     Plan<Number> plan() && {
         count_readers();
@@ -87,18 +90,8 @@ private:
         for (const ValueId id : kernel_.results) ++readers_[id];
     }
 
-    bool is_scalar(ValueId id) const {
-        const Instruction& instruction = kernel_.code[id];
-        if (instruction.op == Op::constant || instruction.op == Op::uniform) return true;
-        if (!is_function_of_operands(instruction.op)) return false;
-        for (std::size_t k = 0; k < arity(id); ++k) {
-            if (places_[instruction.operands[k]].kind != Place::Kind::scalar) return false;
-        }
-        return true;
-    }
-
     void place(ValueId id) {
-        if (is_scalar(id)) {
+        if (!varies_[id]) {
             place_scalar(id);
         } else if (kernel_.code[id].op == Op::field) {
             places_[id] = {Place::Kind::field, kernel_.code[id].slot()};
@@ -152,6 +145,7 @@ private:
     }
 
     const CellKernel& kernel_;
+    const std::vector<bool> varies_;
     std::vector<Place> places_;
     std::vector<std::uint32_t> readers_;  ///< Reads of a value that are still to come.
     std::vector<std::uint32_t> free_;
