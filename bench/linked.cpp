@@ -5,6 +5,7 @@
 // and --levels=STEPS for each pass through memory (0: as fits)
 // come first; then flags of Google Benchmark.
 #include "bench/linked_cells.h"
+#include "bench/medians.h"
 #include "bench/straight_links.h"
 #ifdef CASCADE_BENCH_EIGEN
 #include "bench/straight_eigen.h"
@@ -258,32 +259,6 @@ void check_agreement(const Choices& choices, Backend& backend) {
     }
 }
 
-/// Keeps the time of every repetition.
-class Collector : public benchmark::BenchmarkReporter {
-public:
-    bool ReportContext(const Context&) override { return true; }
-    void ReportRuns(const std::vector<Run>& runs) override {
-        for (const Run& run : runs) {
-            if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
-            seconds_[run.run_name.function_name].push_back(
-                run.cpu_accumulated_time / static_cast<double>(run.iterations * steps));
-        }
-    }
-    double median(const std::string& name) {
-        std::vector<double>& times = seconds_[name];
-        if (times.empty()) return 0;
-        std::sort(times.begin(), times.end());
-        return times[times.size() / 2];
-    }
-    double least(const std::string& name) {
-        std::vector<double>& times = seconds_[name];
-        return times.empty() ? 0 : *std::min_element(times.begin(), times.end());
-    }
-
-private:
-    std::map<std::string, std::vector<double>> seconds_;
-};
-
 int run(int argc, char** argv) {
     const FlushDenormals environment;
     Choices choices;
@@ -309,15 +284,7 @@ int run(int argc, char** argv) {
     if (!backend || choices.width < 16 || choices.width % 16 != 0) return 64;
     check_agreement(choices, **backend);
 
-    std::vector<std::string> words = {argv[0], "--benchmark_repetitions=9",
-                                      "--benchmark_min_time=0.05",
-                                      "--benchmark_enable_random_interleaving=true"};
-    words.insert(words.end(), argv + 1, argv + argc);
-    std::vector<char*> pointers;
-    for (std::string& word : words) pointers.push_back(word.data());
-    int count = static_cast<int>(pointers.size());
-    benchmark::Initialize(&count, pointers.data());
-    if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 64;
+    if (!initialize_benchmarks(argc, argv)) return 64;
 
     std::map<std::size_t, std::unique_ptr<Contest>> contests;
     for (const std::size_t side : {256, 1024}) {
@@ -333,7 +300,7 @@ int run(int argc, char** argv) {
                 });
         }
     }
-    Collector times;
+    Medians times;
     benchmark::RunSpecifiedBenchmarks(&times);
     fmt::print("order {}, windows of {}, rows of {}\n{:>9}  {:<18}{:>12}{:>9}{:>16}{:>16}\n",
                choices.order, choices.window, choices.width, "cells", "", "ns a cell", "least",
@@ -342,13 +309,13 @@ int run(int argc, char** argv) {
         const auto name = [cells = side * side](const std::string& who) {
             return fmt::format("{}/{}", cells, who);
         };
-        const auto cells = static_cast<double>(side * side);
+        const double cell_steps = static_cast<double>(side * side) * steps;
         for (const auto& contestant : contestants) {
             const double median = times.median(name(contestant.first));
             const double least = times.least(name(contestant.first));
             if (median <= 0) continue;
             fmt::print("{:>9}  {:<18}{:>12.2f}{:>9.2f}{:>16.2f}{:>16.2f}\n", side * side,
-                       contestant.first, median / cells * 1e9, least / cells * 1e9,
+                       contestant.first, median / cell_steps * 1e9, least / cell_steps * 1e9,
                        median / times.median(name("jit")), least / times.least(name("jit")));
         }
         fmt::print("{:>9}  entries of slices over links: {:.3f}\n", side * side,

@@ -34,4 +34,9 @@ double Medians::median(const std::string& name) {
     return times.size() % 2 ? times[half] : (times[half - 1] + times[half]) / 2;
 }
 
+double Medians::least(const std::string& name) {
+    const std::vector<double>& times = seconds_[name];
+    return times.empty() ? 0 : *std::min_element(times.begin(), times.end());
+}
+
 }  // namespace cascade::bench

@@ -25,6 +25,8 @@ public:
 
     /// Median of the seconds that an iteration took; 0 where the benchmark was filtered out.
     double median(const std::string& name);
+    /// The least of them; 0 where the benchmark was filtered out.
+    double least(const std::string& name);
 
 private:
     std::ostream nowhere_{nullptr};
