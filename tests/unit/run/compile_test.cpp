@@ -249,6 +249,15 @@ stage only: heat { u.front: flux(0.1 * sy); u.back: fixed(sx); u.top: fixed(1); 
                        {"u"});
 }
 
+/// Its diffusion takes coefficients of cells, which no step changes.
+constexpr const char* spots_on_torus = R"(
+domain {
+  grid: 36, 12
+  surface: (3 + cos(2*pi*sy)) * cos(2*pi*sx), (3 + cos(2*pi*sy)) * sin(2*pi*sx), sin(2*pi*sy)
+}
+stage only: turing_spots { speed: 0.5; ka: 1/60 }
+)";
+
 // A run keeps what no step changes, a compiled stage computes it again.
 TEST_F(CompileTest, FastSteps) {
     if (!has_multiply_add()) GTEST_SKIP() << "this processor has no multiply-add";
@@ -264,14 +273,7 @@ domain { grid: 21, 34 }
 stage only: smear { speed: 0.05 }
 )",
                        {"c"});
-    expect_bits_of_run(R"(
-domain {
-  grid: 36, 12
-  surface: (3 + cos(2*pi*sy)) * cos(2*pi*sx), (3 + cos(2*pi*sy)) * sin(2*pi*sx), sin(2*pi*sy)
-}
-stage only: turing_spots { speed: 0.5; ka: 1/60 }
-)",
-                       {"a", "b"});
+    expect_bits_of_run(spots_on_torus, {"a", "b"});
     CompileRequest old;
     old.target = "x86-64";
     EXPECT_EQ(refused("stage only: turing_spots { }", old).message,
@@ -279,14 +281,7 @@ stage only: turing_spots { speed: 0.5; ka: 1/60 }
 }
 
 TEST_F(CompileTest, TheMetricOfASurface) {
-    expect_bits_of_run(R"(
-domain {
-  grid: 36, 12
-  surface: (3 + cos(2*pi*sy)) * cos(2*pi*sx), (3 + cos(2*pi*sy)) * sin(2*pi*sx), sin(2*pi*sy)
-}
-stage only: turing_spots { speed: 0.5; ka: 1/60 }
-)",
-                       {"a", "b"});
+    expect_bits_of_run(spots_on_torus, {"a", "b"});
 }
 
 constexpr const char* timed = R"(

@@ -1,5 +1,5 @@
 // Runs with --fast: bits of their own, which depend on nothing that a run's bits must not depend on.
-#include "run_fixture.h"
+#include "resumed_run.h"
 
 #include "ir/multiply_add.h"
 #include "run/png_texts.h"
@@ -26,7 +26,7 @@ domain { grid: 37, 29; seed: 3 }
 stage only: mixed { iterations: 60; interval: 20 }
 )";
 
-class FastTest : public RunTest {
+class FastTest : public ResumedRunTest {
 protected:
     void SetUp() override {
         RunTest::SetUp();
@@ -95,18 +95,8 @@ TEST_F(FastTest, HasTheSameBitsHoweverItIsComputed) {
 }
 
 TEST_F(FastTest, GoesOnWhenItIsResumed) {
-    save("whole", fast_);
-    Script part = load(mixed, fast_);
-    RunRequest first = request();
-    first.save = path("part");
-    first.stop_at = StopAt{"only", 31};
-    run_well(part, first);
-    auto rest = load_saved_script(path("part"), {});
-    ASSERT_TRUE(rest) << rest.error().message;
-    RunRequest second = request();
-    second.resume = path("part");
-    second.save = path("rest");
-    run_well(*rest, second);
+    run_whole(mixed, fast_);
+    run_in_two_parts(mixed, "only", 31, fast_);
     expect_same("whole", "rest");
     EXPECT_FALSE(load_saved_script(path("part"), fast_)) << "a resumed run keeps its rounding";
 }

@@ -1,5 +1,5 @@
 // Runs in double precision: what they share with runs in single, and what single cannot show.
-#include "run_fixture.h"
+#include "resumed_run.h"
 
 #include "run/memory.h"
 #include "run/simulation.h"
@@ -169,25 +169,13 @@ stage one: turing_spots {
 }
 #endif
 
-class PrecisionTest : public RunTest {};
+class PrecisionTest : public ResumedRunTest {};
 
 TEST_F(PrecisionTest, ASavedRunGoesOnWithTheSameBits) {
     Overrides overrides;
     overrides.precision = Precision::binary64;
-    Script script = load(two_stages, overrides);
-    RunRequest whole = request();
-    whole.save = path("whole");
-    run_well(script, whole);
-    RunRequest part = request();
-    part.save = path("part");
-    part.stop_at = StopAt{"small", 77};
-    run_well(script, part);
-    auto rest = load_saved_script(path("part"), {});
-    ASSERT_TRUE(rest) << rest.error().message;
-    RunRequest second = request();
-    second.resume = path("part");
-    second.save = path("rest");
-    run_well(*rest, second);
+    run_whole(two_stages, overrides);
+    run_in_two_parts(two_stages, "small", 77, overrides);
     EXPECT_NE(bytes("whole/small.b.npy").find("'<f8'"), std::string::npos);
     EXPECT_EQ(bytes("whole/small.b.npy"), bytes("rest/small.b.npy"));
     EXPECT_EQ(bytes("whole/large.beta.npy"), bytes("rest/large.beta.npy"));

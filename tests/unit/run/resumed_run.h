@@ -8,16 +8,17 @@ namespace cascade {
 class ResumedRunTest : public RunTest {
 protected:
     /// Saves the run, from its start to its end, in "whole".
-    void run_whole(const std::string& text) {
-        Script script = load(text);
+    void run_whole(const std::string& text, const Overrides& overrides = {}) {
+        Script script = load(text, overrides);
         RunRequest wanted = request();
         wanted.save = path("whole");
         run_well(script, wanted);
     }
 
     /// Stops at a step of a stage, resumes, and saves what comes of it in "rest".
-    void run_in_two_parts(const std::string& text, const std::string& stage, std::int64_t step) {
-        Script part = load(text);
+    void run_in_two_parts(const std::string& text, const std::string& stage, std::int64_t step,
+                          const Overrides& overrides = {}) {
+        Script part = load(text, overrides);
         RunRequest first = request();
         first.save = path("part");
         first.stop_at = StopAt{stage, step};
