@@ -160,7 +160,7 @@ std::string bench_table(const std::string& script, const StageBench& bench) {
 std::string bench_csv_header() {
     return "script,stage,solver,width,height,depth,precision,backend,threads,steps,seconds_per_step,"
            "cell_steps_per_second,operations,loads,stores,bytes,starting_seconds,compiling_seconds,"
-           "first_step_seconds\n";
+           "first_step_seconds,fast\n";
 }
 
 std::string bench_csv_row(const std::string& script, const StageBench& bench) {
@@ -171,12 +171,12 @@ std::string bench_csv_row(const std::string& script, const StageBench& bench) {
     std::string row = fmt::format("{},{},{},{},{},{},{},{}", name, bench.stage, bench.solver,
                                   bench.grid.width, bench.grid.height, bench.grid.depth,
                                   name_of(bench.precision), bench.is_native ? "jit" : "interp");
-    if (!bench.nothing.empty()) return row + ",,0,,,,,,,,,\n";
+    if (!bench.nothing.empty()) return row + fmt::format(",,0,,,,,,,,,,{:d}\n", bench.fast);
     const StepWork& work = bench.work;
-    return row + fmt::format(",{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g},{:.4g},{:.4g}\n",
+    return row + fmt::format(",{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g},{:.4g},{:.4g},{:d}\n",
                              bench.threads, bench.steps, bench.step, bench.cell_steps_per_second(),
                              work.cost.operations, work.cost.loads, work.cost.stores, work.bytes,
-                             bench.starting, bench.compiling, bench.first_step);
+                             bench.starting, bench.compiling, bench.first_step, bench.fast);
 }
 
 }  // namespace cascade

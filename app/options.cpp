@@ -98,6 +98,7 @@ std::string Parser::help() {
 void Parser::add_all() {
     namespace groups = option_groups;
     app.formatter(std::make_shared<HelpFormatter>());
+    app.option_defaults()->disable_flag_override();  // --fast=0 would be taken, and --fast=3.
     app.set_help_flag("-h,--help", "This text; 'cascade COMMAND --help' tells of a command");
     app.add_flag("-V,--version", show_version, "The version, and what it was built with");
     app.get_option("--help")->group("Options");
@@ -240,6 +241,10 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && words.starts_with("--")) {
         const std::string option = words.substr(0, words.find(':'));
         return leave(program, fmt::format("{}: {} needs a value", called(program), option));
+    }
+    if (words.ends_with(" was given a disallowed flag override")) {
+        const std::string flag = words.substr(0, words.find(' '));
+        return leave(program, fmt::format("{}: --{} takes no value", called(program), flag));
     }
     return leave(program, fmt::format("{}: {}", called(program), words));
 }

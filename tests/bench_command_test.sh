@@ -48,7 +48,14 @@ says out 'the interpreter'
 if grep -qw fma /proc/cpuinfo; then
     run 0 bench spots.cascade --seconds 0.02 --stage 1 --fast
     says out "stage 'large': euler, 48 × 32 cells, single, fast, "
+    run 0 bench spots.cascade --seconds 0.02 --csv --stage 1 --fast
+    consistent 1
+    [ "$(tail -n 1 out | cut -d, -f20)" = 1 ] || fail "the row does not say that it is fast"
 fi
+for flag in --fast --csv --quiet; do
+    run 64 bench spots.cascade "$flag=3"
+    says err "$flag takes no value"
+done
 
 # Stages with nothing to measure.
 printf 'stage s: turing_spots { iterations: 0 }\n' >none.cascade
