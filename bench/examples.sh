@@ -3,7 +3,7 @@
 #
 #   bench/examples.sh PROGRAM AFTER.csv [BEFORE.csv]
 #
-# writes AFTER.csv with a row for each stage of each script in examples/ (`cascade bench --csv`), and with
+# writes AFTER.csv with a row for each stage of each script below examples/ (`cascade bench --csv`), and with
 # BEFORE.csv prints the ratio of speeds, the worst first. Results are worth little on a busy machine.
 # SECONDS_EACH=0.3 measures each stage for so long.
 set -eu
@@ -12,7 +12,8 @@ program=$(realpath "$1")
 after=$(realpath -m "$2")
 before=${3:+$(realpath "$3")}
 cd "$(dirname "$0")/.."
-"$program" bench examples/*.cascade --seconds "${SECONDS_EACH:-0.3}" --csv -q >"$after.part"
+mapfile -t scripts < <(find examples -name '*.cascade' | LC_ALL=C sort)
+"$program" bench "${scripts[@]}" --seconds "${SECONDS_EACH:-0.3}" --csv -q >"$after.part"
 mv "$after.part" "$after"
 [ -z "$before" ] || awk -F, 'FNR == 1 { next }
     NR == FNR { speed[$1 "," $2] = $12; next }
