@@ -97,7 +97,7 @@ public:
     const Tiling& fitting_tiling() const { return fitting_tiling_; }
     /// That one, and others that may be faster.
     std::vector<Tiling> tilings_to_try() const {
-        return cascade::tilings_to_try(*problem_, reach_, CacheSizes::here());
+        return cascade::tilings_to_try(*problem_, reach_, CacheSizes::here(), most_threads());
     }
     /// Goes through memory like that from now on, also where the problem changes; no result depends on it.
     /// Layers are made as large as links reach.

@@ -12,8 +12,10 @@ namespace cascade {
 namespace {
 
 constexpr int rounds = 3;
-// Long enough for a clock, and for the caches to fill with what a tiling keeps there.
-constexpr double trial_seconds = 0.002;
+// Long enough for the caches to fill with what a tiling keeps there.
+constexpr double turn_seconds = 0.002;
+// Long enough for a clock, and shorter than what another program takes a core for.
+constexpr double batch_seconds = 0.00025;
 // First steps meet cold caches, and threads that wake up.
 constexpr double warm_up_seconds = 0.01;
 // So much of a run may trials take that bring nothing: those of the first round.
@@ -47,31 +49,34 @@ std::string TileTuner::how_found() const {
     return choice_ == Choice::by_time ? fmt::format("the fastest of {} ways", candidates_.size()) : "";
 }
 
-std::int64_t TileTuner::sweeps_of_trial() const {
-    const double tiles = std::ceil(trial_seconds / (seconds_per_sweep_ * most_levels_));
+/// Those of whole tiles that take so long, or a little longer.
+std::int64_t TileTuner::sweeps_in(double seconds) const {
+    const double tiles = std::ceil(seconds / (seconds_per_sweep_ * most_levels_));
     return most_levels_ * static_cast<std::int64_t>(std::clamp(tiles, 1.0, 1e9));
 }
 
+std::int64_t TileTuner::sweeps_of_trial() const { return sweeps_in(batch_seconds); }
+
 bool TileTuner::is_due(double left) const {
     if (candidates_.size() < 2 || rested_seconds_ < warm_up_seconds) return false;
-    const double trial = seconds_per_sweep_ * static_cast<double>(sweeps_of_trial());
-    const double cost = trial * static_cast<double>(candidates_.size());
+    const double turn = seconds_per_sweep_ * static_cast<double>(sweeps_in(turn_seconds));
+    const double cost = turn * static_cast<double>(candidates_.size());
     return cost <= share_of_run * left &&
-           (choice_ == Choice::by_size || patience_ * cost <= share_of_rest * rested_seconds_);
+           (choice_ != Choice::by_time || patience_ * cost <= share_of_rest * rested_seconds_);
 }
 
 void TileTuner::took(std::int64_t sweeps, Seconds duration, Seconds left) {
     const double seconds = std::max(duration.count(), 1e-9);
     if (!is_trying_) {
         rested_seconds_ += seconds;
-        seconds_per_sweep_ = seconds / static_cast<double>(sweeps);
+        seconds_per_sweep_ = std::min(seconds_per_sweep_, seconds / static_cast<double>(sweeps));
         if (is_due(left.count())) begin();
         return;
     }
     Tried& tried = tried_[turn_];
-    tried.seconds += seconds;
-    tried.sweeps += static_cast<double>(sweeps);
-    if (tried.sweeps < most_levels_ || tried.seconds < trial_seconds) return;
+    tried.sweeps += sweeps;
+    tried.least = std::min(tried.least, seconds / static_cast<double>(sweeps));
+    if (tried.sweeps < sweeps_of_turn_) return;
     if (++turn_ == tried_.size()) end_round();
     if (is_trying_) current_ = tried_[turn_].candidate;
 }
@@ -80,6 +85,7 @@ void TileTuner::begin() {
     is_trying_ = true;
     round_ = 0;
     turn_ = 0;
+    sweeps_of_turn_ = sweeps_in(turn_seconds);
     tried_.assign(1, Tried{current_});
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
         if (k != current_) tried_.push_back({k});
@@ -87,17 +93,18 @@ void TileTuner::begin() {
 }
 
 void TileTuner::end_round() {
-    const double most = clearly_faster * tried_[0].seconds_per_sweep();
-    const auto is_slow = [&](const Tried& tried) { return tried.seconds_per_sweep() > most; };
+    const double most = clearly_faster * tried_[0].least;
+    const auto is_slow = [&](const Tried& tried) { return tried.least > most; };
     tried_.erase(std::remove_if(tried_.begin() + 1, tried_.end(), is_slow), tried_.end());
     for (Tried& tried : tried_) {
-        tried.seconds_in_all += tried.seconds_per_sweep();
-        tried.seconds = tried.sweeps = 0;
+        tried.least_in_all += tried.least;
+        tried.least = never;
+        tried.sweeps = 0;
     }
     turn_ = 0;
     if (++round_ < rounds && tried_.size() > 1) return;
     end(std::min_element(tried_.begin(), tried_.end(), [](const Tried& a, const Tried& b) {
-        return a.seconds_in_all < b.seconds_in_all;
+        return a.least_in_all < b.least_in_all;
     })->candidate);
 }
 
@@ -110,6 +117,7 @@ void TileTuner::end(std::size_t best) {
     current_ = best;
     is_trying_ = false;
     rested_seconds_ = 0;
+    seconds_per_sweep_ = never;
 }
 
 }  // namespace cascade

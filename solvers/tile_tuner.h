@@ -3,9 +3,10 @@
 // the best. No result depends on it.
 //
 // What fits by the sizes of caches is used first, or what an earlier run found. Another one takes its place
-// only if it was clearly faster in every round; one that was not is tried no more. So no disturbed moment
-// decides, and behind the first round time is spent only on what seems to be faster. But other programs may
-// be at work for as long as all rounds take, so now and then all is tried again.
+// only if it was clearly faster in every round; one that was not is tried no more. Of a turn its fastest
+// batch counts. So no disturbed moment decides, and behind the first round time is spent only on what seems
+// to be faster. But other programs may be at work for as long as all rounds take, so now and then all is
+// tried again, and what an earlier run found as soon as anything would be.
 #pragma once
 
 #include "solvers/tiling_memory.h"
@@ -13,6 +14,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -35,7 +37,8 @@ public:
     /// How a tiling was found to be the best, in words; empty before that.
     std::string how_found() const;
 
-    /// Sweeps (passes of steps) that a batch takes while trying, so that each candidate has whole tiles.
+    /// Sweeps (passes of steps) that a batch takes while trying: a part of a turn, of whole tiles of each
+    /// candidate.
     std::int64_t sweeps_of_trial() const;
 
     /// A batch of `sweeps` took so long with tiling(). At that speed the run is expected to go on for
@@ -44,15 +47,17 @@ public:
 
 private:
     enum class Choice : std::uint8_t { by_size, recalled, by_time };
+    static constexpr double never = std::numeric_limits<double>::infinity();
     /// What is known of a candidate.
     struct Tried {
         std::size_t candidate = 0;
-        double seconds = 0, sweeps = 0;  ///< In this round,
-        double seconds_in_all = 0;       ///< and of a sweep, summed over all rounds.
-        double seconds_per_sweep() const { return seconds / sweeps; }
+        std::int64_t sweeps = 0;  ///< In this round,
+        double least = never;     ///< seconds of a sweep in its fastest batch,
+        double least_in_all = 0;  ///< and these, summed over all rounds.
     };
 
     void recall();
+    std::int64_t sweeps_in(double seconds) const;
     bool is_due(double left) const;
     void begin();
     void end_round();
@@ -65,10 +70,11 @@ private:
     Choice choice_ = Choice::by_size;
     std::size_t current_ = 0;
     bool is_trying_ = false;
-    double rested_seconds_ = 0;     ///< Steps since trials, or from the start;
-    double seconds_per_sweep_ = 1;  ///< of a sweep in the last of them.
-    double patience_ = 1;           ///< So many times as rarely as at first is all tried again.
+    double rested_seconds_ = 0;         ///< Steps since trials, or from the start;
+    double seconds_per_sweep_ = never;  ///< of a sweep in the fastest batch of them.
+    double patience_ = 1;               ///< So many times as rarely as at first is all tried again.
     int round_ = 0;
+    std::int64_t sweeps_of_turn_ = 0;
     std::vector<Tried> tried_;      ///< Those that are still in; the first is the one to be replaced.
     std::size_t turn_ = 0;          ///< Whose turn it is, of those.
 };

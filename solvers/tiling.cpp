@@ -168,11 +168,11 @@ Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const Cache
     return stays_in_cache(problem, caches) ? Tiling() : tiling_beyond_cache(problem, reach, caches);
 }
 
-std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reach,
-                                   const CacheSizes& caches) {
+std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches,
+                                   int threads) {
     std::vector<Tiling> tilings = {choose_tiling(problem, reach, caches)};
     const Tiling tiled = tiling_beyond_cache(problem, reach, caches);
-    const bool is_small = static_cast<double>(bytes_of_step(problem)) <=
+    const bool is_small = static_cast<double>(bytes_of_step(problem)) / threads <=
                           part_of_second * static_cast<double>(caches.second);
     if (tiled.levels == 1 || is_small || problem.error_register != 0) return tilings;
     const auto add = [&](const Tiling& other) {

@@ -51,9 +51,9 @@ Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const Cache
 
 /// That one first, and others that may be faster on this machine or for these kernels: one step a pass,
 /// fewer levels; tiles where planes stay in a third-level cache. No others where steps can be taken in one
-/// way only, or all planes stay in the second-level cache.
-std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reach,
-                                   const CacheSizes& caches);
+/// way only, or what each of the `threads` has of all planes stays in its second-level cache.
+std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches,
+                                   int threads);
 
 /// Bytes of the layers that a tile of so many levels has in use at a time, of one thread.
 double bytes_in_use(const StepProblem& problem, const Tiling& tiling, int levels);

@@ -114,7 +114,7 @@ TEST(ChosenTilings, ChangeNoBit) {
     // More than a usual second-level cache holds, so that there is something to choose.
     for (const Grid& grid : {Grid{640, 400, Boundary::periodic}, Grid{211, 1013, Boundary::no_flux}}) {
         const Mixture mixture(grid);
-        const std::vector<Tiling> candidates = tilings_to_try(mixture.problem, 1, CacheSizes::here());
+        const std::vector<Tiling> candidates = tilings_to_try(mixture.problem, 1, CacheSizes::here(), 1);
         std::vector<std::vector<float>> expected;
         for (const Tiling& tiling : candidates) {
             OneTiling memory(tiling);

@@ -27,7 +27,7 @@ struct Spent {
 };
 
 Spent run(TileTuner& tuner, double usual_seconds, const Machine& machine, std::int64_t sweeps_of_batch = 64) {
-    const double usual_sweep = machine(tuner.candidates()[0], 0);
+    const double usual_sweep = machine(tuner.candidates()[0], -1);
     auto left = static_cast<std::int64_t>(usual_seconds / usual_sweep);
     Spent spent;
     while (left > 0) {
@@ -73,15 +73,19 @@ TEST(TileTuner, ALittleFasterIsNotEnough) {
 }
 
 TEST(TileTuner, ADisturbedMomentDecidesNothing) {
-    // Whichever batch takes ten times as long: no slower way is taken.
-    const Machine quiet = fixed(1e-4, 1.2e-4, 1.3e-4);
-    for (int disturbed = 0; disturbed < 60; ++disturbed) {
-        TileTuner tuner(usual);
-        run(tuner, 10, [&](const Tiling& tiling, int batch) {
-            return quiet(tiling, batch) * (batch == disturbed ? 10 : 1);
-        });
-        EXPECT_EQ(tuner.tiling(), usual[0]) << "batch " << disturbed;
-        EXPECT_NE(tuner.how_found(), "");
+    // Whichever batch takes ten times as long, or of whatever three which: no slower way is taken.
+    for (const double sweep : {1e-4, 1e-5}) {
+        const Machine quiet = fixed(sweep, 1.2 * sweep, 1.3 * sweep);
+        for (int disturbed = 0; disturbed < 120; ++disturbed) {
+            for (const int every : {1000000, 3}) {
+                TileTuner tuner(usual);
+                run(tuner, 1, [&](const Tiling& tiling, int batch) {
+                    return quiet(tiling, batch) * (batch % every == disturbed % every ? 10 : 1);
+                });
+                EXPECT_EQ(tuner.tiling(), usual[0]) << "batch " << disturbed;
+                EXPECT_NE(tuner.how_found(), "");
+            }
+        }
     }
 }
 
@@ -147,8 +151,17 @@ TEST(TileTuner, RemembersWhatItFound) {
     TileTuner second(usual, &memory, 2);
     EXPECT_EQ(second.tiling(), usual[2]);
     EXPECT_EQ(second.how_found(), "the fastest in an earlier run");
-    EXPECT_EQ(run(second, 0.5, fixed(1e-4, 1e-4, 1e-4)).trials, 0);
+    EXPECT_EQ(run(second, 0.2, fixed(1e-4, 1e-4, 1e-4)).trials, 0);
     EXPECT_EQ(memory.kept, 1);
+}
+
+TEST(TileTuner, WhatAnEarlierRunFoundIsTriedAgainSoon) {
+    Memory memory;
+    memory.known = usual[1];
+    TileTuner tuner(usual, &memory, 2);
+    run(tuner, 0.5, fixed(2e-5, 3e-5, 4e-5));
+    EXPECT_EQ(tuner.tiling(), usual[0]);
+    EXPECT_EQ(memory.known, usual[0]);
 }
 
 TEST(TileTuner, WhatABusyMachineTaughtIsForgottenOnAQuietOne) {

@@ -65,7 +65,7 @@ TEST(Tiling, LayersOfThinGridsHaveWhatACallIsWorth) {
 TEST(Tiling, ARowAloneIsNoTile) {
     const StepProblem problem = heat_problem(Grid{10000019, 1}, 0.1f);
     EXPECT_EQ(choose_tiling(problem, 1, caches), Tiling());
-    EXPECT_EQ(tilings_to_try(problem, 1, caches).size(), 1u);
+    EXPECT_EQ(tilings_to_try(problem, 1, caches, 1).size(), 1u);
 }
 
 TEST(Tiling, LayersOfFlatGridsAreRowsOfAllSlices) {
@@ -81,16 +81,16 @@ TEST(Tiling, LayersOfFlatGridsAreRowsOfAllSlices) {
 
 TEST(Tiling, CandidatesBeginWithWhatFits) {
     const StepProblem large = heat_problem(Grid{2048, 2048}, 0.1f);
-    const std::vector<Tiling> beyond = tilings_to_try(large, 1, caches);
+    const std::vector<Tiling> beyond = tilings_to_try(large, 1, caches, 1);
     EXPECT_EQ(beyond[0], choose_tiling(large, 1, caches));
     EXPECT_GT(beyond.size(), 2u);
     // In the third-level cache tiles are tried, in the second nothing is.
     const StepProblem medium = heat_problem(Grid{640, 640}, 0.1f);
-    const std::vector<Tiling> in_third = tilings_to_try(medium, 1, caches);
+    const std::vector<Tiling> in_third = tilings_to_try(medium, 1, caches, 1);
     EXPECT_EQ(in_third[0], Tiling());
     EXPECT_GT(in_third.size(), 1u);
     EXPECT_GT(in_third[1].levels, 1);
-    EXPECT_EQ(tilings_to_try(heat_problem(Grid{128, 128}, 0.1f), 1, caches).size(), 1u);
+    EXPECT_EQ(tilings_to_try(heat_problem(Grid{128, 128}, 0.1f), 1, caches, 1).size(), 1u);
     for (const auto& tilings : {beyond, in_third}) {
         for (std::size_t k = 1; k < tilings.size(); ++k) {
             const auto at = tilings.begin() + static_cast<std::ptrdiff_t>(k);
