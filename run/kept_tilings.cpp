@@ -21,31 +21,41 @@ KeptTilings::KeptTilings(const std::filesystem::path& folder, std::string code)
                            CacheSizes::here().third, code)),
       files_(code.empty() ? std::filesystem::path() : folder, kind) {}
 
-std::optional<Tiling> KeptTilings::find(const std::string& key) {
+std::optional<FoundTiling> KeptTilings::look_up(const std::string& key) {
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
     const auto text = files_.find(key);
-    return text ? tiling_of(*text) : std::nullopt;
+    return text ? found_tiling_of(*text) : std::nullopt;
+}
+
+std::optional<Tiling> KeptTilings::find(const std::string& key) {
+    const auto found = look_up(key);
+    return found && found->is_sure ? std::optional(found->tiling) : std::nullopt;
 }
 
 void KeptTilings::keep(const std::string& key, const Tiling& tiling) {
-    known_[key] = tiling;
-    files_.keep(key, text_of(tiling));
+    const auto before = look_up(key);
+    const FoundTiling found{tiling, before && before->tiling == tiling};
+    if (found == before) return;
+    known_[key] = found;
+    files_.keep(key, text_of(found));
 }
 
-std::string text_of(const Tiling& tiling) {
-    return fmt::format("{} {} {} {} {:d} {:d}", tiling.levels, tiling.outer_layer, tiling.inner_layer,
-                       tiling.inner_bands, tiling.is_near, tiling.along == Tiling::Along::rows);
+std::string text_of(const FoundTiling& found) {
+    const Tiling& tiling = found.tiling;
+    return fmt::format("{} {} {} {} {:d} {:d} {:d}", tiling.levels, tiling.outer_layer, tiling.inner_layer,
+                       tiling.inner_bands, tiling.is_near, tiling.along == Tiling::Along::rows, found.is_sure);
 }
 
-std::optional<Tiling> tiling_of(const std::string& text) {
+std::optional<FoundTiling> found_tiling_of(const std::string& text) {
     std::istringstream words(text);
-    Tiling tiling;
+    FoundTiling found;
+    Tiling& tiling = found.tiling;
     bool along_rows = false;
     words >> tiling.levels >> tiling.outer_layer >> tiling.inner_layer >> tiling.inner_bands;
-    words >> tiling.is_near >> along_rows;
+    words >> tiling.is_near >> along_rows >> found.is_sure;
     if (!words) return std::nullopt;
     if (along_rows) tiling.along = Tiling::Along::rows;
-    return tiling;
+    return found;
 }
 
 StageTilings::StageTilings(KeptTilings& tilings, const StepProblem& problem, std::uint64_t kernels)

@@ -15,12 +15,19 @@
 
 namespace cascade {
 
+struct FoundTiling {
+    Tiling tiling;
+    bool is_sure = false;  ///< It was found twice in a row.
+    friend bool operator==(const FoundTiling&, const FoundTiling&) = default;
+};
+
 class KeptTilings {
 public:
     /// Without a folder, or where `code`, all that decides code besides kernels, is not known and empty,
     /// nothing is kept on disk.
     KeptTilings(const std::filesystem::path& folder, std::string code);
 
+    /// What was kept twice in a row, by this process or others.
     std::optional<Tiling> find(const std::string& key);
     void keep(const std::string& key, const Tiling& tiling);
 
@@ -28,14 +35,16 @@ public:
     const std::string& machine() const { return machine_; }
 
 private:
+    std::optional<FoundTiling> look_up(const std::string& key);
+
     std::string machine_;
     KeptFiles files_;
-    std::map<std::string, Tiling> known_;
+    std::map<std::string, FoundTiling> known_;
 };
 
-/// A tiling as a line of text, and back; nothing where the text is another.
-std::string text_of(const Tiling& tiling);
-std::optional<Tiling> tiling_of(const std::string& text);
+/// As a line of text, and back; nothing where the text is another.
+std::string text_of(const FoundTiling& found);
+std::optional<FoundTiling> found_tiling_of(const std::string& text);
 
 /// Those of one stage.
 class StageTilings final : public TilingMemory {

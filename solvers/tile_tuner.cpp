@@ -86,10 +86,10 @@ void TileTuner::begin() {
     round_ = 0;
     turn_ = 0;
     sweeps_of_turn_ = sweeps_in(turn_seconds);
-    tried_.assign(1, Tried{current_});
-    for (std::size_t k = 0; k < candidates_.size(); ++k) {
-        if (k != current_) tried_.push_back({k});
-    }
+    used_before_ = current_;
+    tried_.clear();
+    for (std::size_t k = 0; k < candidates_.size(); ++k) tried_.push_back({k});
+    current_ = tried_[0].candidate;
 }
 
 void TileTuner::end_round() {
@@ -109,9 +109,8 @@ void TileTuner::end_round() {
 }
 
 void TileTuner::end(std::size_t best) {
-    const bool is_new = best != tried_[0].candidate;
-    const bool is_news = is_new || choice_ == Choice::by_size;
-    if (memory_ != nullptr && is_news) memory_->keep(threads_, candidates_[best]);
+    const bool is_new = best != used_before_;
+    if (memory_ != nullptr) memory_->keep(threads_, candidates_[best]);
     patience_ = is_new ? 1 : std::min(2 * patience_, most_patience);
     choice_ = Choice::by_time;
     current_ = best;

@@ -2,8 +2,8 @@
 // for long enough tries a few tilings on steps of its own, by turns in several rounds, and goes on with
 // the best. No result depends on it.
 //
-// What fits by the sizes of caches is used first, or what an earlier run found. Another one takes its place
-// only if it was clearly faster in every round; one that was not is tried no more. Of a turn its fastest
+// What fits by the sizes of caches is used first, or what an earlier run found. Another one than what fits is
+// used only if it was clearly faster in every round; one that was not is tried no more. Of a turn its fastest
 // batch counts. So no disturbed moment decides, and behind the first round time is spent only on what seems
 // to be faster. But other programs may be at work for as long as all rounds take, so now and then all is
 // tried again, and what an earlier run found as soon as anything would be.
@@ -69,13 +69,14 @@ private:
     int most_levels_ = 1;
     Choice choice_ = Choice::by_size;
     std::size_t current_ = 0;
+    std::size_t used_before_ = 0;  ///< The one that was current when trials began.
     bool is_trying_ = false;
     double rested_seconds_ = 0;         ///< Steps since trials, or from the start;
     double seconds_per_sweep_ = never;  ///< of a sweep in the fastest batch of them.
     double patience_ = 1;               ///< So many times as rarely as at first is all tried again.
     int round_ = 0;
     std::int64_t sweeps_of_turn_ = 0;
-    std::vector<Tried> tried_;      ///< Those that are still in; the first is the one to be replaced.
+    std::vector<Tried> tried_;      ///< Those that are still in; the first is what fits by size.
     std::size_t turn_ = 0;          ///< Whose turn it is, of those.
 };
 

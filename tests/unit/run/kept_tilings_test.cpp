@@ -30,16 +30,32 @@ protected:
 const Tiling some{12, 3, 1, 4, true, Tiling::Along::rows};
 
 TEST_F(KeptTilingsTest, AreFoundByLaterProcesses) {
-    KeptTilings(folder_, "code").keep("key", some);
+    for (int times = 0; times < 2; ++times) KeptTilings(folder_, "code").keep("key", some);
     EXPECT_EQ(KeptTilings(folder_, "code").find("key"), some);
     EXPECT_EQ(KeptTilings(folder_, "code").find("other"), std::nullopt);
-    KeptTilings(folder_, "code").keep("key", Tiling());
-    EXPECT_EQ(KeptTilings(folder_, "code").find("key"), Tiling());
+}
+
+TEST_F(KeptTilingsTest, WhatWasFoundOnceIsNotTold) {
+    const auto keep = [&](const Tiling& tiling) { KeptTilings(folder_, "code").keep("key", tiling); };
+    const auto told = [&] { return KeptTilings(folder_, "code").find("key"); };
+    keep(some);
+    EXPECT_EQ(told(), std::nullopt);
+    keep(some);
+    EXPECT_EQ(told(), some);
+    keep(Tiling());
+    EXPECT_EQ(told(), std::nullopt);
+    keep(some);
+    EXPECT_EQ(told(), std::nullopt);
+    keep(some);
+    keep(some);
+    EXPECT_EQ(told(), some);
 }
 
 TEST_F(KeptTilingsTest, WithoutAFolderOrACodeAreKnownToTheProcess) {
     for (const auto& [folder, code] : {std::pair<fs::path, std::string>{"", "code"}, {folder_, ""}}) {
         KeptTilings tilings(folder, code);
+        tilings.keep("key", some);
+        EXPECT_EQ(tilings.find("key"), std::nullopt);
         tilings.keep("key", some);
         EXPECT_EQ(tilings.find("key"), some);
         EXPECT_EQ(KeptTilings(folder, code).find("key"), std::nullopt);
@@ -49,10 +65,13 @@ TEST_F(KeptTilingsTest, WithoutAFolderOrACodeAreKnownToTheProcess) {
 
 TEST_F(KeptTilingsTest, TextsGoBackAndForth) {
     for (const Tiling& tiling : {some, Tiling(), Tiling{16, 1, 1, 1, true}}) {
-        EXPECT_EQ(tiling_of(text_of(tiling)), tiling);
+        for (const bool is_sure : {false, true}) {
+            const FoundTiling found{tiling, is_sure};
+            EXPECT_EQ(found_tiling_of(text_of(found)), found);
+        }
     }
-    for (const char* const text : {"", "16", "16 1 1 1 2 0", "sixteen 1 1 1 0 0", "\xff\xff"}) {
-        EXPECT_EQ(tiling_of(text), std::nullopt) << text;
+    for (const char* const text : {"", "16", "16 1 1 1 2 0 1", "16 1 1 1 0 0", "sixteen 1 1 1 0 0 0", "\xff\xff"}) {
+        EXPECT_EQ(found_tiling_of(text), std::nullopt) << text;
     }
 }
 
@@ -60,7 +79,7 @@ TEST_F(KeptTilingsTest, KeysDifferInAllThatDecides) {
     KeptTilings tilings(folder_, "code"), other_machine(folder_, "other code");
     const auto problem = [](const Grid& grid) { return testing::heat_problem(grid, 0.1f); };
     const Grid grid{40, 30};
-    StageTilings(tilings, problem(grid), 1).keep(2, some);
+    for (int times = 0; times < 2; ++times) StageTilings(tilings, problem(grid), 1).keep(2, some);
     EXPECT_EQ(StageTilings(tilings, problem(grid), 1).find(2), some);
     EXPECT_EQ(StageTilings(tilings, problem(grid), 1).find(1), std::nullopt);
     EXPECT_EQ(StageTilings(tilings, problem(grid), 2).find(2), std::nullopt);
