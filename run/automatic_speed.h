@@ -32,6 +32,6 @@ StepChoice choose_step(Solver solver, const RateBounds& bounds, double duration)
 std::uint32_t choose_stages(Solver solver, const RateBounds& bounds, double step);
 
 inline constexpr double step_safety = 0.9;
-inline constexpr double reaction_part = 0.5, reaction_part_with_jumps = 0.1;
+inline constexpr double reaction_part = 0.6, reaction_part_with_jumps = 0.1;
 
 }  // namespace cascade
