@@ -1,6 +1,7 @@
 #!/bin/bash
 # Runs on models, from the command line: every file that can come of one, read back.
 set -u
+rm -rf ./*
 about=model_run
 . "$SOURCE/tests/support/program_runs.bash"
 
