@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <string_view>
+#include <vector>
 
 namespace cascade {
 
@@ -89,13 +91,18 @@ std::string remark_on_kernels(const KernelCounts& kernels) {
 }  // namespace
 
 std::string time_table(TimeAccount& account, bool bars) {
-    const double everything = account.seconds_before() + account.seconds();
+    // Time goes on while the table is made, so each part is looked at once.
+    std::vector<double> seconds_of_parts;
+    for (const Part& part : parts) seconds_of_parts.push_back(account.seconds(part.what));
+    const double everything = std::accumulate(seconds_of_parts.begin(), seconds_of_parts.end(),
+                                              account.seconds_before());
     const auto& stages = account.stages();
     Table table(everything, bars);
     table.line("program start", account.seconds_before());
-    for (const Part& part : parts) {
+    for (std::size_t k = 0; k < seconds_of_parts.size(); ++k) {
+        const Part& part = parts[k];
+        const double seconds = seconds_of_parts[k];
         const bool is_stepping = part.what == Spent::stepping;
-        const double seconds = account.seconds(part.what);
         const std::string remark = part.what == Spent::compiling ? remark_on_kernels(account.kernels)
                                    : is_stepping && stages.size() == 1
                                        ? remark_on_steps(stages[0])
