@@ -26,20 +26,28 @@ const System* find_system(const Script& script, std::string_view name) {
     return found;
 }
 
-/// Everything about a system: where it is from, its equations, species, parameters and settings.
-void print_system(const Script& script, const System& system, Console& console) {
-    console.print(fmt::format("{}{}\n", system.name,
-                              system.built_in ? "" : fmt::format(" ({})", script.name)));
-    const LibraryText* const text = system.built_in ? find_library_text(system.name) : nullptr;
+/// What a system says of itself, its equations, species, parameters and settings. Systems that
+/// `script` lacks are those of the library.
+void print_system(std::string_view title, const ast::Script& script, const Sources& sources,
+                  std::string_view name, const LibraryText* text, Console& console) {
+    console.print(fmt::format("{}\n", title));
     std::vector<std::string> words = text ? note_of(*text).lines : std::vector<std::string>{};
-    for (std::string& line : system_words(script.tree, script.sources, system.name)) {
-        words.push_back(std::move(line));
-    }
+    for (std::string& line : system_words(script, sources, name)) words.push_back(std::move(line));
     for (const std::string& line : words) console.print("  " + line + "\n");
     if (!words.empty()) console.print("\n");
-    console.print(print_equations(script.tree, script.sources, system.name, Notation::unicode,
-                                  EquationParts::rates) +
-                  "\n" + print_system_listing(script.tree, script.sources, system.name));
+    console.print(
+        print_equations(script, sources, name, Notation::unicode, EquationParts::rates) + "\n" +
+        print_system_listing(script, sources, name));
+}
+
+void print_library_system(const LibraryText& text, Console& console) {
+    print_system(text.system_name(), {}, {}, text.system_name(), &text, console);
+}
+
+void print_system(const Script& script, const System& system, Console& console) {
+    const LibraryText* const text = system.built_in ? find_library_text(system.name) : nullptr;
+    print_system(text ? system.name : fmt::format("{} ({})", system.name, script.name), script.tree,
+                 script.sources, system.name, text, console);
 }
 
 /// One line of a list, cut where a terminal ends.
@@ -89,37 +97,39 @@ bool is_script_path(const std::string& word) {
 
 }  // namespace
 
-int systems_command(const Options& options, Console& console) {
-    std::vector<std::string> words = options.words;
-    const bool has_script = !words.empty() && is_script_path(words.front());
-    // A script with nothing of its own has the whole library.
-    LoadedFile file{load_script("<built in>", "domain { grid: 64, 64 }", "."), ""};
-    if (has_script) {
-        auto given = load(words.front(), {}, console);
-        if (!given) return exit_status::wrong_script;
-        file = std::move(*given);
-        words.erase(words.begin());
-    }
-    const Script& script = file.script;
-    console.say(script.messages(console.error().colour));
-    if (!script.program) return exit_status::wrong_script;
+namespace {
+
+/// `cascade systems [WORDS]`
+int search_library(const std::vector<std::string>& words, Console& console) {
     if (words.size() == 1) {
-        if (const System* system = find_system(script, words.front())) {
-            print_system(script, *system, console);
+        if (const LibraryText* text = find_library_text(words.front())) {
+            print_library_system(*text, console);
             return exit_status::success;
         }
     }
-    if (!has_script) {
-        if (print_matches(words, console)) return exit_status::success;
-        Failure failure = unknown_system(words.front());
-        failure.message += ", and none mentions it";
-        if (words.size() > 1) failure.message = "no system mentions all these words";
-        console.fail(failure);
-        return exit_status::wrong_use;
-    }
-    if (!words.empty()) {
-        console.fail({fmt::format("no system of {} is called '{}'", script.name, words.front()), ""});
-        return exit_status::wrong_use;
+    if (print_matches(words, console)) return exit_status::success;
+    Failure failure = unknown_system(words.front());
+    failure.message += ", and none mentions it";
+    if (words.size() > 1) failure.message = "no system mentions all these words";
+    console.fail(failure);
+    return exit_status::wrong_use;
+}
+
+/// `cascade systems SCRIPT [NAME]`
+int show_systems_of(const Script& script, const std::vector<std::string>& names,
+                    Console& console) {
+    console.say(script.messages(console.error().colour));
+    if (!script.program) return exit_status::wrong_script;
+    if (!names.empty()) {
+        const System* const system =
+            names.size() == 1 ? find_system(script, names.front()) : nullptr;
+        if (system == nullptr) {
+            console.fail({fmt::format("no system of {} is called '{}'", script.name,
+                                      names.front()), ""});
+            return exit_status::wrong_use;
+        }
+        print_system(script, *system, console);
+        return exit_status::success;
     }
     std::string_view between;
     for (const System& system : script.program->systems) {
@@ -128,6 +138,16 @@ int systems_command(const Options& options, Console& console) {
         between = "\n";
     }
     return exit_status::success;
+}
+
+}  // namespace
+
+int systems_command(const Options& options, Console& console) {
+    const std::vector<std::string>& words = options.words;
+    if (words.empty() || !is_script_path(words.front())) return search_library(words, console);
+    const auto file = load(words.front(), {}, console);
+    if (!file) return exit_status::wrong_script;
+    return show_systems_of(file->script, {words.begin() + 1, words.end()}, console);
 }
 
 int new_command(const Options& options, Console& console) {

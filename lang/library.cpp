@@ -37,16 +37,10 @@ bool is_stage(const ast::Block& block) {
 /// The names under which a script may ask the library for a system, each once.
 std::vector<std::string_view> names_wanted(const ast::Script& script) {
     std::unordered_set<std::string_view> own;
-    bool has_stage = false;
     for (const ast::Block& block : script.blocks) {
         if (block.kind == ast::BlockKind::system) own.insert(block.name.text);
-        has_stage = has_stage || is_stage(block);
     }
     std::vector<std::string_view> wanted;
-    if (!has_stage && own.empty()) {
-        for (const LibraryText& text : library_texts()) wanted.push_back(text.system_name());
-        return wanted;
-    }
     for (const ast::Block& block : script.blocks) {
         const bool is_derived = block.kind == ast::BlockKind::system;
         if (!is_derived && (!is_stage(block) || own.contains(block.base.text))) continue;

@@ -28,7 +28,8 @@ ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnost
     if (!has_sane_size(source, sources, diagnostics)) return script;
     const std::size_t errors_before = diagnostics.error_count();
     TokenCursor cursor(source, sources, diagnostics);
-    cursor.skip_newlines();
+    while (cursor.take_if(TokenKind::newline) || cursor.take_if(TokenKind::semicolon)) {
+    }
     if (cursor.at_end()) {
         if (diagnostics.error_count() == errors_before) {
             diagnostics.error({source, 0, 0}, "this script is empty",

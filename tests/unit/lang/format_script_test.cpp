@@ -152,6 +152,13 @@ TEST(FormatScript, TouchesNoScriptThatCannotBeRead) {
     }
 }
 
+/// What would be formatted to nothing is an empty script, which is refused.
+TEST(FormatScript, RefusesWhatIsMadeOfSeparators) {
+    for (const char* text : {";", ";;", "\n;", ";# a comment", " ; \n ; "}) {
+        EXPECT_FALSE(formatted(text)) << text;
+    }
+}
+
 TEST(FormatScript, TakesLargeScriptsInItsStride) {
     std::string deep = "system s { a: " + std::string(100000, '(') + "1" +
                        std::string(100000, ')') + " }";

@@ -48,7 +48,14 @@ TEST(Library, IsReadByNeed) {
     EXPECT_THAT(system_names("stage a: stripes {}\nstage b: turing_spots {}\nstage c: stripes {}"),
                 ElementsAre("stripes", "turing_spots"));
     EXPECT_THAT(system_names("system mine { a: 1; a' = a }"), ElementsAre("mine"));
-    EXPECT_EQ(system_names("domain { grid: 8, 8 }").size(), library_texts().size());
+    EXPECT_THAT(system_names("domain { grid: 8, 8 }"), IsEmpty());
+}
+
+/// A script without a stage has one message, whatever is in the library, and reads none of it.
+TEST(Library, CostsNothingWhereNothingIsNamed) {
+    const auto checked = check_text("a: 4");
+    EXPECT_FALSE(checked->faults().empty());
+    EXPECT_EQ(checked->sources.size(), 1u);
 }
 
 TEST(Library, GivesWayToTheScriptsOwn) {
