@@ -110,8 +110,8 @@ public:
     /// the same: a pure function of the cell, the `draw` word (which step, or 0) and the
     /// 64-bit `key` (seed, stage, parameter, occurrence).
     ValueId random_symmetric(ValueId draw, std::uint64_t key);
-    /// The word of 32 bits that stands for a number in draws: its bits as a binary32 number.
-    ValueId draw_word(ValueId number);
+    /// The word of 32 bits in a uniform that draw_uniform() has made (ir/draw_of_step.h).
+    ValueId draw_word(ValueId uniform);
     /// Gaussian, of mean 0 and variance 1, at most 6.7 in magnitude: a function of the same.
     ValueId random_normal(ValueId draw, std::uint64_t key);
 

@@ -71,16 +71,8 @@ ValueId KernelBuilder::random_symmetric(ValueId draw, std::uint64_t key) {
     return (centred.to_number() * std::ldexp(1.0, -digits)).id();
 }
 
-/// The number rounded to binary32, as its bits; those that rounding would lose are mixed in.
-ValueId KernelBuilder::draw_word(ValueId number) {
-    if (precision() == Precision::single) return number;
-    constexpr int lost = 52 - 23;
-    constexpr std::uint64_t moved_bias = std::uint64_t{1023 - 127} << 52;
-    const Expression n(*this, number);
-    const Expression bits = n.plus_word(-moved_bias).shifted_right(lost);
-    const Expression rest = n.and_word((std::uint64_t{1} << lost) - 1);
-    const Expression zero = n.word(0);
-    return equals(n, 0).choose(zero, bits.binary(Op::bits_xor, rest).low_word()).id();
+ValueId KernelBuilder::draw_word(ValueId uniform) {
+    return precision() == Precision::single ? uniform : Expression(*this, uniform).low_word().id();
 }
 
 /// √(−2 ln a) cos(2π b) of two uniform numbers a and b (G. E. P. Box, M. E. Muller, "A note on the

@@ -77,8 +77,11 @@ ValueId KernelAssembly::shape(const Node& node, const Cursor& cursor) {
 
 /// Every occurrence of a random function in a formula has numbers of its own.
 ValueId KernelAssembly::random(const Node& node, const Cursor& cursor) {
+    const auto step_word = [&] {
+        return builder_.draw_word(uniform("draw", {SlotSource::Kind::draw, stage_, 0}));
+    };
     const Draw draw{
-        cursor.noise.every_step ? builder_.draw_word(step()) : builder_.word(0),
+        cursor.noise.every_step ? step_word() : builder_.word(0),
         random_key(program_.domain.seed,
                    cursor.noise.owner.empty() ? stage().name : cursor.noise.owner,
                    cursor.noise.origin, cursor.occurrences)};

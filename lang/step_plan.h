@@ -30,6 +30,7 @@ struct SlotSource {
         neighbourhood,  ///< Which cells around are inside the mask, as a field slot of words.
         lasting,    ///< Lasting part `item` of stage `stage`: a field slot, or a uniform.
         step,       ///< Uniform: complete steps of the stage when the step begins.
+        draw,       ///< Uniform: the word of that step in draws (ir/draw_of_step.h).
         time,       ///< Uniform: the stage's t when the rates are evaluated.
         time_step,  ///< Uniform: the length of the step that is taken.
         temporary,  ///< Temporary plane `item`, as a field slot.

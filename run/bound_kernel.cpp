@@ -185,6 +185,7 @@ private:
                 value = context_.states[source.stage].lasting_numbers[source.item];
                 break;
             case SlotSource::Kind::step: bound.changing.push_back({Kind::step, slot, 0, 0, false}); break;
+            case SlotSource::Kind::draw: bound.changing.push_back({Kind::draw, slot, 0, 0, false}); break;
             case SlotSource::Kind::aggregate:
                 bound.changing.push_back({Kind::aggregate, slot, source.item, 0, false});
                 break;
@@ -259,7 +260,7 @@ std::vector<bool> halo_registers(const Scheme& scheme) {
 bool rates_go_on(const StepPlan& plan) {
     for (const Pass& pass : plan.passes) {
         for (const SlotSource& source : pass.bound.uniforms) {
-            if (source.kind == SlotSource::Kind::step ||
+            if (source.kind == SlotSource::Kind::step || source.kind == SlotSource::Kind::draw ||
                 source.kind == SlotSource::Kind::time_step) {
                 return false;
             }

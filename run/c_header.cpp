@@ -55,6 +55,7 @@ public:
         text += structure();
         text += prototypes();
         text += filled(c_text::planes);
+        if (compiled_.step.find("_draw(") != std::string::npos) text += filled(c_text::draws);
         if (!compiled_.masks.empty()) text += filled(c_text::masks);
         if (compiled_.reduces) text += filled(c_text::reductions);
         text += filled(c_text::allocation);

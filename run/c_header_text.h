@@ -173,6 +173,16 @@ static inline void $_compute($_kernel *kernel, const float *const *fields,
 }
 )";
 
+inline constexpr std::string_view draws = R"(
+/* Which step it is, as random numbers are drawn by it: the bits of a number. */
+static inline float $_draw(int64_t steps) {
+    const uint32_t late = 0x80000000u + (uint32_t)steps;
+    float number = (float)steps;
+    if (steps >= 16777216) memcpy(&number, &late, sizeof number);
+    return number;
+}
+)";
+
 inline constexpr std::string_view masks = R"(
 /* 1 where a plane is not 0. */
 static inline void $_make_mask(const float *plane, unsigned char *mask) {

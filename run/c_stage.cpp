@@ -317,6 +317,7 @@ private:
             if (changing.slot != slot) continue;
             switch (changing.kind) {
                 case Kind::step: return "(float)s->steps";
+                case Kind::draw: return fmt::format("{}_draw(s->steps)", request_.name);
                 case Kind::aggregate: return fmt::format("aggregates[{}]", changing.number);
                 case Kind::time:
                     if (changing.value == 0) return "(float)t";

@@ -2,6 +2,7 @@
 
 #include "core/check.h"
 #include "core/floating_point.h"
+#include "ir/draw_of_step.h"
 
 #include <algorithm>
 
@@ -151,6 +152,9 @@ void PassRunner::set_uniforms(std::vector<Number>& uniforms, const StepProblem::
         switch (uniform.kind) {
             case StepProblem::ChangingUniform::Kind::step:
                 value = static_cast<Number>(moment.complete);
+                break;
+            case StepProblem::ChangingUniform::Kind::draw:
+                value = draw_uniform<Number>(moment.complete);
                 break;
             case StepProblem::ChangingUniform::Kind::time:
                 value = static_cast<Number>(moment.t + uniform.value * moment.length);

@@ -37,6 +37,7 @@ struct StepProblem {
     struct ChangingUniform {
         enum class Kind : std::uint8_t {
             step,         ///< Complete steps when the step begins.
+            draw,         ///< The word of that step in draws (ir/draw_of_step.h).
             time,         ///< t when the step begins, plus `value` times its length.
             aggregate,    ///< Aggregate `number`.
             coefficient,  ///< `value`, times the length of the step if `times_step`.

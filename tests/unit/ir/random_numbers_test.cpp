@@ -3,6 +3,7 @@
 #include "core/hash.h"
 #include "core/plane.h"
 #include "ir/builder.h"
+#include "ir/draw_of_step.h"
 #include "ir/interpreter.h"
 
 #include <gtest/gtest.h>
@@ -20,36 +21,36 @@ constexpr std::uint64_t some_key = 0x0123456789abcdefULL;
 using Expand = ValueId (KernelBuilder::*)(ValueId, std::uint64_t);
 
 template <typename Number>
-Plane<Number> random_plane(const Grid& grid, std::uint64_t key, Number draw,
+Plane<Number> random_plane(const Grid& grid, std::uint64_t key, std::int64_t step,
                            Expand expand = &KernelBuilder::random_symmetric) {
     KernelBuilder builder(precision_of<Number>);
-    const ValueId step = builder.draw_word(builder.uniform(builder.uniform_slot("step")));
-    builder.result("r", (builder.*expand)(step, key));
+    const ValueId draw = builder.draw_word(builder.uniform(builder.uniform_slot("draw")));
+    builder.result("r", (builder.*expand)(draw, key));
     const CellKernel kernel = std::move(builder).finish();
     Plane<Number> out{PlaneLayout(grid)};
     Number* results[] = {out.origin()};
-    const Number uniforms[] = {draw};
+    const Number uniforms[] = {draw_uniform<Number>(step)};
     const FlushDenormals environment;
     const KernelPointer compiled = *make_interpreter()->compile(kernel, grid.stencil());
     compiled->run({{}, {}, uniforms, results, out.layout()}, {0, grid.height});
     return out;
 }
 
-Field random_field(const Grid& grid, std::uint64_t key, float draw,
+Field random_field(const Grid& grid, std::uint64_t key, std::int64_t step,
                    Expand expand = &KernelBuilder::random_symmetric) {
-    return Field(random_plane(grid, key, draw, expand));
+    return Field(random_plane<float>(grid, key, step, expand));
 }
 
 // The same numbers, with 52 digits.
 TEST(RandomNumbers, HaveMoreDigitsInBinary64) {
     const Grid grid{300, 40, Boundary::periodic};
-    for (const double draw : {0.0, 1.0, 27999.0, 1048575.0}) {
-        const Plane<double> plane = random_plane(grid, some_key, draw);
-        const Plane<float> rough = random_plane(grid, some_key, static_cast<float>(draw));
-        const Plane<double> normal =
-            random_plane(grid, some_key, draw, &KernelBuilder::random_normal);
-        const Plane<float> rough_normal = random_plane(grid, some_key, static_cast<float>(draw),
-                                                       &KernelBuilder::random_normal);
+    for (const std::int64_t draw : {0, 1, 27999, 1048575}) {
+        const auto plane = random_plane<double>(grid, some_key, draw);
+        const auto rough = random_plane<float>(grid, some_key, draw);
+        const auto normal =
+            random_plane<double>(grid, some_key, draw, &KernelBuilder::random_normal);
+        const auto rough_normal =
+            random_plane<float>(grid, some_key, draw, &KernelBuilder::random_normal);
         for (std::int64_t j = 0; j < grid.height; ++j) {
             for (std::int64_t i = 0; i < grid.width; ++i) {
                 const std::uint32_t step = to_bits(static_cast<float>(draw));
@@ -68,23 +69,53 @@ TEST(RandomNumbers, HaveMoreDigitsInBinary64) {
     }
 }
 
-// Beyond 2^24, where binary32 numbers are 2 and more apart, steps still differ.
-TEST(RandomNumbers, OfLateStepsDifferInBinary64) {
-    const Grid grid{16, 1, Boundary::periodic};
-    const Plane<double> one = random_plane(grid, some_key, 0x1p24 + 2);
-    const Plane<double> next = random_plane(grid, some_key, 0x1p24 + 3);
-    EXPECT_NE(one.at(3, 0), next.at(3, 0));
+template <typename Number>
+void expect_new_numbers_late() {
+    const Grid grid{64, 1, Boundary::periodic};
+    std::set<std::vector<double>> seen;
+    int drawn = 0;
+    for (const std::int64_t first : {std::int64_t{0}, std::int64_t{1} << 23, (std::int64_t{1} << 24) - 50,
+                                     std::int64_t{1} << 27, std::int64_t{1'000'000'000}}) {
+        for (std::int64_t step = first; step < first + 100; ++step) {
+            const Plane<Number> plane = random_plane<Number>(grid, some_key, step);
+            std::vector<double> row(plane.row(0), plane.row(0) + grid.width);
+            seen.insert(std::move(row));
+            ++drawn;
+        }
+    }
+    EXPECT_EQ(seen.size(), static_cast<std::size_t>(drawn));
+}
+
+// From 2^24 on binary32 numbers are 2 and more apart, but steps are told apart all the same.
+TEST(RandomNumbers, OfLateStepsDiffer) {
+    expect_new_numbers_late<float>();
+    expect_new_numbers_late<double>();
+}
+
+TEST(RandomNumbers, NoTwoStepsAreDrawnByTheSameWord) {
+    std::vector<std::uint32_t> words;
+    // All steps up to 2^20 and, of the others, some near each power of two, where exponents change.
+    for (std::int64_t step = 0; step < 1 << 20; ++step) words.push_back(draw_of_step(step));
+    for (int bit = 20; bit < 31; ++bit) {
+        const std::int64_t power = std::int64_t{1} << bit;
+        for (std::int64_t step = power; step < power + 5000; ++step) words.push_back(draw_of_step(step));
+        for (std::int64_t step = 2 * power - 5000; step < 2 * power; ++step) words.push_back(draw_of_step(step));
+    }
+    std::sort(words.begin(), words.end());
+    EXPECT_EQ(std::adjacent_find(words.begin(), words.end()), words.end());
 }
 
 TEST(RandomNumbers, AreTheHashOfCellDrawAndKey) {
     const Grid grid{300, 40, Boundary::periodic};
-    for (const float draw : {0.0f, 1.0f, 27999.0f}) {
+    for (const std::int64_t draw : {0, 1, 27999, 1 << 24, 1'000'000'000}) {
         const Field field = random_field(grid, some_key, draw);
         for (std::int64_t j = 0; j < grid.height; ++j) {
             for (std::int64_t i = 0; i < grid.width; ++i) {
                 const auto column = static_cast<std::uint32_t>(i);
                 const auto row = static_cast<std::uint32_t>(j);
-                const auto hash = pcg4d({column, row, to_bits(draw) ^ 0x01234567u, 0x89abcdefu});
+                const std::uint32_t word = draw < 1 << 24 ? to_bits(static_cast<float>(draw))
+                                                          : 0x80000000u + static_cast<std::uint32_t>(draw);
+                const auto hash = pcg4d({column, row, word ^ 0x01234567u, 0x89abcdefu});
                 const double exact = ((hash[0] >> 9) + 0.5) / 4194304.0 - 1.0;
                 ASSERT_EQ(static_cast<double>(field.at(i, j)), exact) << i << ", " << j;
             }
@@ -148,7 +179,7 @@ TEST(RandomNumbers, StepsAndKeysAreIndependent) {
     const double limit = 5.0 / 128;
     Field before = random_field(grid, some_key, 0);
     for (int step = 1; step <= 40; ++step) {
-        Field now = random_field(grid, some_key, static_cast<float>(step));
+        Field now = random_field(grid, some_key, step);
         EXPECT_LT(std::fabs(correlation(before, now, 0, 0)), limit) << "step " << step;
         before = std::move(now);
     }

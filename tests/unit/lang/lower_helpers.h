@@ -6,6 +6,7 @@
 
 #include "core/floating_point.h"
 #include "core/plane.h"
+#include "ir/draw_of_step.h"
 #include "ir/interpreter.h"
 #include "lang/lower.h"
 
@@ -125,6 +126,8 @@ private:
             const auto steps = static_cast<float>(stages_[stage].steps);
             const std::uint32_t speed = program_.system_of(stage).speed_item();
             uniforms.push_back(source.kind == SlotSource::Kind::step ? steps
+                               : source.kind == SlotSource::Kind::draw
+                                   ? draw_uniform<float>(stages_[stage].steps)
                                : source.kind == SlotSource::Kind::time
                                    ? steps * stages_[stage].numbers[speed]
                                    : stages_[source.stage].numbers[source.item]);
