@@ -112,6 +112,36 @@ bool is_known_along_side(Workspace& work, const Formula& value) {
     return true;
 }
 
+/// What to write in a rate in place of a flux that depends on a species: a source in the cells at the
+/// side, as `lap` divides what flows through a face by the spacing.
+std::string as_source(std::string_view species, Side side) {
+    constexpr std::array<std::string_view, side_count> places{
+        "sx < 1/W", "sx > 1 - 1/W", "sy < 1/H", "sy > 1 - 1/H", "sz < 1/D", "sz > 1 - 1/D"};
+    constexpr std::array<std::string_view, 3> counts{"W columns", "H rows", "D slices"};
+    const auto number = static_cast<std::size_t>(side);
+    return fmt::format("for flux(E) write noflux, and {0}' += k/h * (E) * ({1}) in the system: "
+                       "k times lap({0}), cells of side h, {2}",
+                       species, places[number], counts[number / 2]);
+}
+
+/// Values of sides are found when the stage starts, and species change. False, with a message, where one
+/// reads a species.
+bool reads_no_species(Workspace& work, const System& system, const SideSetting& setting, Side side,
+                      std::string_view of) {
+    const auto& nodes = setting.value.nodes;
+    const auto read = std::find_if(nodes.begin(), nodes.end(), [&](const Node& node) {
+        return node.kind == NodeKind::own && system.is_species(node.index);
+    });
+    if (read == nodes.end()) return true;
+    const std::string_view name = system.item_name(read->index);
+    work.diagnostics.error(
+        read->span, fmt::format("a side cannot follow '{}', which every step changes", name),
+        setting.kind == SideKind::flux
+            ? as_source(of, side)
+            : fmt::format("a parameter keeps what {0} starts with: name: …; {0}: name", name));
+    return false;
+}
+
 std::vector<std::string> species_names(const System& system) {
     std::vector<std::string> names;
     for (const Quantity& quantity : system.quantities) {
@@ -184,6 +214,8 @@ private:
             if (!checked || !is_known_along_side(work_, checked->formula)) return;
             setting.value = std::move(checked->formula);
             mark_reads(work_, setting.value, scope_.system);
+            const Side side = sides_of_word(sentence.side.text)[0];
+            if (!reads_no_species(work_, system_, setting, side, statement.name)) return;
         }
         for (const Side side : sides_of_word(sentence.side.text)) {
             rules_.push_back({{meaning->index, side, setting}, statement.index.has_value(),

@@ -305,6 +305,10 @@ private:
         text_ += fmt::format("  u0.sides: {}\n", stream_.chance(50) ? "fixed(0.5)"
                                                                     : stream_.pick<std::string_view>(all));
         if (!stream_.chance(50)) return;
+        // Sides follow no species.
+        std::erase_if(readable_, [](const std::string& name) {
+            return name.starts_with("[") && name != "[frozen]";
+        });
         text_ += fmt::format("  u0.left: fixed({})\n  u0.right: flux(0.01)\n",
                              expression(Place::value, 2));
     }

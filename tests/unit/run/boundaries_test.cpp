@@ -184,6 +184,25 @@ TEST(Boundaries, ValuesAreThoseOfTheMomentInEverySweep) {
     }
 }
 
+// What the message about sides that read a species tells to write.
+TEST(Boundaries, ASourceBesideASideIsAFluxThatFollowsASpecies) {
+    const Ran ran = run(
+        "system rod { u: 1; k: 2; u' = lap(u); u' += 1/(1/32) * (-k*u) * (sx > 1 - 1/32); u.right: noflux }\n"
+        "domain { grid: 32; spacing: 1/32; boundary: noflux; precision: double }\n"
+        "stage only: rod { speed: 1/4096; iterations: 2048 }\n");
+    // The same by hand: beyond the right side stands c + h · (−k c).
+    std::vector<double> u(34, 1), next(34);
+    for (int step = 0; step < 2048; ++step) {
+        u[0] = u[1];
+        u[33] = u[32] - 2 * u[32] / 32;
+        for (int i = 1; i <= 32; ++i) {
+            next[i] = u[i] + (u[i - 1] - 2 * u[i] + u[i + 1]) * 1024 / 4096;
+        }
+        u.swap(next);
+    }
+    for (int i = 0; i < 32; ++i) EXPECT_NEAR(ran.species()[0].number_at(i, 0), u[i + 1], 1e-12) << i;
+}
+
 TEST(Boundaries, StepCountsCompleteSteps) {
     // Beside the right side: u' = u.right − u, with ghosts 2 step − u and u on the left.
     const Ran ran = run("system s { u: 0; u' = 0.5 * lap(u); u.right: fixed(step) }\n"
@@ -196,11 +215,11 @@ TEST(Boundaries, StepCountsCompleteSteps) {
 /// A script with a value at each of six sides; `and_time` is added to each.
 std::string volume(const std::string& and_time, const std::string& solver) {
     return fmt::format(
-        "system s {{ u: sin(7 * x) * y + z; v: x * y\n"
+        "system s {{ begin: sin(7 * x) * y + z; u: begin; v: x * y\n"
         "  u' = 0.05 * lap(u) + 0.02 * dxy(u) - 0.01 * dyz(u * v); v' = 0.1 * lap(v) + dxz(u) / 50\n"
         "  u.left: fixed(sin(9 * y) * z{0}); u.right: flux(y - z{0}); u.top: flux(sin(x * 8){0})\n"
         "  u.bottom: fixed(x * z{0}); u.front: fixed(x - y{0}); u.back: flux(x * y / 2{0})\n"
-        "  v.front: noflux; v.back: fixed(0.25{0}); v.left: fixed(u{0}); v.right: noflux }}\n"
+        "  v.front: noflux; v.back: fixed(0.25{0}); v.left: fixed(begin{0}); v.right: noflux }}\n"
         "domain {{ grid: 21, 10, 6; boundary: noflux, periodic, noflux }}\n"
         "stage only: s {{ iterations: 25; speed: 0.5; solver: {1}\n"
         "  u.left: fixed(sin(9 * y) * z{0}) }}\n",

@@ -223,7 +223,8 @@ stage only: gray_scott_3 { speed: 1 }
 TEST_F(CompileTest, ValuesAndFluxesAtSides) {
     expect_bits_of_run(R"(
 system heat {
-  u: 0.1 * x
+  begin: 0.1 * x
+  u: begin
   v: 1
   hot: 1
   u' = 0.2 * lap(u) + 0.01 * v
@@ -232,7 +233,7 @@ system heat {
   u.left: fixed(hot)
 }
 domain { grid: 19, 14; boundary: noflux; spacing: 1.3; right: fixed(0.25) }
-stage only: heat { hot: 2; u.top: flux(0.1 * sx); v.bottom: fixed([u] + 0.5); v.left: flux(0.1 * lap([v] + x)) }
+stage only: heat { hot: 2; u.top: flux(0.1 * sx); v.bottom: fixed([begin] + 0.5); v.left: flux(0.1 * lap([begin] + x)) }
 )",
                        {"u", "v"});
 }
