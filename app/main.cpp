@@ -36,7 +36,7 @@ int run_chosen(const cascade::Options& options, cascade::Console& console) {
 int main(int argc, char** argv) {
     // libedit asks the locale which bytes make a letter; numbers are read and written without it.
     std::setlocale(LC_CTYPE, "");
-    cascade::ignore_broken_pipes();
+    cascade::take_signals_of_writes_as_errors();
     auto console = cascade::Console::standard();
     try {
         const std::vector<std::string> arguments(argv + 1, argv + std::max(argc, 1));

@@ -1,6 +1,9 @@
 #include "core/descriptor.h"
 
 #include <cerrno>
+#include <dirent.h>
+#include <fcntl.h>
+#include <memory>
 #include <unistd.h>
 
 namespace cascade {
@@ -21,6 +24,18 @@ int write_all(const Descriptor& file, std::string_view bytes) {
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
     return 0;
+}
+
+std::vector<std::string> names_in(const Descriptor& folder) {
+    std::vector<std::string> names;
+    // A descriptor of its own: reading moves the place in a folder.
+    const int again = ::openat(folder.number(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (again < 0) return names;
+    const std::unique_ptr<DIR, int (*)(DIR*)> entries(::fdopendir(again), &::closedir);
+    while (const dirent* const entry = entries ? ::readdir(entries.get()) : nullptr) {
+        names.emplace_back(entry->d_name);
+    }
+    return names;
 }
 
 }  // namespace cascade

@@ -2,12 +2,13 @@
 #include "core/file.h"
 
 #include "core/descriptor.h"
+#include "core/temporary_file.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -39,14 +40,6 @@ fs::path folder_of(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// A name beside the target that no other process or thread of ours uses. It is short, so that it
-/// fits wherever the target's name does.
-fs::path temporary_beside(const fs::path& path) {
-    static std::atomic<unsigned> count{0};
-    return folder_of(path) /
-           fmt::format(".cascade-{}-{}.tmp", static_cast<long>(::getpid()), count.fetch_add(1));
-}
-
 /// Where a write to this path ends: behind symbolic links, also one to a file not made yet. A
 /// circle of links is left to the system to complain about.
 fs::path behind_links(const fs::path& path) {
@@ -60,32 +53,50 @@ fs::path behind_links(const fs::path& path) {
     return target;
 }
 
+/// As write_all, of a file that was opened without waiting. A signal that this process handles ends
+/// the wait: whoever interrupts a run does not wait for the reader of its pipe.
+int write_all_waiting(const Descriptor& file, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(file.number(), bytes.data(), bytes.size());
+        if (written > 0) {
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+            continue;
+        }
+        if (written == 0) return ENOSPC;
+        if (errno == EINTR) continue;
+        if (errno != EAGAIN) return errno;
+        pollfd ready{file.number(), POLLOUT, 0};
+        if (::poll(&ready, 1, -1) < 0) return errno;
+    }
+    return 0;
+}
+
 /// Pipes and devices are written in place: renaming over them would replace them.
 Result<void> write_in_place(const fs::path& path, std::string_view bytes) {
-    Descriptor file(open_file(path, O_WRONLY));
+    Descriptor file(open_file(path, O_WRONLY | O_NONBLOCK));
+    if (!file.is_open() && errno == ENXIO) {
+        return failure(fmt::format("cannot write '{}': nobody reads this pipe", path.string()),
+                       "begin reading it before the run ends, or name a file");
+    }
     if (!file.is_open()) return cannot("write", path, errno);
-    if (const int error = write_all(file, bytes)) return cannot("write", path, error);
+    if (const int error = write_all_waiting(file, bytes)) return cannot("write", path, error);
     if (!file.close()) return cannot("write", path, errno);
     return {};
 }
 
-/// Fills the new file `temporary` and returns 0 or the error.
-int write_new(const fs::path& temporary, std::string_view bytes, const struct stat* replaced) {
-    Descriptor file(open_file(temporary, O_WRONLY | O_CREAT | O_EXCL, 0666));
-    if (!file.is_open()) return errno;
+/// Writes a new file, or one in place of that with this status. Returns 0 or the error.
+int replace(const fs::path& target, std::string_view bytes, const struct stat* replaced) {
+    const Descriptor folder(open_folder(folder_of(target)));
+    if (!folder.is_open()) return errno;
+    TemporaryFile temporary(folder);
+    if (const int error = temporary.error()) return error;
     // A file that is replaced keeps its permissions; refusing is no reason to lose the data.
-    if (replaced && ::fchmod(file.number(), replaced->st_mode & 07777) != 0) errno = 0;
-    if (const int error = write_all(file, bytes)) return error;
-    // Without it a crash of the machine may leave the new name with no content behind it.
-    if (::fsync(file.number()) != 0 && errno != EINVAL) return errno;
-    return file.close() ? 0 : errno;
+    if (replaced) (void)::fchmod(temporary.file().number(), replaced->st_mode & 07777);
+    if (const int error = temporary.write(bytes)) return error;
+    return temporary.rename_to(target.filename().string());
 }
 
-}  // namespace
-
-Result<std::string> read_file(const fs::path& path, std::uint64_t largest) {
-    const Descriptor file(open_file(path, O_RDONLY));
-    if (!file.is_open()) return cannot("read", path, errno);
+Result<std::string> read_opened(const Descriptor& file, const fs::path& path, std::uint64_t largest) {
     struct stat status {};
     if (::fstat(file.number(), &status) != 0) return cannot("read", path, errno);
     if (S_ISDIR(status.st_mode)) return cannot("read", path, EISDIR);
@@ -114,6 +125,24 @@ Result<std::string> read_file(const fs::path& path, std::uint64_t largest) {
     }
 }
 
+}  // namespace
+
+Result<std::string> read_file(const fs::path& path, std::uint64_t largest) {
+    const Descriptor file(open_file(path, O_RDONLY));
+    if (!file.is_open()) return cannot("read", path, errno);
+    return read_opened(file, path, largest);
+}
+
+Result<std::string> read_plain_file(const fs::path& path, std::uint64_t largest) {
+    const Descriptor file(open_file(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK));
+    if (!file.is_open() && errno != ELOOP) return cannot("read", path, errno);
+    struct stat status {};
+    const bool is_plain = file.is_open() && ::fstat(file.number(), &status) == 0 && !S_ISFIFO(status.st_mode) &&
+                          !S_ISCHR(status.st_mode) && !S_ISBLK(status.st_mode);
+    if (!is_plain) return failure(fmt::format("cannot read '{}': it is not a file", path.string()));
+    return read_opened(file, path, largest);
+}
+
 Result<void> write_file(const fs::path& path, std::string_view bytes) {
     const fs::path target = behind_links(path);
     struct stat status {};
@@ -121,14 +150,7 @@ Result<void> write_file(const fs::path& path, std::string_view bytes) {
     if (exists && S_ISDIR(status.st_mode)) return cannot("write", path, EISDIR);
     if (exists && !S_ISREG(status.st_mode)) return write_in_place(target, bytes);
 
-    const fs::path temporary = temporary_beside(target);
-    if (const int error = write_new(temporary, bytes, exists ? &status : nullptr)) {
-        ::unlink(temporary.c_str());
-        return cannot("write", path, error);
-    }
-    if (::rename(temporary.c_str(), target.c_str()) != 0) {
-        const int error = errno;
-        ::unlink(temporary.c_str());
+    if (const int error = replace(target, bytes, exists ? &status : nullptr)) {
         return cannot("write", path, error);
     }
     return {};
@@ -152,10 +174,10 @@ Result<void> check_writable(const fs::path& path) {
                        "make the folder first");
     }
     // Trying is the only sure answer: permissions, read-only disks and quotas all have a say.
-    const fs::path temporary = temporary_beside(target);
-    Descriptor file(open_file(temporary, O_WRONLY | O_CREAT | O_EXCL, 0600));
-    if (!file.is_open()) return cannot("write", path, errno);
-    ::unlink(temporary.c_str());
+    const Descriptor folder(open_folder(folder_of(target)));
+    if (!folder.is_open()) return cannot("write", path, errno);
+    const TemporaryFile temporary(folder, 0600);
+    if (temporary.error() != 0) return cannot("write", path, temporary.error());
     return {};
 }
 

@@ -16,6 +16,9 @@ namespace cascade {
 /// (the size is looked at before reading).
 Result<std::string> read_file(const std::filesystem::path& path, std::uint64_t largest);
 
+/// The same of what is a file itself: links, pipes and devices are refused, without waiting.
+Result<std::string> read_plain_file(const std::filesystem::path& path, std::uint64_t largest);
+
 /// Writes beside the target and renames over it, so that no half-written file is ever seen; the
 /// temporary file is removed on failure. A full disk is a Failure.
 Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);

@@ -3,6 +3,7 @@
 
 #include "core/descriptor.h"
 #include "core/hash.h"
+#include "core/temporary_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,9 +12,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
+#include <ctime>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace cascade {
@@ -21,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view unfinished_suffix = ".new";
+constexpr std::size_t digits_of_name = 32;
 constexpr std::uint64_t largest_file = std::uint64_t{16} << 20;
 
 /// How a file begins. Key and content follow, and then it ends.
@@ -39,14 +41,20 @@ bool is_private(const struct stat& status) {
     return status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
 
-/// A link to a folder is none: whoever owns the link decides where it leads.
-bool is_own_folder(const fs::path& folder) {
+/// The user's own folder; a link to one is none: whoever owns the link decides where it leads.
+int open_own_folder(const fs::path& folder) {
+    Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
     struct stat status {};
-    return ::lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && is_private(status);
+    if (!opened.is_open() || ::fstat(opened.number(), &status) != 0 || !is_private(status)) return -1;
+    return opened.release();
 }
 
-std::string read_own_file(const fs::path& path) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+int open_to_read(const Descriptor& folder, const std::string& name) {
+    return ::openat(folder.number(), name.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+}
+
+std::string read_own_file(const Descriptor& folder, const std::string& name) {
+    const Descriptor file(open_to_read(folder, name));
     struct stat status {};
     if (!file.is_open() || ::fstat(file.number(), &status) != 0) return {};
     if (!S_ISREG(status.st_mode) || !is_private(status)) return {};
@@ -64,12 +72,6 @@ std::string read_own_file(const fs::path& path) {
     constexpr long day = 24 * 60 * 60;
     if (status.st_mtime + day < ::time(nullptr)) ::futimens(file.number(), nullptr);
     return bytes;
-}
-
-bool write_new_file(const fs::path& path, std::string_view bytes) {
-    const Descriptor file(
-        ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600));
-    return file.is_open() && write_all(file, bytes) == 0;
 }
 
 std::uint64_t checksum_of(std::string_view file) { return fnv1a(file.substr(checked_from)); }
@@ -102,62 +104,73 @@ std::optional<std::string> content_of(std::string_view file, std::string_view ma
     return std::string(file.substr(sizeof header + header.key_size));
 }
 
-/// Makes a folder that is the user's alone, and those above it as they usually are.
-bool make_own_folder(const fs::path& folder) {
-    if (is_own_folder(folder)) return true;
+/// Makes a folder that is the user's alone, and those above it as they usually are. Returns it open.
+int make_own_folder(const fs::path& folder) {
+    if (const int opened = open_own_folder(folder); opened >= 0) return opened;
     std::error_code error;
     fs::create_directories(folder.parent_path(), error);
-    return ::mkdir(folder.c_str(), 0700) == 0 || (errno == EEXIST && is_own_folder(folder));
+    if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) return -1;
+    return open_own_folder(folder);
+}
+
+/// Does a file begin as those of this kind do, in whatever version?
+bool has_magic(const Descriptor& folder, const std::string& name, std::string_view magic) {
+    const Descriptor file(open_to_read(folder, name));
+    char first[8] = {};
+    if (!file.is_open() || ::read(file.number(), first, sizeof first) != sizeof first) return false;
+    return std::string_view(first, sizeof first - 1) == magic.substr(0, sizeof first - 1);
 }
 
 }  // namespace
 
-std::filesystem::path KeptFiles::path_of(std::string_view key) const {
-    return folder_ / fmt::format("{:016x}{:016x}{}", fnv1a(key), fnv1a(key, 0x6c62272e07bb0142ULL),
-                                 kind_.suffix);
+std::string KeptFiles::name_of(std::string_view key) const {
+    return fmt::format("{:016x}{:016x}{}", fnv1a(key), fnv1a(key, 0x6c62272e07bb0142ULL), kind_.suffix);
+}
+
+bool KeptFiles::is_name(std::string_view name) const {
+    return name.size() == digits_of_name + kind_.suffix.size() && name.ends_with(kind_.suffix) &&
+           name.substr(0, digits_of_name).find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
 std::optional<std::string> KeptFiles::find(std::string_view key) const {
-    if (!is_on() || !is_own_folder(folder_)) return std::nullopt;
-    return content_of(read_own_file(path_of(key)), kind_.magic, key);
+    if (!is_on()) return std::nullopt;
+    const Descriptor folder(open_own_folder(folder_));
+    if (!folder.is_open()) return std::nullopt;
+    return content_of(read_own_file(folder, name_of(key)), kind_.magic, key);
 }
 
 void KeptFiles::keep(std::string_view key, std::string_view content) {
     const std::string bytes = is_on() ? file_of(kind_.magic, key, content) : std::string();
-    if (bytes.empty() || bytes.size() > largest_file || !make_own_folder(folder_)) return;
+    if (bytes.empty() || bytes.size() > largest_file) return;
+    const Descriptor folder(make_own_folder(folder_));
+    if (!folder.is_open()) return;
     // A day at the prompt may make many; looking through the folder takes as long as making one.
     constexpr unsigned often = 64;
-    const unsigned number = kept_.fetch_add(1);
-    if (number % often == 0) remove_oldest();
-    const fs::path unfinished =
-        folder_ / fmt::format("{}-{}-{}{}", static_cast<long>(::getpid()), number,
-                              reinterpret_cast<std::uintptr_t>(this), unfinished_suffix);
-    if (!write_new_file(unfinished, bytes) ||
-        ::rename(unfinished.c_str(), path_of(key).c_str()) != 0) {
-        ::unlink(unfinished.c_str());
-    }
+    if (kept_.fetch_add(1) % often == 0) remove_oldest(folder);
+    // What a crash of the machine leaves empty has no checksum: nothing waits for the disk.
+    TemporaryFile unfinished(folder, 0600);
+    if (unfinished.error() != 0 || write_all(unfinished.file(), bytes) != 0) return;
+    (void)unfinished.rename_to(name_of(key));
 }
 
-void KeptFiles::remove_oldest() const {
+void KeptFiles::remove_oldest(const Descriptor& folder) const {
     struct Kept {
-        fs::file_time_type time;
+        std::pair<std::int64_t, std::int64_t> time;  ///< Seconds and nanoseconds.
         std::uint64_t size;
-        fs::path path;
+        std::string name;
     };
     std::vector<Kept> files;
     std::uint64_t total = 0;
-    std::error_code error;
-    const auto an_hour_ago = fs::file_time_type::clock::now() - std::chrono::hours(1);
-    for (fs::directory_iterator at(folder_, error), end; !error && at != end; at.increment(error)) {
-        const fs::path extension = at->path().extension();
-        std::error_code fault;  // Another process may have removed it.
-        const auto time = at->last_write_time(fault);
-        const auto size = fault ? 0 : at->file_size(fault);
-        if (fault) continue;
-        // Left by a process that was killed while it wrote.
-        if (extension == unfinished_suffix && time < an_hour_ago) fs::remove(at->path(), fault);
-        if (extension != kind_.suffix) continue;
-        files.push_back({time, size, at->path()});
+    remove_dead_temporaries(folder);
+    for (std::string& name : names_in(folder)) {
+        struct stat status {};
+        if (!is_name(name) ||
+            ::fstatat(folder.number(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0 ||
+            !S_ISREG(status.st_mode)) {
+            continue;
+        }
+        const auto size = static_cast<std::uint64_t>(status.st_size);
+        files.push_back({{status.st_mtim.tv_sec, status.st_mtim.tv_nsec}, size, std::move(name)});
         total += size;
     }
     if (total <= kind_.limit) return;
@@ -165,7 +178,7 @@ void KeptFiles::remove_oldest() const {
               [](const Kept& a, const Kept& b) { return a.time < b.time; });
     for (const Kept& file : files) {
         if (total <= kind_.limit / 4 * 3) break;
-        fs::remove(file.path, error);
+        if (has_magic(folder, file.name, kind_.magic)) ::unlinkat(folder.number(), file.name.c_str(), 0);
         total -= file.size;
     }
 }

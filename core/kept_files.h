@@ -18,12 +18,14 @@
 
 namespace cascade {
 
+class Descriptor;
+
 class KeptFiles {
 public:
     /// What the files of one kind have in common. Kinds may share a folder.
     struct Kind {
         std::string_view suffix;   ///< Of their names, as ".kernel".
-        std::string_view magic;    ///< Eight bytes with which they begin.
+        std::string_view magic;    ///< Eight bytes with which they begin; the last one is a version.
         std::uint64_t limit = 0;   ///< Bytes of all of them, above which the oldest are removed.
     };
 
@@ -39,8 +41,9 @@ public:
     void keep(std::string_view key, std::string_view content);
 
 private:
-    std::filesystem::path path_of(std::string_view key) const;
-    void remove_oldest() const;
+    std::string name_of(std::string_view key) const;
+    bool is_name(std::string_view name) const;
+    void remove_oldest(const Descriptor& folder) const;
 
     std::filesystem::path folder_;
     Kind kind_;

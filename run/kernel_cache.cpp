@@ -1,4 +1,5 @@
 // Where compiled kernels are kept.
+#include "core/own_folder.h"
 #include "run/simulation.h"
 
 #include <cstdlib>
@@ -10,7 +11,8 @@ std::filesystem::path usual_kernel_cache() {
     if (const char* folder = variable("CASCADE_KERNEL_CACHE")) return folder;
     const auto in_folder = [](const std::filesystem::path& folder) {
         // The specification: what is relative is to be ignored.
-        return folder.is_absolute() ? folder / "cascade" / "kernels" : std::filesystem::path();
+        const std::filesystem::path kernels = folder / "cascade" / "kernels";
+        return folder.is_absolute() && may_keep_files_in(kernels) ? kernels : std::filesystem::path();
     };
     const char* caches = variable("XDG_CACHE_HOME");
     if (caches && *caches) return in_folder(caches);

@@ -2,12 +2,14 @@
 
 #include "core/file.h"
 #include "core/quantities.h"
+#include "core/temporary_file.h"
 #include "export/bake.h"
 #include "render/draw.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 namespace cascade {
@@ -75,9 +77,12 @@ std::vector<OutputFile> files_of(const RunRequest& request,
 Result<void> check_outputs(const RunRequest& request,
                            std::span<const std::filesystem::path> outputs) {
     std::vector<OutputFile> files = files_of(request, outputs);
+    std::set<std::filesystem::path> folders;
     for (const OutputFile& file : files) {
         if (auto good = check_writable(file.path); !good) return good;
+        folders.insert(file.path.parent_path());
     }
+    for (const auto& folder : folders) remove_dead_temporaries(folder);
     std::stable_sort(files.begin(), files.end(), [](const OutputFile& a, const OutputFile& b) {
         return a.path.lexically_normal() < b.path.lexically_normal();
     });
@@ -95,6 +100,7 @@ Result<void> check_folders(const RunRequest& request) {
         if (folder.empty()) continue;
         if (auto made = make_folder(folder); !made) return made;
         if (auto good = check_writable(folder / "run.json"); !good) return good;
+        remove_dead_temporaries(folder);
     }
     return {};
 }

@@ -19,7 +19,8 @@ std::vector<std::filesystem::path> turntable_paths(const std::filesystem::path& 
 /// What is asked for must fit the script; where it does not, the script's diagnostics say so.
 Result<void> check_request(Script& script, const RunRequest& request);
 
-/// Everything that could fail at the end of a long run is tried at its beginning. Leaves nothing behind.
+/// Everything that could fail at the end of a long run is tried at its beginning. Leaves nothing behind,
+/// also nothing of what killed runs left there.
 Result<void> check_outputs(const RunRequest& request,
                            std::span<const std::filesystem::path> outputs);
 /// Makes the folders, and tries them.

@@ -36,6 +36,13 @@ CASCADE_KERNEL_CACHE='' cascade_run none.png
 XDG_CACHE_HOME=relative cascade_run relative.png
 [ ! -e relative ] && [ ! -e "$HOME/.cache" ] || fail "a relative XDG_CACHE_HOME is used"
 
+# Nor in another user's home, as with sudo.
+if [ "$(id -u)" = 0 ]; then
+    mkdir guest && chown 1 guest
+    HOME=$PWD/guest cascade_run guest.png
+    [ ! -e guest/.cache ] || fail "root leaves a folder in another user's home"
+fi
+
 # Where they are.
 loads_llvm || fail "a first run makes code without LLVM"
 folder=$HOME/.cache/cascade/kernels

@@ -82,6 +82,18 @@ TEST_F(Files, WhatCannotBeReadSaysWhy) {
     }
 }
 
+TEST_F(Files, APlainFileIsNoLinkNoPipeAndNoDevice) {
+    std::ofstream(folder_ / "plain") << "text";
+    EXPECT_EQ(read_plain_file(folder_ / "plain", 10).value(), "text");
+    EXPECT_FALSE(read_plain_file(folder_ / "plain", 3));
+    fs::create_symlink("plain", folder_ / "link");
+    ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+    for (const fs::path& path : {folder_ / "link", folder_ / "pipe", fs::path("/dev/zero"), folder_}) {
+        EXPECT_FALSE(read_plain_file(path, 10)) << path;
+    }
+    EXPECT_NE(read_plain_file(folder_ / "pipe", 10).error().message.find("it is not a file"), std::string::npos);
+}
+
 TEST_F(Files, AWriteReplacesAndKeepsPermissions) {
     const fs::path path = folder_ / "picture.png";
     std::ofstream(path) << "old and longer";

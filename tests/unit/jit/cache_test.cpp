@@ -248,13 +248,30 @@ TEST_F(CacheTest, TheOldestGoWhereThereIsNoRoom) {
 
 TEST_F(CacheTest, WhatKilledProcessesLeftIsRemoved) {
     CodeCache(folder_).keep("key", some_image());
-    write(folder_ / "1-2-3.new", "half");
-    write(folder_ / "1-2-4.new", "just begun by another process");
-    fs::last_write_time(folder_ / "1-2-3.new",
-                        fs::file_time_type::clock::now() - std::chrono::hours(2));
+    const std::string dead = ".cascade-" + std::string(32, '1') + ".tmp";
+    const std::string young = ".cascade-" + std::string(32, '2') + ".tmp";
+    write(folder_ / dead, "half");
+    write(folder_ / young, "just begun by another process");
+    fs::last_write_time(folder_ / dead, fs::file_time_type::clock::now() - std::chrono::hours(2));
     CodeCache(folder_).keep("another key", some_image());
-    EXPECT_FALSE(fs::exists(folder_ / "1-2-3.new"));
-    EXPECT_TRUE(fs::exists(folder_ / "1-2-4.new"));
+    EXPECT_FALSE(fs::exists(folder_ / dead));
+    EXPECT_TRUE(fs::exists(folder_ / young));
+}
+
+TEST_F(CacheTest, NothingIsRemovedButWhatWasKeptHere) {
+    // Of all who may have a file in a folder that CASCADE_KERNEL_CACHE names.
+    fs::create_directories(folder_);
+    fs::permissions(folder_, fs::perms::owner_all);
+    const std::string digits(32, 'a');
+    const std::vector<std::string> others = {"notes.new", "app.conf.new", "my.kernel", digits + ".kernel",
+                                             digits + ".new", "1-2-3.tmp"};
+    for (const std::string& name : others) {
+        write(folder_ / name, std::string(20000, 'x'));
+        fs::last_write_time(folder_ / name, fs::file_time_type::clock::now() - std::chrono::hours(2));
+    }
+    for (int k = 0; k < 20; ++k) CodeCache(folder_, 5000).keep(std::to_string(k), {std::string(1000, 'x'), 0});
+    for (const std::string& name : others) EXPECT_TRUE(fs::exists(folder_ / name)) << name;
+    EXPECT_LT(files().size(), others.size() + 20);
 }
 
 TEST_F(CacheTest, ProcessesMayShareAFolder) {

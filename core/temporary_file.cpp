@@ -1,0 +1,116 @@
+#include "core/temporary_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <ctime>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <random>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace cascade {
+namespace {
+
+constexpr std::string_view beginning = ".cascade-";
+constexpr std::size_t digit_count = 32;
+
+/// Between the making of a file and its lock lies a moment, and not every network file system locks.
+constexpr std::time_t youngest_dead = 60 * 60;
+
+int make_new(const Descriptor& folder, const std::string& name, mode_t mode) {
+    int number = -1;
+    do {
+        number = ::openat(folder.number(), name.c_str(),
+                          O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+    } while (number < 0 && errno == EINTR);
+    return number;
+}
+
+/// Removes a file of the right name if its writer is dead.
+void remove_if_dead(const Descriptor& folder, const char* name) {
+    const Descriptor file(::openat(folder.number(), name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    struct stat status {};
+    if (!file.is_open() || ::fstat(file.number(), &status) != 0) return;
+    if (!S_ISREG(status.st_mode) || status.st_uid != ::geteuid()) return;
+    if (status.st_mtime > std::time(nullptr) - youngest_dead) return;
+    if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0) return;
+    ::unlinkat(folder.number(), name, 0);
+}
+
+}  // namespace
+
+std::string random_digits() {
+    std::array<std::uint32_t, 4> words{};
+    if (::getrandom(words.data(), sizeof words, 0) != static_cast<ssize_t>(sizeof words)) {
+        std::random_device device;
+        std::generate(words.begin(), words.end(), [&] { return device(); });
+    }
+    return fmt::format("{:08x}{:08x}{:08x}{:08x}", words[0], words[1], words[2], words[3]);
+}
+
+int open_folder(const std::filesystem::path& folder) {
+    return ::open(folder.empty() ? "." : folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+}
+
+TemporaryFile::TemporaryFile(const Descriptor& folder, mode_t mode, std::string_view ending)
+    : folder_(folder),
+      name_(fmt::format("{}{}{}", beginning, random_digits(), ending)),
+      file_(make_new(folder, name_, mode)) {
+    if (!file_.is_open()) {
+        error_ = errno;
+        return;
+    }
+    is_ours_ = true;
+    (void)::flock(file_.number(), LOCK_EX | LOCK_NB);  // Not every file system can.
+}
+
+TemporaryFile::~TemporaryFile() {
+    if (is_ours_) ::unlinkat(folder_.number(), name_.c_str(), 0);
+}
+
+int TemporaryFile::write(std::string_view bytes) {
+    if (error_ != 0) return error_;
+    if (const int error = write_all(file_, bytes)) return error;
+    // Without it a crash of the machine may leave the new name with no content behind it.
+    return ::fsync(file_.number()) == 0 || errno == EINVAL ? 0 : errno;
+}
+
+int TemporaryFile::rename_to(const std::string& name) {
+    if (error_ != 0) return error_;
+    if (!file_.close()) return errno;
+    if (::renameat(folder_.number(), name_.c_str(), folder_.number(), name.c_str()) != 0) return errno;
+    is_ours_ = false;
+    return 0;
+}
+
+int TemporaryFile::stay() {
+    if (error_ != 0) return error_;
+    if (!file_.close()) return errno;
+    is_ours_ = false;
+    return 0;
+}
+
+bool is_temporary_name(std::string_view name, std::string_view ending) {
+    if (name.size() != beginning.size() + digit_count + ending.size()) return false;
+    if (!name.starts_with(beginning) || !name.ends_with(ending)) return false;
+    const std::string_view digits = name.substr(beginning.size(), digit_count);
+    return digits.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+void remove_dead_temporaries(const Descriptor& folder) {
+    for (const std::string& name : names_in(folder)) {
+        if (is_temporary_name(name)) remove_if_dead(folder, name.c_str());
+    }
+}
+
+void remove_dead_temporaries(const std::filesystem::path& folder) {
+    const Descriptor opened(open_folder(folder));
+    if (opened.is_open()) remove_dead_temporaries(opened);
+}
+
+}  // namespace cascade
