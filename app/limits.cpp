@@ -1,34 +1,61 @@
 #include "app/limits.h"
 
+#include "core/check.h"
 #include "core/parallel.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <sys/resource.h>
+#include <sys/time.h>
 
 namespace cascade {
 
+namespace {
+
+// What the handler of the timer changes can only be found in variables of the process.
+std::atomic<std::atomic<bool>*> limited{nullptr};
+std::atomic<bool> is_reached{false};
+static_assert(std::atomic<std::atomic<bool>*>::is_always_lock_free);
+
+extern "C" void on_alarm(int) {
+    std::atomic<bool>* const cancel = limited.load();
+    if (cancel && !cancel->exchange(true)) is_reached = true;
+}
+
+void set_timer(double seconds) {
+    itimerval timer = {};
+    timer.it_value.tv_sec = static_cast<time_t>(seconds);
+    timer.it_value.tv_usec = static_cast<suseconds_t>((seconds - std::floor(seconds)) * 1e6);
+    if (seconds > 0 && timer.it_value.tv_sec == 0) {
+        timer.it_value.tv_usec = std::max<suseconds_t>(timer.it_value.tv_usec, 1);  // 0 would be never.
+    }
+    setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+}  // namespace
+
 TimeLimit::TimeLimit(double seconds, std::atomic<bool>& cancel) {
     if (!(seconds > 0)) return;
-    const auto end = std::chrono::steady_clock::now() +
-                     std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                         std::chrono::duration<double>(seconds));
-    clock_ = std::thread([this, end, &cancel] {
-        std::unique_lock lock(mutex_);
-        if (over_.wait_until(lock, end, [this] { return leaving_; })) return;
-        if (!cancel.exchange(true)) reached_ = true;
-    });
+    CHECK(limited.load() == nullptr, "one run at a time has a limit");
+    is_set_ = true;
+    is_reached = false;
+    limited = &cancel;
+    struct sigaction action = {};
+    action.sa_handler = on_alarm;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGALRM, &action, &before_);
+    set_timer(seconds);
 }
 
 TimeLimit::~TimeLimit() {
-    if (!clock_.joinable()) return;
-    {
-        const std::lock_guard lock(mutex_);
-        leaving_ = true;
-    }
-    over_.notify_all();
-    clock_.join();
+    if (!is_set_) return;
+    set_timer(0);
+    sigaction(SIGALRM, &before_, nullptr);
+    limited = nullptr;
 }
+
+bool TimeLimit::reached() const { return is_set_ && is_reached; }
 
 void limit_memory(std::uint64_t bytes) {
     if (bytes == 0) return;

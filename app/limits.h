@@ -2,15 +2,14 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
+#include <csignal>
 #include <cstdint>
-#include <mutex>
-#include <thread>
 
 namespace cascade {
 
 /// Ends a run as a Ctrl-C would: while it lives, sets `cancel` when `seconds` have passed; 0 never
-/// does. The time begins with the object.
+/// does. The time begins with the object. One at a time. It is a timer of the system and not a thread,
+/// which may be denied.
 class TimeLimit {
 public:
     TimeLimit(double seconds, std::atomic<bool>& cancel);
@@ -19,14 +18,11 @@ public:
     TimeLimit& operator=(const TimeLimit&) = delete;
 
     /// Has the time run out, before anything else has set `cancel`?
-    bool reached() const { return reached_; }
+    bool reached() const;
 
 private:
-    std::mutex mutex_;
-    std::condition_variable over_;
-    bool leaving_ = false;
-    std::atomic<bool> reached_{false};
-    std::thread clock_;
+    bool is_set_ = false;
+    struct sigaction before_ = {};
 };
 
 /// --limit-memory as a backstop: the system gives this process no more than `bytes`, and what the

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -131,7 +132,12 @@ Team::Team(int size) : state_(std::make_unique<State>()) {
     state_->size = size;
     state_->spins = size <= hardware_threads() ? 4000 : 50;
     for (int index = 1; index < size; ++index) {
-        state_->workers.emplace_back([state = state_.get(), index] { state->serve(index); });
+        try {
+            state_->workers.emplace_back([state = state_.get(), index] { state->serve(index); });
+        } catch (const std::system_error&) {
+            state_->size = index;  // Those that wait look at it when they are given work.
+            break;
+        }
     }
 }
 

@@ -10,23 +10,32 @@
 namespace cascade {
 
 struct RayCaster::Scene {
-    RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     ~Scene() {
         if (scene) rtcReleaseScene(scene);
-        if (device) rtcReleaseDevice(device);
     }
 };
+
+namespace {
+
+/// The process's only one, which is never given back: when the last one goes, the library that shares
+/// Embree's work begins threads, and ends the program where the system denies them.
+RTCDevice the_device() {
+    // One instruction set for all processors; building on one thread gives one tree.
+    static const RTCDevice device = rtcNewDevice("isa=sse2,threads=1,set_affinity=0");
+    CHECK(device, "the ray tracer starts");
+    return device;
+}
+
+}  // namespace
 
 RayCaster::RayCaster(const TriangleMesh& mesh) : scene_(std::make_unique<Scene>()) {
     CHECK(!mesh.triangles.empty(), "something is there to be drawn");
     Scene& self = *scene_;
-    // One instruction set for all processors; building on one thread gives one tree.
-    self.device = rtcNewDevice("isa=sse2,threads=1,set_affinity=0");
-    CHECK(self.device, "the ray tracer starts");
-    self.scene = rtcNewScene(self.device);
+    const RTCDevice device = the_device();
+    self.scene = rtcNewScene(device);
     rtcSetSceneFlags(self.scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(self.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* positions = static_cast<float*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                 3 * sizeof(float), mesh.positions.size()));
@@ -49,7 +58,7 @@ RayCaster::RayCaster(const TriangleMesh& mesh) : scene_(std::make_unique<Scene>(
     rtcAttachGeometry(self.scene, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(self.scene);
-    if (rtcGetDeviceError(self.device) != RTC_ERROR_NONE) throw std::bad_alloc();
+    if (rtcGetDeviceError(device) != RTC_ERROR_NONE) throw std::bad_alloc();
 }
 
 RayCaster::~RayCaster() = default;

@@ -2,6 +2,7 @@
 
 #include "core/file.h"
 #include "core/parallel.h"
+#include "core/temporary_file.h"
 #include "run/measured.h"
 #include "run/memory.h"
 #include "run/png_texts.h"
@@ -13,6 +14,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace cascade {
@@ -86,6 +88,7 @@ private:
     int workers_ = 1;
     SweepReport report_;
     Clock::time_point begun_;
+    bool is_alone_ = false;           ///< No thread was to be had: the caller's does the runs.
 
     std::mutex mutex_;                ///< Guards what follows, and `results_` while runs go on.
     std::condition_variable changed_;
@@ -156,6 +159,7 @@ Result<void> Sweeper::prepare_folders() {
     for (const char* name : {"sheet.png", "features.csv", "runs/x.json"}) {
         if (auto good = check_writable(folder_ / name); !good) return good;
     }
+    for (const auto& folder : {folder_, folder_ / "runs"}) remove_dead_temporaries(folder);
     return {};
 }
 
@@ -267,9 +271,14 @@ void Sweeper::work(const std::vector<std::size_t>& waiting, RunControl& control)
                                                       static_cast<double>(progress.steps)
                                                 : 1;
         const double share = (progress.stage_number - 1 + stage) / progress.stage_count;
-        const std::lock_guard lock(mutex_);
-        shares_done_ += share - counted;
-        counted = share;
+        {
+            const std::lock_guard lock(mutex_);
+            shares_done_ += share - counted;
+            counted = share;
+        }
+        if (!is_alone_) return;
+        if (control_.cancel) control.cancel = true;
+        report();
     };
     while (true) {
         std::size_t number = 0;
@@ -327,7 +336,18 @@ void Sweeper::run_all(const std::vector<std::size_t>& waiting) {
     std::vector<std::thread> threads;
     for (int w = 0; w < workers_; ++w) {
         controls.push_back(std::make_unique<RunControl>());
-        threads.emplace_back([&, control = controls.back().get()] { work(waiting, *control); });
+        try {
+            threads.emplace_back([&, control = controls.back().get()] { work(waiting, *control); });
+        } catch (const std::system_error&) {
+            // No more threads are to be had: those that there are do the work, or this one alone.
+            const std::lock_guard lock(mutex_);
+            working_ -= static_cast<std::size_t>(workers_ - std::max(w, 1));
+            break;
+        }
+    }
+    if (threads.empty()) {
+        is_alone_ = true;
+        work(waiting, *controls[0]);
     }
     watch(controls);
     for (std::thread& thread : threads) thread.join();
