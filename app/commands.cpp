@@ -3,12 +3,15 @@
 #include "app/exit_status.h"
 #include "core/counted.h"
 #include "core/file.h"
+#include "core/near_name.h"
+#include "lang/library.h"
 #include "lang/parse.h"
 #include "run/dump.h"
 #include "run/memory.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <unistd.h>
@@ -40,6 +43,32 @@ Result<LoadedFile> load_file(const std::string& path, const Overrides& overrides
     auto text = read_standard_input();
     if (!text) return tl::unexpected(text.error());
     return LoadedFile{load_script("<standard input>", std::move(*text), ".", overrides), ""};
+}
+
+/// For a path that nothing has: a file of nearly its name, or how to get a system of the library.
+std::string advice_on_missing(const std::filesystem::path& path) {
+    std::error_code error;
+    if (std::filesystem::exists(path, error)) return "";
+    if (find_library_text(path.string())) {
+        return fmt::format("'cascade new {}' prints a script of that system", path.string());
+    }
+    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    std::vector<std::string> names;
+    constexpr std::size_t most_names = 1000;
+    for (auto each = std::filesystem::directory_iterator(folder, error);
+         !error && each != std::filesystem::directory_iterator() && names.size() < most_names;
+         each.increment(error)) {
+        const auto ending = each->path().extension();
+        if (ending == ".cascade" || ending == ".png") {
+            names.push_back(each->path().filename().string());
+        }
+    }
+    std::sort(names.begin(), names.end());
+    std::string near = nearest_name(path.filename().string(), names);
+    if (near.empty()) near = nearest_name(path.filename().string() + ".cascade", names);
+    if (near.empty()) return "";
+    const auto beside = path.has_parent_path() ? path.parent_path() / near : std::filesystem::path(near);
+    return fmt::format("did you mean '{}'?", beside.string());
 }
 
 /// "2 stages, 35000 steps, 64 × 64 cells". Steps that only the run will know are not counted.
@@ -88,7 +117,9 @@ std::optional<LoadedFile> load(const std::string& path, const Overrides& overrid
                                const Console& console) {
     auto file = load_file(path, overrides);
     if (file) return std::move(*file);
-    console.fail(file.error());
+    Failure failure = file.error();
+    if (failure.hint.empty()) failure.hint = advice_on_missing(path);
+    console.fail(failure);
     return std::nullopt;
 }
 

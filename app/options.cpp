@@ -8,6 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <optional>
 
 namespace cascade {
@@ -264,6 +266,18 @@ std::string missing_argument(const Options& options) {
     return "";
 }
 
+/// What stands behind `--` is no option. Whatever is given without an option is a path or a name, and
+/// a path that begins with '-' is the same with './' in front.
+std::vector<std::string> without_terminator(std::vector<std::string> arguments) {
+    const auto mark = std::find(arguments.begin(), arguments.end(), "--");
+    if (mark == arguments.end()) return arguments;
+    for (auto each = mark + 1; each != arguments.end(); ++each) {
+        if (each->starts_with('-') && *each != "-") *each = "./" + *each;
+    }
+    arguments.erase(mark);
+    return arguments;
+}
+
 }  // namespace
 
 PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
@@ -284,8 +298,9 @@ std::variant<Options, Leave> parse_options(const std::string& program,
                                            const std::vector<std::string>& arguments) {
     Parser parser(program);
     try {
-        // CLI11 takes the arguments from the back.
-        parser.app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+        std::vector<std::string> words = without_terminator(arguments);
+        std::reverse(words.begin(), words.end());  // CLI11 takes them from the back.
+        parser.app.parse(std::move(words));
     } catch (const CLI::CallForHelp&) {
         return Leave{exit_status::success, parser.help()};
     } catch (const CLI::ParseError& error) {

@@ -3,6 +3,7 @@
 #include "core/palette.h"
 #include "ir/space.h"
 #include "lang/expression_checker.h"
+#include "lang/words_elsewhere.h"
 
 #include <fmt/format.h>
 
@@ -14,22 +15,9 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr std::array<std::string_view, 1> later_functions{"integral"};
 constexpr double largest_of_points = 1e15;
 /// What is taken over something, as in sum(e over i).
 constexpr std::array<std::string_view, 3> only_over{"sum", "mean", "product"};
-
-/// Words that are called like functions elsewhere, in other languages or in this one.
-std::string hint_of_word(std::string_view word) {
-    for (const std::string_view each : {"laplacian", "Laplacian", "laplace", "del2", "nabla2"}) {
-        if (word == each) return "did you mean 'lap'?";
-    }
-    if (word == "steady") return "it stands alone behind 'until:'";
-    if (word == "fixed" || word == "flux") return "it stands behind a side, as in u.left: fixed(1)";
-    if (word == "ln") return "did you mean 'log'?";
-    if (word == "rand") return "did you mean 'random'?";
-    return "";
-}
 
 std::string number_of_values(Arity arity) {
     if (arity.is_groups) {
@@ -130,17 +118,12 @@ bool is_function_name(std::string_view name) {
 
 void report_unknown_function(Workspace& work, const ast::Word& name,
                              const std::vector<std::string>& own) {
-    if (std::find(later_functions.begin(), later_functions.end(), name.text) !=
-        later_functions.end()) {
-        return work.diagnostics.error(
-            name.span, fmt::format("'{}' is not in this version of the language", name.text));
-    }
     if (std::find(only_over.begin(), only_over.end(), name.text) != only_over.end()) {
         return work.diagnostics.error(
             name.span, fmt::format("{} is taken over something", name.text),
             fmt::format("write {0}(e over i) or {0}(e over domain)", name.text));
     }
-    std::string hint = hint_of_word(name.text);
+    std::string hint(advice_about(name.text, WordPlace::function));
     if (hint.empty() && !is_hopeless(work)) {
         std::vector<std::string> names = own;
         for (std::size_t i = 0; i < function_count; ++i) {

@@ -1,5 +1,6 @@
 // The `domain` and `picture` blocks.
 #include "lang/check_blocks.h"
+#include "lang/words_elsewhere.h"
 
 #include <fmt/format.h>
 
@@ -91,8 +92,10 @@ std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& 
     const std::string_view word = name != nullptr ? name->name : std::string_view();
     if (word == "periodic") return Boundary::periodic;
     if (word == "noflux") return Boundary::no_flux;
-    work.diagnostics.error(value.span, "the boundary is periodic or noflux",
-                           did_you_mean(work, word, {"periodic", "noflux"}));
+    const auto* call = std::get_if<ast::Call>(&value.node);
+    std::string hint(advice_about(call ? call->function.text : word, WordPlace::boundary));
+    if (hint.empty()) hint = did_you_mean(work, word, {"periodic", "noflux"});
+    work.diagnostics.error(value.span, "the boundary is periodic or noflux", std::move(hint));
     return std::nullopt;
 }
 
@@ -197,10 +200,13 @@ void check_domain_sentence(Workspace& work, const ast::Script& script,
     } else if (is_surface_setting(key) || is_model_setting(key)) {
         return;  // They come together, see below.
     } else {
-        std::string hint = did_you_mean(work, key, {"grid", "spacing", "boundary", "seed", "mask",
-                                                   "precision", "left", "right", "top", "bottom",
-                                                   "front", "back", "sides", "mesh", "cells",
-                                                   "laplacian", "directions", "stretch", "up"});
+        std::string hint(advice_about(key, WordPlace::domain));
+        if (hint.empty()) {
+            hint = did_you_mean(work, key, {"grid", "spacing", "boundary", "seed", "mask",
+                                            "precision", "left", "right", "top", "bottom",
+                                            "front", "back", "sides", "mesh", "cells",
+                                            "laplacian", "directions", "stretch", "up"});
+        }
         if (hint.empty()) {
             hint = "a domain has grid, spacing, boundary, sides, mask, precision, seed, surface and mesh";
         }
@@ -264,10 +270,11 @@ void check_picture(Workspace& work, const ast::Script& script) {
     for (const ast::Sentence& sentence : block->sentences) {
         if (sentence.name.empty() || sentence.values.empty()) continue;
         if (sentence.kind != ast::SentenceKind::value || sentence.name.text != "color") {
+            const std::string_view advice = advice_about(sentence.name.text, WordPlace::picture);
             work.diagnostics.error(
                 sentence.name.span,
                 fmt::format("'{}' is not a setting of the picture", sentence.name.text),
-                "a picture has color: …");
+                advice.empty() ? "a picture has color: …" : std::string(advice));
         } else if (first != nullptr) {
             report_twice(work, sentence.name.span, first->name.span,
                          "'color' is given a value twice");

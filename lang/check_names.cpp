@@ -1,6 +1,8 @@
 // Resolving names: from a word in an expression to the item, definition or built-in it stands for.
 #include "lang/check_names.h"
 
+#include "lang/words_elsewhere.h"
+
 #include <fmt/format.h>
 
 #include <numbers>
@@ -142,7 +144,9 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
     }
     if (is_incomplete(work, scope.system)) return;
     const std::string names = list_names(quantity_names(system));
-    std::string hint = did_you_mean(work, name, readable_names(system, scope));
+    std::string hint(advice_about(name, WordPlace::value));
+    if (hint.empty()) hint = did_you_mean(work, name, readable_names(system, scope));
+    if (hint.empty() && scope.place == Place::rate) hint = fmt::format("add {}: 0.1, for example", name);
     if (function_named(name)) hint = fmt::format("'{0}' is a function: {0}(…)", name);
     if (name == "steady") hint = "write steady(0.1)";
     std::string note = fmt::format("{} has {}", system.name, names);
@@ -211,7 +215,8 @@ void report_unknown_previous(Workspace& work, const Scope& scope, std::string_vi
     if (scope.system != unknown_system && find(work.names[scope.system], name) != nullptr) {
         hint = fmt::format("[{0}] is the '{0}' of this stage", name);
     } else {
-        hint = did_you_mean(work, name, readable_names(system, scope));
+        hint = advice_about(name, WordPlace::value);
+        if (hint.empty()) hint = did_you_mean(work, name, readable_names(system, scope));
     }
     report(work, span, not_a_parameter(name, system), std::move(hint),
            fmt::format("bare names read the previous stage '{}' ({}: {})", previous.name,

@@ -1,5 +1,6 @@
 // Changes from outside the script, as of --set: which stages each of them is for.
 #include "lang/check_blocks.h"
+#include "lang/words_elsewhere.h"
 
 #include <fmt/format.h>
 
@@ -35,9 +36,18 @@ void report_unknown_override(Workspace& work, const ast::Word& name) {
             names.push_back(std::move(each));
         }
     }
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    Diagnostic diagnostic;
+    diagnostic.span = name.span;
+    diagnostic.message = fmt::format("no stage has a parameter '{}'", name.text);
+    diagnostic.hint = advice_about(name.text, WordPlace::stage);
+    if (!names.empty()) {
+        diagnostic.notes.push_back({std::nullopt, "there are " + list_names(names)});
+    }
     names.insert(names.end(), setting_names().begin(), setting_names().end());
-    work.diagnostics.error(name.span, fmt::format("no stage has a parameter '{}'", name.text),
-                           did_you_mean(work, name.text, names));
+    if (diagnostic.hint.empty()) diagnostic.hint = did_you_mean(work, name.text, names);
+    work.diagnostics.add(std::move(diagnostic));
 }
 
 void report_unknown_stage(Workspace& work, const ast::Word& name) {

@@ -15,13 +15,27 @@ Span span_of(const ast::Script& script, ast::Expression expression) {
     return script.expressions[expression.root].span;
 }
 
+/// `0,0125`: digits on both sides of a comma without a blank are a number of other countries.
+std::string hint_of_decimal_comma(const ast::Script& script, const ast::Sentence& sentence) {
+    if (sentence.values.size() != 2) return "";
+    const Span whole = span_of(script, sentence.values[0]);
+    const Span part = span_of(script, sentence.values[1]);
+    const auto is_number = [&](std::size_t k) {
+        return std::holds_alternative<ast::Number>(
+            script.expressions[sentence.values[k].root].node);
+    };
+    if (!is_number(0) || !is_number(1) || part.begin != whole.end + 1) return "";
+    return "a decimal point is a point: write '.' for ','";
+}
+
 }  // namespace
 
 bool has_one_value(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
     if (sentence.values.size() == 1) return true;
     if (sentence.values.empty()) return false;
     work.diagnostics.error(span_of(script, sentence.values[1]),
-                           fmt::format("'{}' takes one value", sentence.name.text));
+                           fmt::format("'{}' takes one value", sentence.name.text),
+                           hint_of_decimal_comma(script, sentence));
     return false;
 }
 

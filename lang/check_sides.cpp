@@ -2,6 +2,7 @@
 // `left: fixed(0)` of all species in the domain.
 #include "lang/check_blocks.h"
 #include "lang/statements.h"
+#include "lang/words_elsewhere.h"
 
 #include <fmt/format.h>
 
@@ -44,8 +45,10 @@ std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
     const std::string_view word = name ? name->name : call ? call->function.text : std::string_view();
     const auto kind = kind_of_word(word);
     if (!kind) {
+        std::string hint(advice_about(word, WordPlace::side));
+        if (hint.empty()) hint = did_you_mean(work, word, {"periodic", "noflux", "fixed", "flux"});
         work.diagnostics.error(value.span, "a side is periodic, noflux, fixed(…) or flux(…)",
-                               did_you_mean(work, word, {"periodic", "noflux", "fixed", "flux"}));
+                               std::move(hint));
         return std::nullopt;
     }
     if (takes_value(*kind) && (!call || call->argument_count != 1)) {

@@ -5,6 +5,7 @@
 #include "lang/check_expression.h"
 #include "lang/library.h"
 #include "lang/check_time.h"
+#include "lang/words_elsewhere.h"
 
 #include <fmt/format.h>
 
@@ -100,7 +101,9 @@ std::vector<Statement> StageChecker::collect(const ast::Block& block,
         if (value == nullptr) {
             if (sentence.kind == ast::SentenceKind::value) continue;
             work_.diagnostics.error(sentence.span, "a stage holds values only (name: …)",
-                                    "rates, definitions and bounds belong in a system");
+                                    sentence.kind == ast::SentenceKind::definition
+                                        ? fmt::format("write {}: …", sentence.name.text)
+                                        : "rates, definitions and bounds belong in a system");
             continue;
         }
         if (sentence.range) {
@@ -188,7 +191,8 @@ void StageChecker::report_unknown(const Statement& statement) {
         diagnostic.notes.push_back({std::nullopt, fmt::format("{} has {}", system().name,
                                                               list_names(names))});
         names.insert(names.end(), setting_names().begin(), setting_names().end());
-        diagnostic.hint = did_you_mean(work_, statement.name, names);
+        diagnostic.hint = advice_about(statement.name, WordPlace::stage);
+        if (diagnostic.hint.empty()) diagnostic.hint = did_you_mean(work_, statement.name, names);
         if (is_side_word(statement.name)) {
             diagnostic.hint = fmt::format("a side of one species is SPECIES.{0}: …, of all {0}: … in the domain",
                                           statement.name);

@@ -43,6 +43,7 @@ private:
     void report_rate_of_definition(const Statement& rate);
     void report_no_species(const Statement& statement, const Meaning* meaning);
     void report_families();
+    void report_no_rates();
     std::optional<CheckedExpression> check_value(const Statement& statement, Place place);
     void check_values();
     void check_definitions();
@@ -72,9 +73,7 @@ void SystemChecker::run() {
     rates_.resize(system().quantities.size());
     for (const Statement* statement : rate_sentences_) collect_rate(*statement);
     if (rate_sentences_.empty() && !is_incomplete(work_, index_)) {
-        work_.diagnostics.error(system().span,
-                                fmt::format("system '{}' has no rates", system().name),
-                                "a rate is written name' = …");
+        report_no_rates();
     }
     work_.items_read[index_].assign(system().item_count(), false);
     work_.definitions_read[index_].assign(system().definitions.size(), false);
@@ -85,6 +84,26 @@ void SystemChecker::run() {
     check_settings();
     order_values();
     order_steps();
+}
+
+/// `u_t = …` is a definition here, and a rate on paper.
+void SystemChecker::report_no_rates() {
+    const auto is_paper_rate = [&](const Statement* each) {
+        return each->name.size() > 2 && each->name.ends_with("_t");
+    };
+    const auto found = std::find_if(definitions_.begin(), definitions_.end(), is_paper_rate);
+    if (found == definitions_.end()) {
+        work_.diagnostics.error(system().span,
+                                fmt::format("system '{}' has no rates", system().name),
+                                "a rate is written name' = …");
+        return;
+    }
+    for (auto each = found; each != definitions_.end(); ++each) {
+        if (!is_paper_rate(*each)) continue;
+        const std::string_view name = (*each)->name;
+        work_.diagnostics.error((*each)->span(), fmt::format("'{}' is no rate", name),
+                                fmt::format("write {}' = …", name.substr(0, name.size() - 2)));
+    }
 }
 
 bool SystemChecker::can_declare(const Statement& statement) {
@@ -162,13 +181,13 @@ void SystemChecker::report_families() {
     }
 }
 
-/// A name is a definition and has a rate. In a system that is derived from another one the later of
-/// the two is the slip.
+/// A name is a definition and has a rate: `u = 1` in place of `u: 1`. In a system that is derived
+/// from another one the later of the two is the slip.
 void SystemChecker::report_rate_of_definition(const Statement& rate) {
     const auto definition =
         std::find_if(definitions_.begin(), definitions_.end(),
                      [&](const Statement* each) { return each->name == rate.name; });
-    if (definition != definitions_.end() && (*definition)->level > rate.level) {
+    if (definition != definitions_.end() && (*definition)->level >= rate.level) {
         work_.diagnostics.error((*definition)->span(),
                                 fmt::format("'{}' is a species and cannot be a definition", rate.name),
                                 fmt::format("write {}: … for its starting value", rate.name));

@@ -1,5 +1,6 @@
 // What nothing reads: mostly a name that was misspelt.
 #include "lang/check_blocks.h"
+#include "lang/words_elsewhere.h"
 
 #include <fmt/format.h>
 
@@ -71,9 +72,11 @@ void warn_unread(Workspace& work) {
             if (system.base) {
                 report_change_of_nothing(work, system, unread);
             } else {
+                const bool is_parameter = unread.kind == std::string_view("parameter");
+                const auto place = WordPlace::stage;  // Its settings are those of a system, too.
                 work.diagnostics.warning(
-                    unread.span,
-                    fmt::format("{} '{}' is never read", unread.kind, *unread.name));
+                    unread.span, fmt::format("{} '{}' is never read", unread.kind, *unread.name),
+                    std::string(is_parameter ? advice_about(*unread.name, place) : ""));
             }
         }
     }

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <optional>
 #include <utility>
 
 namespace cascade {
@@ -18,6 +20,34 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_name_part(char c) { return is_name_start(c) || is_digit(c); }
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+
+/// `0x10` of programs and `100x100` of screens; nothing for other words.
+std::optional<std::string> hint_of_other_number(std::string_view word) {
+    constexpr std::size_t longest = 18;
+    const std::size_t cross = word.find_first_of("xX");
+    if (cross == std::string_view::npos || cross + 1 == word.size() || word.size() > longest) {
+        return std::nullopt;
+    }
+    const std::string_view before = word.substr(0, cross), behind = word.substr(cross + 1);
+    std::uint64_t value = 0;
+    const auto [end, fault] =
+        std::from_chars(behind.data(), behind.data() + behind.size(), value, 16);
+    if (before == "0" && fault == std::errc() && end == behind.data() + behind.size()) {
+        return fmt::format("write {}", value);
+    }
+    const auto is_whole = [](std::string_view text) {
+        return !text.empty() && std::all_of(text.begin(), text.end(), is_digit);
+    };
+    std::string list(before);
+    for (std::string_view rest = behind; is_whole(before);) {
+        const std::size_t next = std::min(rest.find_first_of("xX"), rest.size());
+        if (!is_whole(rest.substr(0, next))) break;
+        list += fmt::format(", {}", rest.substr(0, next));
+        if (next == rest.size()) return fmt::format("write '{}'", list);
+        rest.remove_prefix(next + 1);
+    }
+    return std::nullopt;
+}
 
 class Lexer {
 public:
@@ -257,6 +287,7 @@ void Lexer::read_number() {
         hint = fmt::format("write '{} * {}'", text_.substr(begin, number_end - begin), tail);
     }
     if (tail == "e" || tail == "E") hint = "an exponent has digits, as in 1e-3";
+    if (const auto number = hint_of_other_number(text_.substr(begin, end - begin))) hint = *number;
     diagnostics_.error(span(begin, end),
                        fmt::format("'{:.40}' is not a number", text_.substr(begin, end - begin)),
                        hint);

@@ -51,7 +51,7 @@ inline constexpr ForeignOperator foreign_operators[] = {
     {"/=", TokenKind::plus_assign, "there is only '+='"},
     {"&", TokenKind::keyword_and, "write 'and'"},
     {"|", TokenKind::keyword_or, "write 'or'"},
-    {"%", TokenKind::garbage, "there is no remainder in the language"},
+    {"%", TokenKind::garbage, "write mod(a, b) for a % b"},
 };
 
 /// Looked for when no operator of the language is there: `!=` is one.

@@ -35,22 +35,35 @@ void ScriptParser::parse_item() {
         }
         return;
     }
-    if (cursor_.begins_block()) return parse_block();
+    if (cursor_.begins_block()) return parse_block(cursor_.text(cursor_.peek()));
     if (begins_classic_stage()) return parse_classic_stage();
-    if (parse_function_or_use()) return;
+    if (parse_function_or_use() || parse_misspelt_block()) return;
     if (!in_classic_stage_) return parse_outside_sentence();
     if (auto sentence = parse_sentence()) {
         add_sentence(script_.blocks.back(), std::move(*sentence));
     }
 }
 
-void ScriptParser::parse_block() {
+/// `System s {`: read as the block that is meant, so that nothing else seems to be missing.
+bool ScriptParser::parse_misspelt_block() {
+    if (!cursor_.at(TokenKind::name) || !has_shape_of_block(1)) return false;
+    const std::string meant = report_no_block(cursor_.word(cursor_.peek()));
+    if (meant.empty()) {
+        cursor_.skip_sentence();
+    } else {
+        parse_block(meant);
+    }
+    return true;
+}
+
+/// The block that begins here, with a keyword that may be misspelt.
+void ScriptParser::parse_block(std::string_view keyword) {
     in_classic_stage_ = false;
     outside_reported_ = false;
     ast::Block block;
     block.doc = docs_before();
     block.keyword = cursor_.word(cursor_.take());
-    block.kind = kind_of_keyword(block.keyword.text);
+    block.kind = kind_of_keyword(keyword);
     if (block.kind == ast::BlockKind::system) {
         parse_header_of_system(block);
     } else if (block.kind == ast::BlockKind::stage) {

@@ -147,7 +147,7 @@ bool ScriptParser::parse_relation(ast::Sentence& sentence) {
             cursor_.skip_sentence();
             return false;
         case TokenKind::garbage: cursor_.skip_sentence(); return false;
-        default: return report_missing_colon(sentence);
+        default: return take_paper_rate(sentence) || report_missing_colon(sentence);
     }
     cursor_.take();
     return true;
@@ -173,6 +173,7 @@ bool ScriptParser::parse_rate_relation(ast::Sentence& sentence) {
     }
     sentence.kind = ast::SentenceKind::rate;
     if (cursor_.take_if(TokenKind::assign)) return true;
+    if (cursor_.at(TokenKind::prime)) return report_second_rate(sentence);
     if (!cursor_.at(TokenKind::garbage)) {
         cursor_.error(join(sentence.name.span, cursor_.previous().span),
                       "a rate is written with '=' or '+='",
@@ -184,19 +185,40 @@ bool ScriptParser::parse_rate_relation(ast::Sentence& sentence) {
     return false;
 }
 
+/// `u'' = e`: what is said of it stays unread, for no first rate means the same.
+bool ScriptParser::report_second_rate(const ast::Sentence& sentence) {
+    while (cursor_.at(TokenKind::prime)) cursor_.take();
+    const std::string name = shortened(sentence.name.text);
+    cursor_.error(join(sentence.name.span, cursor_.previous().span),
+                  "rates are first derivatives by time",
+                  fmt::format("make the rate a species: write v: 0; {}' = v; v' = …", name));
+    cursor_.skip_sentence();
+    return false;
+}
+
+/// `du/dt = e`, read on as the rate of u.
+bool ScriptParser::take_paper_rate(ast::Sentence& sentence) {
+    const std::string_view name = sentence.name.text;
+    const bool is_rate = name.size() > 1 && name[0] == 'd' && cursor_.at(TokenKind::slash) &&
+                         cursor_.at_name("dt", 1) && cursor_.kind(2) == TokenKind::assign;
+    if (!is_rate) return false;
+    const Span derivative = join(sentence.name.span, cursor_.peek(1).span);
+    for (int k = 0; k < 3; ++k) cursor_.take();
+    sentence.kind = ast::SentenceKind::rate;
+    sentence.name.text = name.substr(1);
+    ++sentence.name.span.begin;
+    cursor_.error(derivative, "a rate is written with a prime",
+                  fmt::format("write {}' = …", shortened(sentence.name.text)));
+    return true;
+}
+
 /// A name is followed by something that makes no sentence: mostly the colon is missing, or the name
 /// should begin a block. True if the value can be read on.
 bool ScriptParser::report_missing_colon(const ast::Sentence& sentence) {
     const ast::Word& name = sentence.name;
     const std::string quoted = cursor_.describe({TokenKind::name, name.span});
-    std::size_t ahead = cursor_.at(TokenKind::name) ? 1 : 0;
-    if (cursor_.kind(ahead) == TokenKind::newline) ++ahead;
-    if (cursor_.kind(ahead) == TokenKind::open_curly || begins_misspelt_stage()) {
-        const std::array<std::string, 4> keywords = {"system", "stage", "domain", "picture"};
-        const std::string near = nearest_name(name.text, keywords);
-        cursor_.error(name.span, quoted + " begins no block",
-                      near.empty() ? "blocks are system, stage, domain and picture"
-                                   : "did you mean '" + near + "'?");
+    if (has_shape_of_block(0)) {
+        report_no_block(name);
         cursor_.skip_sentence();
         return false;
     }
@@ -218,10 +240,27 @@ bool ScriptParser::report_missing_colon(const ast::Sentence& sentence) {
     }
 }
 
-/// `stag large: leopard {`
-bool ScriptParser::begins_misspelt_stage() const {
-    return cursor_.kind() == TokenKind::name && cursor_.kind(1) == TokenKind::colon &&
-           cursor_.kind(2) == TokenKind::name && cursor_.kind(3) == TokenKind::open_curly;
+/// Does what stands `ahead` of here go on like a block behind its keyword? ` {`, ` large {`,
+/// ` large: leopard {`.
+bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
+    const bool is_derived = cursor_.kind(ahead) == TokenKind::name &&
+                            cursor_.kind(ahead + 1) == TokenKind::colon &&
+                            cursor_.kind(ahead + 2) == TokenKind::name;
+    if (is_derived) return cursor_.kind(ahead + 3) == TokenKind::open_curly;
+    if (cursor_.kind(ahead) == TokenKind::name) ++ahead;
+    if (cursor_.kind(ahead) == TokenKind::newline) ++ahead;
+    return cursor_.kind(ahead) == TokenKind::open_curly;
+}
+
+/// Says that a word begins no block; returns the keyword that is meant, if it can be told.
+std::string ScriptParser::report_no_block(const ast::Word& word) {
+    const std::array<std::string, 4> keywords = {"system", "stage", "domain", "picture"};
+    std::string near = nearest_name(word.text, keywords);
+    cursor_.error(word.span,
+                  cursor_.describe({TokenKind::name, word.span}) + " begins no block",
+                  near.empty() ? "blocks are system, stage, domain and picture"
+                               : "did you mean '" + near + "'?");
+    return near;
 }
 
 /// One expression, or several with commas between them.
@@ -242,6 +281,11 @@ void ScriptParser::parse_values(ast::Sentence& sentence) {
     if (cursor_.at(TokenKind::dots)) parse_end_of_index(sentence);
     while (cursor_.at(TokenKind::comma)) {
         const Token comma = cursor_.take();
+        if (cursor_.begins_sentence()) {
+            cursor_.error(comma.span, "a comma stands between values, not between sentences",
+                          "write ';'");
+            break;
+        }
         if (sentence.kind != ast::SentenceKind::value) {
             cursor_.error(comma.span, "only a value may be a list", "write one expression");
             cursor_.skip_sentence();

@@ -28,7 +28,8 @@ public:
 private:
     // Blocks (parser_blocks.cpp).
     void parse_item();
-    void parse_block();
+    void parse_block(std::string_view keyword);
+    bool parse_misspelt_block();
     void parse_header_of_system(ast::Block& block);
     void parse_header_of_stage(ast::Block& block);
     void parse_header_without_name();
@@ -59,7 +60,10 @@ private:
     bool parse_relation(ast::Sentence& sentence);
     bool parse_rate_relation(ast::Sentence& sentence);
     bool report_missing_colon(const ast::Sentence& sentence);
-    bool begins_misspelt_stage() const;
+    bool has_shape_of_block(std::size_t ahead) const;
+    std::string report_no_block(const ast::Word& word);
+    bool report_second_rate(const ast::Sentence& sentence);
+    bool take_paper_rate(ast::Sentence& sentence);
     bool report_no_sentence();
     void parse_values(ast::Sentence& sentence);
     bool parse_index(ast::Sentence& sentence);

@@ -159,7 +159,7 @@ public:
     Result<void> run(const std::function<void(const StageBench&)>& tell) {
         if (script_.program->stages.empty()) {
             script_.diagnostics.error({0, 0, 0}, "this script has no stage to measure",
-                                      "add one, as in 'stage spots: turing_spots { }'");
+                                      example_of_stage(*script_.program));
             return failure("nothing to measure");
         }
         std::optional<std::uint32_t> only;

@@ -67,7 +67,7 @@ Pattern::Pattern(const std::string& text, const PatternOptions& options)
     self_->script = load_script(options.name, text, options.folder);
     if (!self_->script.program) return;
     if (self_->script.program->stages.empty()) {
-        self_->fail({"this script has no stage to run", ""});
+        self_->fail({"this script has no stage to run", example_of_stage(*self_->script.program)});
         return;
     }
     SimulationOptions simulation;

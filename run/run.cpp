@@ -78,7 +78,7 @@ Result<void> Runner::prepare() {
     if (script_.program->stages.empty()) {
         const SourceId whole = 0;
         script_.diagnostics.error({whole, 0, 0}, "this script has no stage to run",
-                                  "add one, as in 'stage spots: turing_spots { }'");
+                                  example_of_stage(*script_.program));
         return failure("nothing to run");
     }
     outputs_ = outputs_of(script_, request_);

@@ -205,7 +205,7 @@ void check_model_files(OptionRefuser& options, const RunRequest& request) {
 /// What only models have.
 void check_without_model(OptionRefuser& options, const RunRequest& request) {
     const std::string message = "the domain is no model";
-    const std::string hint = "--mesh FILE, or surface: \"FILE\" in the domain, makes it one";
+    const std::string hint = "--mesh FILE, or mesh: \"FILE\" in the domain, makes it one";
     for (const auto& output : request.outputs) {
         if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
         options.refuse("-o", output.string(), "only what grows on a model is written so, and " + message,

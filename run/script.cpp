@@ -41,6 +41,12 @@ std::uint32_t Script::final_stage() const {
     return count - 1;
 }
 
+std::string example_of_stage(const Program& program) {
+    const std::string_view system =
+        program.systems.empty() ? "turing_spots" : std::string_view(program.systems.back().name);
+    return fmt::format("add 'stage spots: {} {{ }}'", system);
+}
+
 Span option_span(Sources& sources, const std::string& option, const std::string& value) {
     const SourceId id = sources.add(fmt::format("<{}>", option), value);
     return {id, 0, static_cast<std::uint32_t>(value.size())};

@@ -81,6 +81,9 @@ struct LoadedFile {
 };
 Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides = {});
 
+/// What a script without stages lacks, of its own last system if it has one: "add 'stage spots: mine { }'".
+std::string example_of_stage(const Program& program);
+
 /// A place for messages about an option: the option's own text is the source `<--option>`.
 Span option_span(Sources& sources, const std::string& option, const std::string& value);
 

@@ -112,7 +112,7 @@ Sweeper::Done Sweeper::plan_run(std::size_t number) {
     run.key = key_of_run(script, request_.picture, request_.tile_side);
     if (number == 0 && script.program->stages.empty()) {
         return tl::unexpected(SweepFault{{"this script has no stage to run",
-                                          "add one, as in 'stage spots: turing_spots { }'"},
+                                          example_of_stage(*script.program)},
                                          std::nullopt});
     }
     if (number == 0) {

@@ -140,6 +140,12 @@ TEST(Options, standard_input_is_a_script) {
     EXPECT_THAT(parsed({"run", "-"}).scripts, ElementsAre("-"));
 }
 
+TEST(Options, two_hyphens_end_the_options) {
+    EXPECT_THAT(parsed({"run", "--", "a.cascade"}).scripts, ElementsAre("a.cascade"));
+    EXPECT_THAT(parsed({"check", "--dump", "ast", "--", "-a.cascade", "-"}).scripts,
+                ElementsAre("./-a.cascade", "-"));
+}
+
 TEST(Options, what_was_not_given_leaves_a_stored_picture_alone) {
     PictureRequest stored;
     stored.palette = "magma";

@@ -47,12 +47,12 @@ TEST(CheckFaults, UnknownNames) {
     EXPECT_THAT(stage_faults("ka: sinn(3)"),
                 ElementsAre("2:5: there is no function 'sinn' | did you mean 'sin'?"));
     EXPECT_THAT(system_faults("a' += feed"),
-                ElementsAre("2:7: 'feed' is not a parameter of s"));
+                ElementsAre("2:7: 'feed' is not a parameter of s | add feed: 0.1, for example"));
     EXPECT_THAT(faults("domain { sed: 3 }"),
                 ElementsAre("1:10: 'sed' is not a setting of the domain | did you mean 'seed'?"));
     EXPECT_THAT(faults("picture { colour: 3 }"),
                 ElementsAre("1:11: 'colour' is not a setting of the picture | "
-                            "a picture has color: …"));
+                            "write 'color: palette(u, 0, 1, \"leopard\")'"));
 }
 
 TEST(CheckFaults, NamesOfThePreviousStage) {
@@ -163,7 +163,7 @@ TEST(CheckFaults, ArgumentsAndTypes) {
     EXPECT_THAT(system_faults("a' += field(\"a.npy\")"),
                 ElementsAre("2:7: field cannot stand here | it belongs in values (name: …)"));
     EXPECT_THAT(stage_faults("ka: integral(1)"),
-                ElementsAre("2:5: 'integral' is not in this version of the language"));
+                ElementsAre("2:5: there is no function 'integral' | write 'sum(u over domain)', on a plane times the size of a cell"));
 }
 
 TEST(CheckFaults, TimeBelongsInSteps) {
@@ -229,7 +229,8 @@ TEST(CheckFaults, Declarations) {
     EXPECT_THAT(faults("system s { a: 1 }"),
                 ElementsAre("1:8: system 's' has no rates | a rate is written name' = …"));
     EXPECT_THAT(system_faults("d = 2; a' += d; d' = 3"),
-                ElementsAre("2:17: 'd' is a definition and has no rate"));
+                ElementsAre("2:1: 'd' is a species and cannot be a definition | "
+                            "write d: … for its starting value"));
     EXPECT_THAT(system_faults("b: d; d = a; a' += b + d"),
                 ElementsAre("2:4: 'd' is a definition and cannot be read here | "
                             "definitions can be read in rates and other definitions"));

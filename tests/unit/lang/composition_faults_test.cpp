@@ -63,7 +63,7 @@ TEST(FunctionFaults, Calls) {
     EXPECT_EQ(fault_in_rate("f(1)").at(0), "5:29: f takes 2 values, not 1 | it is defined as f(a, b)");
     EXPECT_EQ(fault_in_rate("one(1)").at(0),
               "5:29: one takes 0 values, not 1 | it is defined as one()");
-    EXPECT_EQ(fault_in_rate("f(1, q)").at(0), "5:34: 'q' is not a parameter of s");
+    EXPECT_EQ(fault_in_rate("f(1, q)").at(0), "5:34: 'q' is not a parameter of s | add q: 0.1, for example");
     EXPECT_EQ(fault_in_rate("g(1)").at(0), "5:29: there is no function 'g'");
     EXPECT_EQ(fault_in_rate("ink(1)").at(0),
               "2:13: rgb cannot stand here | colours belong in pictures");

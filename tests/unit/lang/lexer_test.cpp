@@ -117,7 +117,7 @@ TEST(Lexer, ReadsOperatorsOfOtherLanguagesAsWhatTheyMean) {
         {"a || b", "a or b", "1:3 '||" + not_ours + "write 'or'"},
         {"!a", "not a", "1:1 '!" + not_ours + "write 'not'"},
         {"a**2", "a ^ 2", "1:2 '**" + not_ours + "write '^' for a power"},
-        {"a % 2", "a GARBAGE 2", "1:3 '%" + not_ours + "there is no remainder in the language"},
+        {"a % 2", "a GARBAGE 2", "1:3 '%" + not_ours + "write mod(a, b) for a % b"},
         {"a <> b", "a != b", "1:3 '<>" + not_ours + "write '!='"},
         {"a === b", "a == b", "1:3 '===" + not_ours + "write '=='"},
         {"a => b", "a >= b", "1:3 '=>" + not_ours + "write '>='"},

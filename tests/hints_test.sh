@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# Hints of options are true: a command with a fault gets the hint, and what the hint says to write
+# makes the fault go. (Hints about the text of scripts: tests/unit/lang/hints_test.cpp.)
+set -u
+fail() { echo "FAILED: $*" >&2; exit 1; }
+rm -rf ./*
+
+# hint TEXT COMMAND… -- MENDED COMMAND…
+hint() {
+    local text=$1; shift
+    local faulty=()
+    while [ "$1" != -- ]; do faulty+=("$1"); shift; done
+    shift
+    "$CASCADE" "${faulty[@]}" >out 2>err </dev/null && fail "no fault: ${faulty[*]}"
+    grep -qF -- "$text" err || fail "${faulty[*]}: no hint '$text' in: $(cat err)"
+    "$CASCADE" "$@" >out 2>err </dev/null || fail "$text: the fault of '${faulty[*]}' stays in '$*': $(cat err)"
+}
+
+cat >s.cascade <<'S'
+system mine { u: 1 + x; k: 0.1; u' = k * lap(u) }
+domain { grid: 8, 8 }
+stage first: mine { iterations: 4 }
+S
+sed "/^stage/d" s.cascade >bare.cascade
+sed 's/grid: 8, 8/surface: sphere; cells: 100/' s.cascade >ball.cascade
+"$CASCADE" run s.cascade -q --save saved -o s.png || fail "a run"
+
+# What is missing.
+hint "add 'stage spots: mine { }'" run bare.cascade -- run s.cascade -q
+hint "did you mean 's.cascade'?" check z.cascade -- check s.cascade
+hint "did you mean 's.cascade'?" check s -- check s.cascade
+hint "'cascade new stripes' prints a script of that system" check stripes -- new stripes -o n.cascade
+hint "there are k, u" check s.cascade --set F=3 -- check s.cascade --set k=3
+hint "write 'iterations: 1000'" check s.cascade --set steps=1000 -- check s.cascade --set iterations=1000
+hint "did you mean 'k'?" check s.cascade --set kk=1 -- check s.cascade --set k=1
+
+# Models.
+for option in --retile "--bake 64" "--bump 0.1"; do
+    # shellcheck disable=SC2086
+    hint '--mesh FILE, or mesh: "FILE" in the domain, makes it one' \
+        run s.cascade -o a.ply $option -- run ball.cascade -q -o a.ply
+done
+"$CASCADE" run ball.cascade -q -o ball.obj || fail "a model"
+sed 's/surface: sphere/mesh: "ball.obj"/' ball.cascade >file.cascade
+hint 'mesh: "FILE" in the domain' run s.cascade -o a.ply -- run file.cascade -q -o a.ply
+hint '--mesh FILE' run s.cascade -o a.ply -- run s.cascade --mesh ball.obj --cells 100 -q -o a.ply
+hint "surface: x, y, z in the domain makes one" run s.cascade --flat -- \
+    check ball.cascade
+
+# Forms of values.
+hint "as in --grid 256x128" check s.cascade --grid 8,8 -- check s.cascade --grid 8x8
+hint "as in --range 0,8" run s.cascade -q --range 1 -- run s.cascade -q --range 0,8
+hint "as in --stop-at stage2:3000" run s.cascade -q --save t --stop-at 3 -- run s.cascade -q --save t --stop-at first:3
+hint "write 90s, 20m, 1.5h or 2d" run s.cascade -q --limit-time 1y -- run s.cascade -q --limit-time 20m
+hint "write 500MB, 2GB or 1.5GiB" run s.cascade -q --limit-memory lots -- run s.cascade -q --limit-memory 2GB
+hint "as in --vary feed=0.02..0.06:9" sweep s.cascade -- sweep s.cascade -q --vary k=0.02..0.06:2 -o w
+hint "did you mean 'viridis'?" run s.cascade -q --palette viridi -- run s.cascade -q --palette viridis
+hint "'cascade systems' lists them" systems qqq -- systems

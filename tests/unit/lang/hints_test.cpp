@@ -1,0 +1,240 @@
+// Hints are true: what a hint tells to write is written into the script, and then its fault is
+// gone.
+//
+// A case is a script with a fault, the hint that it gets, and what the hint makes of it. Where the
+// hint holds the text itself (`write 'x'`, `did you mean 'x'?`), the test puts it in the place that
+// the fault underlines; where it leaves something open (`…`), the case says what a reader would
+// write. That no hint is forgotten is seen in the sources: each text there that tells to write
+// something must be the hint of a case. Hints that only explain are no concern of this test.
+#include "check_helpers.h"
+#include "hint_cases.h"
+#include "lang/models.h"
+#include "lang/words_elsewhere.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <set>
+
+namespace cascade::testing {
+namespace {
+
+/// A script in whose place `@` a case stands.
+const std::map<std::string_view, std::string_view> frames{
+    {"script", "@"},
+    {"rate", "system s { u: 1; v: 1\n  u' = @\n  v' = 0 }\nstage a: s { }\n"},
+    {"system", "system s { u: 1; v: 1; v' = u\n@\n}\nstage a: s { }\n"},
+    {"stage", "system s { u: 1; v: 1; k: 2; u' = k * v; v' = u }\nstage a: s { @ }\n"},
+    {"second", "system s { u: 1; v: 1; u' = v; v' = u }\nstage a: s { }\nstage b: s { @ }\n"},
+    {"domain", "domain { @ }\nsystem s { u: 1; u' = 0 }\nstage a: s { }\n"},
+    {"picture", "picture { @ }\nsystem s { u: 1; u' = 0 }\nstage a: s { }\n"},
+    {"bent", "domain { surface: sx, sy, 0 }\nsystem s { u: 1; u' = @ }\nstage a: s { }\n"},
+    {"model", "domain { surface: sphere }\nsystem s { u: 1; u' = @ }\nstage a: s { }\n"},
+    {"family", "system s { i: 1..3; u[i]: 1; k: 1\n@\n}\nstage a: s { }\n"},
+};
+
+std::string framed(std::string_view frame, std::string_view text) {
+    std::string script(frames.at(frame));
+    return script.replace(script.find('@'), 1, text);
+}
+
+/// The text that a hint tells to write: 'x' of "write 'x' to multiply" and of "did you mean 'x'?",
+/// else all behind "write ".
+std::string text_to_write(const std::string& hint) {
+    static const std::regex quoted("(?:write|add|put|did you mean) '(.+?)'(?=$|[ ?,;:])");
+    static const std::regex bare("(?:write|add) (.+)");
+    std::smatch found;
+    if (std::regex_search(hint, found, quoted)) return found[1];
+    if (std::regex_search(hint, found, bare)) return found[1];
+    return "";
+}
+
+std::optional<Diagnostic> find_hint(const Checked& checked, std::string_view hint) {
+    for (const Diagnostic& each : checked.diagnostics.sorted()) {
+        if (each.hint == hint) return each;
+    }
+    return std::nullopt;
+}
+
+std::unique_ptr<Checked> check_option(const std::string& change) {
+    return check_text(framed("stage", ""), {change});
+}
+
+void expect_sound(const std::string& script, std::unique_ptr<Checked> checked,
+                  const Diagnostic& fault) {
+    if (checked->program) check_on_domain(*checked->program, checked->diagnostics);
+    EXPECT_FALSE(checked->diagnostics.has_errors())
+        << script << ::testing::PrintToString(checked->faults());
+    for (const Diagnostic& each : checked->diagnostics.sorted()) {
+        EXPECT_NE(each.message, fault.message) << script;
+    }
+}
+
+TEST(Hints, MendWhatTheyStandAt) {
+    for (const HintCase& each : hint_cases) {
+        const bool is_option = each.frame == "set";  // The text of --set.
+        const std::string before(is_option ? std::string(each.before)
+                                           : framed(each.frame, each.before));
+        auto checked = is_option ? check_option(before) : check_text(before);
+        if (checked->program) check_on_domain(*checked->program, checked->diagnostics);
+        const auto fault = find_hint(*checked, each.hint);
+        if (!fault) {
+            ADD_FAILURE() << before << "\nhas no hint " << each.hint << ", but "
+                          << ::testing::PrintToString(checked->faults());
+            continue;
+        }
+        std::string after(is_option ? std::string(each.after) : framed(each.frame, each.after));
+        if (each.after.empty()) {
+            after = before;
+            after.replace(fault->span.begin, fault->span.end - fault->span.begin,
+                          text_to_write(fault->hint));
+        }
+        expect_sound(after, is_option ? check_option(after) : check_text(after), *fault);
+    }
+}
+
+/// How a word stands in a script, and how its advice does.
+std::string_view frame_of(WordPlace place) {
+    switch (place) {
+        case WordPlace::stage:
+            return "stage";
+        case WordPlace::picture:
+            return "picture";
+        case WordPlace::function:
+        case WordPlace::value:
+            return "rate";
+        default:
+            return "domain";
+    }
+}
+
+std::string used(WordPlace place, std::string_view word) {
+    switch (place) {
+        case WordPlace::boundary:
+            return fmt::format("boundary: {}", word);
+        case WordPlace::side:
+            return fmt::format("sides: {}", word);
+        case WordPlace::function:
+            return fmt::format("{}(u)", word);
+        case WordPlace::value:
+            return std::string(word);
+        default:
+            return fmt::format("{}: 1", word);
+    }
+}
+
+std::string advised(WordPlace place, const std::string& advice) {
+    const std::string text = text_to_write(advice);
+    const std::string_view frame = frame_of(place);
+    // Another block, in place of the sentence.
+    for (const char* block : {"stage ", "domain ", "picture "}) {
+        if (text.starts_with(block)) return framed(frame, "") + text + "\n";
+    }
+    if (advice.starts_with("did you mean")) {
+        const std::set<std::string_view> of_two{"min", "max", "random", "normal", "mod"};
+        if (of_two.contains(text)) return framed(frame, text + "(u, v)");
+        if (text == "mix") return framed(frame, "mix(u, v, 0.5)");
+        if (text == "div") return framed(frame, "div(grad(u))");
+        if (text == "grad") return framed(frame, "div(grad(u))");
+        return framed(frame, text + "(u)");
+    }
+    const bool is_setting = text.find(": ") != std::string::npos;
+    if (place == WordPlace::boundary && !is_setting) return framed(frame, "boundary: " + text);
+    if (place == WordPlace::side && !is_setting) return framed(frame, "sides: " + text);
+    return framed(frame, text);
+}
+
+/// Every word of other places is answered with one that is right here.
+TEST(Hints, KnowTheWordsOfOthers) {
+    for (const WordElsewhere& row : words_elsewhere()) {
+        std::istringstream words{std::string(row.words)};
+        const std::string advice(row.advice);
+        for (std::string word; words >> word;) {
+            const std::string before = framed(frame_of(row.place), used(row.place, word));
+            const auto checked = check_text(before);
+            const auto fault = find_hint(*checked, advice);
+            if (!fault) {
+                ADD_FAILURE() << before << ::testing::PrintToString(checked->faults());
+                continue;
+            }
+            if (text_to_write(advice).empty()) continue;  // It explains.
+            const std::string after = advised(row.place, advice);
+            expect_sound(after, check_text(after), *fault);
+        }
+    }
+}
+
+std::string unescaped(const std::string& literal) {
+    std::string text;
+    for (std::size_t k = 0; k < literal.size(); ++k) {
+        if (literal[k] == '\\' && k + 1 < literal.size()) ++k;
+        text += literal[k];
+    }
+    return text;
+}
+
+/// Is this text of the sources the beginning of the hint, whatever stands for `{…}`?
+bool begins(std::string text, std::string_view hint) {
+    text =
+        std::regex_replace(text, std::regex(R"(\{\{|\}\})"), "\x01");  // A bracket that is meant.
+    std::size_t place = 0;
+    const std::regex hole(R"(\{[0-9]*\})");
+    for (auto piece = std::sregex_token_iterator(text.begin(), text.end(), hole, -1);
+         piece != std::sregex_token_iterator(); ++piece) {
+        std::string words = *piece;
+        std::replace(words.begin(), words.end(), '\x01', '{');
+        const std::size_t found = hint.find(words, place);
+        if (found == std::string_view::npos || (piece->first == text.begin() && found != 0)) {
+            return false;
+        }
+        place = found + words.size();
+    }
+    return true;
+}
+
+/// The texts of the sources that tell to write something.
+std::set<std::string> hints_in_sources() {
+    const std::regex literal(R"re("((?:[^"\\]|\\.)*)")re");
+    const std::regex tells(
+        "^(write|add|put|did you mean|leave|take|join|choose|give|make|save) "
+        "|: write |is written (?!with)|, as in |^as in ");
+    std::set<std::string> texts;
+    for (const auto& entry : std::filesystem::directory_iterator(CASCADE_SOURCE_DIR "/lang")) {
+        const std::string name = entry.path().filename().string();
+        // Rows of these tables have a test of their own; printed trees are no hints.
+        if (name.starts_with("words_elsewhere") || name.starts_with("print_") ||
+            name.starts_with("describe_")) {
+            continue;
+        }
+        if (!entry.is_regular_file()) continue;
+        std::ifstream file(entry.path());
+        for (std::string line; std::getline(file, line);) {
+            if (line.find_first_not_of(' ') == line.find("//")) continue;
+            for (auto each = std::sregex_iterator(line.begin(), line.end(), literal);
+                 each != std::sregex_iterator(); ++each) {
+                const std::string text = unescaped((*each)[1]);
+                if (std::regex_search(text, tells)) texts.insert(text);
+            }
+        }
+    }
+    return texts;
+}
+
+TEST(Hints, AreAllTried) {
+    const std::set<std::string> texts = hints_in_sources();
+    EXPECT_GT(texts.size(), 60u);
+    for (const std::string& text : texts) {
+        const bool is_tried =
+            std::any_of(std::begin(hint_cases), std::end(hint_cases),
+                        [&](const HintCase& each) { return begins(text, each.hint); });
+        EXPECT_TRUE(is_tried) << "no case of hint_cases.h has this hint: " << text;
+    }
+}
+
+}  // namespace
+}  // namespace cascade::testing
