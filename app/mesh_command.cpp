@@ -23,7 +23,7 @@ int mesh_command(const Options& options, Console& console) {
     Team team(hardware_threads());
     int status = exit_status::success;
     for (const std::string& model : options.models) {
-        const auto lines = describe_model(model, cells, team, cancel);
+        const auto lines = describe_model(model, options.overrides.reads, cells, team, cancel);
         if (cancel) return exit_status::signal_base + interrupt.signal();
         if (!lines) {
             console.fail(lines.error());

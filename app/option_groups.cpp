@@ -34,6 +34,22 @@ void add_script(CLI::App& app, Options& options, const std::string& help) {
         ->type_name("");
 }
 
+void add_allow_read(CLI::App& app, ReadAccess& reads, const std::string& about) {
+    app.add_option_function<std::vector<std::string>>(
+           "--allow-read",
+           [&](const std::vector<std::string>& folders) {
+               for (const std::string& folder : folders) {
+                   if (folder == "all") reads.everything = true;
+                   else reads.folders.emplace_back(folder);
+               }
+           },
+           about)
+        ->allow_extra_args(false)
+        ->trigger_on_parse()
+        ->type_name("FOLDER|all")
+        ->group("Limits");
+}
+
 void add_overrides(CLI::App& app, Overrides& overrides) {
     const std::string group = "Changes to the script, without editing it";
     add_value(app, "--grid", "WxH", "Columns and rows; '60' is a line of cells, '64x64x32'\nhas slices", parse_grid,
@@ -81,20 +97,9 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
     add_value(app, "--until-stage", "NAME", "The last stage that runs", any_text,
               [&](auto stage) { overrides.until_stage = stage; })
         ->group(group);
-    app.add_option_function<std::vector<std::string>>(
-           "--allow-read",
-           [&](const std::vector<std::string>& folders) {
-               for (const std::string& folder : folders) {
-                   if (folder == "all") overrides.reads.everything = true;
-                   else overrides.reads.folders.emplace_back(folder);
-               }
-           },
-           "The script may read files below this folder too, not\nonly below its own; 'all': "
-           "everywhere; may be given\nagain")
-        ->allow_extra_args(false)
-        ->trigger_on_parse()
-        ->type_name("FOLDER|all")
-        ->group("Limits");
+    add_allow_read(app, overrides.reads,
+                   "The script may read files below this folder too, not\nonly below its own; 'all': "
+                   "everywhere; may be given\nagain");
 }
 
 void add_shown(CLI::App& app, PictureChanges& picture) {
@@ -240,6 +245,9 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
 void add_mesh(CLI::App& app, Options& options) {
     app.add_option("MODELS", options.models, "Files: .ply, .obj, .off, .stl, .gltf, .glb")
         ->type_name("");
+    add_allow_read(app, options.overrides.reads,
+                   "Buffers of glTF files may lie below this folder too, not\nonly below the model's; "
+                   "'all': everywhere; may be given\nagain");
     add_value(app, "--cells", "N|faces|vertices",
               "Spread N cells over the surface, or make cells of the\n"
               "model's faces or points, and say how they turn out",

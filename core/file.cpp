@@ -1,31 +1,21 @@
-// Reading and writing files on POSIX systems.
+// Writing files on POSIX systems.
 #include "core/file.h"
 
 #include "core/descriptor.h"
+#include "core/file_failure.h"
 #include "core/temporary_file.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/stat.h>
-#include <system_error>
 #include <unistd.h>
 
 namespace cascade {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string reason(int error) { return std::generic_category().message(error); }
-
-tl::unexpected<Failure> cannot(const char* verb, const fs::path& path, int error) {
-    std::string hint;
-    if (error == ENOSPC || error == EDQUOT) hint = "free some space and run it again";
-    return failure(fmt::format("cannot {} '{}': {}", verb, path.string(), reason(error)),
-                   std::move(hint));
-}
 
 /// Opens again when a signal arrives first. The mode counts only where a file is made.
 int open_file(const fs::path& path, int flags, mode_t mode = 0) {
@@ -78,9 +68,9 @@ Result<void> write_in_place(const fs::path& path, std::string_view bytes) {
         return failure(fmt::format("cannot write '{}': nobody reads this pipe", path.string()),
                        "begin reading it before the run ends, or name a file");
     }
-    if (!file.is_open()) return cannot("write", path, errno);
-    if (const int error = write_all_waiting(file, bytes)) return cannot("write", path, error);
-    if (!file.close()) return cannot("write", path, errno);
+    if (!file.is_open()) return cannot("write", path.string(), errno);
+    if (const int error = write_all_waiting(file, bytes)) return cannot("write", path.string(), error);
+    if (!file.close()) return cannot("write", path.string(), errno);
     return {};
 }
 
@@ -96,62 +86,17 @@ int replace(const fs::path& target, std::string_view bytes, const struct stat* r
     return temporary.rename_to(target.filename().string());
 }
 
-Result<std::string> read_opened(const Descriptor& file, const fs::path& path, std::uint64_t largest) {
-    struct stat status {};
-    if (::fstat(file.number(), &status) != 0) return cannot("read", path, errno);
-    if (S_ISDIR(status.st_mode)) return cannot("read", path, EISDIR);
-    const auto too_large = [&] {
-        return failure(fmt::format("'{}' is too large: at most {} bytes are read", path.string(),
-                                   largest));
-    };
-    const auto size = static_cast<std::uint64_t>(status.st_size);
-    if (S_ISREG(status.st_mode) && size > largest) return too_large();
-
-    // A pipe tells no size, and a file may grow meanwhile: reading goes on until there is no more.
-    std::string bytes;
-    bytes.reserve(S_ISREG(status.st_mode) ? size + 1 : 0);
-    constexpr std::size_t chunk = 1 << 16;
-    for (std::size_t used = 0;;) {
-        bytes.resize(std::max(used + chunk, bytes.capacity()));
-        const ssize_t got = ::read(file.number(), bytes.data() + used, bytes.size() - used);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return cannot("read", path, errno);
-        used += static_cast<std::size_t>(got);
-        if (used > largest) return too_large();
-        if (got == 0) {
-            bytes.resize(used);
-            return bytes;
-        }
-    }
-}
-
 }  // namespace
-
-Result<std::string> read_file(const fs::path& path, std::uint64_t largest) {
-    const Descriptor file(open_file(path, O_RDONLY));
-    if (!file.is_open()) return cannot("read", path, errno);
-    return read_opened(file, path, largest);
-}
-
-Result<std::string> read_plain_file(const fs::path& path, std::uint64_t largest) {
-    const Descriptor file(open_file(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK));
-    if (!file.is_open() && errno != ELOOP) return cannot("read", path, errno);
-    struct stat status {};
-    const bool is_plain = file.is_open() && ::fstat(file.number(), &status) == 0 && !S_ISFIFO(status.st_mode) &&
-                          !S_ISCHR(status.st_mode) && !S_ISBLK(status.st_mode);
-    if (!is_plain) return failure(fmt::format("cannot read '{}': it is not a file", path.string()));
-    return read_opened(file, path, largest);
-}
 
 Result<void> write_file(const fs::path& path, std::string_view bytes) {
     const fs::path target = behind_links(path);
     struct stat status {};
     const bool exists = ::stat(target.c_str(), &status) == 0;
-    if (exists && S_ISDIR(status.st_mode)) return cannot("write", path, EISDIR);
+    if (exists && S_ISDIR(status.st_mode)) return cannot("write", path.string(), EISDIR);
     if (exists && !S_ISREG(status.st_mode)) return write_in_place(target, bytes);
 
     if (const int error = replace(target, bytes, exists ? &status : nullptr)) {
-        return cannot("write", path, error);
+        return cannot("write", path.string(), error);
     }
     return {};
 }
@@ -161,13 +106,13 @@ Result<void> check_writable(const fs::path& path) {
     const fs::path target = behind_links(path);
     struct stat status {};
     if (::stat(target.c_str(), &status) == 0) {
-        if (S_ISDIR(status.st_mode)) return cannot("write", path, EISDIR);
-        if (::access(target.c_str(), W_OK) != 0) return cannot("write", path, errno);
+        if (S_ISDIR(status.st_mode)) return cannot("write", path.string(), EISDIR);
+        if (::access(target.c_str(), W_OK) != 0) return cannot("write", path.string(), errno);
         if (!S_ISREG(status.st_mode)) return {};
     } else if (errno != ENOENT) {
-        return cannot("write", path, errno);
+        return cannot("write", path.string(), errno);
     }
-    if (!target.has_filename()) return cannot("write", path, EISDIR);
+    if (!target.has_filename()) return cannot("write", path.string(), EISDIR);
     if (::stat(folder_of(target).c_str(), &status) != 0) {
         return failure(fmt::format("cannot write '{}': there is no folder '{}'", path.string(),
                                    folder_of(target).string()),
@@ -175,9 +120,9 @@ Result<void> check_writable(const fs::path& path) {
     }
     // Trying is the only sure answer: permissions, read-only disks and quotas all have a say.
     const Descriptor folder(open_folder(folder_of(target)));
-    if (!folder.is_open()) return cannot("write", path, errno);
+    if (!folder.is_open()) return cannot("write", path.string(), errno);
     const TemporaryFile temporary(folder, 0600);
-    if (temporary.error() != 0) return cannot("write", path, temporary.error());
+    if (temporary.error() != 0) return cannot("write", path.string(), temporary.error());
     return {};
 }
 

@@ -19,6 +19,16 @@ Result<std::string> read_file(const std::filesystem::path& path, std::uint64_t l
 /// The same of what is a file itself: links, pipes and devices are refused, without waiting.
 Result<std::string> read_plain_file(const std::filesystem::path& path, std::uint64_t largest);
 
+/// The same with links followed. Messages call the file `name`; empty: as in `path`.
+Result<std::string> read_linked_file(const std::filesystem::path& path, std::uint64_t largest,
+                                     std::string_view name = "");
+
+/// The same of a file below `folder`. `file` is relative, has no "..", and no part of it may be a
+/// symbolic link: nothing outside of the folder is opened, whatever happens to names meanwhile.
+Result<std::string> read_file_below(const std::filesystem::path& folder,
+                                    const std::filesystem::path& file, std::uint64_t largest,
+                                    std::string_view name);
+
 /// Writes beside the target and renames over it, so that no half-written file is ever seen; the
 /// temporary file is removed on failure. A full disk is a Failure.
 Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);

@@ -1,6 +1,7 @@
 // What a message looks like: the only file that knows.
 #include "core/counted.h"
 #include "core/diagnostics.h"
+#include "core/printable.h"
 #include "core/utf8.h"
 
 #include <fmt/core.h>
@@ -28,18 +29,6 @@ struct Colours {
 Colours colours_of(const RenderStyle& style) {
     if (!style.colour) return {};
     return {"\x1b[1m", "\x1b[1;31m", "\x1b[1;35m", "\x1b[1;36m", "\x1b[32m", "\x1b[0m"};
-}
-
-/// A text with everything replaced that could confuse a terminal.
-std::string printable(std::string_view text) {
-    std::string result;
-    for (std::size_t offset = 0; offset < text.size();) {
-        const CodePoint point = decode_utf8(text, offset);
-        const bool good = point.valid && !is_unprintable(point.value);
-        result += good ? text.substr(offset, point.size) : replacement;
-        offset += point.size;
-    }
-    return result;
 }
 
 /// A source line as it is shown, and the columns of the underlined words in it.

@@ -1,6 +1,5 @@
 // glTF and GLB files, read by tinygltf: the triangles of all meshes, placed in space by the nodes
 // of the scene.
-#include "core/file.h"
 #include "mesh/model_file.h"
 
 #include <fmt/format.h>
@@ -327,42 +326,54 @@ std::string_view json_of(std::string_view bytes, bool is_binary) {
     return bytes.substr(20, length);
 }
 
-/// How the library gets at buffers in files of their own. Its own way asks a shell what names mean.
-tinygltf::FsCallbacks plain_files() {
-    tinygltf::FsCallbacks files{};
-    files.FileExists = [](const std::string& path, void*) {
-        std::error_code error;
-        return std::filesystem::is_regular_file(path, error);
-    };
-    files.ExpandFilePath = [](const std::string& path, void*) { return path; };
-    files.ReadWholeFile = [](std::vector<unsigned char>* out, std::string* fault,
-                             const std::string& path, void*) {
-        const Result<std::string> bytes = read_file(path, largest_model_file);
-        if (!bytes) *fault = bytes.error().message;
-        else out->assign(bytes->begin(), bytes->end());
-        return bytes.has_value();
-    };
-    files.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
-                              void*) { return false; };
-    return files;
-}
+/// How the library gets at buffers in files of their own. Its own way opens whatever is named, and
+/// asks a shell what names mean.
+class Buffers {
+public:
+    explicit Buffers(const GrantedFiles& files) : files_(files) {}
 
-bool load(std::string_view bytes, bool is_binary, const std::filesystem::path& folder,
-          tinygltf::Model& model, std::string& fault) {
+    tinygltf::FsCallbacks callbacks() {
+        tinygltf::FsCallbacks calls{};
+        calls.FileExists = [](const std::string&, void*) { return true; };  // Reading will tell.
+        calls.ExpandFilePath = [](const std::string& name, void*) { return name; };
+        calls.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*, const std::string& name,
+                                 void* self) { return static_cast<Buffers*>(self)->read(name, *out); };
+        calls.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                                  void*) { return false; };
+        calls.user_data = this;
+        return calls;
+    }
+
+    /// Why a buffer could not be read.
+    const std::optional<Failure>& failure() const { return failure_; }
+
+private:
+    bool read(const std::string& name, std::vector<unsigned char>& out) {
+        const Result<std::string> bytes = files_.read(name, largest_model_file);
+        if (!bytes) failure_ = bytes.error();
+        else out.assign(bytes->begin(), bytes->end());
+        return bytes.has_value();
+    }
+
+    const GrantedFiles& files_;
+    std::optional<Failure> failure_;
+};
+
+bool load(std::string_view bytes, bool is_binary, Buffers& buffers, tinygltf::Model& model,
+          std::string& fault) {
     tinygltf::TinyGLTF reader;
     reader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
                              const unsigned char*, int, void*) { return true; },
                           nullptr);
-    reader.SetFsCallbacks(plain_files());
+    reader.SetFsCallbacks(buffers.callbacks());
     std::string warning;
     const auto size = static_cast<unsigned>(bytes.size());
     try {  // An empty buffer makes the library throw std::out_of_range.
         return is_binary
                    ? reader.LoadBinaryFromMemory(&model, &fault, &warning,
                                                  reinterpret_cast<const unsigned char*>(bytes.data()),
-                                                 size, folder.string())
-                   : reader.LoadASCIIFromString(&model, &fault, &warning, bytes.data(), size,
-                                                folder.string());
+                                                 size)
+                   : reader.LoadASCIIFromString(&model, &fault, &warning, bytes.data(), size, "");
     } catch (const std::logic_error& error) {
         fault = error.what();
         return false;
@@ -371,7 +382,7 @@ bool load(std::string_view bytes, bool is_binary, const std::filesystem::path& f
 
 }  // namespace
 
-Result<PolygonSoup> read_gltf(std::string_view bytes, const std::filesystem::path& folder) {
+Result<PolygonSoup> read_gltf(std::string_view bytes, const GrantedFiles& files) {
     const bool is_binary = bytes.starts_with("glTF");
     if (bytes.size() > std::numeric_limits<unsigned>::max()) return failure("the glTF file is too large");
     if (!is_shallow(json_of(bytes, is_binary))) {
@@ -379,7 +390,9 @@ Result<PolygonSoup> read_gltf(std::string_view bytes, const std::filesystem::pat
     }
     tinygltf::Model model;
     std::string fault;
-    if (!load(bytes, is_binary, folder, model, fault)) {
+    Buffers buffers(files);
+    if (!load(bytes, is_binary, buffers, model, fault)) {
+        if (buffers.failure()) return tl::unexpected(*buffers.failure());
         while (fault.ends_with('\n')) fault.pop_back();
         std::replace(fault.begin(), fault.end(), '\n', ' ');
         return failure("this is no glTF file that can be read", fault);

@@ -1,10 +1,12 @@
 #include "mesh/model_file.h"
 
 #include "core/file.h"
+#include "core/printable.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace cascade {
@@ -19,44 +21,57 @@ std::string ending_of(const std::filesystem::path& path) {
     return ending;
 }
 
-}  // namespace
-
-Result<PolygonSoup> read_model_bytes(std::string_view bytes, std::string_view ending,
-                                     const std::filesystem::path& folder) {
-    if (ending == "ply") return read_ply(bytes);
-    if (ending == "off") return read_off(bytes);
-    if (ending == "gltf" || ending == "glb") return read_gltf(bytes, folder);
-    if (ending == "stl") return read_stl(bytes);
-    return read_obj(bytes);
+/// Fails where the ending of a name is none of a model.
+Result<std::string> model_ending(const std::string& name) {
+    constexpr std::array<std::string_view, 6> endings = {"ply", "obj", "off", "stl", "gltf", "glb"};
+    std::string ending = ending_of(name);
+    if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return ending;
+    return failure(fmt::format("'{}' is no model: its name ends in none of .ply, .obj, .off, .stl, "
+                               ".gltf, .glb",
+                               short_name(name)));
 }
 
-Result<PolygonSoup> read_model(const std::filesystem::path& path) {
-    constexpr std::array<std::string_view, 6> endings = {"ply", "obj", "off", "stl", "gltf", "glb"};
-    const std::string ending = ending_of(path);
-    if (std::find(endings.begin(), endings.end(), ending) == endings.end()) {
-        return failure(fmt::format("'{}' is no model: its name ends in none of .ply, .obj, .off, "
-                                   ".stl, .gltf, .glb",
-                                   path.string()));
-    }
-    // A pipe that nobody writes to would be waited for without end, a device has no end.
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!error && std::filesystem::is_other(status)) {
-        return failure(fmt::format("cannot read '{}': it is a pipe or a device, not a file", path.string()));
-    }
-    const Result<std::string> bytes = read_file(path, largest_model_file);
-    if (!bytes) return tl::unexpected(bytes.error());
-    Result<PolygonSoup> soup = read_model_bytes(*bytes, ending, path.parent_path());
+Result<PolygonSoup> parse_model(const std::string& name, std::string_view ending, std::string_view bytes,
+                                const GrantedFiles& files) {
+    Result<PolygonSoup> soup = read_model_bytes(bytes, ending, files);
     if (!soup) {
-        return failure(fmt::format("'{}': {}", path.string(), soup.error().message),
+        return failure(fmt::format("'{}': {}", short_name(name), soup.error().message),
                        soup.error().hint);
     }
     if (soup->ends.empty()) {
-        return failure(fmt::format("'{}' has {} points but no faces", path.string(),
+        return failure(fmt::format("'{}' has {} points but no faces", short_name(name),
                                    soup->points.size()),
                        "a surface is wanted, not a cloud of points");
     }
     return soup;
+}
+
+}  // namespace
+
+Result<PolygonSoup> read_model_bytes(std::string_view bytes, std::string_view ending,
+                                     const GrantedFiles& files) {
+    if (ending == "ply") return read_ply(bytes);
+    if (ending == "off") return read_off(bytes);
+    if (ending == "gltf" || ending == "glb") return read_gltf(bytes, files);
+    if (ending == "stl") return read_stl(bytes);
+    return read_obj(bytes);
+}
+
+Result<PolygonSoup> read_model(const GrantedFiles& files, const std::string& name) {
+    const Result<std::string> ending = model_ending(name);
+    if (!ending) return tl::unexpected(ending.error());
+    const Result<std::string> bytes = files.read(name, largest_model_file);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return parse_model(name, *ending, *bytes, files.beside(name));
+}
+
+Result<PolygonSoup> read_model(const std::filesystem::path& path, const ReadAccess& access) {
+    const Result<std::string> ending = model_ending(path.string());
+    if (!ending) return tl::unexpected(ending.error());
+    const Result<std::string> bytes = read_linked_file(path, largest_model_file);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return parse_model(path.string(), *ending, *bytes,
+                       GrantedFiles(path.parent_path(), access, "model"));
 }
 
 }  // namespace cascade

@@ -28,6 +28,9 @@ inline constexpr std::int64_t most_pixels = std::int64_t{1} << 26;
 /// message is a clause that follows "cannot read 'FILE': ".
 Result<GreyPicture> parse_grey_picture(std::string_view bytes);
 
+/// The largest PNG file that is read for its pixels, in bytes.
+inline constexpr std::uint64_t largest_picture_file = std::uint64_t{1} << 30;
+
 /// The same of a file.
 Result<GreyPicture> read_grey_picture(const std::filesystem::path& path);
 

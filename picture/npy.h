@@ -28,6 +28,9 @@ struct NpyArray {
 /// bytes, a bad header. The message is a clause that follows "cannot read 'FILE': ".
 Result<NpyArray> parse_npy(std::string_view bytes, Precision precision = Precision::single);
 
+/// The largest .npy file that is read, in bytes.
+inline constexpr std::uint64_t largest_npy_file = (std::uint64_t{1} << 34) + (std::uint64_t{1} << 17);
+
 /// The same of a file.
 Result<NpyArray> read_npy(const std::filesystem::path& path,
                           Precision precision = Precision::single);

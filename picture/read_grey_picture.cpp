@@ -10,7 +10,6 @@
 namespace cascade {
 namespace {
 
-constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
 // Deflate makes at most 1032 bytes of one: a small file that promises more is damaged.
 constexpr std::uint64_t largest_growth = 1100;
 
@@ -114,7 +113,7 @@ Result<GreyPicture> parse_grey_picture(std::string_view bytes) {
 }
 
 Result<GreyPicture> read_grey_picture(const std::filesystem::path& path) {
-    const Result<std::string> bytes = read_file(path, largest_file);
+    const Result<std::string> bytes = read_linked_file(path, largest_picture_file);
     if (!bytes) return tl::unexpected<Failure>(bytes.error());
     Result<GreyPicture> picture = parse_grey_picture(*bytes);
     if (!picture) {

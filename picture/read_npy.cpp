@@ -19,7 +19,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::uint64_t most_elements = std::uint64_t{1} << 31;
-constexpr std::uint64_t largest_file = most_elements * 8 + (std::uint64_t{1} << 17);
+static_assert(largest_npy_file >= most_elements * 8);
 
 /// Turns the elements of a file into numbers; `swapped` says that they are big-endian.
 using Convert = void (*)(std::string_view bytes, bool swapped, std::vector<double>& values);
@@ -146,12 +146,7 @@ Result<NpyArray> parse_npy(std::string_view bytes, Precision precision) {
 }
 
 Result<NpyArray> read_npy(const std::filesystem::path& path, Precision precision) {
-    // A device may have no end, and no size to compare with.
-    std::error_code error;
-    if (std::filesystem::exists(path, error) && std::filesystem::is_other(path, error)) {
-        return failure(fmt::format("cannot read '{}': it is not a file", path.string()));
-    }
-    const Result<std::string> bytes = read_file(path, largest_file);
+    const Result<std::string> bytes = read_linked_file(path, largest_npy_file);
     if (!bytes) return tl::unexpected<Failure>(bytes.error());
     Result<NpyArray> array = parse_npy(*bytes, precision);
     if (!array) {

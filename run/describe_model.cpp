@@ -102,9 +102,10 @@ Result<void> describe_cells(const SurfaceMesh& mesh, const CellOptions& options,
 }  // namespace
 
 Result<std::vector<std::string>> describe_model(const std::filesystem::path& path,
+                                                const ReadAccess& access,
                                                 const std::optional<CellOptions>& cells, Team& team,
                                                 const std::atomic<bool>& cancel) {
-    Result<PolygonSoup> soup = read_model(path);
+    Result<PolygonSoup> soup = read_model(path, access);
     if (!soup) return tl::unexpected(soup.error());
     const Result<MadeMesh> made = make_mesh(*std::move(soup));
     if (!made) {

@@ -1,6 +1,7 @@
 #include "run/input_files.h"
 
 #include "core/check.h"
+#include "core/printable.h"
 #include "picture/grey_picture.h"
 #include "picture/npy.h"
 #include "run/surface_values.h"
@@ -15,13 +16,25 @@ namespace cascade {
 
 namespace {
 
+/// What `parse` makes of a file that the script names.
+template <typename Parse>
+auto read_granted(const Script& script, const std::string& name, std::uint64_t largest,
+                  const Parse& parse) -> decltype(parse(std::string_view())) {
+    const auto bytes = GrantedFiles(script.folder, script.overrides.reads).read(name, largest);
+    if (!bytes) return tl::unexpected(bytes.error());
+    auto parsed = parse(*bytes);
+    if (parsed) return parsed;
+    return failure(fmt::format("cannot read '{}': {}", short_name(name), parsed.error().message),
+                   parsed.error().hint);
+}
+
 void read_one(Script& script, const Node& node, InputFiles& files) {
     const std::string& name = script.program->texts[node.index];
     const Grid& grid = script.program->domain.grid;
-    const auto path = readable_path(script.folder, name, script.overrides.reads);
-    if (!path) return script.diagnostics.error(node.span, path.error().message, path.error().hint);
     const Precision precision = script.program->domain.precision;
-    const auto array = read_npy(*path, precision);
+    const auto array = read_granted(script, name, largest_npy_file, [&](std::string_view bytes) {
+        return parse_npy(bytes, precision);
+    });
     if (!array) {
         script.diagnostics.error(node.span, array.error().message, array.error().hint);
     } else if (!fits(*array, grid)) {
@@ -46,12 +59,7 @@ void read_one(Script& script, const Node& node, InputFiles& files) {
 /// The pixels of a PNG; nothing with a diagnostic.
 std::optional<GreyPicture> read_picture(Script& script, const Node& node) {
     const std::string& name = script.program->texts[node.index];
-    const auto path = readable_path(script.folder, name, script.overrides.reads);
-    if (!path) {
-        script.diagnostics.error(node.span, path.error().message, path.error().hint);
-        return std::nullopt;
-    }
-    auto picture = read_grey_picture(*path);
+    auto picture = read_granted(script, name, largest_picture_file, parse_grey_picture);
     if (picture) return *std::move(picture);
     script.diagnostics.error(node.span, picture.error().message, picture.error().hint);
     return std::nullopt;

@@ -42,13 +42,9 @@ constexpr double least_area = 1e-3;
 constexpr double most_weight = 7.5;
 
 Result<MadeMesh> read_mesh(const ModelSettings& settings, const ModelAccess& access) {
-    std::filesystem::path path = settings.path;
-    if (!access.is_asked_for) {
-        auto readable = readable_path(access.folder, settings.path, access.reads);
-        if (!readable) return tl::unexpected(readable.error());
-        path = *readable;
-    }
-    Result<PolygonSoup> soup = read_model(path);
+    Result<PolygonSoup> soup =
+        access.is_asked_for ? read_model(std::filesystem::path(settings.path), access.reads)
+                            : read_model(GrantedFiles(access.folder, access.reads), settings.path);
     if (!soup) return tl::unexpected(soup.error());
     Result<MadeMesh> made = make_mesh(*std::move(soup));
     if (made) return made;

@@ -9,7 +9,7 @@
 #include "core/run_control.h"
 #include "lang/program.h"
 #include "mesh/surface_mesh.h"
-#include "run/read_access.h"
+#include "core/granted_files.h"
 #include "surface/surface_cells.h"
 
 #include <filesystem>

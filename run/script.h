@@ -7,7 +7,7 @@
 #include "lang/ast.h"
 #include "lang/program.h"
 #include "lang/token.h"
-#include "run/read_access.h"
+#include "core/granted_files.h"
 
 #include <cstdint>
 #include <filesystem>

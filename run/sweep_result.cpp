@@ -40,12 +40,15 @@ std::uint64_t add_words(std::uint64_t hash, const Script& script) {
 /// is in it.
 std::uint64_t add_files(std::uint64_t hash, const Script& script) {
     constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
-    for (const std::string& name : script.program->texts) {
-        const auto path = (script.folder / name).lexically_normal();
-        std::error_code error;
-        if (!std::filesystem::is_regular_file(path, error)) continue;
-        hash = add_line(hash, read_file(path, largest_file).value_or(""));
-    }
+    const auto add = [&](const Result<std::string>& bytes) {
+        if (bytes) hash = add_line(hash, *bytes);
+    };
+    const GrantedFiles files(script.folder, script.overrides.reads);
+    for (const std::string& name : script.program->texts) add(files.read(name, largest_file));
+    const auto& model = script.program->domain.model;
+    if (!model || model->shape != ModelShape::file) return hash;
+    add(script.overrides.model_is_asked_for ? read_linked_file(model->path, largest_file)
+                                            : files.read(model->path, largest_file));
     return hash;
 }
 

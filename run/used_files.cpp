@@ -1,6 +1,5 @@
 #include "run/used_files.h"
 
-#include "core/file.h"
 #include "lang/parse.h"
 
 #include <fmt/format.h>
@@ -55,9 +54,7 @@ std::optional<std::string> UsedFiles::text_of(const std::string& path, const ast
     const auto found = std::find_if(known.begin(), known.end(),
                                     [&](const auto& each) { return each.first == path; });
     if (found != known.end()) return found->second;
-    const auto readable = readable_path(script_.folder, path, script_.overrides.reads);
-    auto text = readable ? read_file(*readable, largest_script)
-                         : Result<std::string>(tl::unexpected(readable.error()));
+    auto text = GrantedFiles(script_.folder, script_.overrides.reads).read(path, largest_script);
     if (!text) {
         script_.diagnostics.error(use.span, text.error().message, text.error().hint);
         return std::nullopt;

@@ -47,7 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using cascade::endings;
     if (size == 0) return -1;
     const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-    auto soup = cascade::read_model_bytes(bytes, endings[data[0] % endings.size()], "/nowhere");
+    auto soup = cascade::read_model_bytes(bytes, endings[data[0] % endings.size()]);
     if (!soup) {
         CHECK(!soup.error().message.empty(), "a file that is refused has a message");
         return 0;

@@ -26,7 +26,7 @@ using testing::RandomStream;
 /// "" for a model that became a surface, else the message; the test fails where something does not
 /// fit together.
 std::string outcome_of_bytes(std::string_view bytes, std::string_view ending) {
-    auto soup = read_model_bytes(bytes, ending, "/nowhere");
+    auto soup = read_model_bytes(bytes, ending);
     if (!soup) return soup.error().message.empty() ? "NO MESSAGE" : soup.error().message;
     if (const char* fault = test::fault_of_soup(*soup)) ADD_FAILURE() << fault;
     const auto made = make_mesh(*std::move(soup));
@@ -234,7 +234,7 @@ TEST(HostileModels, NestingAndCopiesWithoutEnd) {
 
 TEST(HostileModels, StripsAndFans) {
     for (const std::string_view mode : {R"("mode":5,)", R"("mode":6,)"}) {
-        const auto soup = read_gltf(test::gltf_text(std::string(R"("indices":1,)") + std::string(mode)), ".");
+        const auto soup = read_gltf(test::gltf_text(std::string(R"("indices":1,)") + std::string(mode)));
         ASSERT_TRUE(soup);
         EXPECT_THAT(soup->polygon(0), ElementsAre(0, 1, 2));
     }
@@ -268,16 +268,18 @@ TEST(HostileModels, WhatIsNoFile) {
     EXPECT_THAT(outcome_of_file(folder / "missing.obj"), HasSubstr("No such file"));
     EXPECT_THAT(outcome_of_file(folder / "folder.obj"), HasSubstr("Is a directory"));
     ASSERT_EQ(::mkfifo((folder / "pipe.obj").c_str(), 0600), 0);
-    EXPECT_THAT(outcome_of_file(folder / "pipe.obj"), HasSubstr("it is a pipe or a device, not a file"));
+    EXPECT_THAT(outcome_of_file(folder / "pipe.obj"), HasSubstr("is a pipe or a device and no file"));
     std::filesystem::create_symlink("/dev/zero", folder / "zero.stl");
-    EXPECT_THAT(outcome_of_file(folder / "zero.stl"), HasSubstr("it is a pipe or a device, not a file"));
+    EXPECT_THAT(outcome_of_file(folder / "zero.stl"), HasSubstr("is a pipe or a device and no file"));
     std::ofstream(folder / "empty.stl").close();
     EXPECT_THAT(outcome_of_file(folder / "empty.stl"), HasSubstr("no STL file that can be read"));
     // A buffer in a file of its own that is a pipe, a folder, missing, or the right one.
     const std::string text = test::gltf_text();
     const std::size_t begin = text.find("data:"), end = text.find('"', begin);
-    for (const auto& [name, wanted] : {std::pair{"pipe.obj", "no glTF file"}, {"folder.obj", "no glTF file"},
-                                       {"$(echo x)", "no glTF file"}, {"empty.stl", "no glTF file"}}) {
+    for (const auto& [name, wanted] : {std::pair{"pipe.obj", "'pipe.obj' is a pipe"},
+                                       {"folder.obj", "Is a directory"},
+                                       {"$(echo x)", "cannot read '$(echo x)': No such file"},
+                                       {"empty.stl", "no glTF file"}}) {
         std::string file = text;
         std::ofstream(folder / "buffer.gltf") << file.replace(begin, end - begin, name);
         EXPECT_THAT(outcome_of_file(folder / "buffer.gltf"), HasSubstr(wanted)) << name;
@@ -286,6 +288,35 @@ TEST(HostileModels, WhatIsNoFile) {
     std::string file = text;
     std::ofstream(folder / "buffer.gltf") << file.replace(begin, end - begin, "triangle.bin");
     EXPECT_EQ(outcome_of_file(folder / "buffer.gltf"), "");
+}
+
+TEST(HostileModels, BuffersLieBelowTheModelsFolder) {
+    const std::filesystem::path root = std::filesystem::path(::testing::TempDir()) / "foreign_buffers";
+    std::filesystem::remove_all(root);
+    std::filesystem::create_directories(root / "models");
+    const std::string triangle = std::string(36, '\0') + std::string("\0\0\1\0\2\0", 6);
+    std::ofstream(root / "key.bin") << triangle;
+    std::ofstream(root / "size.bin") << triangle << "more";
+    std::filesystem::create_symlink("../key.bin", root / "models/link.bin");
+    const std::string text = test::gltf_text();
+    const std::size_t begin = text.find("data:"), end = text.find('"', begin);
+    const auto outcome = [&](const std::string& uri) {
+        std::string file = text;
+        std::ofstream(root / "models/thief.gltf") << file.replace(begin, end - begin, uri);
+        return outcome_of_file(root / "models/thief.gltf");
+    };
+    for (const std::string& uri :
+         {std::string("../key.bin"), std::string("%2e%2e/key.bin"), std::string("../size.bin"),
+          std::string("link.bin"), (root / "key.bin").string(), std::string("../none.bin")}) {
+        EXPECT_THAT(outcome(uri), HasSubstr("lies outside of the model's folder")) << uri;
+        EXPECT_THAT(outcome(uri), ::testing::Not(HasSubstr("46"))) << uri;
+    }
+    // The user may grant it.
+    outcome("../key.bin");
+    EXPECT_TRUE(read_model(root / "models/thief.gltf", ReadAccess{false, {root}}));
+    // What a script names has the script's grants.
+    const auto by_script = read_model(GrantedFiles(root, {}), "models/thief.gltf");
+    EXPECT_TRUE(by_script) << by_script.error().message;
 }
 
 }  // namespace

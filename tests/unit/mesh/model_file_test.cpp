@@ -154,7 +154,7 @@ TEST(ModelFile, AnOffFileAndAnStlFile) {
 
 TEST(ModelFile, AGltfFileIsPlacedByItsNodes) {
     for (const char* indices : {R"("indices":1,)", ""}) {
-        const auto soup = read_gltf(gltf_text(indices), ".");
+        const auto soup = read_gltf(gltf_text(indices));
         ASSERT_TRUE(soup) << fault_of(soup);
         ASSERT_EQ(soup->points.size(), 3u);
         EXPECT_EQ(soup->points[0], (Vector3d{2, 0, 0}));
@@ -168,7 +168,7 @@ TEST(ModelFile, BrokenGltfFiles) {
     const auto fault_with = [](std::string_view from, std::string_view to) {
         std::string text = gltf_text();
         text.replace(text.find(from), from.size(), to);
-        return fault_of(read_gltf(text, "."));
+        return fault_of(read_gltf(text));
     };
     EXPECT_EQ(fault_with(R"({"asset")", "nonsense"), "this is no glTF file that can be read");
     EXPECT_EQ(fault_with(R"("children":[1])", R"("children":[0])"),

@@ -1,7 +1,7 @@
 // `use`, and which files a script may read.
 #include "core/file.h"
+#include "core/granted_files.h"
 #include "run/png_texts.h"
-#include "run/read_access.h"
 #include "run/script.h"
 
 #include <gmock/gmock.h>
