@@ -13,25 +13,24 @@ namespace {
 /// What has grown without bound has passed this before it is infinite.
 constexpr double most_that_is_sane = 1e4;
 
-/// A speed to try: nine tenths of the limit, two digits.
-double safe_speed(double largest) { return std::stod(fmt::format("{:.2g}", 0.9 * largest)); }
-
-std::string advice(double largest, double speed) {
-    const std::string used = std::isnan(speed) ? "varies by cell" : fmt::format("is {:.6g}", speed);
-    return fmt::format("the largest stable speed is about {:.3g} and this stage's {}; try 'speed: {}'",
-                       largest, used, safe_speed(largest));
-}
-
-/// The smaller of the two limits; empty where neither state has one.
+/// The smaller of the limits at both states; empty where neither has one. A state that has grown far
+/// beyond the starting values is spoiled, and looks stiff whatever the reaction is.
 std::optional<double> limit(const NotFiniteReport& report) {
-    const auto start = report.estimate_at_start.largest_speed;
-    const auto before = report.estimate_before.largest_speed;
+    const auto start = longest_step(report.estimate_at_start, report.use);
+    const bool is_spoiled = report.largest_before.value_or(0) > 100 * std::max(1.0, report.largest_at_start);
+    if (is_spoiled) return start;
+    const auto before = longest_step(report.estimate_before, report.use);
     if (start && before) return std::min(*start, *before);
     return start ? start : before;
 }
 
-/// A limit well above the speed in use did not make the run fail.
-bool explains(double largest, double speed) { return std::isnan(speed) || largest < 1.1 * speed; }
+/// Of what has grown without bound by steps that are stable: nobody knows whether the equations do
+/// so, or only such steps.
+std::string advice_for_growth(const StepInUse& use) {
+    if (is_adaptive(use.solver)) return "the reaction itself grows without bound here";
+    return "either the reaction itself grows without bound here, or steps are too long to follow it; "
+           "'solver: rk23' finds out, whose steps are as long as their error allows";
+}
 
 }  // namespace
 
@@ -65,14 +64,15 @@ Failure describe(const NotFiniteReport& report) {
             : fmt::format("between steps {} and {}", report.found.last_finite, report.found.step);
     failure.message = fmt::format("stage '{}' ({}): {} is not finite any more at {}, {}", report.stage,
                                   report.system, report.species, report.place, when);
-    if (!report.semi_implicit.empty()) {
+    const StepInUse& use = report.use;
+    if (is_semi_implicit(use.solver)) {
         failure.hint = fmt::format("{} takes diffusion alone for a step of any length, the reaction not; "
-                                   "try 'speed: {:.2g}'", report.semi_implicit, report.speed / 2);
+                                   "try 'speed: {:.2g}'", name_of(use.solver), use.speed / 2);
         return failure;
     }
     const auto largest = limit(report);
-    if (largest && explains(*largest, report.speed)) {
-        failure.hint = advice(*largest, report.speed);
+    if (largest && is_too_long(use, *largest)) {
+        failure.hint = advise(*largest, use);
     } else if (!report.largest_before) {
         failure.hint = "a smaller grid needs no memory to be spared, so it tells which step it was and why";
     } else if (*report.largest_before < most_that_is_sane) {
@@ -81,22 +81,9 @@ Failure describe(const NotFiniteReport& report) {
             "or root of a negative number, in its rate or in a parameter",
             *report.largest_before);
     } else {
-        failure.hint = "the reaction itself grows without bound here";
-        if (largest) {
-            failure.hint += fmt::format(" (diffusion is stable up to a speed of about {:.3g})", *largest);
-        }
+        failure.hint = advice_for_growth(use);
     }
     return failure;
-}
-
-std::string describe_chequerboard(const std::string& stage, const std::string& species,
-                                  const StabilityEstimate& estimate, double speed) {
-    std::string text = fmt::format(
-        "stage '{}': {} alternates from cell to cell like a chequerboard, which is a fault of too "
-        "large a time step and not a pattern",
-        stage, species);
-    if (estimate.largest_speed) text += "; " + advice(*estimate.largest_speed, speed);
-    return text;
 }
 
 }  // namespace cascade

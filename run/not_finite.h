@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/result.h"
+#include "run/step_advice.h"
 #include "solvers/advance.h"
 #include "solvers/stability.h"
 
@@ -15,11 +16,11 @@ struct NotFiniteReport {
     std::string stage, system, species;
     NotFinite found;
     std::string place;                     ///< Of the cell, in words.
-    double speed = 0;                      ///< NaN where it varies by cell.
-    std::string semi_implicit;             ///< The solver's name, if it is such a one.
+    StepInUse use;
     // Only of what was kept:
     std::optional<double> largest_before;  ///< Magnitude of any value before that step.
     StabilityEstimate estimate_before;     ///< At the last look before.
+    double largest_at_start = 0;           ///< Magnitude of any starting value of the stage.
     StabilityEstimate estimate_at_start;   ///< At the stage's starting values.
 };
 
@@ -28,9 +29,5 @@ double largest_magnitude(const std::vector<Field>& species);
 
 /// Which stage, species, cell and step, and the largest stable speed where the step is to blame.
 Failure describe(const NotFiniteReport& report);
-
-/// The warning about neighbours that alternate.
-std::string describe_chequerboard(const std::string& stage, const std::string& species,
-                                  const StabilityEstimate& estimate, double speed);
 
 }  // namespace cascade

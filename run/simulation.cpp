@@ -177,14 +177,16 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     self.unsettled.insert_or_assign(k, std::move(kernels));
     self.warn_of_refused(control);
     if (outcome.cancelled) self.stepper->abandon();
-    state.lasting.clear();
     state.steps = outcome.steps;
     state.t = outcome.t;
     state.time = outcome.time;
+    if (!outcome.not_finite && !outcome.too_short && !outcome.cancelled) {
+        self.warn_of_doubts(k, timer, control);
+    }
+    state.lasting.clear();
     self.account_for(k, state.steps - steps_before, outcome);
     if (outcome.not_finite) return tl::unexpected(self.explain(outcome, k));
     if (outcome.too_short) return tl::unexpected(self.explain(*outcome.too_short, k));
-    self.warn_of_chequerboard(k, control);
     if (outcome.cancelled) return StageEnd::cancelled;
     state.done = outcome.ended || state.steps >= stage.iterations;
     if (stage.time.open_end && !outcome.ended && state.done && control.warn) {

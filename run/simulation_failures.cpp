@@ -1,4 +1,5 @@
-// Why a run failed, and what looks as if it will.
+// Why a run failed.
+#include "lang/derivative.h"
 #include "run/not_finite.h"
 #include "run/simulation_implementation.h"
 
@@ -22,6 +23,27 @@ Failure Simulation::Implementation::explain(const StepTooShort& place, std::uint
     return failure;
 }
 
+StepInUse Simulation::Implementation::step_in_use(std::uint32_t k) const {
+    const StageTime& time = stage(k).time;
+    StepInUse use;
+    use.speed = speed_number(k);
+    use.solver = time.solver;
+    use.is_chosen = time.chooses_steps();
+    if (!time.has_duration() && !time.open_end) use.iterations = stage(k).iterations;
+    return use;
+}
+
+bool Simulation::Implementation::diffusion_limits(std::uint32_t k) const {
+    constexpr double worth_changing = 4;
+    if (stage(k).time.solver == Solver::symplectic || takes_long_steps(stage(k).time.solver)) return false;
+    const auto bound = jacobian_bound(*program, k);
+    if (!bound || bound->jumps) return false;
+    const Formula* const formulas[] = {&bound->whole, &bound->reaction};
+    const std::vector<Field> bounds = evaluate(plan_view(*program, formulas, k), k);
+    const double whole = bounds[0].number_at(0, 0), reaction = bounds[1].number_at(0, 0);
+    return std::isfinite(whole) && whole > worth_changing * reaction;
+}
+
 Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::uint32_t k) {
     NotFiniteReport report;
     report.stage = stage(k).name;
@@ -30,11 +52,8 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
     report.species = species_name(system, outcome.not_finite->species);
     report.found = *outcome.not_finite;
     report.place = place_in_words(report.found.column, report.found.row);
-    report.speed = speed_number(k);
-    if (const Solver solver = stage(k).time.solver; is_semi_implicit(solver)) {
-        report.semi_implicit = name_of(solver);
-    }
-    if (report.found.at_start() || !report.semi_implicit.empty()) return describe(report);
+    report.use = step_in_use(k);
+    if (report.found.at_start() || is_semi_implicit(report.use.solver)) return describe(report);
     const std::size_t count = states[k].species.size();
     // Without a kept copy the values are those that are spoiled, also where two looks are one step apart.
     const bool keeps = !outcome.last_checked.empty();
@@ -49,7 +68,9 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
     states[k].species.clear();
     states[k].species.resize(count);
     start_varying_items(k);
+    report.largest_at_start = largest_magnitude(states[k].species);
     report.estimate_at_start = stability(k, states[k].species);
+    report.use.diffusion_limits = diffusion_limits(k);
     if (keeps) {
         states[k].species = std::move(last_finite);
     } else {
@@ -59,24 +80,6 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
         states[k].time = {};
     }
     return describe(report);
-}
-
-void Simulation::Implementation::warn_of_chequerboard(std::uint32_t k,
-                                                      RunControl& control) const {
-    // Cells of a model that lie beside each other in memory need be no neighbours.
-    if (!control.warn || states[k].steps == 0 || model) return;
-    const System& system = program->system_of(k);
-    for (std::size_t s = 0; s < states[k].species.size(); ++s) {
-        const Mask* counted = mask ? &mask->inside : nullptr;
-        if (chequerboard(states[k].species[s], counted) < chequerboard_threshold) continue;
-        // The limit of explicit steps is none of a solver that takes diffusion implicitly.
-        const StabilityEstimate limit = is_semi_implicit(stage(k).time.solver)
-                                            ? StabilityEstimate{}
-                                            : stability(k, states[k].species);
-        control.warn(describe_chequerboard(stage(k).name, species_name(system, s), limit,
-                                           speed_number(k)));
-        return;
-    }
 }
 
 }  // namespace cascade

@@ -13,6 +13,8 @@
 #include "run/simulation.h"
 #include "run/stage_plans.h"
 #include "run/stage_time.h"
+#include "run/not_finite.h"
+#include "run/result_doubts.h"
 #include "run/step_kernels.h"
 #include "solvers/stability.h"
 
@@ -159,7 +161,22 @@ struct Simulation::Implementation {
     std::string place_in_words(std::int64_t column, std::int64_t row) const;
     Failure explain(const StageOutcome& outcome, std::uint32_t k);
     Failure explain(const StepTooShort& place, std::uint32_t k) const;
-    void warn_of_chequerboard(std::uint32_t k, RunControl& control) const;
+    StepInUse step_in_use(std::uint32_t k) const;
+    /// Is the limit of the step at the present state one of diffusion, far below that of the reaction?
+    bool diffusion_limits(std::uint32_t k) const;
+
+    // Signs that a result is wrong although its values are finite (simulation_doubts.cpp).
+
+    /// To be called at the end of a stage, before what no step changes is given back.
+    void warn_of_doubts(std::uint32_t k, StageTimer& timer, RunControl& control);
+    /// Values that jump back and forth in a few more steps, which are taken of a copy.
+    std::optional<FlickerReport> find_flicker(std::uint32_t k, StageTimer& timer);
+    /// Of the species' starting values.
+    StabilityEstimate stability_at_start(std::uint32_t k);
+    /// Does a species alternate from cell to cell, because of its steps or of its rate?
+    std::optional<std::string> find_chequerboard(std::uint32_t k, bool flickers) const;
+    /// The cells that count where a mask or a model says so.
+    const Mask* counted() const { return mask ? &mask->inside : model ? &model->inside : nullptr; }
     StabilityEstimate stability(std::uint32_t k, std::span<const Field> species) const {
         return stability(k, species, interpreted(grid));
     }

@@ -1,51 +1,206 @@
-// The chequerboard mode of a field.
-#include "solvers/stability.h"
+// Correlations of neighbours in blocks of a field.
+#include "solvers/chequerboard.h"
+
+#include "solvers/field_norms.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace cascade {
-
 namespace {
 
+constexpr std::int64_t cells_of_block = 64;
+/// Of neighbours on a grid, and of linked cells.
+constexpr double grid_limit = 0.5, link_limit = 0.3;
+
+/// The correlation of pairs of deviations, and whether it says that they alternate.
+class Pairs {
+public:
+    void add(double a, double b) {
+        products_ += a * b;
+        squares_ += (a * a + b * b) / 2;
+        ++count_;
+    }
+    bool alternate(double limit) const {
+        constexpr int least = 8;
+        if (count_ < least) return false;
+        const double by_chance = std::tanh(4.5 / std::sqrt(static_cast<double>(count_ - 3)));
+        return products_ < -std::max(limit, by_chance) * squares_;
+    }
+
+private:
+    double products_ = 0, squares_ = 0;
+    std::int64_t count_ = 0;
+};
+
+/// Part of an axis: cells [begin, end).
+struct Stretch {
+    std::int64_t begin = 0, end = 0;
+};
+
+/// Stretches that cover an axis, each beginning `stride` after the one before.
+std::vector<Stretch> stretches(std::int64_t count, std::int64_t length, std::int64_t stride) {
+    std::vector<Stretch> all;
+    for (std::int64_t begin = 0; all.empty() || all.back().end < count; begin += stride) {
+        const std::int64_t end = std::min(begin + length, count);
+        all.push_back({std::max<std::int64_t>(0, end - length), end});
+    }
+    return all;
+}
+
+/// How blocks are cut: 64 cells along a line, 8 × 8 in a plane, 4 × 4 × 4 in space.
+std::array<std::int64_t, 3> block_sides(const PlaneLayout& layout) {
+    const std::array<std::int64_t, 3> counts{layout.width, layout.height, layout.depth};
+    const auto axes =
+        std::count_if(counts.begin(), counts.end(), [](auto count) { return count > 1; });
+    const std::int64_t side = axes <= 1 ? cells_of_block : axes == 2 ? 8 : 4;
+    return {side, side, side};
+}
+
 template <typename Number>
-double chequerboard_of(const Plane<Number>& field, const Mask* inside) {
-    const PlaneLayout& layout = field.layout();
-    if (field.empty()) return 0;
-    // Calls visit(value, column + row + slice) for every cell that counts.
-    const auto for_each_cell = [&](const auto& visit) {
-        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-            const std::int64_t jk = row % layout.height + row / layout.height;
-            for (std::int64_t i = 0; i < layout.width; ++i) {
-                if (inside == nullptr || inside->row(row)[i] != 0) visit(field.row(row)[i], i + jk);
+class Blocks {
+public:
+    Blocks(const Plane<Number>& plane, const Mask* inside, double deviation)
+        : plane_(plane),
+          layout_(plane.layout()),
+          inside_(inside),
+          least_variance_(0.01 * deviation * deviation) {}
+
+    /// The part of the blocks whose cells alternate along an axis.
+    double on_grid() {
+        const auto sides = block_sides(layout_);
+        const auto cut = [&](std::int64_t count, std::int64_t side) {
+            return stretches(count, side, std::max<std::int64_t>(side / 2, 1));
+        };
+        for (const Stretch k : cut(layout_.depth, sides[2])) {
+            for (const Stretch j : cut(layout_.height, sides[1])) {
+                for (const Stretch i : cut(layout_.width, sides[0])) look_at({i, j, k});
             }
         }
+        return part();
+    }
+
+    double on_links(const LinkTable<Number>& table) {
+        for (std::int64_t row = 0; row < layout_.row_count(); ++row) {
+            for (const Stretch columns : stretches(layout_.width, cells_of_block, cells_of_block)) {
+                look_at(table, columns, row);
+            }
+        }
+        return part();
+    }
+
+private:
+    struct Block {
+        Stretch i, j, k;
     };
 
-    // Two passes: sums of squares of values far from 0 would lose the deviations.
-    double sum = 0, cells = 0;
-    for_each_cell([&](double value, std::int64_t) {
-        sum += value;
-        ++cells;
-    });
-    if (cells < 1) return 0;
-    const double mean = sum / cells;
-    double alternating = 0, squares = 0, largest = 0;
-    for_each_cell([&](double value, std::int64_t place) {
-        const double deviation = value - mean;
-        alternating += place % 2 == 0 ? deviation : -deviation;
-        squares += deviation * deviation;
-        largest = std::max(largest, std::abs(deviation));
-    });
-    // Deviations of a rounding are no pattern.
-    if (!(largest > 1e-6 * std::abs(mean))) return 0;
-    return std::abs(alternating) / cells / std::sqrt(squares / cells);
-}
+    bool counts(std::int64_t i, std::int64_t row) const {
+        return inside_ == nullptr || inside_->row(row)[i] != 0;
+    }
+    double part() const { return cells_ > 0 ? alternating_ / cells_ : 0; }
+
+    /// `visit(i, row)` for the cells of a block that count.
+    template <typename Visit>
+    void for_each_cell(const Block& block, Visit visit) const {
+        for (std::int64_t k = block.k.begin; k < block.k.end; ++k) {
+            for (std::int64_t j = block.j.begin; j < block.j.end; ++j) {
+                const std::int64_t row = k * layout_.height + j;
+                for (std::int64_t i = block.i.begin; i < block.i.end; ++i) {
+                    if (counts(i, row)) visit(i, row);
+                }
+            }
+        }
+    }
+
+    struct Level {
+        double cells = 0, mean = 0;
+        bool is_even =
+            true;  ///< Deviations of a rounding, or little beside the field's, are no pattern.
+    };
+    Level level_of(const Block& block) const {
+        Level level;
+        double sum = 0, squares = 0;
+        for_each_cell(block, [&](std::int64_t i, std::int64_t row) {
+            sum += plane_.row(row)[i];
+            ++level.cells;
+        });
+        level.mean = level.cells > 0 ? sum / level.cells : 0;
+        for_each_cell(block, [&](std::int64_t i, std::int64_t row) {
+            const double deviation = plane_.row(row)[i] - level.mean;
+            squares += deviation * deviation;
+        });
+        const double variance = level.cells > 0 ? squares / level.cells : 0;
+        const double rounding = 1e-6 * level.mean;
+        level.is_even = !(variance >= least_variance_ && variance > rounding * rounding);
+        return level;
+    }
+
+    void look_at(const Block& block) {
+        const Level level = level_of(block);
+        cells_ += level.cells;
+        if (level.is_even) return;
+        if (alternates(block, level.mean, {1, 0, 0}) || alternates(block, level.mean, {0, 1, 0}) ||
+            alternates(block, level.mean, {0, 0, 1})) {
+            alternating_ += level.cells;
+        }
+    }
+
+    /// Along one axis, of whose two neighbours both are in the block.
+    bool alternates(const Block& block, double mean, std::array<std::int64_t, 3> to) const {
+        const Block first{{block.i.begin, block.i.end - to[0]},
+                          {block.j.begin, block.j.end - to[1]},
+                          {block.k.begin, block.k.end - to[2]}};
+        const std::int64_t rows = to[1] + to[2] * layout_.height;
+        Pairs pairs;
+        for_each_cell(first, [&](std::int64_t i, std::int64_t row) {
+            const std::int64_t beside = i + to[0], row_beside = row + rows;
+            if (!counts(beside, row_beside)) return;
+            pairs.add(plane_.row(row)[i] - mean, plane_.row(row_beside)[beside] - mean);
+        });
+        return pairs.alternate(grid_limit);
+    }
+
+    void look_at(const LinkTable<Number>& table, Stretch columns, std::int64_t row) {
+        const Level level = level_of({columns, {row, row + 1}, {0, 1}});
+        cells_ += level.cells;
+        if (level.is_even) return;
+        constexpr std::int64_t lanes = LinkTable<Number>::slice_cells;
+        const std::int64_t slices_of_row = (layout_.width + lanes - 1) / lanes;
+        Pairs pairs;
+        for (std::int64_t i = columns.begin; i < columns.end; ++i) {
+            if (!counts(i, row)) continue;
+            const std::int64_t slice = row * slices_of_row + i / lanes;
+            for (std::uint32_t entry = table.starts[slice]; entry < table.starts[slice + 1];
+                 ++entry) {
+                const std::int64_t link = entry * lanes + i % lanes;
+                if (table.weights[link] == 0) continue;  // It only fills up.
+                pairs.add(plane_.row(row)[i] - level.mean,
+                          plane_.origin()[table.targets[link]] - level.mean);
+            }
+        }
+        if (pairs.alternate(link_limit)) alternating_ += level.cells;
+    }
+
+    const Plane<Number>& plane_;
+    const PlaneLayout& layout_;
+    const Mask* inside_;
+    double least_variance_;
+    double cells_ = 0, alternating_ = 0;
+};
 
 }  // namespace
 
-double chequerboard(const Field& field, const Mask* inside) {
-    return field.visit([&](const auto& plane) { return chequerboard_of(plane, inside); });
+double alternating_part(const Field& field, const Mask* inside, const Links* links) {
+    if (field.empty()) return 0;
+    const double deviation = moments(field, inside).deviation;
+    return field.visit([&](const auto& plane) {
+        using Number = std::remove_cvref_t<decltype(*plane.origin())>;
+        Blocks blocks(plane, inside, deviation);
+        return links != nullptr ? blocks.on_links(links->table<Number>()) : blocks.on_grid();
+    });
 }
 
 }  // namespace cascade

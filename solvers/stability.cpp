@@ -72,10 +72,12 @@ public:
             scales_.push_back(
                 field.visit([&](const auto& plane) { return root_mean_square(plane); }));
         }
-        // A species that is zero everywhere takes the scale of the others.
+        // A species that is zero everywhere takes the scale of the others; of one that has all but died
+        // out, differences would be lost among denormals.
         const double largest = *std::max_element(scales_.begin(), scales_.end());
         for (double& scale : scales_) {
             if (!(scale > 0)) scale = largest > 0 ? largest : 1;
+            scale = std::max(scale, 1e-9 * largest);
         }
     }
 

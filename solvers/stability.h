@@ -1,4 +1,4 @@
-// What is the largest time step, and has a run already suffered from one that is too large?
+// What is the largest time step?
 #pragma once
 
 #include "core/plane.h"
@@ -28,12 +28,5 @@ struct StabilityEstimate {
 /// Of use only at a state before a blow-up: at 1e20 any reaction looks stiff.
 StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const Field> species,
                                      const Mask* frozen = nullptr);
-
-/// The chequerboard mode of a field: |Σ (−1)^(i+j) c| / N divided by the standard deviation of c.
-/// Near 1 when neighbours alternate, near 0 for a pattern the grid resolves; 0 for a flat field.
-double chequerboard(const Field& field, const Mask* inside = nullptr);
-
-/// Above this a field is called a chequerboard and the user is warned.
-inline constexpr double chequerboard_threshold = 0.5;
 
 }  // namespace cascade

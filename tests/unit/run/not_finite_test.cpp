@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace cascade {
 namespace {
 
@@ -15,7 +17,7 @@ NotFiniteReport report_of(std::int64_t last_finite, std::int64_t step) {
     report.system = "gs";
     report.species = "u";
     report.place = "column 1, row 2";
-    report.speed = 4;
+    report.use.speed = 4;
     report.found.step = step;
     report.found.last_finite = last_finite;
     return report;
@@ -42,6 +44,63 @@ TEST(NotFinite, SaysNothingOfValuesThatWereNotKept) {
     EXPECT_THAT(describe(kept).hint, HasSubstr("no value was above 2 before that step"));
     kept.largest_before = 1e9;
     EXPECT_THAT(describe(kept).hint, Not(HasSubstr("no value was above")));
+}
+
+// At 1e20 any reaction looks stiff.
+TEST(NotFinite, DoesNotAskAStateThatIsSpoiled) {
+    NotFiniteReport report = report_of(63, 64);
+    report.largest_at_start = 2;
+    report.largest_before = 1e20;
+    report.estimate_before.largest_speed = 2.19e-63;
+    EXPECT_THAT(describe(report).hint, Not(HasSubstr("largest stable speed")));
+    EXPECT_THAT(describe(report).hint, HasSubstr("or steps are too long to follow it; 'solver: rk23' finds out"));
+    report.estimate_at_start.largest_speed = 1.5;
+    EXPECT_THAT(describe(report).hint, HasSubstr("the largest stable speed is about 1.5 "));
+    // A state that has only begun to grow is asked.
+    report.largest_before = 20;
+    report.estimate_before.largest_speed = 0.5;
+    EXPECT_THAT(describe(report).hint, HasSubstr("the largest stable speed is about 0.5 "));
+}
+
+TEST(NotFinite, KnowsThatAnAdaptiveSolverFollowsWhatGrows) {
+    NotFiniteReport report = report_of(63, 64);
+    report.use.solver = Solver::rk45;
+    report.largest_before = 1e20;
+    EXPECT_EQ(describe(report).hint, "the reaction itself grows without bound here");
+}
+
+// rk4 is stable for steps 2.785 / 2 times as long as Euler's.
+TEST(StepAdvice, IsOfTheSolverInUse) {
+    StabilityEstimate estimate;
+    estimate.largest_speed = 1;
+    const auto longest = [&](Solver solver) {
+        StepInUse use;
+        use.speed = 2;
+        use.solver = solver;
+        return longest_step(estimate, use);
+    };
+    EXPECT_EQ(longest(Solver::euler), 1);
+    EXPECT_NEAR(*longest(Solver::rk4), 1.3925, 1e-9);
+    EXPECT_GT(*longest(Solver::rkl2), 2000);
+    EXPECT_EQ(longest(Solver::imex), std::nullopt);
+    estimate.largest_speed = 1e-30;
+    EXPECT_EQ(longest(Solver::euler), std::nullopt);
+}
+
+TEST(StepAdvice, IsAsMuchTimeAsBefore) {
+    StepInUse use;
+    use.speed = 1;
+    use.iterations = 5000;
+    EXPECT_EQ(advise(0.207, use), "the largest stable speed is about 0.207 and this stage's is 1; "
+                                  "try 'speed: 0.19; iterations: 26316'");
+    use.diffusion_limits = true;
+    EXPECT_THAT(advise(0.207, use), HasSubstr("', or longer steps: 'solver: rkl1; speed: auto; duration: 5000'"));
+    use.iterations = 0;
+    EXPECT_EQ(advise(0.207, use), "the largest stable speed is about 0.207 and this stage's is 1; "
+                                  "try 'speed: 0.19', or longer steps: 'solver: rkl1; speed: auto'");
+    use.speed = NAN;
+    EXPECT_EQ(advise(0.207, use),
+              "the largest stable speed is about 0.207 and this stage's varies by cell; try 'speed: 0.19'");
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+// Words for results that are finite and all the same wrong.
+#pragma once
+
+#include "run/step_advice.h"
+#include "solvers/stability.h"
+
+#include <optional>
+#include <string>
+
+namespace cascade {
+
+/// Neighbours that alternate.
+struct ChequerboardReport {
+    std::string stage, species;
+    StepInUse use;
+    StabilityEstimate estimate;  ///< At that state.
+    bool flickers = false;       ///< Values jump back and forth from step to step, too.
+};
+
+/// The warning; nothing where neither the step nor a rate that makes differences of neighbours grow
+/// explains it, as where a lattice is meant.
+std::optional<std::string> describe(const ChequerboardReport& report);
+
+/// Values that jump back and forth from step to step.
+struct FlickerReport {
+    std::string stage, species;
+    StepInUse use;
+    std::optional<double> limit;  ///< Of the step, where one is known.
+    double part = 0;              ///< Of the cells.
+    double largest = 0;           ///< Jump.
+};
+
+/// From this part of the cells on the user is warned.
+inline constexpr double flicker_threshold = 0.01;
+/// From this part of all changes on, in steps too long for a regular to and fro.
+inline constexpr double undone_threshold = 0.4;
+
+/// The warning.
+std::string describe(const FlickerReport& report);
+
+}  // namespace cascade

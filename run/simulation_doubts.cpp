@@ -1,0 +1,134 @@
+// What the result of a stage says about itself: signs that it is wrong although all values are
+// finite.
+#include "run/result_doubts.h"
+#include "run/simulation_implementation.h"
+#include "solvers/chequerboard.h"
+#include "solvers/flicker.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace cascade {
+
+namespace {
+
+/// Species of more bytes are not copied for a look.
+constexpr std::int64_t most_copied_bytes = std::int64_t{64} << 20;
+/// So many more steps are taken for a look, but no more than a quarter of those before.
+constexpr std::int64_t most_steps = 8, least_steps = 4;
+
+bool draws_random_numbers(const System& system) {
+    const auto draws = [](const Formula& formula) {
+        return std::any_of(formula.nodes.begin(), formula.nodes.end(), [](const Node& node) {
+            return node.kind == NodeKind::call && is_random(node.function);
+        });
+    };
+    return std::any_of(system.rates.begin(), system.rates.end(), draws) ||
+           std::any_of(system.definitions.begin(), system.definitions.end(),
+                       [&](const Definition& definition) { return draws(definition.formula); });
+}
+
+}  // namespace
+
+std::optional<FlickerReport> Simulation::Implementation::find_flicker(std::uint32_t k,
+                                                                      StageTimer& timer) {
+    StageState& state = states[k];
+    const std::int64_t count = std::min(most_steps, state.steps / 4);
+    Schedule schedule = timer.schedule(state.steps, 1);
+    schedule.most_kept_bytes = most_copied_bytes;
+    if (stage(k).time.chooses_steps() || count < least_steps ||
+        !keeps_copy(schedule, state.species.size(), grid, precision())) {
+        return std::nullopt;
+    }
+    schedule.last_step = state.steps + count;
+    schedule.end_time = std::numeric_limits<double>::infinity();
+    schedule.check = 0;
+    schedule.ends = {};
+    schedule.most_kept_bytes = 0;
+    schedule.threads = threads;
+    // The last step of a duration may have been a shorter one.
+    const double speed = state.numbers[program->system_of(k).speed_item()];
+    if (schedule.time.clock.step > 0) schedule.time.clock.set_step(state.steps, speed);
+
+    std::vector<Field> result;
+    for (const Field& field : state.species) result.push_back(field.clone());
+    const std::int64_t steps = state.steps;
+    const double t = state.t;
+    FlickerWatch watch(counted());
+    watch.see(state.species);
+    RunControl nobody;
+    const StageOutcome outcome = advance(timer.problem(), schedule, state.species, nobody, {},
+                                         [&](std::int64_t, double, std::span<const Field> species) {
+                                             watch.see(species);
+                                             return true;
+                                         });
+    state.species = std::move(result);
+    state.steps = steps;
+    state.t = t;
+    if (outcome.not_finite) return std::nullopt;
+
+    const System& system = program->system_of(k);
+    const bool is_random = draws_random_numbers(system);
+    for (std::size_t s = 0; s < state.species.size(); ++s) {
+        const FlickerWatch::Finding found = watch.finding(s);
+        if (found.flickering < flicker_threshold && (is_random || found.undone < undone_threshold))
+            continue;
+        FlickerReport report;
+        report.stage = stage(k).name;
+        report.species = species_name(system, s);
+        report.use = step_in_use(k);
+        report.part = found.flickering;
+        report.largest = found.largest;
+        return report;
+    }
+    return std::nullopt;
+}
+
+StabilityEstimate Simulation::Implementation::stability_at_start(std::uint32_t k) {
+    std::vector<Field> result(states[k].species.size());
+    result.swap(states[k].species);
+    start_varying_items(k);
+    const StabilityEstimate estimate = stability(k, states[k].species);
+    states[k].species = std::move(result);
+    return estimate;
+}
+
+std::optional<std::string> Simulation::Implementation::find_chequerboard(std::uint32_t k,
+                                                                         bool flickers) const {
+    const std::vector<Field>& species = states[k].species;
+    const Links* links = model ? &model->links : nullptr;
+    const auto alternates = [&](const Field& field) {
+        return alternating_part(field, counted(), links) >= chequerboard_threshold;
+    };
+    const auto found = std::find_if(species.begin(), species.end(), alternates);
+    if (found == species.end()) return std::nullopt;
+    ChequerboardReport report;
+    report.stage = stage(k).name;
+    report.species =
+        species_name(program->system_of(k), static_cast<std::size_t>(found - species.begin()));
+    report.use = step_in_use(k);
+    report.flickers = flickers;
+    report.estimate = stability(k, species);
+    report.use.diffusion_limits = diffusion_limits(k);
+    return describe(report);
+}
+
+void Simulation::Implementation::warn_of_doubts(std::uint32_t k, StageTimer& timer,
+                                                RunControl& control) {
+    if (!control.warn || states[k].steps == 0) return;
+    std::optional<FlickerReport> flicker = find_flicker(k, timer);
+    if (const auto chequerboard = find_chequerboard(k, flicker.has_value())) {
+        control.warn(*chequerboard);
+    } else if (flicker) {
+        flicker->limit = longest_step(stability(k, states[k].species), flicker->use);
+        if (!flicker->limit || !is_too_long(flicker->use, *flicker->limit)) {
+            flicker->limit = longest_step(stability_at_start(k), flicker->use);
+        }
+        // Without a to and fro, changes that undo each other may be waves of a few steps.
+        const bool is_sure = flicker->part >= flicker_threshold ||
+                             (flicker->limit && is_too_long(flicker->use, *flicker->limit));
+        if (is_sure) control.warn(describe(*flicker));
+    }
+}
+
+}  // namespace cascade

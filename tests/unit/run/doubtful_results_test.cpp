@@ -1,0 +1,163 @@
+// Scripts of a few lines that used to end without a word and with a wrong picture.
+#include "run_fixture.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+namespace cascade {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class DoubtfulResults : public RunTest {
+protected:
+    /// The warnings of a run.
+    std::vector<std::string> warnings_of(const std::string& text) {
+        warnings_.clear();
+        Script script = load(text);
+        run_well(script, request());
+        return warnings_;
+    }
+};
+
+// Neighbours that alternate.
+
+std::string too_fast_diffusion(const std::string& domain, const std::string& rate = "lap(u)",
+                               const std::string& settings = "speed: 0.3; iterations: 300") {
+    return fmt::format(
+        "system d {{ u: random(0.5, 0.1); u' = {}; u >= 0; u <= 1 }}\n"
+        "domain {{ {} }}\nstage s: d {{ {} }}\n",
+        rate, domain, settings);
+}
+
+TEST_F(DoubtfulResults, AChequerboardOfDomainsIsTold) {
+    for (const char* domain :
+         {"grid: 64, 64", "grid: 130, 128", "grid: 16, 16, 16",
+          "grid: 96, 96; mask: disc(0.5, 0.5, 0.4)", "grid: 300", "grid: 80, 80; boundary: noflux",
+          "grid: 80, 80; precision: double"}) {
+        const std::string speed = domain == std::string("grid: 300") ? "0.6" : "0.3";
+        EXPECT_THAT(
+            warnings_of(
+                too_fast_diffusion(domain, "lap(u)", "speed: " + speed + "; iterations: 300")),
+            ElementsAre(AllOf(HasSubstr("u alternates from cell to cell like a chequerboard"),
+                              HasSubstr("the largest stable speed is about "))))
+            << domain;
+    }
+}
+
+TEST_F(DoubtfulResults, StripesOfOneAxisAreTold) {
+    for (const char* rate : {"dxx(u)", "dyy(u) + 0.1 * dxx(u)", "diffuse(u, 1.5, 0.3, 0)"}) {
+        EXPECT_THAT(
+            warnings_of(too_fast_diffusion("grid: 90, 90", rate, "speed: 0.6; iterations: 300")),
+            ElementsAre(HasSubstr("u alternates from cell to cell")))
+            << rate;
+    }
+}
+
+TEST_F(DoubtfulResults, AlternatingPartsAreTold) {
+    for (const char* part : {"0.5", "0.1"}) {
+        const std::string rate = fmt::format("(0.1 + 0.9 * (sx < {})) * lap(u)", part);
+        EXPECT_THAT(warnings_of(too_fast_diffusion("grid: 100, 100", rate)),
+                    ElementsAre(HasSubstr("u alternates from cell to cell")))
+            << part;
+    }
+}
+
+TEST_F(DoubtfulResults, AChequerboardOnAModelIsTold) {
+    const auto warnings = warnings_of(too_fast_diffusion(
+        "surface: sphere; cells: 1500", "lap(u)", "speed: 0.5; iterations: 300; solver: rk2"));
+    EXPECT_THAT(warnings, ElementsAre(HasSubstr("u alternates from cell to cell")));
+}
+
+TEST_F(DoubtfulResults, TheWrongSignOfDiffusionIsTold) {
+    EXPECT_THAT(
+        warnings_of(too_fast_diffusion("grid: 64, 64", "-lap(u)", "speed: 0.01; iterations: 1000")),
+        ElementsAre(HasSubstr("because its rate makes differences of neighbours grow")));
+}
+
+TEST_F(DoubtfulResults, NoiseAndAFewCellsAreNoChequerboard) {
+    for (const char* domain :
+         {"grid: 4", "grid: 2, 1", "grid: 4, 4", "grid: 8", "grid: 64, 64", "grid: 300, 200"}) {
+        EXPECT_THAT(warnings_of(fmt::format(
+                        "system n {{ u: random(0, 1); u' = 0.1 * normal(0, 1) - 0.5 * u }}\n"
+                        "domain {{ {} }}\nstage s: n {{ iterations: 40 }}\n",
+                        domain)),
+                    IsEmpty())
+            << domain;
+    }
+    EXPECT_THAT(
+        warnings_of("system n { u: random(0.5, 0.1); u' = 0.2 * lap(u) }\ndomain { grid: 4 }\n"
+                    "stage s: n { iterations: 1 }\n"),
+        IsEmpty());
+}
+
+// Steps too long for the reaction.
+
+TEST_F(DoubtfulResults, StepsTooLongForABoundedReactionAreTold) {
+    EXPECT_THAT(warnings_of("system l { u: random(0.5, 0.1); u' = u*(1 - u) }\n"
+                            "stage s: l { speed: 2.9; iterations: 500 }\n"),
+                ElementsAre(AllOf(HasSubstr("u jumps back and forth from step to step"),
+                                  HasSubstr("the largest stable speed is about "))));
+    EXPECT_THAT(warnings_of("system l { u: random(0.5, 0.1); u' = -tanh(20*(u - 0.5)) }\n"
+                            "stage s: l { speed: 1; iterations: 500 }\n"),
+                ElementsAre(AllOf(
+                    HasSubstr("u jumps back and forth from step to step, by up to 1 in 100 %"),
+                    HasSubstr("the largest stable speed is about 0.1 and this stage's is 1; try "
+                              "'speed: 0.09; iterations: 5556'"))));
+    EXPECT_THAT(warnings_of("stage s: gray_scott { speed: 1.5; iterations: 5000 }\n"),
+                ElementsAre(HasSubstr("the largest stable speed is about 1.5")));
+    // One cell in twenty, and of a species that is not the first; a duration; a speed by cell.
+    EXPECT_THAT(warnings_of("system l { w: 1; u: 0.4; w' = 0; u' = -40*(sx < 0.05)*u^3 + 0.01*(0.2 "
+                            "- u); u >= -1; u <= 1 }\n"
+                            "stage s: l { speed: 0.5; duration: 100.2 }\n"),
+                ElementsAre(HasSubstr("u jumps back and forth from step to step")));
+    EXPECT_THAT(warnings_of("system l { u: random(0.5, 0.1); u' = -tanh(20*(u - 0.5)) }\n"
+                            "stage s: l { speed: 0.9 + 0.2*x; iterations: 500 }\n"),
+                ElementsAre(HasSubstr("u jumps back and forth")));
+    EXPECT_THAT(
+        warnings_of("system l { u: random(0.5, 0.1); u' = 0.1*lap(u) - tanh(20*(u - 0.5)) }\n"
+                    "stage s: l { speed: 1; iterations: 500; solver: imex }\n"),
+        ElementsAre(AllOf(HasSubstr("u jumps back and forth"), HasSubstr("try 'speed: 0.5'"))));
+}
+
+// What the advice tells to write ends the fault, in as much time.
+TEST_F(DoubtfulResults, TheAdviceHelps) {
+    EXPECT_THAT(warnings_of("system l { u: random(0.5, 0.1); u' = -tanh(20*(u - 0.5)) }\n"
+                            "stage s: l { speed: 0.09; iterations: 5556 }\n"),
+                IsEmpty());
+    const std::string fast = too_fast_diffusion("grid: 64, 64");
+    const auto warnings = warnings_of(fast);
+    ASSERT_THAT(warnings,
+                ElementsAre(HasSubstr("try 'speed: 0.23; iterations: 392', or longer steps: "
+                                      "'solver: rkl1; speed: auto; duration: 90'")));
+    for (const char* advice :
+         {"speed: 0.23; iterations: 392", "solver: rkl1; speed: auto; duration: 90"}) {
+        EXPECT_THAT(warnings_of(too_fast_diffusion("grid: 64, 64", "lap(u)", advice)), IsEmpty())
+            << advice;
+    }
+}
+
+// Clamped, oscillating, noisy, at rest, and steps near the limit, but below it.
+TEST_F(DoubtfulResults, SoundRunsAreNotWarnedOf) {
+    for (const char* text :
+         {"stage s: turing_spots { ka: 1/40; iterations: 3000 }\n",
+          "stage s: gray_scott { speed: 1.4; iterations: 1500 }\n", "stage s: wave { }\n",
+          "stage s: fitzhugh_nagumo { }\n", "stage s: noisy_gray_scott { iterations: 300 }\n",
+          "system l { u: 0.2; u' = u*(1 - u) }\nstage s: l { speed: 1.9; iterations: 500 }\n",
+          "system l { u: 0.2; v: 1; u' = v; v' = -u }\n"
+          "stage s: l { speed: 1; solver: symplectic; iterations: 400 }\n",
+          "system l { u: random(1, 1); u' = -u; u >= 0.5 }\nstage s: l { speed: 1.8; iterations: "
+          "100 }\n",
+          "system l { u: x; u' = 0.1*sin(3*step) - 0.01*u }\nstage s: l { iterations: 100 }\n"}) {
+        EXPECT_THAT(warnings_of(text), IsEmpty()) << text;
+    }
+}
+
+}  // namespace
+}  // namespace cascade
