@@ -186,6 +186,10 @@ struct Simulation::Implementation {
     void warn_of_doubts(std::uint32_t k, StageTimer& timer, RunControl& control);
     /// Values that jump back and forth in a few more steps, which are taken of a copy.
     std::optional<FlickerReport> find_flicker(std::uint32_t k, StageTimer& timer);
+    /// Changes that single precision cannot add to the values, and that would have become noticeable.
+    std::optional<LostChangeReport> find_lost_change(std::uint32_t k);
+    /// How fast the rates decay as the state moves along them, in 1 / time; negative where they grow.
+    double decay_along(std::uint32_t k, const std::vector<Field>& rates);
     /// Of the species' starting values.
     StabilityEstimate stability_at_start(std::uint32_t k);
     /// Does a species alternate from cell to cell, because of its steps or of its rate?
