@@ -52,7 +52,11 @@ void add_allow_read(CLI::App& app, ReadAccess& reads, const std::string& about) 
 
 void add_overrides(CLI::App& app, Overrides& overrides) {
     const std::string group = "Changes to the script, without editing it";
-    add_value(app, "--grid", "WxH", "Columns and rows; '60' is a line of cells, '64x64x32'\nhas slices", parse_grid,
+    add_value(app, "--grid", "WxH", "Columns and rows; '60' is a line of cells, '64x64x32'\nhas slices",
+              [&](const std::string& text) {
+                  overrides.grid_is_one_number = text.find('x') == std::string::npos;
+                  return parse_grid(text);
+              },
               [&](auto grid) { overrides.grid = grid; })
         ->group(group);
     add_value(app, "--mesh", "MODEL",
@@ -236,10 +240,6 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
                   simulation.lanes = lanes == "4" ? 4 : lanes == "8" ? 8 : 16;
               })
         ->group(group);
-    // For tests and fuzzers; the help has none of it.
-    add_value(app, "--tiling", "LEVELS,LAYER", "How steps go through memory", parse_tiling,
-              [&](const Tiling& tiling) { simulation.tiling = tiling; })
-        ->group("");
     app.add_flag_callback(
            "--no-kernel-cache", [&simulation] { simulation.kernel_cache.clear(); },
            "Compile all native code again, and keep none of it")

@@ -103,6 +103,7 @@ Result<Overrides> overrides_from_json(const std::string& text) {
 Overrides merge(Overrides base, const Overrides& changes) {
     base.sets.insert(base.sets.end(), changes.sets.begin(), changes.sets.end());
     if (changes.grid) base.grid = changes.grid;
+    base.grid_is_one_number = changes.grid_is_one_number;
     if (changes.seed) base.seed = changes.seed;
     if (changes.steps) base.steps = changes.steps;
     if (changes.solver) base.solver = changes.solver;

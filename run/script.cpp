@@ -6,6 +6,7 @@
 #include "lang/check.h"
 #include "lang/models.h"
 #include "lang/parse.h"
+#include "lang/unread_stages.h"
 #include "picture/image.h"
 #include "run/png_texts.h"
 #include "run/used_files.h"
@@ -14,7 +15,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <charconv>
 
 namespace cascade {
@@ -112,6 +112,12 @@ void apply_grid(Script& script) {
         script.diagnostics.error(span, "a grid of more than 2147483648 cells is too large");
     } else {
         Grid& grid = script.program->domain.grid;
+        const bool was_a_line = grid.height == 1 && grid.depth == 1;
+        if (script.overrides.grid_is_one_number && !was_a_line) {
+            script.diagnostics.warning(
+                span, fmt::format("this is a line of {} cells", width),
+                fmt::format("for a square write --grid {}x{}", width, width));
+        }
         grid.width = width;
         grid.height = height;
         grid.depth = depth;
@@ -215,20 +221,25 @@ void check_until_stage(Script& script) {
     find_stage_of_option(script, name, option_span(script.sources, "--until-stage", name));
 }
 
-void check_picture_block(Script& script) {
-    const auto expression = picture_expression(script.tree);
-    if (!expression || script.program->stages.empty()) return;
+/// The picture block, and whether every stage is of any use.
+void check_views(Script& script) {
+    if (script.program->stages.empty()) return;
     const std::uint32_t stage = script.final_stage();
     const std::uint32_t last = script.stage_count() - 1;
     // A run cut short by --until-stage may lack stages that the picture names; that is no fault of
     // the script, so only a whole run is checked here.
     if (last + 1 != script.program->stages.size()) return;
+    const auto expression = picture_expression(script.tree);
+    if (!expression) {
+        return warn_of_unread_stages(*script.program, stage, nullptr, script.diagnostics);
+    }
     const auto formula = check_view(script.tree, *expression, stage, last, *script.program,
                                     script.sources, script.diagnostics);
     if (formula && formula->nodes.back().type != ValueType::colour) {
         script.diagnostics.error(formula->nodes.back().span, "'color' must be a colour",
                                  "use rgb(…) or palette(value, low, high, \"name\")");
     }
+    if (formula) warn_of_unread_stages(*script.program, stage, &*formula, script.diagnostics);
 }
 
 }  // namespace
@@ -261,7 +272,7 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
     apply_steps(script);
     check_coarse_starts(*script.program, script.diagnostics);
     check_until_stage(script);
-    if (!script.diagnostics.has_errors()) check_picture_block(script);
+    if (!script.diagnostics.has_errors()) check_views(script);
     if (script.diagnostics.has_errors()) script.program.reset();
     return script;
 }

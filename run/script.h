@@ -22,6 +22,7 @@ namespace cascade {
 struct Overrides {
     std::vector<std::string> sets;                               ///< "large.ka=1/400", in order.
     std::optional<GridSize> grid;
+    bool grid_is_one_number = false;  ///< As in --grid 100, which is a line. Travels nowhere.
     std::optional<std::uint32_t> seed;
     std::optional<std::int64_t> steps;                           ///< A cap for every stage.
     std::optional<std::string> until_stage;                      ///< The last stage that runs.
