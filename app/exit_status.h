@@ -5,6 +5,7 @@ namespace cascade::exit_status {
 
 constexpr int success = 0;
 constexpr int would_change = 1;   ///< `fmt --check`: a script is not in the one style.
+constexpr int wrong_line = 1;     ///< `repl` from a pipe: a line was wrong, or a run failed.
 constexpr int wrong_script = 2;   ///< The script has faults, or cannot be read.
 constexpr int failed_run = 3;     ///< A run that blew up, an output that cannot be written.
 constexpr int wrong_use = 64;     ///< EX_USAGE of BSD's sysexits.h: options and arguments.

@@ -1,6 +1,7 @@
 #include "app/option_values.h"
 
 #include "core/near_name.h"
+#include "run/frame_folder.h"
 
 #include <fmt/format.h>
 
@@ -94,18 +95,6 @@ Result<View> parse_view(std::string_view text) {
     }
     return failure(fmt::format("'{}' is not a place to look from", text),
                    "write degrees around (-360 to 360) and above (-89 to 89), as in --view 30,25");
-}
-
-Result<Tiling> parse_tiling(std::string_view text) {
-    constexpr std::int64_t most = 1000;
-    const std::size_t comma = std::min(text.find(','), text.size());
-    const auto levels = parse_whole(text.substr(0, comma), 1, most);
-    const auto layer = parse_whole(text.substr(std::min(comma + 1, text.size())), 1, most);
-    if (!levels || !layer) {
-        return failure(fmt::format("'{}' is not a tiling", text),
-                       "write LEVELS,LAYER, as in --tiling 4,2");
-    }
-    return Tiling{static_cast<int>(*levels), *layer};
 }
 
 Result<StopAt> parse_stop_at(std::string_view text) {
@@ -211,6 +200,10 @@ Result<float> parse_bump(std::string_view text) {
 
 Result<std::string> parse_output_path(std::string_view text) {
     if (output_kind(std::filesystem::path(text))) return std::string(text);
+    if (is_called_like_a_movie(std::filesystem::path(text))) {
+        return failure(fmt::format("'{}' is called like a movie, and pictures are drawn", text),
+                       how_to_make_a_movie(std::filesystem::path(text)));
+    }
     return failure(fmt::format("'{}' does not end in .png", text),
                    "on models .ply, .obj, .glb and .vtp are models, .npz and .cells.vtp their cells");
 }

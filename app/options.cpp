@@ -223,7 +223,11 @@ std::string Parser::describe_unexpected(const std::string& program) {
     }
     const std::vector<std::string> left = app.remaining(true);
     const std::string word = left.empty() ? "" : left.front();
-    if (chosen()) return fmt::format("{}: '{}' is one argument too many", where, word);
+    if (chosen()) {
+        const bool is_output = chosen() == run && output_kind(word);
+        return fmt::format("{}: '{}' is one argument too many{}", where, word,
+                           is_output ? fmt::format("; did you mean -o {}?", word) : "");
+    }
     std::vector<std::string> names;
     for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
     std::string near = nearest_name(word, names);

@@ -112,7 +112,10 @@ std::string progress_line(const SweepProgress& progress) {
 
 std::string progress_line(const Progress& progress) {
     std::string line =
-        progress.duration > 0
+        progress.stage_done && progress.condition_met
+            ? fmt::format("stage {}: {} at step {}", stage_text(progress), progress.when_met,
+                          with_commas(progress.step))
+        : progress.duration > 0
             ? fmt::format("stage {}: t = {:.6g} of {:.6g}, {} steps", stage_text(progress), progress.t,
                           progress.duration, with_commas(progress.step))
             : fmt::format("stage {}: {} of {} steps", stage_text(progress),

@@ -104,7 +104,7 @@ Result<std::unique_ptr<Simulation>> PromptSession::carry_over(Script& script) co
 
 bool PromptSession::has_something_to_run() {
     if (script_ && !script_->program->stages.empty()) return true;
-    console_.fail({"there is no stage yet", "type one: stage spots: turing_spots { ka: 1/80 }"});
+    fail({"there is no stage yet", "type one: stage spots: turing_spots { ka: 1/80 }"});
     return false;
 }
 
@@ -116,9 +116,9 @@ bool PromptSession::make_simulation() {
     Result<void> started;
     if (simulation) started = (*simulation)->start_stage(0);
     if (!simulation || !started) {
-        console_.say(script_->messages(console_.error().colour));
+        tell_faults(*script_);
         script_->diagnostics = {};
-        console_.fail(simulation ? started.error() : simulation.error());
+        fail(simulation ? started.error() : simulation.error());
         return false;
     }
     simulation_ = std::move(*simulation);
@@ -135,12 +135,13 @@ void PromptSession::run(const std::string& count) {
     if (!count.empty()) {
         const auto parsed = parse_whole(count, 1, steps);
         if (!parsed) {
-            console_.fail(parsed.error());
+            fail(parsed.error());
             return;
         }
         steps = *parsed;
     }
     if (!make_simulation()) return;
+    if (is_over()) return tell_over();
     const bool good = advance(steps);
     tell_place();
     if (good && show_after_run_) show("");
@@ -163,13 +164,30 @@ bool PromptSession::advance(std::int64_t steps) {
         if (end) end = simulation_->advance_stage(k, last, watched.control, {});
         watched.display.clear();
         if (!end) {
-            console_.fail(end.error());
+            fail(end.error());
             return false;
         }
         if (*end != StageEnd::finished) return true;
+        remark(simulation_->remark_on(k));
         steps -= simulation_->state(k).steps - before;
     }
     return true;
+}
+
+bool PromptSession::is_over() const {
+    if (!simulation_) return false;
+    for (std::uint32_t k = 0; k < script_->stage_count(); ++k) {
+        if (!simulation_->state(k).done) return false;
+    }
+    return true;
+}
+
+void PromptSession::tell_over() {
+    console_.say("every stage has taken its steps: ':init' begins again, another stage goes on\n");
+}
+
+void PromptSession::remark(const std::string& words) {
+    if (!words.empty()) console_.warn(words);
 }
 
 void PromptSession::show(const std::string& expression) {
@@ -178,15 +196,20 @@ void PromptSession::show(const std::string& expression) {
     request.show = expression;
     auto painter = Painter::create(*script_, request);
     if (!painter) {
-        console_.say(script_->messages(console_.error().colour));
+        tell_faults(*script_);
         script_->diagnostics = {};
         return;
     }
     const Canvas canvas = painter->canvas(*simulation_);
-    console_.print(half_blocks(painter->image(canvas), console_.out().columns()));
+    const Image image = painter->image(canvas);
+    const int columns = console_.out().columns();
+    console_.print(console_.out().colour ? half_blocks(image, columns) : plain_characters(image, columns));
     if (!canvas.is_colour()) {
-        const ValueRange range = value_range(canvas.fields[0]);
-        console_.print(fmt::format("{:.6g} to {:.6g}\n", range.low, range.high));
+        const Spread values = spread_of(canvas.fields[0]);
+        console_.print(values.count == 0 ? "no values\n"
+                       : values.is_even()
+                           ? fmt::format("{:.6g} in all cells\n", values.mean)
+                           : fmt::format("{:.6g} to {:.6g}\n", values.smallest, values.largest));
     }
     if (painter->fell_back()) {
         console_.warn("it names a stage that has not run; this is the default picture");
@@ -209,7 +232,7 @@ void PromptSession::save(const std::string& folder) {
     if (!make_simulation()) return;
     const auto written = save_run(folder, *script_, *simulation_);
     if (!written) {
-        console_.fail(written.error());
+        fail(written.error());
         return;
     }
     console_.say(fmt::format("wrote {} files in {}\n", written->size(), folder));

@@ -73,6 +73,9 @@ bool PromptSession::take(const std::string& line) {
     if (pending_.empty()) {
         const std::string_view words = trim(line);
         if (words.starts_with(":")) return obey(words);
+        // What other prompts take; none of it is a sentence of the language.
+        if (words == "help" || words == "?") return obey(":help");
+        if (words == "quit" || words == "exit") return obey(":quit");
         if (says_nothing(line)) return true;
     }
     pending_ += line + "\n";
@@ -87,6 +90,16 @@ void PromptSession::end() {
     add_text(text);
 }
 
+void PromptSession::fail(const Failure& failure) {
+    has_failed_ = true;
+    console_.fail(failure);
+}
+
+void PromptSession::tell_faults(const Script& script) {
+    has_failed_ = has_failed_ || script.diagnostics.has_errors();
+    console_.say(script.messages(console_.error().colour));
+}
+
 bool PromptSession::obey(std::string_view line) {
     const std::size_t space = std::min(line.find_first_of(" \t"), line.size());
     const std::string_view name = line.substr(0, space);
@@ -97,16 +110,16 @@ bool PromptSession::obey(std::string_view line) {
         if (command.name != name) continue;
         if (!command.action) return false;
         if (argument.empty() && !command.argument.empty() && command.argument[0] != '[') {
-            console_.fail({fmt::format("{} takes {}", name, command.argument), ""});
+            fail({fmt::format("{} takes {}", name, command.argument), ""});
         } else if (!argument.empty() && command.argument.empty()) {
-            console_.fail({fmt::format("{} takes nothing behind it", name), ""});
+            fail({fmt::format("{} takes nothing behind it", name), ""});
         } else {
             (this->*command.action)(argument);
         }
         return true;
     }
     const std::string near = nearest_name(name, known);
-    console_.fail({fmt::format("there is no command '{}'", name),
+    fail({fmt::format("there is no command '{}'", name),
                    near.empty() ? "':help' lists them" : fmt::format("did you mean '{}'?", near)});
     return true;
 }
@@ -123,7 +136,7 @@ void PromptSession::add_text(const std::string& text) {
 bool PromptSession::change(Script changed) {
     const std::string messages = changed.messages(console_.error().colour);
     if (!changed.program) {
-        console_.say(messages);
+        tell_faults(changed);
         return false;
     }
     if (messages != last_warnings_) console_.say(messages);
@@ -133,8 +146,8 @@ bool PromptSession::change(Script changed) {
     if (simulation_) {
         auto carried = carry_over(*script);
         if (!carried) {
-            console_.say(script->messages(console_.error().colour));
-            console_.fail(carried.error());
+            tell_faults(*script);
+            fail(carried.error());
             return false;
         }
         simulation = std::move(*carried);
@@ -154,7 +167,7 @@ void PromptSession::load(const std::string& path) {
     }
     auto file = load_script_file(path);
     if (!file) {
-        console_.fail(file.error());
+        fail(file.error());
         return;
     }
     if (!file->script.text.ends_with('\n') && file->script.program) {
@@ -173,11 +186,11 @@ void PromptSession::load(const std::string& path) {
 void PromptSession::load_saved(const std::string& folder) {
     auto saved = load_saved_script(folder, {});
     if (!saved) {
-        console_.fail(saved.error());
+        fail(saved.error());
         return;
     }
     if (!saved->program) {
-        console_.say(saved->messages(console_.error().colour));
+        tell_faults(*saved);
         return;
     }
     auto script = std::make_unique<Script>(std::move(*saved));
@@ -185,7 +198,7 @@ void PromptSession::load_saved(const std::string& folder) {
     Result<void> done;
     if (simulation) done = restore_run(folder, *script, **simulation);
     if (!simulation || !done) {
-        console_.fail(simulation ? done.error() : simulation.error());
+        fail(simulation ? done.error() : simulation.error());
         return;
     }
     simulation_ = std::move(*simulation);
@@ -195,12 +208,15 @@ void PromptSession::load_saved(const std::string& folder) {
 
 void PromptSession::set(const std::string& assignment) {
     if (!script_) {
-        console_.fail({"there is no script yet", ""});
+        fail({"there is no script yet", ""});
         return;
     }
     Overrides overrides = script_->overrides;
     overrides.sets.push_back(assignment);
-    change(load_script(script_->name, script_->text, script_->folder, std::move(overrides)));
+    if (change(load_script(script_->name, script_->text, script_->folder, std::move(overrides))) &&
+        is_over()) {
+        tell_over();
+    }
 }
 
 void PromptSession::print_text(const std::string&) {

@@ -35,6 +35,8 @@ public:
     std::string prompt() const;
     /// Names with which a line can go on, for completion.
     std::vector<std::string> names(const std::string& line) const;
+    /// Has a line been wrong, or a run failed?
+    bool has_failed() const { return has_failed_; }
     /// As :load does.
     void load(const std::string& path);
 
@@ -63,12 +65,21 @@ private:
     void list_stages(const std::string&);
     void save(const std::string& folder);
     void tell_place();
+    /// Are all steps of all stages taken?
+    bool is_over() const;
+    void tell_over();
+    void remark(const std::string& words);
+
+    // What is wrong (prompt_session.cpp).
+    void fail(const Failure& failure);
+    void tell_faults(const Script& script);
 
     SimulationOptions options_;
     Console& console_;
     bool show_after_run_;
     std::string pending_;                     ///< The first lines of a block, not yet complete.
     std::string last_warnings_;
+    bool has_failed_ = false;
     std::unique_ptr<Script> script_;          ///< Always right; null until something was typed.
     std::unique_ptr<Simulation> simulation_;  ///< Refers to *script_.
 };

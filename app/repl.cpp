@@ -19,6 +19,10 @@ int repl_command(const Options& options, Console& console) {
     if (at_terminal) stay_on_interrupt();
     if (at_terminal) console.say("Cascade: ':help' lists what can be typed, Ctrl-D leaves.\n");
     if (!options.scripts.empty()) session.load(options.scripts[0]);
+    // At a terminal whoever typed a wrong line has seen what was wrong.
+    const auto status = [&] {
+        return !at_terminal && session.has_failed() ? exit_status::wrong_line : exit_status::success;
+    };
     while (true) {
         const TypedLine line = reader->read(session.prompt());
         if (line.kind == TypedLine::Kind::cancelled) {
@@ -26,11 +30,11 @@ int repl_command(const Options& options, Console& console) {
             continue;
         }
         if (line.kind == TypedLine::Kind::end) break;
-        if (!session.take(line.text)) return exit_status::success;
+        if (!session.take(line.text)) return status();
     }
     session.end();
     if (at_terminal) console.say("\n");
-    return exit_status::success;
+    return status();
 }
 
 }  // namespace cascade

@@ -64,7 +64,12 @@ void print_features(const measure::Features& features, Console& console) {
 
 int tell(const RunReport& report, const Options& options, int signal, bool limit_reached,
          Console& console) {
-    if (report.features) print_features(*report.features, console);
+    if (report.features) {
+        print_features(*report.features, console);
+        for (const std::string& remark : report.remarks) {
+            console.print(fmt::format("{:<11} {}\n", "remark", remark));
+        }
+    }
     if (!options.quiet) {
         tell_written(report, options.run, console);
         if (report.steps > 0) {

@@ -22,6 +22,8 @@ struct Progress {
     double steps_per_second = 0; ///< Recent rate; 0 while unknown.
     double seconds_left = -1;    ///< Of this stage at that rate; negative while unknown.
     bool stage_done = false;
+    bool condition_met = false;  ///< The stage's own condition, its `until`, has ended it:
+    std::string when_met;        ///< what to say then, as "settled".
 };
 
 /// Shared between a run and whoever watches it. `cancel` may be set from a signal handler or from

@@ -1,5 +1,6 @@
 #include "measure/features.h"
 
+#include "core/spread.h"
 #include "measure/orientation.h"
 #include "measure/regions.h"
 #include "measure/spectrum.h"
@@ -15,27 +16,16 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Mean, deviation and ends; NaN where there is no cell.
-void measure_values(const Samples& samples, Features& features) {
-    double sum = 0, inside = 0;
-    features.smallest = std::numeric_limits<double>::infinity();
-    features.largest = -features.smallest;
-    for (const double value : samples.values) {
-        if (!std::isfinite(value)) continue;
-        sum += value;
-        inside += 1;
-        features.smallest = std::min(features.smallest, value);
-        features.largest = std::max(features.largest, value);
-    }
-    if (inside == 0) {
-        features.mean = features.deviation = features.smallest = features.largest = none;
-        return;
-    }
-    features.mean = sum / inside;
-    double squares = 0;
-    for (const double value : samples.values) {
-        if (std::isfinite(value)) squares += (value - features.mean) * (value - features.mean);
-    }
-    features.deviation = std::sqrt(squares / inside);
+Spread measure_values(const Samples& samples, Features& features) {
+    const Spread spread = spread_of([&](const auto& take) {
+        for (const double value : samples.values) take(value);
+    });
+    const bool is_empty = spread.count == 0;
+    features.mean = is_empty ? none : spread.mean;
+    features.deviation = is_empty ? none : spread.deviation();
+    features.smallest = is_empty ? none : spread.smallest;
+    features.largest = is_empty ? none : spread.largest;
+    return spread;
 }
 
 }  // namespace
@@ -58,9 +48,7 @@ Features from_array(const std::array<double, feature_count>& v) {
 
 Features measure(const Samples& samples) {
     Features features;
-    measure_values(samples, features);
-    const double magnitude = std::max(std::abs(features.smallest), std::abs(features.largest));
-    if (!(features.deviation > std::max(even_deviation * magnitude, least_deviation))) {
+    if (measure_values(samples, features).is_even()) {
         features.wavelength = features.spots = features.holes = features.area = none;
         features.angle = features.anisotropy = none;
         return features;

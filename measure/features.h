@@ -35,12 +35,7 @@ const std::array<std::string_view, feature_count>& feature_names();
 std::array<double, feature_count> to_array(const Features& features);
 Features from_array(const std::array<double, feature_count>& values);
 
-/// A field counts as even, and has neither wavelength nor spots nor direction, where its deviation
-/// is at most this part of its largest magnitude (what is left is rounding), or smaller than
-/// `least_deviation` (what is left is dying away).
-inline constexpr double even_deviation = 1e-5;
-inline constexpr double least_deviation = 1e-12;
-
+/// A field that is even (core/spread.h) has neither wavelength nor spots nor direction.
 Features measure(const Samples& samples);
 
 }  // namespace cascade::measure

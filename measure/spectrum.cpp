@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <numeric>
 
 namespace cascade::measure {
 
@@ -94,6 +95,26 @@ double ring_width_of(const Samples& samples) {
     return std::isfinite(finest) ? finest : 1;
 }
 
+/// What the rings around the strongest one have.
+struct Peak {
+    double power = 0;
+    double moment = 0;
+};
+
+Peak peak_of(const Spectrum& spectrum) {
+    Peak peak;
+    if (spectrum.power.size() < 2) return peak;
+    const auto strongest = std::max_element(spectrum.power.begin() + 1, spectrum.power.end());
+    const auto middle = static_cast<double>(strongest - spectrum.power.begin());
+    for (std::size_t ring = 1; ring < spectrum.power.size(); ++ring) {
+        const auto n = static_cast<double>(ring);
+        if (n < middle / peak_breadth || n > middle * peak_breadth) continue;
+        peak.power += spectrum.power[ring];
+        peak.moment += spectrum.moment[ring];
+    }
+    return peak;
+}
+
 }  // namespace
 
 Spectrum radial_spectrum(const Samples& samples) {
@@ -127,17 +148,13 @@ Spectrum radial_spectrum(const Samples& samples) {
 }
 
 double peak_wavelength(const Spectrum& spectrum) {
-    if (spectrum.power.size() < 2) return std::numeric_limits<double>::quiet_NaN();
-    const auto strongest = std::max_element(spectrum.power.begin() + 1, spectrum.power.end());
-    const auto peak = static_cast<double>(strongest - spectrum.power.begin());
-    double power = 0, moment = 0;
-    for (std::size_t ring = 1; ring < spectrum.power.size(); ++ring) {
-        const auto n = static_cast<double>(ring);
-        if (n < peak / peak_breadth || n > peak * peak_breadth) continue;
-        power += spectrum.power[ring];
-        moment += spectrum.moment[ring];
-    }
-    return power > 0 ? power / moment : std::numeric_limits<double>::quiet_NaN();
+    const Peak peak = peak_of(spectrum);
+    return peak.power > 0 ? peak.power / peak.moment : std::numeric_limits<double>::quiet_NaN();
+}
+
+double peak_share(const Spectrum& spectrum) {
+    const double whole = std::accumulate(spectrum.power.begin(), spectrum.power.end(), 0.0);
+    return whole > 0 ? peak_of(spectrum).power / whole : 0;
 }
 
 }  // namespace cascade::measure

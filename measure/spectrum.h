@@ -26,4 +26,7 @@ Spectrum radial_spectrum(const Samples& samples);
 /// waves of a lattice (√2 of a square one, √3 of a hexagonal one). NaN where nothing varies.
 double peak_wavelength(const Spectrum& spectrum);
 
+/// The part of the variance that those rings have, 0 … 1: near 1 for one regular wave.
+double peak_share(const Spectrum& spectrum);
+
 }  // namespace cascade::measure

@@ -4,6 +4,7 @@
 #include "core/palette.h"
 #include "core/plane.h"
 #include "core/result.h"
+#include "core/spread.h"
 
 #include <cmath>
 #include <cstddef>
@@ -47,8 +48,13 @@ struct ValueRange {
     float high = 1;
 };
 
-/// Smallest and largest finite value of the cells; [0, 0] where there is none.
-ValueRange value_range(const Field& field);
+/// Of the finite values of the cells of a plane.
+Spread spread_of(const Field& field);
+
+/// The range in which values are drawn where nobody asks for another one: their smallest and their
+/// largest. Of values that are even it has no width, lest rounding be drawn in black and white; [0, 0]
+/// where there is no value.
+ValueRange automatic_range(const Spread& values);
 
 /// Where a value lies between the ends of a range: 0 at the low one, 1 at the high one, and ½ in a range of
 /// no width. NaN stays NaN.
@@ -114,5 +120,9 @@ Image make_sheet(std::span<const Panel> panels, int columns);
 /// shows the terminal's own ground. Each line ends in a
 /// reset of the colours and a line end.
 std::string half_blocks(const Image& image, int columns);
+
+/// The same in plain characters from dark to light, " .:-=+*#%@", each for two pixels one above the
+/// other: for pipes, and for terminals without colours. What is transparent is a space.
+std::string plain_characters(const Image& image, int columns);
 
 }  // namespace cascade

@@ -17,20 +17,23 @@ double position_in(ValueRange range, float value) {
     return (static_cast<double>(value) - low) / width;
 }
 
-ValueRange value_range(const Field& field) {
-    float low = std::numeric_limits<float>::infinity();
-    float high = -low;
+Spread spread_of(const Field& field) {
     const PlaneLayout& layout = field.layout();
-    for (std::int64_t j = 0; j < layout.height; ++j) {
-        const float* row = field.row(j);
-        for (std::int64_t i = 0; i < layout.width; ++i) {
-            if (!std::isfinite(row[i])) continue;
-            low = std::min(low, row[i]);
-            high = std::max(high, row[i]);
+    return spread_of([&](const auto& take) {
+        for (std::int64_t j = 0; j < layout.height; ++j) {
+            const float* row = field.row(j);
+            for (std::int64_t i = 0; i < layout.width; ++i) take(double{row[i]});
         }
+    });
+}
+
+ValueRange automatic_range(const Spread& values) {
+    if (values.count == 0) return {0, 0};
+    if (values.is_even()) {
+        const auto middle = static_cast<float>(values.mean);
+        return {middle, middle};
     }
-    if (low > high) return {0, 0};
-    return {low, high};
+    return {static_cast<float>(values.smallest), static_cast<float>(values.largest)};
 }
 
 Image paint(const Field& field, ValueRange range, const Palette& palette) {

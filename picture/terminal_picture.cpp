@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <iterator>
 #include <optional>
+#include <string_view>
 
 namespace cascade {
 namespace {
@@ -125,6 +126,24 @@ std::string half_blocks(const Image& image, int columns) {
                       y + 1 < image.height ? bytes_of(image.at(x, y + 1)) : std::nullopt);
         }
         out += "\x1b[0m\n";
+    }
+    return out;
+}
+
+std::string plain_characters(const Image& image, int columns) {
+    CHECK(columns >= 1, "a terminal has columns");
+    constexpr std::string_view ramp = " .:-=+*#%@";
+    if (image.width < 1 || image.height < 1) return {};
+    if (image.width > columns) return plain_characters(reduce(image, columns), columns);
+    std::string out;
+    for (std::int64_t y = 0; y < image.height; y += 2) {
+        for (std::int64_t x = 0; x < image.width; ++x) {
+            const Stretch down(y / 2, (image.height + 1) / 2, image.height);
+            const std::optional<Bytes> bytes = bytes_of(average(image, Stretch(x, image.width, image.width), down));
+            const int light = bytes ? (*bytes)[0] + (*bytes)[1] + (*bytes)[2] : 0;
+            out += ramp[static_cast<std::size_t>(light) * ramp.size() / (3 * 256)];
+        }
+        out += '\n';
     }
     return out;
 }

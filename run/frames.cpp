@@ -1,8 +1,7 @@
 #include "run/frames.h"
 
-#include <fmt/format.h>
+#include "run/frame_folder.h"
 
-#include <algorithm>
 #include <cstdio>
 
 namespace cascade {
@@ -16,11 +15,6 @@ const float* storage(const Field& field) {
     return field.origin() - field.layout().offset(0, 0);
 }
 float* storage(Field& field) { return field.origin() - field.layout().offset(0, 0); }
-
-ValueRange join(const std::optional<ValueRange>& known, ValueRange next) {
-    if (!known) return next;
-    return {std::min(known->low, next.low), std::max(known->high, next.high)};
-}
 
 }  // namespace
 
@@ -40,7 +34,7 @@ Result<FrameRecorder> FrameRecorder::create(const std::filesystem::path& folder,
 void FrameRecorder::record(const Canvas& canvas, const std::string& stage, std::int64_t step) {
     if (failure_) return;
     layout_ = canvas.fields[0].layout();
-    if (const Field* number = canvas.number()) range_ = join(range_, value_range(*number));
+    if (const Field* number = canvas.number()) values_.add(spread_of(*number));
     frames_.push_back({stage, step, canvas.fields.size(), !canvas.relief.empty()});
     if (file_) {
         bool is_kept = true;
@@ -87,9 +81,8 @@ Result<std::vector<std::filesystem::path>> FrameRecorder::write(const Painter& p
         const Frame& frame = frames_[number];
         auto canvas = read_back(frame);
         if (!canvas) return tl::unexpected(canvas.error());
-        const auto path =
-            folder_ / fmt::format("{:04}-{}-{:07}.png", number, frame.stage, frame.step);
-        if (auto done = write_png(path, painter.image(*canvas, range_), depth, texts); !done) {
+        const auto path = folder_ / frame_name(number, frame.stage, frame.step);
+        if (auto done = write_png(path, painter.image(*canvas, automatic_range(values_)), depth, texts); !done) {
             return tl::unexpected(done.error());
         }
         written.push_back(path);
@@ -100,7 +93,7 @@ Result<std::vector<std::filesystem::path>> FrameRecorder::write(const Painter& p
 Image FrameRecorder::space_time(const Painter& painter) const {
     Image whole(0, 0);
     for (const Canvas& row : rows_) {
-        const Image image = painter.image(row, range_);
+        const Image image = painter.image(row, automatic_range(values_));
         whole.width = image.width;
         whole.height += image.height;
         whole.pixels.insert(whole.pixels.end(), image.pixels.begin(), image.pixels.end());

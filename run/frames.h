@@ -53,7 +53,7 @@ private:
     std::vector<Frame> frames_;
     std::vector<Canvas> rows_;
     PlaneLayout layout_;
-    std::optional<ValueRange> range_;
+    Spread values_;  ///< Of all frames together.
     std::optional<Failure> failure_;
 };
 

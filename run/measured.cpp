@@ -19,15 +19,15 @@ measure::Samples to_samples(const Field& field, const Grid& grid) {
     return samples;
 }
 
-measure::Features measure_shown(Painter& painter, const Simulation& simulation) {
-    const Canvas shown = painter.values(simulation);
-    if (!shown.is_colour()) {
-        return measure::measure(to_samples(shown.fields[0], simulation.grid()));
-    }
+Field shown_number(Painter& painter, const Simulation& simulation) {
+    Canvas shown = painter.values(simulation);
+    if (!shown.is_colour()) return std::move(shown.fields[0]);
     const std::uint32_t stage = simulation.shown_stage().value_or(0);
-    const auto fields =
-        simulation.evaluate(simulation.program().stages[stage].show, stage);
-    return measure::measure(to_samples(fields[0], simulation.grid()));
+    return std::move(simulation.evaluate(simulation.program().stages[stage].show, stage)[0]);
+}
+
+measure::Features measure_shown(Painter& painter, const Simulation& simulation) {
+    return measure::measure(to_samples(shown_number(painter, simulation), simulation.grid()));
 }
 
 }  // namespace cascade

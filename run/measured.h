@@ -10,8 +10,11 @@ namespace cascade {
 
 measure::Samples to_samples(const Field& field, const Grid& grid);
 
-/// The features of the number that a picture shows, over all cells (also of a volume). A colour is
-/// no number: then those of what the stage shows by default (its `show`, or its last species).
+/// The number that a picture shows, in all cells (also of a volume). A colour is no number: then what
+/// the stage shows by default (its `show`, or its last species).
+Field shown_number(Painter& painter, const Simulation& simulation);
+
+/// Its features.
 measure::Features measure_shown(Painter& painter, const Simulation& simulation);
 
 }  // namespace cascade

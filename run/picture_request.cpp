@@ -177,7 +177,7 @@ ValueRange Painter::range_of(const Canvas& canvas, std::optional<ValueRange> ran
     if (request_.range) return *request_.range;
     if (range) return *range;
     const Field* number = canvas.number();
-    return number != nullptr ? value_range(*number) : ValueRange();
+    return number != nullptr ? automatic_range(spread_of(*number)) : ValueRange();
 }
 
 Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range) const {
@@ -237,7 +237,7 @@ Image draw_sheet(const Simulation& simulation, const PictureRequest& request) {
             if (!system.is_species(item)) continue;
             const Field field =
                 as_shown(simulation.state(k).field(item), simulation.mask(), request);
-            const ValueRange range = request.range.value_or(value_range(field));
+            const ValueRange range = request.range.value_or(automatic_range(spread_of(field)));
             Image image = paint(field, range, palette);
             if (simulation.mask()) clear_where_nan(image, field);
             panels.push_back({fmt::format("{}.{} {:.4g}..{:.4g}", program.stages[k].name,

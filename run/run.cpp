@@ -1,11 +1,15 @@
 #include "run/run.h"
 
+#include "core/counted.h"
+#include "core/with_commas.h"
 #include "export/bake.h"
 #include "picture/vti.h"
+#include "run/frame_folder.h"
 #include "run/frames.h"
 #include "run/measured.h"
 #include "run/model_files.h"
 #include "run/model_picture.h"
+#include "run/picture_remarks.h"
 #include "run/png_texts.h"
 #include "run/run_checks.h"
 #include "run/stage_time.h"
@@ -42,6 +46,8 @@ private:
     Result<void> make_simulation();
     Result<void> run_stages();
     Result<StageEnd> run_stage(std::uint32_t stage);
+    void remark(std::string words);
+    void remark_on_resumed();
     void look();
     void observe(std::uint32_t stage);
     bool frame_is_due(std::uint32_t stage);
@@ -70,6 +76,7 @@ private:
     std::unique_ptr<Simulation> simulation_;
     std::optional<Painter> painter_;
     std::optional<FrameRecorder> frames_;
+    std::vector<std::filesystem::path> earlier_frames_;  ///< In their folder, of an earlier run.
     std::optional<RunLog> log_;
     double tenths_seen_ = 0;  ///< Of the duration of the stage that runs, when a frame was drawn.
 };
@@ -99,6 +106,11 @@ Result<void> Runner::prepare() {
     // Folders are made last, so that a run that is refused leaves none behind.
     if (auto good = check_outputs(request_, outputs_); !good) return good;
     if (auto good = check_folders(request_); !good) return good;
+    if (!request_.frames.empty()) {
+        auto frames = earlier_frames(request_.frames, script_, !request_.resume.empty());
+        if (!frames) return tl::unexpected(frames.error());
+        earlier_frames_ = std::move(*frames);
+    }
     if (!request_.frames.empty() || request_.picture.space_time) {
         auto frames = FrameRecorder::create(request_.frames, request_.picture.space_time);
         if (!frames) return tl::unexpected(frames.error());
@@ -158,15 +170,40 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
 
 Result<void> Runner::run_stages() {
     for (std::uint32_t k = 0; k < script_.stage_count(); ++k) {
+        const std::int64_t before = simulation_->state(k).steps;
         auto end = run_stage(k);
         if (!end) return tl::unexpected(end.error());
         report_.where = place();
-        if (*end == StageEnd::finished) continue;
+        if (*end == StageEnd::finished) {
+            if (simulation_->state(k).steps > before) remark(simulation_->remark_on(k));
+            continue;
+        }
         report_.status =
             *end == StageEnd::cancelled ? RunStatus::cancelled : RunStatus::stopped;
         return {};
     }
     return {};
+}
+
+void Runner::remark(std::string words) {
+    if (words.empty()) return;
+    if (control_.warn) control_.warn(words);
+    report_.remarks.push_back(std::move(words));
+}
+
+/// What a larger --steps could not lengthen.
+void Runner::remark_on_resumed() {
+    const auto& stages = script_.program->stages;
+    for (std::uint32_t k = 0; k + 1 < script_.stage_count(); ++k) {
+        const StageState& state = simulation_->state(k);
+        const bool is_short = state.done && !state.condition_met && !stages[k].time.has_duration() &&
+                              state.steps < stages[k].iterations;
+        if (!is_short || !simulation_->state(k + 1).started) continue;
+        remark(fmt::format("stage '{}' stays at step {}: stage '{}' has begun from it", stages[k].name,
+                           with_commas(state.steps), stages[k + 1].name));
+    }
+    if (report_.steps > 0 || report_.status != RunStatus::finished) return;
+    remark(fmt::format("the saved run had come to its end, and no step was left to take: {}", place()));
 }
 
 /// So many steps apart that neither a frame nor a row of the log is missed.
@@ -313,6 +350,11 @@ Result<void> Runner::write_frames() {
                                   embed_script(script_, request_.picture));
     if (!written) return tl::unexpected(written.error());
     report_.written.insert(report_.written.end(), written->begin(), written->end());
+    if (const std::size_t stale = remove_stale_frames(earlier_frames_, *written); stale > 0 && control_.note) {
+        control_.note(fmt::format("removed {} of an earlier run from {}",
+                                  counted(static_cast<std::int64_t>(stale), "frame"),
+                                  request_.frames.string()));
+    }
     return {};
 }
 
@@ -384,6 +426,10 @@ Result<RunReport> Runner::run() {
         // What led to a blow-up is what one wants to see of it.
         if (log_) (void)write_log();
         return tl::unexpected(done.error());
+    }
+    if (!request_.resume.empty()) remark_on_resumed();
+    if (report_.status == RunStatus::finished && report_.steps > 0) {
+        remark(remark_on_picture(*painter_, *simulation_));
     }
     if (request_.features) {
         const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);

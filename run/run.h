@@ -55,6 +55,8 @@ struct RunReport {
     std::int64_t steps = 0;                      ///< Taken by this run.
     double seconds = 0;                          ///< Of stepping.
     std::optional<measure::Features> features;   ///< Where they were asked for.
+    /// What is to be said of the result, a sentence each; `control.warn` has been told.
+    std::vector<std::string> remarks;
 };
 
 /// Runs the script and writes what was asked for. All outputs are checked before the first step.

@@ -5,6 +5,7 @@
 #include "core/temporary_file.h"
 #include "export/bake.h"
 #include "render/draw.h"
+#include "run/frame_folder.h"
 
 #include <fmt/format.h>
 
@@ -238,6 +239,11 @@ Result<void> check_request(Script& script, const RunRequest& request) {
                                    rows),
                        "for a plane, --frames writes a picture each interval");
     }
+    std::error_code error;
+    options.refuse_if(is_called_like_a_movie(request.frames) &&
+                          !std::filesystem::is_directory(request.frames, error),
+                      "--frames", "frames are pictures in a folder, and this is called like a movie",
+                      how_to_make_a_movie(request.frames));
     options.refuse_if(request.picture.slice != Slice{} && domain.grid.depth == 1, "--slice",
                       "a plane has no slices", "grid: W, H, D makes a volume");
     if (domain.model) {

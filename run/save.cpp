@@ -30,6 +30,7 @@ std::string manifest(const Script& script, const Simulation& simulation) {
         stages.push_back({{"name", script.program->stages[k].name},
                           {"steps", state.steps},
                           {"done", state.done},
+                          {"condition_met", state.condition_met},
                           {"time", to_json(state)}});
     }
     const nlohmann::json json = {
@@ -185,12 +186,16 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
                 return tl::unexpected(damaged(folder, fmt::format("stage {} is not right", k + 1)));
             }
             const auto steps = stages[k].at("steps").get<std::int64_t>();
-            const bool done = stages[k].at("done").get<bool>();
+            bool done = stages[k].at("done").get<bool>();
+            const bool condition_met = stages[k].value("condition_met", done);
+            // More steps may be asked for than before; but what a later stage began from stays.
+            const bool is_last = k + 1 == stages.size();
+            done = done && (!is_last || condition_met || steps >= script.program->stages[k].iterations);
             if (steps < 0) return tl::unexpected(damaged(folder, "a number of steps is negative"));
             if (auto started = simulation.start_stage(k); !started) return started;
             auto species = read_species(folder, simulation, k);
             if (!species) return tl::unexpected(species.error());
-            simulation.set_species(k, std::move(*species), steps, done);
+            simulation.set_species(k, std::move(*species), steps, done, condition_met);
             if (!stages[k].contains("time")) continue;
             const auto time = saved_time_from(
                 stages[k].at("time"), script.program->stages[k].time.solver);

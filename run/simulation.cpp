@@ -5,9 +5,12 @@
 #include "run/field_values.h"
 #include "run/memory.h"
 #include "run/simulation_implementation.h"
+#include "run/stage_remarks.h"
 #if CASCADE_HAS_JIT
 #include "jit/jit.h"
 #endif
+
+#include <algorithm>
 
 namespace cascade {
 
@@ -107,7 +110,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     self.team = std::make_unique<Team>(self.is_small() ? 1 : self.threads);
     self.states.resize(self.program->stages.size());
     if (auto made = self.make_surface_values(options); !made) return tl::unexpected(made.error());
-    if (auto found = self.find_mask(options.control); !found) return tl::unexpected(found.error());
+    if (auto found = self.find_mask(); !found) return tl::unexpected(found.error());
     return simulation;
 }
 
@@ -124,6 +127,24 @@ Result<void> Simulation::start_stage(std::uint32_t k) {
     return self.check_speed(k);
 }
 
+namespace {
+
+/// Steps between two looks: a stage of few steps is looked at as often as a long one.
+std::int64_t look_every(const Stage& stage, std::int64_t usual) {
+    constexpr std::int64_t looks = 10;
+    return std::clamp<std::int64_t>(stage.iterations / looks, 1, usual);
+}
+
+}  // namespace
+
+void Simulation::Implementation::look_at(std::uint32_t k) {
+    StageState& state = states[k];
+    // Steps of different length in different cells are counted, not timed.
+    const bool is_timed = stage(k).uniform[program->system_of(k).speed_item()];
+    const double age = is_timed ? state.t : static_cast<double>(state.steps);
+    state.course.look(state.steps, age, state.species, counted());
+}
+
 Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_step,
                                            RunControl& control,
                                            const std::function<void()>& observe,
@@ -134,6 +155,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     CHECK(state.started, "a stage is started before it advances");
     const TimeAccount::Scope spent(self.account, Spent::stepping, k);
     const std::int64_t steps_before = state.steps;
+    if (state.course.empty()) self.look_at(k);
 
     StepKernels kernels(stage.name);
     StageTimer timer(*self.program, k, state, self.tools(k, self.compiled(k, kernels, control)));
@@ -152,11 +174,6 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
         auto grown = self.run_on_coarser_grids(k, control);
         if (!grown || *grown == StageEnd::cancelled) return grown;
     }
-    self.undefined_is_told = false;
-    if (state.steps == 0) self.warn_of_undefined_start(k, control);
-    self.listener = &control;
-    self.until_is_told = false;
-    self.until_watch.reset();
     self.find_lasting_parts(k);
     Progress progress;
     progress.stage = stage.name;
@@ -164,8 +181,16 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     progress.stage_number = static_cast<int>(k) + 1;
     progress.stage_count = static_cast<int>(self.script->stage_count());
     progress.steps = stage.iterations;
+    progress.when_met = stage.time.steady ? "settled" : "'until' came true";
     Schedule schedule = timer.schedule(last_step, every > 0 ? every : stage.interval);
     schedule.tenths = stage.interval == 0;
+    schedule.check_every = look_every(stage, schedule.check_every);
+    schedule.onlooker = [&](std::int64_t step, double t, std::span<const Field>) {
+        if (!state.course.is_due(step)) return;
+        state.steps = step;
+        state.t = t;
+        self.look_at(k);
+    };
     schedule.threads = self.threads;
     schedule.tiling = self.tiling;
     std::optional<StageTilings> tilings;
@@ -179,7 +204,6 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
                                              if (observe) observe();
                                              return true;
                                          });
-    self.listener = nullptr;
     self.unsettled.insert_or_assign(k, std::move(kernels));
     self.warn_of_refused(control);
     if (outcome.cancelled) self.stepper->abandon();
@@ -188,7 +212,6 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     state.time = outcome.time;
     if (!outcome.not_finite && !outcome.too_short && !outcome.cancelled) {
         self.warn_of_doubts(k, timer, control);
-        self.warn_of_undefined_end(k, control);
     }
     state.lasting.clear();
     self.account_for(k, state.steps - steps_before, outcome);
@@ -196,20 +219,25 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     if (outcome.too_short) return tl::unexpected(self.explain(*outcome.too_short, k));
     if (outcome.cancelled) return StageEnd::cancelled;
     state.done = outcome.ended || state.steps >= stage.iterations;
-    if (stage.time.open_end && !outcome.ended && state.done && control.warn) {
-        control.warn(fmt::format("stage '{}' took {} steps and 'until' has not ended it", stage.name,
-                                 state.steps));
-    }
+    // What is in doubt has no course, and no more is said of it.
+    if (state.done && !state.course.empty()) self.look_at(k);
     return state.done ? StageEnd::finished : StageEnd::stopped;
 }
 
+std::string Simulation::remark_on(std::uint32_t k) const {
+    return describe_end(self_->stage(k), self_->program->system_of(k), self_->states[k],
+                        k == self_->script->final_stage());
+}
+
 void Simulation::set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps,
-                             bool done) {
+                             bool done, bool condition_met) {
     StageState& state = self_->states[stage];
     CHECK(species.size() == state.species.size(), "every species of the stage is given");
     state.species = std::move(species);
+    state.course = {};
     state.steps = steps;
     state.done = done;
+    state.condition_met = condition_met;
 }
 
 void Simulation::set_time(std::uint32_t stage, double t, const TimeState& time,
@@ -302,9 +330,8 @@ StageTools Simulation::Implementation::tools(std::uint32_t k, Compile steps) con
         diffusion.add_to(problem);
         return problem;
     };
-    tools.inside = mask ? &mask->inside : model ? &model->inside : nullptr;
+    tools.inside = counted();
     tools.is_true = [this, k](const Formula& formula) {
-        look_at_until(k);
         return evaluate(plan_view(*program, formula, k), k)[0].number_at(0, 0) != 0;
     };
     tools.estimate = [this, k, compile = often()] {

@@ -9,6 +9,7 @@
 #include "run/domain_mask.h"
 #include "run/model_cells.h"
 #include "run/script.h"
+#include "run/stage_course.h"
 #include "run/step_work.h"
 #include "run/time_account.h"
 #include "solvers/advance.h"
@@ -41,11 +42,13 @@ std::filesystem::path usual_kernel_cache();
 /// Values of one stage's items.
 struct StageState {
     bool started = false;
-    bool done = false;                  ///< All its steps are taken.
+    bool done = false;                  ///< All its steps are taken, or it has ended before.
+    bool condition_met = false;         ///< Its `until` has ended it.
     std::int64_t steps = 0;             ///< Complete steps.
     double t = 0;                       ///< The time then; 0 where speed varies by cell.
     TimeState time;                     ///< What steps of other lengths go on from.
     SteadyWatch watch;                  ///< The last look of `until: steady(…)`.
+    StageCourse course;                 ///< Since it began, or went on from a saved run.
     std::vector<double> numbers;        ///< Of the run's precision, per item; meaningful where it is uniform.
     std::vector<Field> fields;          ///< Per item; empty where uniform, and for species.
     std::vector<Field> species;         ///< In order of the species' items.
@@ -125,13 +128,17 @@ public:
                                    RunControl& control, const std::function<void()>& observe,
                                    std::int64_t every = 0);
 
+    /// What is to be said of a stage that has ended, in one sentence; empty where all is as one would
+    /// think, and of a stage that has not ended.
+    std::string remark_on(std::uint32_t stage) const;
+
     /// Waits for code that is being made for stages that were over before it was there, and says of which
     /// there is none, so that they were interpreted.
     void settle(RunControl& control);
 
     /// Replaces the species of a started stage (resume, the prompt's :load).
     void set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps,
-                     bool done);
+                     bool done, bool condition_met = false);
 
     /// Sets the time of a stage whose species were replaced; without it its steps are taken as of
     /// the stage's speed.

@@ -142,7 +142,8 @@ Schedule StageTimer::schedule(std::int64_t last_step, std::int64_t interval) {
         schedule.check = stage_.time.steps_between_looks();
         schedule.ends = [this](std::int64_t step, double t, std::span<const Field>) {
             state_.steps = step;
-            return has_ended(t);
+            state_.condition_met = has_ended(t);
+            return state_.condition_met;
         };
     }
     if (is_adaptive(stage_.time.solver)) {

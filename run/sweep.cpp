@@ -5,6 +5,7 @@
 #include "core/temporary_file.h"
 #include "run/measured.h"
 #include "run/memory.h"
+#include "run/picture_remarks.h"
 #include "run/png_texts.h"
 #include "run/run.h"
 
@@ -28,6 +29,11 @@ constexpr auto between_reports = std::chrono::milliseconds(100);
 std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
+}
+
+void add_remark(SweepResult& result, const std::string& words) {
+    if (words.empty()) return;
+    result.remark += (result.remark.empty() ? "" : "; ") + one_line(words);
 }
 
 /// "feed=0.02,kill=0.05"; what cannot stand in a file's name becomes '_'.
@@ -209,6 +215,7 @@ Result<void> Sweeper::run_stages(Script& script, Simulation& simulation, RunCont
         result.steps += simulation.state(k).steps;
         if (!end) return tl::unexpected(end.error());
         if (*end == StageEnd::cancelled) return {};
+        add_remark(result, simulation.remark_on(k));
     }
     return {};
 }
@@ -227,9 +234,7 @@ void Sweeper::take(std::size_t number, RunControl& control) {
         return give_up({why, std::move(script)});
     }
     SweepResult result;
-    control.warn = [&](const std::string& warning) {
-        result.remark += (result.remark.empty() ? "" : "; ") + one_line(warning);
-    };
+    control.warn = [&](const std::string& warning) { add_remark(result, warning); };
     const auto done = run_stages(script, **simulation, control, result);
     control.warn = {};
     if (control.cancel) return;
@@ -237,6 +242,7 @@ void Sweeper::take(std::size_t number, RunControl& control) {
         result.remark = one_line(done.error().message);
         return keep(number, std::move(result));
     }
+    add_remark(result, remark_on_picture(*painter, **simulation));
     result.features = measure_shown(*painter, **simulation);
     result.tile = shrink(painter->canvas(**simulation), request_.tile_side);
     if (request_.fields) {

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 
 namespace cascade {
 
@@ -34,15 +33,13 @@ MapAxis upward_axis(const std::vector<Variation>& varied) {
 }
 
 /// One range for all, so that tiles can be compared.
-std::optional<ValueRange> range_of_all(const std::vector<std::optional<SweepResult>>& results) {
-    std::optional<ValueRange> all;
+ValueRange range_of_all(const std::vector<std::optional<SweepResult>>& results) {
+    Spread all;
     for (const auto& result : results) {
         if (!result || result->failed() || result->tile.is_colour()) continue;
-        const ValueRange range = value_range(result->tile.fields[0]);
-        all = all ? ValueRange{std::min(all->low, range.low), std::max(all->high, range.high)}
-                  : range;
+        all.add(spread_of(result->tile.fields[0]));
     }
-    return all;
+    return all.count > 0 ? automatic_range(all) : ValueRange{};
 }
 
 MapTile tile_of(const std::optional<SweepResult>& result, ValueRange range,
@@ -64,7 +61,7 @@ Image draw_sweep(const std::vector<std::optional<SweepResult>>& results,
     const Palette* palette = find_palette(picture.palette);
     CHECK(palette, "the palette was checked before the first run");
     const ValueRange range =
-        picture.range ? *picture.range : range_of_all(results).value_or(ValueRange{});
+        picture.range ? *picture.range : range_of_all(results);
     std::vector<MapTile> tiles;
     for (const auto& result : results) tiles.push_back(tile_of(result, range, *palette, has_mask));
     return make_map(tiles, axis_of(varied, 0), upward_axis(varied));

@@ -157,10 +157,14 @@ private:
     /// What a look is for besides finding values that are not finite; false ends the loop.
     bool do_what_is_due() {
         outcome_.ended = is_over();
+        if (schedule_.onlooker) {
+            lend([&] { return schedule_.onlooker(step_, now(), species_), true; });
+        }
         if (observation_due() && !lend([&] { return observe_(step_, now(), species_); })) return false;
         if (schedule_.check > 0 && step_ % schedule_.check == 0 &&
             lend([&] { return schedule_.ends(step_, now(), species_); })) {
             outcome_.ended = true;
+            progress_.condition_met = true;
         }
         if (!outcome_.ended) choose();
         return true;

@@ -30,6 +30,8 @@ namespace cascade {
 using Observer = std::function<bool(std::int64_t step, double t, std::span<const Field> species)>;
 /// The same, but returns true where the stage is to end.
 using EndTest = Observer;
+/// Is shown the same, and has no say in anything.
+using Onlooker = std::function<void(std::int64_t step, double t, std::span<const Field> species)>;
 
 /// How the next steps are taken.
 struct StepChoice {
@@ -57,6 +59,7 @@ struct Schedule {
     double tolerance = 0;             ///< Above 0: steps are adaptive, with this relative error.
     int error_order = 1;              ///< The error of an adaptive step is proportional to step^this.
     std::int64_t check_every = 64;    ///< Steps between two looks for values that are not finite.
+    Onlooker onlooker = {};           ///< Sees the species at each of those looks.
     /// A copy of all species of at most so many bytes is kept from look to look, to find out in which
     /// step a value was spoiled. Larger ones would cost memory that their user needs for his cells.
     std::int64_t most_kept_bytes = std::int64_t{256} << 20;

@@ -25,6 +25,19 @@ sed "/^stage/d" s.cascade >bare.cascade
 sed 's/grid: 8, 8/surface: sphere; cells: 100/' s.cascade >ball.cascade
 "$CASCADE" run s.cascade -q --save saved -o s.png || fail "a run"
 
+# What runs, and yields something else than meant: a hint in a warning.
+hint_of_run() {
+    local text=$1; shift
+    "$CASCADE" "$@" >out 2>err </dev/null || fail "$*"
+    grep -qF -- "$text" err || fail "$*: no hint '$text' in: $(cat err)"
+}
+hint_of_run "for a square write --grid 9x9" check s.cascade --grid 9
+"$CASCADE" check s.cascade --grid 9x9 2>&1 | grep -q warning && fail "a square gets a warning"
+hint "did you mean -o p.png?" run s.cascade p.png -- run s.cascade -q -o p.png
+hint "for a movie write --frames film, then ffmpeg" run s.cascade --frames film.mp4 -- run s.cascade -q --frames film
+cp s.cascade t.cascade
+hint "name another one with --frames" run t.cascade -q --frames film -- run t.cascade -q --frames film3
+
 # What is missing.
 hint "add 'stage spots: mine { }'" run bare.cascade -- run s.cascade -q
 hint "did you mean 's.cascade'?" check z.cascade -- check s.cascade

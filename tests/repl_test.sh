@@ -9,6 +9,12 @@ fail() {
     exit 1
 }
 feed() { printf '%s\n' "$@" | "$CASCADE" repl >out 2>err || fail "exit status $?"; }
+# The same where a line is wrong.
+feed_wrong() {
+    printf '%s\n' "$@" | "$CASCADE" repl >out 2>err
+    local status=$?
+    [ "$status" = 1 ] || fail "exit status $status and not 1"
+}
 says() { grep -qF -- "$2" "$1" || fail "no '$2' in $1"; }
 
 # A script that grows, a block over several lines, stages one after the other.
@@ -19,11 +25,11 @@ says out "stage 'large', step 20 of 30"
 says out "stage 'large', step 25 of 30"
 says out 'large: turing_spots, step 25 of 30'
 says out "stage 'large', step 30 of 30"
-[ ! -s err ] || fail "something was wrong"
+grep -q error err && fail "something was wrong"
 
 # A wrong line changes nothing: the fields are those of an undisturbed run.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 100' ':save right'
-feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 60' \
+feed_wrong 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 60' \
     'stage t: turing_spotz { }' ':set s.kaa=1' ':show nobody' ':shwo' ':run x' ':load nowhere' \
     'stage t: turing_spots { iterations: 0 }' ':run 40' ':save wrong'
 says err "prompt:3:10: error: "
@@ -45,15 +51,27 @@ cmp right/s.b.npy loaded/s.b.npy || fail "loading lost something"
 feed ':load half' ':init' ':run 100' ':save anew'
 cmp right/s.b.npy anew/s.b.npy || fail ":init does not begin anew"
 
-# A picture: half blocks in 24-bit colour, two rows of cells in a line.
-feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 10 }' ':show b' ':help' ':text'
-[ "$(grep -c '▀' out)" = 4 ] || fail "no picture of 4 lines"
-grep -q $'\x1b\\[38;2;' out || fail "no 24-bit colour"
+# A picture in a pipe: characters without escapes, two rows of cells in a line.
+feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 10 }' ':run' ':show b' ':help' ':text'
+[ "$(grep -cE '^[ .:=+*#%@-]{16}$' out)" = 4 ] || fail "no picture of 4 lines"
+grep -q $'\x1b' out && fail "escapes in a pipe"
 says out ':load FILE'
 says out 'stage s: turing_spots { iterations: 10 }'
 
+# What came of a run is said, and that there is nothing left to run.
+feed 'domain { grid: 16, 8 }' 'stage s: gray_scott { u: 1; v: 0; iterations: 50 }' ':run' ':show v' ':run' \
+    ':set s.feed=0.05'
+says err "stage 's' ended even (u = 1, v = 0): nothing tells one cell from another"
+says out '0 in all cells'
+[ "$(grep -c "':init' begins again" err)" = 2 ] || fail "not told that all is over"
+
+# Words of other prompts.
+feed 'help' && says out ':load FILE'
+feed '?' && says out ':load FILE'
+feed 'exit' 'stage s: nonsense'
+
 # The end of the pipe ends a block too, with the message of the parser.
-feed 'stage s: turing_spots {'
+feed_wrong 'stage s: turing_spots {'
 says err 'error:'
 
 command -v python3 >/dev/null || exit 0

@@ -140,11 +140,6 @@ TEST(Options, standard_input_is_a_script) {
     EXPECT_THAT(parsed({"run", "-"}).scripts, ElementsAre("-"));
 }
 
-TEST(Options, a_tiling_is_forced_where_nobody_sees_it) {
-    EXPECT_EQ(parsed({"run", "a.cascade", "--tiling", "4,2"}).run.simulation.tiling, (Tiling{4, 2}));
-    EXPECT_FALSE(parsed({"run", "a.cascade"}).run.simulation.tiling);
-}
-
 TEST(Options, two_hyphens_end_the_options) {
     EXPECT_THAT(parsed({"run", "--", "a.cascade"}).scripts, ElementsAre("a.cascade"));
     EXPECT_THAT(parsed({"check", "--dump", "ast", "--", "-a.cascade", "-"}).scripts,
@@ -229,6 +224,8 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{"run", "a", "--pallete", "tan"}, "no option --pallete; did you mean --palette?"},
         WrongUse{{"run", "a", "--gird=4x4"}, "no option --gird=4x4; did you mean --grid?"},
         WrongUse{{"run", "a", "b"}, "'b' is one argument too many"},
+        WrongUse{{"run", "a", "b.png"}, "'b.png' is one argument too many; did you mean -o b.png?"},
+        WrongUse{{"run", "a", "-o", "b.mp4"}, "(for a movie write --frames b, then ffmpeg "},
         WrongUse{{"run", "a", "-o"}, "--output needs a value"},
         WrongUse{{"run", "a", "--gird", "3"}, "there is no option --gird; did you mean --grid?"},
         WrongUse{{"run", "a", "--grid", "4y4"}, "--grid: '4y4' is not a grid (write columns x rows"},

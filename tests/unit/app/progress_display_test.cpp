@@ -99,6 +99,14 @@ TEST(Progress, lines_are_sparse) {
     EXPECT_THAT(watched.written, Not(HasSubstr("\r")));
 }
 
+TEST(Progress, a_stage_that_its_condition_ended_says_so) {
+    Progress progress = half_way();
+    progress.when_met = "settled";
+    progress.condition_met = true;
+    progress.stage_done = true;
+    EXPECT_EQ(progress_line(progress), "stage 2/3 'small': settled at step 3,500, 12,345 steps/s");
+}
+
 TEST(Progress, the_bar_is_taken_away) {
     Watched watched(ProgressDisplay::Kind::bar);
     watched.display.clear();

@@ -26,6 +26,16 @@ TEST(HalfBlocks, AColourIsSaidOnceAsLongAsItStays) {
               "\x1b[38;2;0;0;0m\x1b[48;2;0;0;0m▀▀▀\x1b[0m\n");
 }
 
+TEST(PlainCharacters, RunFromDarkToLight) {
+    Image image(4, 3, {0, 0, 0});
+    for (std::int64_t y = 0; y < 3; ++y) image.at(1, y) = {0.5F, 0.5F, 0.5F};
+    for (std::int64_t y = 0; y < 3; ++y) image.at(2, y) = {1, 1, 1};
+    image.at(3, 1) = {1, 1, 1};
+    EXPECT_EQ(plain_characters(image, 80), " +@-\n +@-\n");
+    EXPECT_EQ(plain_characters(Image(9, 9), 3), "@@@\n@@@\n");
+    EXPECT_EQ(plain_characters(Image(), 3), "");
+}
+
 TEST(HalfBlocks, EveryLineIsResetAndStartsAfresh) {
     const std::string line = "\x1b[38;2;255;255;255m\x1b[48;2;255;255;255m▀▀\x1b[0m\n";
     EXPECT_EQ(half_blocks(Image(2, 4), 80), line + line);

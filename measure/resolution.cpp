@@ -1,0 +1,55 @@
+#include "measure/resolution.h"
+
+#include "core/spread.h"
+#include "measure/spectrum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cascade::measure {
+
+namespace {
+
+/// One wavelength is meant where the spectrum's peak has this part of the variance.
+constexpr double regular_share = 0.75;
+
+/// Neighbours along one axis at least are correlated less where waves have at most four cells: the
+/// worst ones, along the diagonal of a volume, have cos(2π / (4 √3)) = 0.62.
+constexpr double close_correlation = 0.65;
+
+double correlation_along(const Samples& samples, const Spread& spread, std::size_t axis) {
+    double products = 0, pairs = 0;
+    for (std::size_t cell = 0; cell < samples.count(); ++cell) {
+        const std::size_t next = samples.neighbour(cell, axis, true);
+        const double a = samples.values[cell], b = samples.values[next];
+        if (next == cell || !std::isfinite(a) || !std::isfinite(b)) continue;
+        products += (a - spread.mean) * (b - spread.mean);
+        pairs += 1;
+    }
+    return pairs > 0 ? products / pairs / (spread.squares / spread.count) : 1;
+}
+
+}  // namespace
+
+double unresolved_wavelength(const Samples& samples) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const Spread spread = spread_of([&](const auto& take) {
+        for (const double value : samples.values) take(value);
+    });
+    if (spread.is_even()) return none;
+    double least = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (samples.cells[axis] > 1) {
+            least = std::min(least, correlation_along(samples, spread, axis));
+        }
+    }
+    if (least > close_correlation) return none;
+    const Spectrum spectrum = radial_spectrum(samples);
+    const double cells = peak_wavelength(spectrum) / samples.spacing;
+    // Below two cells there is only the chequerboard, of which others tell.
+    const bool is_short = cells > 2 && cells < fewest_cells_a_wave && peak_share(spectrum) >= regular_share;
+    return is_short ? cells : none;
+}
+
+}  // namespace cascade::measure

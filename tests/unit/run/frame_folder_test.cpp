@@ -1,0 +1,97 @@
+// A folder of frames holds the frames of one run.
+#include "run_fixture.h"
+
+#include "run/frame_folder.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+namespace cascade {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* spots = "domain { grid: 8, 8 }\nstage s: turing_spots { iterations: 40; interval: 20 }\n";
+
+class FrameFolder : public RunTest {
+protected:
+    RunRequest frames_in(const std::string& folder) const {
+        RunRequest wanted = request();
+        wanted.frames = path(folder);
+        return wanted;
+    }
+    std::vector<std::string> names(const std::string& folder) const {
+        std::vector<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(path(folder))) {
+            names.push_back(entry.path().filename().string());
+        }
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+};
+
+TEST_F(FrameFolder, HasNoFramesOfTheRunBefore) {
+    Script script = load(spots);
+    run_well(script, frames_in("film"));
+    ASSERT_TRUE(write_file(path("film/notes.txt"), "mine"));
+    ASSERT_TRUE(write_file(path("film/0001-b.png"), "mine"));
+    Overrides changes;
+    changes.sets = {"s.interval=30"};
+    Script changed = load(spots, changes);
+    run_well(changed, frames_in("film"));
+    EXPECT_THAT(names("film"), ElementsAre("0000-s-0000000.png", "0001-b.png", "0001-s-0000030.png",
+                                           "notes.txt"));
+}
+
+TEST_F(FrameFolder, OfAnotherScriptIsLeftAlone) {
+    Script script = load(spots);
+    run_well(script, frames_in("film"));
+    Script other = load_script("other.cascade", spots, folder_);
+    EXPECT_THAT(run_badly(other, frames_in("film")),
+                HasSubstr("holds frames that other.cascade did not draw, as 0000-s-0000000.png"));
+    EXPECT_THAT(names("film"), testing::SizeIs(3));
+    // Nor is a picture of nobody knows whom removed.
+    std::filesystem::create_directories(path("mine"));
+    ASSERT_TRUE(write_file(path("mine/0000-holiday-0000001.png"), "sun"));
+    EXPECT_THAT(run_badly(script, frames_in("mine")), HasSubstr("as 0000-holiday-0000001.png"));
+    EXPECT_EQ(bytes("mine/0000-holiday-0000001.png"), "sun");
+}
+
+TEST_F(FrameFolder, KeepsWhatItHasWhereARunFails) {
+    Script script = load(spots);
+    run_well(script, frames_in("film"));
+    Script bad = load("system g { u: 1; u' = u^3 }\ndomain { grid: 4, 4 }\nstage s: g { iterations: 99 }\n");
+    run_badly(bad, frames_in("film"));
+    EXPECT_THAT(names("film"), testing::SizeIs(3));
+}
+
+TEST_F(FrameFolder, IsNotThatOfARunThatGoesOn) {
+    Script script = load(spots);
+    RunRequest wanted = frames_in("film");
+    wanted.save = path("saved");
+    wanted.stop_at = StopAt{"s", 20};
+    run_well(script, wanted);
+    auto saved = load_saved_script(path("saved"), {});
+    ASSERT_TRUE(saved);
+    RunRequest on = frames_in("film");
+    on.resume = path("saved");
+    EXPECT_THAT(run_badly(*saved, on), HasSubstr("holds frames of an earlier run"));
+    on.frames = path("film2");
+    run_well(*saved, on);
+}
+
+TEST_F(FrameFolder, IsNotCalledLikeAMovie) {
+    EXPECT_TRUE(is_called_like_a_movie("a/film.MP4"));
+    EXPECT_TRUE(is_called_like_a_movie("film.gif"));
+    EXPECT_FALSE(is_called_like_a_movie("film.frames"));
+    EXPECT_FALSE(is_called_like_a_movie("mp4"));
+    Script script = load(spots);
+    run_badly(script, frames_in("film.mp4"));
+    EXPECT_THAT(script.messages(false), HasSubstr("--frames film, then ffmpeg"));
+    EXPECT_FALSE(std::filesystem::exists(path("film.mp4")));
+}
+
+}  // namespace
+}  // namespace cascade

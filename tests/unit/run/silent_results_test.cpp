@@ -1,0 +1,228 @@
+// Runs that end well and show nothing, or something else than one would think, say so in one line; and
+// runs that are as they should be say nothing.
+#include "run_fixture.h"
+
+#include "run/sweep.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+namespace cascade {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+constexpr const char* gray_scott = R"(
+system gs {{
+  u: {}
+  v: {}
+  feed: {}; kill: {}
+  u' = 0.16 * lap(u) - u * v^2 + feed * (1 - u)
+  v' = 0.08 * lap(v) + u * v^2 - (feed + kill) * v
+}}
+domain {{ grid: 32, 32 }}
+stage coral: gs {{ iterations: {} }}
+)";
+
+class SilentResults : public RunTest {
+protected:
+    /// What a run of `text` says, of its script and of its result.
+    std::vector<std::string> words_of(const std::string& text) { return words_of(text, request()); }
+    std::vector<std::string> words_of(const std::string& text, const RunRequest& request,
+                                      const Overrides& changes = {}) {
+        Script script = load(text, changes);
+        EXPECT_TRUE(script.program) << script.messages(false);
+        warnings_.clear();
+        const RunReport report = run_well(script, request);
+        EXPECT_EQ(report.remarks, warnings_);
+        std::vector<std::string> words = warnings_;
+        for (const Diagnostic& each : script.diagnostics.sorted()) {
+            words.push_back(each.message + " | " + each.hint);
+        }
+        return words;
+    }
+};
+
+TEST_F(SilentResults, NothingTellsOneCellFromAnother) {
+    EXPECT_THAT(words_of(fmt::format(gray_scott, "1", "0", 0.037, 0.06, 200)),
+                ElementsAre("stage 'coral' ended even (u = 1, v = 0): nothing tells one cell from another; "
+                            "noise or a spot in a starting value would"));
+    EXPECT_THAT(words_of("system s { u: 1; v: 0.9; u' = 0.1 - u + u^2*v + lap(u); v' = 0.9 - u^2*v + 40*lap(v) }\n"
+                         "domain { grid: 16, 16 }\n"
+                         "stage t: s { speed: 0.005; iterations: 100 }\n"),
+                ElementsAre(HasSubstr("nothing tells one cell from another")));
+}
+
+TEST_F(SilentResults, NoiseThatFades) {
+    EXPECT_THAT(words_of("system s { u: 1 + random(0, 0.01); v: 0.9\n"
+                         "  u' = 0.1 - u + u^2*v + lap(u); v' = 0.9 - u^2*v + lap(v) }\n"
+                         "domain { grid: 16, 16 }\n"
+                         "stage t: s { speed: 0.1; iterations: 3000 }\n"),
+                ElementsAre(StartsWith("stage 't' ended even (u = 1, v = 0.9): the differences it began "
+                                       "with faded, and nothing has grown; it is even since step ")));
+}
+
+TEST_F(SilentResults, APatternThatDied) {
+    const std::string text = fmt::format(gray_scott, "1 - 0.5*disc(0.5, 0.5, 0.2)",
+                                         "0.25*disc(0.5, 0.5, 0.2)", 0.1, 0.1, 600);
+    EXPECT_THAT(words_of(text), ElementsAre(StartsWith("stage 'coral' died out: it is even since step ")));
+    Overrides fewer;
+    fewer.steps = 80;
+    EXPECT_THAT(words_of(text, request(), fewer),
+                ElementsAre(StartsWith("stage 'coral' is dying out: the deviations left are small and "
+                                       "falling (u ")));
+}
+
+TEST_F(SilentResults, APatternThatIsStillGrowing) {
+    for (const std::int64_t steps : {100, 600}) {
+        Overrides few;
+        few.steps = steps;
+        EXPECT_THAT(words_of("stage s: turing_spots { iterations: 8000; ka: 1/80 }\n", request(), few),
+                    ElementsAre(AllOf(StartsWith("stage 's' was still growing when it ended: the deviation "),
+                                      HasSubstr(" % in the last tenth, to 0."))))
+            << steps;
+    }
+}
+
+TEST_F(SilentResults, AnUntilThatNeverCameTrue) {
+    static constexpr const char* settles = "domain {{ grid: 24, 24 }}\nstage s: turing_spots {{ until: {}; iterations: {} }}\n";
+    EXPECT_THAT(words_of(fmt::format(settles, "steady(0.2)", 400)),
+                ElementsAre("stage 's' took 400 steps and has not settled as 'until: steady(0.2)' asks"));
+    EXPECT_THAT(words_of(fmt::format(settles, "max(b over domain) > 100", 400)),
+                ElementsAre("stage 's' took 400 steps and 'until' has not ended it"));
+    EXPECT_THAT(words_of(fmt::format(settles, "max(b over domain) > 4.1", 8000)), IsEmpty());
+}
+
+TEST_F(SilentResults, AllOfThePictureBesideTheRange) {
+    const std::string text = "domain { grid: 24, 24 }\nstage s: turing_spots { iterations: 4000 }\n";
+    RunRequest wanted = request();
+    EXPECT_THAT(words_of(text, wanted), IsEmpty());
+    wanted.picture.range = ValueRange{50, 90};
+    EXPECT_THAT(words_of(text, wanted),
+                ElementsAre(AllOf(StartsWith("the picture is of one colour: all it shows ("),
+                                  HasSubstr("lies below the range 50,90"))));
+    wanted.picture.range = ValueRange{-1, -2};
+    EXPECT_THAT(words_of(text, wanted), ElementsAre(HasSubstr("lies above the range -1,-2")));
+    wanted.picture.range = ValueRange{-10000, 10000};
+    EXPECT_THAT(words_of(text, wanted), ElementsAre(HasSubstr("is one level of the range")));
+    wanted.picture.range = ValueRange{3, 5};
+    EXPECT_THAT(words_of(text, wanted), IsEmpty());
+    wanted.picture.range.reset();
+    wanted.picture.show = "ka";
+    EXPECT_THAT(words_of(text, wanted),
+                ElementsAre("the picture is of one colour: what it shows is 0.0125 in all cells"));
+}
+
+TEST_F(SilentResults, WavesOfFewCells) {
+    EXPECT_THAT(words_of("domain { grid: 32, 32 }\n"
+                         "stage s: turing_spots { iterations: 6000; diff_a: 1/80; diff_b: 1/320 }\n"),
+                ElementsAre(AllOf(StartsWith("the waves of the pattern are 2."), HasSubstr("cells long"))));
+}
+
+TEST_F(SilentResults, AGridThatIsALine) {
+    Overrides line;
+    line.grid = GridSize{100, 1};
+    const std::string text = "stage s: turing_spots { iterations: 3000 }\n";
+    EXPECT_THAT(words_of(text, request(), line), IsEmpty());
+    line.grid_is_one_number = true;
+    EXPECT_THAT(words_of(text, request(), line),
+                ElementsAre("this is a line of 100 cells | for a square write --grid 100x100"));
+    // Another line in place of one.
+    EXPECT_THAT(words_of("domain { grid: 60 }\n" + text, request(), line), IsEmpty());
+}
+
+TEST_F(SilentResults, AStageThatNobodyReads) {
+    const std::string first = "domain { grid: 24, 24 }\nstage one: turing_spots { iterations: 300 }\n";
+    static constexpr const char* second = "stage two: turing_spots {{ iterations: 4000; {} }}\n";
+    EXPECT_THAT(words_of(first + fmt::format(second, "")),
+                ElementsAre("no later stage and no picture reads stage 'one' | "
+                            "'a: a; b: b' in stage 'two' goes on from it"));
+    // What the hint says helps.
+    EXPECT_THAT(words_of(first + fmt::format(second, "a: a; b: b")), IsEmpty());
+    EXPECT_THAT(words_of(first + fmt::format(second, "frozen: one.b < 2")), IsEmpty());
+    EXPECT_THAT(words_of(first + fmt::format(second, "") + "picture { color: rgb(one.b/8, b/8, 0) }\n"),
+                IsEmpty());
+    const std::string other =
+        "system s { u: random(0, 1); u' = 0.01*(0.5 - u)*(u - 1)*u }\n"
+        "stage two: s { iterations: 4 }\n";
+    EXPECT_THAT(words_of(first + other),
+                ElementsAre("no later stage and no picture reads stage 'one' | a stage begins with its own "
+                            "starting values: 'p: one.a' would read this one"));
+}
+
+/// Dying fields in a sweep: the numbers are those of a ripple, and the remark says what it is.
+TEST_F(SilentResults, SweepsRemarkOnTheirRuns) {
+    const Script script = load("system s { u: 3.7 + random(0, 0.5); c: -0.02; u' = c*(u - 3.7) + 0.02*lap(u) }\n"
+                               "domain { grid: 24, 24 }\nstage skin: s { iterations: 200 }\n");
+    SweepRequest wanted;
+    wanted.varied.push_back(*parse_variation("s.c=-0.03,-0.1,0.0005"));
+    wanted.folder = path("sweep");
+    wanted.simulation.backend = BackendKind::interpreter;
+    SweepControl control;
+    ASSERT_TRUE(sweep(script, wanted, control));
+    std::ifstream table(path("sweep/features.csv"));
+    std::vector<std::string> rows;
+    for (std::string row; std::getline(table, row);) rows.push_back(row);
+    ASSERT_EQ(rows.size(), 4u);
+    EXPECT_THAT(rows[1], HasSubstr("stage 'skin' is dying out: the deviations left are small and falling (u "));
+    EXPECT_THAT(rows[2], HasSubstr("stage 'skin' died out: it is even since step "));
+    EXPECT_THAT(rows[3], testing::EndsWith(",200,"));
+}
+
+TEST_F(SilentResults, ARunThatStopsOnTheWaySaysNothing) {
+    RunRequest wanted = request();
+    wanted.stop_at = StopAt{"coral", 100};
+    EXPECT_THAT(words_of(fmt::format(gray_scott, "1", "0", 0.037, 0.06, 200), wanted), IsEmpty());
+}
+
+TEST_F(SilentResults, AResumedRunGoesOnOrSaysWhyNot) {
+    const std::string text = "domain { grid: 24, 24 }\nstage s: turing_spots { iterations: 4000; ka: 1/40 }\n";
+    Overrides changes;
+    changes.steps = 1000;
+    RunRequest wanted = request();
+    wanted.save = path("half");
+    words_of(text, wanted, changes);
+    wanted.save = path("straight");
+    changes.steps = 3000;
+    words_of(text, wanted, changes);
+
+    RunRequest on = request();
+    on.resume = path("half");
+    on.save = path("resumed");
+    auto saved = load_saved_script(path("half"), changes);
+    ASSERT_TRUE(saved);
+    EXPECT_EQ(run_well(*saved, on).steps, 2000);
+    EXPECT_EQ(array("resumed/s.b.npy"), array("straight/s.b.npy"));
+
+    on.resume = path("resumed");
+    saved = load_saved_script(path("resumed"), changes);
+    ASSERT_TRUE(saved);
+    warnings_.clear();
+    EXPECT_EQ(run_well(*saved, on).steps, 0);
+    EXPECT_THAT(warnings_, ElementsAre("the saved run had come to its end, and no step was left to take: "
+                                       "stage 's', step 3000 of 3000"));
+}
+
+TEST_F(SilentResults, WhatALaterStageBeganFromStays) {
+    Overrides changes;
+    changes.steps = 100;
+    RunRequest wanted = request();
+    wanted.save = path("half");
+    words_of(two_stages, wanted, changes);
+    changes.steps = 150;
+    auto saved = load_saved_script(path("half"), changes);
+    ASSERT_TRUE(saved);
+    RunRequest on = request();
+    on.resume = path("half");
+    warnings_.clear();
+    EXPECT_EQ(run_well(*saved, on).steps, 50);
+    EXPECT_THAT(warnings_, testing::Contains("stage 'large' stays at step 100: stage 'small' has begun from it"));
+}
+
+}  // namespace
+}  // namespace cascade
