@@ -240,6 +240,10 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
                   simulation.lanes = lanes == "4" ? 4 : lanes == "8" ? 8 : 16;
               })
         ->group(group);
+    // For tests and fuzzers; the help has none of it.
+    add_value(app, "--tiling", "LEVELS,LAYER", "How steps go through memory", parse_tiling,
+              [&](const Tiling& tiling) { simulation.tiling = tiling; })
+        ->group("");
     app.add_flag_callback(
            "--no-kernel-cache", [&simulation] { simulation.kernel_cache.clear(); },
            "Compile all native code again, and keep none of it")

@@ -97,6 +97,18 @@ Result<View> parse_view(std::string_view text) {
                    "write degrees around (-360 to 360) and above (-89 to 89), as in --view 30,25");
 }
 
+Result<Tiling> parse_tiling(std::string_view text) {
+    constexpr std::int64_t most = 1000;
+    const std::size_t comma = std::min(text.find(','), text.size());
+    const auto levels = parse_whole(text.substr(0, comma), 1, most);
+    const auto layer = parse_whole(text.substr(std::min(comma + 1, text.size())), 1, most);
+    if (!levels || !layer) {
+        return failure(fmt::format("'{}' is not a tiling", text),
+                       "write LEVELS,LAYER, as in --tiling 4,2");
+    }
+    return Tiling{static_cast<int>(*levels), *layer};
+}
+
 Result<StopAt> parse_stop_at(std::string_view text) {
     const std::size_t colon = text.rfind(':');
     if (colon != std::string_view::npos && colon > 0) {

@@ -36,6 +36,8 @@ Result<View> parse_view(std::string_view text);
 
 /// "large:12000": a stage and a number of complete steps.
 Result<StopAt> parse_stop_at(std::string_view text);
+/// "4,2": tiles of four steps and two rows or slices a layer; "1,1": every step by itself.
+Result<Tiling> parse_tiling(std::string_view text);
 
 /// "90s", "20m", "1.5h", "2d" or "90": seconds, more than 0 and at most ten years.
 Result<double> parse_duration(std::string_view text);

@@ -312,12 +312,17 @@ void ExpressionChecker::fold_constants(const Node& node) {
     if (!value) return;
     const bool was_finite = std::all_of(values.begin(), values.begin() + node.operand_count,
                                         [](double each) { return std::isfinite(each); });
-    if (was_finite && !std::isfinite(*value)) {
+    const bool was_in_range = std::all_of(values.begin(), values.begin() + node.operand_count,
+                                          [](double each) { return std::abs(each) <= double{FLT_MAX}; });
+    const bool leaves_range = was_in_range && std::abs(*value) > double{FLT_MAX};
+    if (was_finite && (!std::isfinite(*value) || leaves_range)) {
+        const std::string hint =
+            std::isnan(*value)   ? "it is not defined for these numbers"
+            : std::isinf(*value) ? "it is infinite for these numbers"
+                                 : fmt::format("{:.3g} is infinite in single precision, which ends at 3.4e38", *value);
         Diagnostic diagnostic{Severity::warning, node.span,
                               fmt::format("{} has no finite value here", info(node.function).spelling),
-                              std::isnan(*value) ? "it is not defined for these numbers"
-                                                 : "it is infinite for these numbers",
-                              {}};
+                              hint, {}};
         add_call(work_, diagnostic);
         work_.diagnostics.add(std::move(diagnostic));
     }

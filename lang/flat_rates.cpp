@@ -23,7 +23,6 @@ PartId FlatRates::add(const Formula& formula) {
     places.reserve(formula.nodes.size());
     for (const Node& node : formula.nodes) {
         Node copy = node;
-        copy.span = {};
         if (node.kind == NodeKind::definition) {
             places.push_back(definitions_[node.index]);
             continue;

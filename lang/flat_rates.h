@@ -17,13 +17,14 @@ public:
 
     /// Holds the parts of the rates first and whatever is made of them behind.
     FormulaBuilder& builder() { return builder_; }
+    const FormulaBuilder& builder() const { return builder_; }
     PartId rate(std::uint32_t item) const { return rates_[item]; }
+    /// Another formula of the system, in the same list.
+    PartId add(const Formula& formula);
     /// Parts that the rates are made of are below this.
     std::size_t part_count() const { return count_; }
 
 private:
-    PartId add(const Formula& formula);
-
     FormulaBuilder builder_;
     std::vector<PartId> definitions_, rates_;
     std::size_t count_ = 0;

@@ -34,7 +34,7 @@ std::string advice_for_growth(const StepInUse& use) {
 
 }  // namespace
 
-double largest_magnitude(const std::vector<Field>& species) {
+double largest_magnitude(std::span<const Field> species) {
     double largest = 0;
     for (const Field& field : species) {
         field.visit([&](const auto& plane) {

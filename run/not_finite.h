@@ -7,6 +7,7 @@
 #include "solvers/stability.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct NotFiniteReport {
 };
 
 /// The largest magnitude of all values.
-double largest_magnitude(const std::vector<Field>& species);
+double largest_magnitude(std::span<const Field> species);
 
 /// Which stage, species, cell and step, and the largest stable speed where the step is to blame.
 Failure describe(const NotFiniteReport& report);

@@ -43,4 +43,13 @@ std::string describe(const FlickerReport& report) {
     return text + fmt::format("try 'speed: {:.2g}'", use.speed / 2);
 }
 
+std::string describe(const LostChangeReport& report) {
+    return fmt::format(
+        "stage '{}': a step would change {} by about {:.2g}, which is too little to be added to "
+        "values of {:.2g} "
+        "in single precision; of this stage about {:.2g} is lost; 'precision: double' in the "
+        "domain keeps it",
+        report.stage, report.species, report.change, report.value, report.lost);
+}
+
 }  // namespace cascade

@@ -38,4 +38,18 @@ inline constexpr double undone_threshold = 0.4;
 /// The warning.
 std::string describe(const FlickerReport& report);
 
+/// Changes that rounding has swallowed.
+struct LostChangeReport {
+    std::string stage, species;
+    double change = 0;  ///< What a step would add, on average over the cells in magnitude,
+    double value = 0;   ///< to values of this size (root mean square);
+    double lost = 0;    ///< so much over the stage.
+};
+
+/// From this part of the values on, what is lost is worth a warning.
+inline constexpr double lost_change_threshold = 0.01;
+
+/// The warning.
+std::string describe(const LostChangeReport& report);
+
 }  // namespace cascade

@@ -110,7 +110,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     self.team = std::make_unique<Team>(self.is_small() ? 1 : self.threads);
     self.states.resize(self.program->stages.size());
     if (auto made = self.make_surface_values(options); !made) return tl::unexpected(made.error());
-    if (auto found = self.find_mask(); !found) return tl::unexpected(found.error());
+    if (auto found = self.find_mask(options.control); !found) return tl::unexpected(found.error());
     return simulation;
 }
 
@@ -174,6 +174,11 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
         auto grown = self.run_on_coarser_grids(k, control);
         if (!grown || *grown == StageEnd::cancelled) return grown;
     }
+    self.undefined_is_told = false;
+    if (state.steps == 0) self.warn_of_undefined_start(k, control);
+    self.listener = &control;
+    self.until_is_told = false;
+    self.until_watch.reset();
     self.find_lasting_parts(k);
     Progress progress;
     progress.stage = stage.name;
@@ -204,6 +209,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
                                              if (observe) observe();
                                              return true;
                                          });
+    self.listener = nullptr;
     self.unsettled.insert_or_assign(k, std::move(kernels));
     self.warn_of_refused(control);
     if (outcome.cancelled) self.stepper->abandon();
@@ -212,6 +218,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     state.time = outcome.time;
     if (!outcome.not_finite && !outcome.too_short && !outcome.cancelled) {
         self.warn_of_doubts(k, timer, control);
+        self.warn_of_undefined_end(k, control);
     }
     state.lasting.clear();
     self.account_for(k, state.steps - steps_before, outcome);
@@ -332,6 +339,7 @@ StageTools Simulation::Implementation::tools(std::uint32_t k, Compile steps) con
     };
     tools.inside = counted();
     tools.is_true = [this, k](const Formula& formula) {
+        look_at_until(k);
         return evaluate(plan_view(*program, formula, k), k)[0].number_at(0, 0) != 0;
     };
     tools.estimate = [this, k, compile = often()] {

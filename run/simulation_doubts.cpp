@@ -3,9 +3,11 @@
 #include "run/result_doubts.h"
 #include "run/simulation_implementation.h"
 #include "solvers/chequerboard.h"
+#include "solvers/field_norms.h"
 #include "solvers/flicker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace cascade {
@@ -26,6 +28,46 @@ bool draws_random_numbers(const System& system) {
     return std::any_of(system.rates.begin(), system.rates.end(), draws) ||
            std::any_of(system.definitions.begin(), system.definitions.end(),
                        [&](const Definition& definition) { return draws(definition.formula); });
+}
+
+/// What steps cannot add to a species.
+struct LostChange {
+    double part = 0;  ///< Of the cells whose rate is not 0, those that a step leaves as they are.
+    double rate = 0;  ///< Mean magnitude in such cells, over all cells.
+};
+
+LostChange lost_change(const Field& species, const Field& rates, double step, const Mask* counted,
+                       const Mask* frozen) {
+    const auto &value = species.plane(), &rate = rates.plane();
+    const PlaneLayout& layout = value.layout();
+    const auto length = static_cast<float>(step);
+    double cells = 0, moving = 0, lost = 0, sum = 0;
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+        for (std::int64_t i = 0; i < layout.width; ++i) {
+            if (counted != nullptr && counted->row(row)[i] == 0) continue;
+            ++cells;
+            const float change = length * rate.row(row)[i];
+            if (change == 0 || (frozen != nullptr && frozen->row(row)[i] != 0)) continue;
+            ++moving;
+            if (value.row(row)[i] + change != value.row(row)[i]) continue;
+            ++lost;
+            sum += std::abs(double{rate.row(row)[i]});
+        }
+    }
+    if (moving == 0) return {};
+    return {lost / moving, sum / cells};
+}
+
+/// a + factor · b.
+Field sum(const Field& a, const Field& b, double factor) {
+    Field result = a.clone();
+    auto& values = result.plane();
+    for (std::int64_t row = 0; row < values.layout().row_count(); ++row) {
+        for (std::int64_t i = 0; i < values.layout().width; ++i) {
+            values.row(row)[i] += static_cast<float>(factor * b.row(row)[i]);
+        }
+    }
+    return result;
 }
 
 }  // namespace
@@ -113,6 +155,65 @@ std::optional<std::string> Simulation::Implementation::find_chequerboard(std::ui
     return describe(report);
 }
 
+std::optional<LostChangeReport> Simulation::Implementation::find_lost_change(std::uint32_t k) {
+    StageState& state = states[k];
+    const double step = state.time.clock.step;
+    const auto steps = static_cast<double>(state.steps);
+    // A step loses half of the last digit at most.
+    const bool is_possible = precision() == Precision::single &&
+                             !is_adaptive(stage(k).time.solver) && step > 0 &&
+                             steps * 0x1p-24 >= lost_change_threshold;
+    if (!is_possible || draws_random_numbers(program->system_of(k))) return std::nullopt;
+    const std::vector<Field> rates = evaluate(plan_rates(*program, k), k);
+    const double decay = decay_along(k, rates);
+    const double time = decay * steps * step > 1 ? 1 / decay : steps * step;
+    const Mask* frozen = state.frozen.empty() ? nullptr : &state.frozen;
+    for (std::size_t s = 0; s < rates.size(); ++s) {
+        const LostChange found = lost_change(state.species[s], rates[s], step, counted(), frozen);
+        const double value = moments(state.species[s], counted()).root_mean_square;
+        if (found.part < 0.95 || !(found.rate * time >= lost_change_threshold * value)) continue;
+        LostChangeReport report;
+        report.stage = stage(k).name;
+        report.species = species_name(program->system_of(k), s);
+        report.change = found.rate * step;
+        report.value = value;
+        report.lost = found.rate * time;
+        return report;
+    }
+    return std::nullopt;
+}
+
+double Simulation::Implementation::decay_along(std::uint32_t k, const std::vector<Field>& rates) {
+    std::vector<Field>& species = states[k].species;
+    // So far along the rates that differences are well above rounding.
+    double step = std::numeric_limits<double>::infinity();
+    for (std::size_t s = 0; s < species.size(); ++s) {
+        const double largest = largest_magnitude(std::span(&rates[s], 1));
+        if (largest > 0)
+            step =
+                std::min(step, 0.005 * moments(species[s], counted()).root_mean_square / largest);
+    }
+    if (!std::isfinite(step) || !(step > 0)) return 0;
+    std::vector<Field> moved;
+    for (std::size_t s = 0; s < species.size(); ++s)
+        moved.push_back(sum(species[s], rates[s], step));
+    moved.swap(species);
+    const std::vector<Field> there = evaluate(plan_rates(*program, k), k);
+    species = std::move(moved);
+    double products = 0, squares = 0;
+    for (std::size_t s = 0; s < species.size(); ++s) {
+        const auto &here = rates[s].plane(), &then = there[s].plane();
+        for (std::int64_t row = 0; row < here.layout().row_count(); ++row) {
+            for (std::int64_t i = 0; i < here.layout().width; ++i) {
+                const double rate = here.row(row)[i];
+                products += rate * (then.row(row)[i] - rate);
+                squares += rate * rate;
+            }
+        }
+    }
+    return squares > 0 ? -products / squares / step : 0;
+}
+
 void Simulation::Implementation::warn_of_doubts(std::uint32_t k, StageTimer& timer,
                                                 RunControl& control) {
     if (!control.warn || states[k].steps == 0) return;
@@ -132,6 +233,8 @@ void Simulation::Implementation::warn_of_doubts(std::uint32_t k, StageTimer& tim
         const bool is_sure = flicker->part >= flicker_threshold ||
                              (flicker->limit && is_too_long(flicker->use, *flicker->limit));
         if (is_sure) warn(describe(*flicker));
+    } else if (const auto lost = find_lost_change(k)) {
+        warn(describe(*lost));
     }
 }
 

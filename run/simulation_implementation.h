@@ -4,8 +4,10 @@
 #include "core/check.h"
 #include "core/floating_point.h"
 #include "core/parallel.h"
+#include "lang/lost_numbers.h"
 #include "run/bound_kernel.h"
 #include "run/domain_mask.h"
+#include "run/field_values.h"
 #include "run/input_files.h"
 #include "run/kept_tilings.h"
 #include "run/metric_planes.h"
@@ -16,6 +18,7 @@
 #include "run/not_finite.h"
 #include "run/result_doubts.h"
 #include "run/step_kernels.h"
+#include "solvers/finite.h"
 #include "solvers/stability.h"
 
 #include <fmt/format.h>
@@ -23,6 +26,13 @@
 #include <cmath>
 
 namespace cascade {
+
+/// A part of a formula that would be no number without anybody's seeing it.
+struct UndefinedWatch {
+    std::string where;   ///< It stands, in words.
+    const char* effect;  ///< Of its being none.
+    LostNumber number;
+};
 
 struct Simulation::Implementation {
     Script* script = nullptr;
@@ -50,6 +60,11 @@ struct Simulation::Implementation {
     std::optional<Program> own_program;  ///< Of a coarser grid.
     std::string progress_note;           ///< Behind the stage's name in reports of progress.
     TimeAccount* account = nullptr;      ///< None where nobody asks.
+    // While a stage advances:
+    const RunControl* listener = nullptr;  ///< Of its warnings.
+    bool undefined_is_told = false;
+    mutable bool until_is_told = false;
+    mutable std::optional<std::vector<UndefinedWatch>> until_watch;
 
     const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
     const DomainMask* inside() const { return mask ? &*mask : nullptr; }
@@ -93,7 +108,7 @@ struct Simulation::Implementation {
     /// What formulas of the program read of places on a model.
     Result<void> make_surface_values(const SimulationOptions& options);
     /// Which cells belong to the domain: evaluated once, before any stage.
-    Result<void> find_mask();
+    Result<void> find_mask(const RunControl* control);
     /// Items that are the same in all cells, on a grid of one cell.
     void start_uniform_items(std::uint32_t k);
     void start_varying_items(std::uint32_t k);
@@ -174,10 +189,30 @@ struct Simulation::Implementation {
     void warn_of_doubts(std::uint32_t k, StageTimer& timer, RunControl& control);
     /// Values that jump back and forth in a few more steps, which are taken of a copy.
     std::optional<FlickerReport> find_flicker(std::uint32_t k, StageTimer& timer);
+    /// Changes that single precision cannot add to the values, and that would have become noticeable.
+    std::optional<LostChangeReport> find_lost_change(std::uint32_t k);
+    /// How fast the rates decay as the state moves along them, in 1 / time; negative where they grow.
+    double decay_along(std::uint32_t k, const std::vector<Field>& rates);
     /// Of the species' starting values.
     StabilityEstimate stability_at_start(std::uint32_t k);
     /// Does a species alternate from cell to cell, because of its steps or of its rate?
     std::optional<std::string> find_chequerboard(std::uint32_t k, bool flickers) const;
+    // Values that are not numbers, and where nobody sees it (simulation_undefined.cpp).
+
+    std::vector<UndefinedWatch> watched_in_steps(std::uint32_t k) const;
+    std::vector<UndefinedWatch> watched_at_start(std::uint32_t k) const;
+    std::vector<UndefinedWatch> watched_in_until(std::uint32_t k) const;
+    /// Tells the first of them that is not a number now; false where there is none.
+    bool warn_of_lost(std::uint32_t k, std::span<const UndefinedWatch> watched,
+                      const RunControl& control) const;
+    bool warn_of_undefined_parameters(std::uint32_t k, const RunControl& control) const;
+    /// Before the first step of a stage, and at its end: one warning for both.
+    void warn_of_undefined_start(std::uint32_t k, const RunControl& control);
+    void warn_of_undefined_end(std::uint32_t k, const RunControl& control);
+    /// To be called whenever `until` is looked at.
+    void look_at_until(std::uint32_t k) const;
+    void warn_of_undefined_mask(const RunControl& control);
+
     /// The cells that count where a mask or a model says so.
     const Mask* counted() const { return mask ? &mask->inside : model ? &model->inside : nullptr; }
     StabilityEstimate stability(std::uint32_t k, std::span<const Field> species) const {

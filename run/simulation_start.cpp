@@ -91,11 +91,12 @@ Result<void> Simulation::Implementation::make_surface_values(const SimulationOpt
     return {};
 }
 
-Result<void> Simulation::Implementation::find_mask() {
+Result<void> Simulation::Implementation::find_mask(const RunControl* control) {
     if (!program->domain.mask || states.empty()) return {};
     const TimeAccount::Scope spent(account, Spent::starting);
     const std::vector<Field> values =
         run_plan(plan_mask(*program), interpreted(grid), context(0), grid, *team);
+    if (control != nullptr && control->warn) warn_of_undefined_mask(*control);
     mask = make_domain_mask(values[0], grid);
     if (mask->cells > 0) return {};
     script->diagnostics.error(program->domain.mask->span, "no cell is inside the mask",

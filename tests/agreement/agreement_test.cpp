@@ -12,6 +12,7 @@
 #include "run/plan_runner.h"
 #include "run/simulation.h"
 #include "support/kernel_comparison.h"
+#include "support/new_seed.h"
 #include "support/random_kernels.h"
 #include "support/small_models.h"
 
@@ -101,8 +102,30 @@ void compare_random_scripts(Precision precision, int scripts) {
     EXPECT_EQ(counts.missing(), "");
 }
 
-TEST(Agreement, RandomScripts) { compare_random_scripts(Precision::single, 1500); }
+TEST(Agreement, RandomScripts) { compare_random_scripts(Precision::single, 1000); }
 TEST(Agreement, RandomScriptsInDouble) { compare_random_scripts(Precision::binary64, 250); }
+
+/// The same of scripts that were never tried before, interpreted and compiled, in tiles of several
+/// steps and step by step.
+TEST(Agreement, NewRandomScripts) {
+    constexpr std::uint64_t scripts = 500;
+    constexpr std::array<Tiling, 4> tilings = {Tiling{}, Tiling{7, 2}, Tiling{3, 1}, Tiling{12, 1, 2, 3}};
+    Overrides overrides;
+    for (std::uint64_t k = 0; k < scripts; ++k) {
+        const std::uint64_t seed = testing::new_seed() + k;
+        SCOPED_TRACE(fmt::format("CASCADE_TEST_SEED={}", seed));
+        const std::string text = random_script(seed);
+        overrides.precision = k % 4 == 1 ? Precision::binary64 : Precision::single;
+        overrides.fast = k % 4 == 3;
+        SimulationOptions options = interpreted();
+        options.tiling = tilings[k % tilings.size()];
+        const Outcome expected = run_script("random", text, overrides, options);
+        options = compiled(4 << (k % 3), static_cast<int>(1 + k % 3));
+        options.tiling = tilings[(k + 1 + k / tilings.size() % 3) % tilings.size()];
+        expect_same(expected, run_script("random", text, overrides, options), text);
+        if (::testing::Test::HasFailure()) return;
+    }
+}
 
 /// What operators need at neighbours may be computed there again or read from a plane.
 TEST(Agreement, HoweverOperandsComeToNeighbours) {

@@ -1,7 +1,7 @@
-// A fuzzer of the readers of models: the first byte chooses the format, the others are the file. What
-// is read is made into a surface, whose links are followed. Found is what crashes, hangs, leaks, or
-// makes a surface that does not fit together. Built with clang, libFuzzer and sanitizers; the
-// commands are in README.md here.
+// A fuzzer of the readers of models: the first byte chooses the format, the others are the file.
+// What is read is made into a surface, whose links are followed. Found is what crashes, hangs,
+// leaks, or makes a surface that does not fit together. Built with clang, libFuzzer and sanitizers;
+// the commands are in README.md here.
 #include "core/check.h"
 #include "mesh/model_file.h"
 #include "tests/support/model_faults.h"

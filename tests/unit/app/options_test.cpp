@@ -140,6 +140,11 @@ TEST(Options, standard_input_is_a_script) {
     EXPECT_THAT(parsed({"run", "-"}).scripts, ElementsAre("-"));
 }
 
+TEST(Options, a_tiling_is_forced_where_nobody_sees_it) {
+    EXPECT_EQ(parsed({"run", "a.cascade", "--tiling", "4,2"}).run.simulation.tiling, (Tiling{4, 2}));
+    EXPECT_FALSE(parsed({"run", "a.cascade"}).run.simulation.tiling);
+}
+
 TEST(Options, two_hyphens_end_the_options) {
     EXPECT_THAT(parsed({"run", "--", "a.cascade"}).scripts, ElementsAre("a.cascade"));
     EXPECT_THAT(parsed({"check", "--dump", "ast", "--", "-a.cascade", "-"}).scripts,

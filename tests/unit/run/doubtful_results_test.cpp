@@ -149,6 +149,35 @@ TEST_F(DoubtfulResults, TheAdviceHelps) {
     }
 }
 
+// Changes that single precision cannot add.
+
+TEST_F(DoubtfulResults, ChangesThatRoundingSwallowsAreTold) {
+    const std::string creep =
+        "system c { u: 1; v: 0.5 + 0.1*x; u' = 3e-8; v' = -1e-9*v }\n"
+        "stage s: c { iterations: 1000000 }\ndomain { grid: 2, 1";
+    EXPECT_THAT(
+        warnings_of(creep + " }\n"),
+        ElementsAre(AllOf(
+            HasSubstr("a step would change u by about 3e-08, which is too little to be added to "
+                      "values of 1 in single precision; of this stage about 0.03 is lost"),
+            HasSubstr("'precision: double' in the domain"))));
+    EXPECT_THAT(warnings_of(creep + "; precision: double }\n"), IsEmpty());
+}
+
+// A pattern that has come to rest is left with rates of the size of a rounding, too.
+TEST_F(DoubtfulResults, RestIsNoLostChange) {
+    for (const char* text :
+         {"system c { u: 0.2; u' = 0.1*u*(1 - u) }\nstage s: c { iterations: 400000 }\ndomain { "
+          "grid: 2 }\n",
+          "system c { u: random(0.5, 0.4); u' = 0.1*lap(u) + 0.05*u*(1 - u)*(u - 0.3) }\n"
+          "stage s: c { iterations: 300000 }\ndomain { grid: 12 }\n",
+          "system c { u: random(5, 1); v: 2; u' = 0.1*lap(u) + 0.02*(1 - u*v); v' = 0.1*lap(v) + "
+          "0.02*(u - v) }\n"
+          "stage s: c { iterations: 300000 }\ndomain { grid: 12 }\n"}) {
+        EXPECT_THAT(warnings_of(text), IsEmpty()) << text;
+    }
+}
+
 // Clamped, oscillating, noisy, at rest, and steps near the limit, but below it.
 TEST_F(DoubtfulResults, SoundRunsAreNotWarnedOf) {
     for (const char* text :

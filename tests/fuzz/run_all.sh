@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# run_all.sh MINUTES: all fuzzers share MINUTES, one after the other, and go on from what they found before
+# (build/corpora/NAME); then the tests run under the sanitizers of addresses, undefined behaviour and
+# threads, as often as MINUTES allow and at least once, their random parts with new seeds.
+# What fails is an input crash-…, timeout-… or oom-… in build/corpora, or a test with its seed.
+#
+#     FUZZERS="picture kept" tests/fuzz/run_all.sh 10    those alone
+#     SANITIZERS="thread" …                              those presets alone; "" for none
+set -eu
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+minutes=${1:?how many minutes?}
+read -ra fuzzers <<<"${FUZZERS-front_end model picture saved_run kept prompt}"
+read -ra sanitizers <<<"${SANITIZERS-sanitize thread}"
+jobs=${JOBS:-$(nproc)}
+failed=()
+
+note() { printf '\n== %s\n' "$*"; }
+
+if [ ${#fuzzers[@]} -gt 0 ]; then
+    note "building the fuzzers"
+    cmake --preset fuzz >/dev/null
+    cmake --build --preset fuzz -j "$jobs" --target "${fuzzers[@]/%/_fuzzer}"
+    seconds=$((minutes * 60 / ${#fuzzers[@]}))
+    for name in "${fuzzers[@]}"; do
+        corpus=build/corpora/$name
+        mkdir -p "$corpus"
+        seeds=("$corpus")
+        options=()
+        [ "$name" = front_end ] && seeds+=(examples lang/systems) && options+=(-dict=tests/fuzz/cascade.dict)
+        [ "$name" = prompt ] && seeds+=(examples) && options+=(-dict=tests/fuzz/cascade.dict)
+        [ "$name" = model ] && options+=(-dict=tests/fuzz/models.dict)
+        note "$name, $seconds s, $(find "$corpus" -type f | wc -l) inputs known"
+        log=build/corpora/$name.log
+        if build/fuzz/tests/fuzz/"$name"_fuzzer "${options[@]}" -print_funcs=0 -max_len=4096 \
+            -timeout=10 -max_total_time="$seconds" -print_final_stats=1 \
+            -artifact_prefix=build/corpora/ "${seeds[@]}" >"$log" 2>&1; then
+            grep -E 'number_of_executed_units|average_exec_per_sec' "$log"
+        else
+            failed+=("$name")
+            grep -vE '^#|NEW_FUNC' "$log" | tail -n 40
+        fi
+    done
+fi
+
+for preset in "${sanitizers[@]}"; do
+    note "tests, preset $preset"
+    cmake --preset "$preset" >/dev/null
+    cmake --build --preset "$preset" -j "$jobs"
+    end=$((SECONDS + minutes * 60))
+    while :; do
+        ctest --preset "$preset" -j "$jobs" || { failed+=("$preset"); break; }
+        [ $SECONDS -lt $end ] || break
+    done
+done
+
+note "${#failed[@]} failed ${failed[*]}"
+[ ${#failed[@]} -eq 0 ]

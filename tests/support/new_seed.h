@@ -1,0 +1,26 @@
+// A seed that no run of the tests had before, so that random tests try something new each time.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+
+namespace cascade::testing {
+
+/// The number of the environment variable CASCADE_TEST_SEED, else a new one; printed, so that a
+/// failure can be repeated. Below 2³², that other numbers may be added.
+inline std::uint64_t new_seed() {
+    static const std::uint64_t seed = [] {
+        const char* const given = std::getenv("CASCADE_TEST_SEED");
+        const std::uint64_t value =
+            given ? std::strtoull(given, nullptr, 10) : std::random_device{}();
+        std::printf("CASCADE_TEST_SEED=%llu repeats the random part\n",
+                    static_cast<unsigned long long>(value));
+        std::fflush(stdout);
+        return value;
+    }();
+    return seed;
+}
+
+}  // namespace cascade::testing

@@ -1,0 +1,55 @@
+// Random numbers of late steps, where the number of a step has more digits than binary32.
+#include "started_script.h"
+
+#include <set>
+#include <vector>
+
+namespace cascade {
+namespace {
+
+/// What each of three steps from `first` on draws in the cells of a row.
+std::vector<std::vector<double>> draws_from(std::int64_t first, const std::string& precision,
+                                            BackendKind backend) {
+    std::vector<std::vector<double>> draws;
+    Script script = load_script("late.cascade",
+                                "system s { c: 0; c' = random(0, 1) - c }\n"
+                                "domain { grid: 8, 1; precision: " +
+                                    precision +
+                                    " }\n"
+                                    "stage only: s { iterations: 1000000000 }\n",
+                                ".");
+    EXPECT_TRUE(script.program) << script.messages(false);
+    for (std::int64_t step = first; step < first + 3; ++step) {
+        auto simulation = Simulation::create(script, {backend, 0, 1});
+        EXPECT_TRUE(simulation);
+        EXPECT_TRUE((*simulation)->start_stage(0));
+        std::vector<Field> species;
+        species.push_back((*simulation)->state(0).species[0].clone());
+        (*simulation)->set_species(0, std::move(species), step, false);
+        RunControl control;
+        EXPECT_TRUE((*simulation)->advance_stage(0, step + 1, control, {}));
+        std::vector<double>& row = draws.emplace_back();
+        for (int i = 0; i < 8; ++i)
+            row.push_back((*simulation)->state(0).species[0].number_at(i, 0));
+    }
+    return draws;
+}
+
+TEST(LateDraws, AreNewInEveryStep) {
+    std::vector<BackendKind> backends{BackendKind::interpreter};
+    if (has_jit()) backends.push_back(BackendKind::jit);
+    for (const std::string precision : {"single", "double"}) {
+        for (const std::int64_t first : {std::int64_t{1} << 24, std::int64_t{999'999'990}}) {
+            const auto expected = draws_from(first, precision, backends.front());
+            EXPECT_EQ(std::set(expected.begin(), expected.end()).size(), 3u)
+                << precision << ", " << first;
+            for (const BackendKind backend : backends) {
+                EXPECT_EQ(draws_from(first, precision, backend), expected)
+                    << precision << ", " << first;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace cascade
