@@ -172,8 +172,14 @@ void add_files(CLI::App& app, RunRequest& run) {
     add_value(app, "--volume", "FILE.vti", "All species of the last stage, for ParaView",
               parse_vti_path, [&](auto path) { run.volume = path; })
         ->group(group);
-    add_value(app, "--save", "FOLDER", "Every field as STAGE.NAME.npy, to read or to resume",
-              any_text, [&](auto path) { run.save = path; })
+    CLI::Option* const save =
+        add_value(app, "--save", "FOLDER", "Every field as STAGE.NAME.npy, to read or to resume",
+                  any_text, [&](auto path) { run.save = path; })
+            ->group(group);
+    add_value(app, "--checkpoint", "DURATION",
+              "Save every 30s, 10m, 2h on the way too, so that a run\nthat is killed can be resumed",
+              parse_duration, [&](double seconds) { run.checkpoint_seconds = seconds; })
+        ->needs(save)
         ->group(group);
     add_value(app, "--turntable", "N", "Pictures from N places around, as NAME-001.png, …",
               whole_number(1, 9999), [&](auto count) { run.turntable = static_cast<int>(count); })

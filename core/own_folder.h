@@ -5,9 +5,9 @@
 
 namespace cascade {
 
-/// May folders be made at this path without leaving them to the wrong user? So if the nearest folder
-/// that is there belongs to the effective user or to the system. With sudo HOME is often still that of
-/// another user, who could not write to what is made there.
+/// May folders be made at this path without leaving them to the wrong user? So if the nearest
+/// folder that is there belongs to the effective user or to the system. With sudo HOME is often
+/// still that of another user, who could not write to what is made there.
 bool may_keep_files_in(const std::filesystem::path& folder);
 
 }  // namespace cascade

@@ -19,7 +19,8 @@ namespace {
 constexpr std::string_view beginning = ".cascade-";
 constexpr std::size_t digit_count = 32;
 
-/// Between the making of a file and its lock lies a moment, and not every network file system locks.
+/// Between the making of a file and its lock lies a moment, and not every network file system
+/// locks.
 constexpr std::time_t youngest_dead = 60 * 60;
 
 int make_new(const Descriptor& folder, const std::string& name, mode_t mode) {
@@ -33,7 +34,8 @@ int make_new(const Descriptor& folder, const std::string& name, mode_t mode) {
 
 /// Removes a file of the right name if its writer is dead.
 void remove_if_dead(const Descriptor& folder, const char* name) {
-    const Descriptor file(::openat(folder.number(), name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    const Descriptor file(
+        ::openat(folder.number(), name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat status {};
     if (!file.is_open() || ::fstat(file.number(), &status) != 0) return;
     if (!S_ISREG(status.st_mode) || status.st_uid != ::geteuid()) return;
@@ -83,7 +85,8 @@ int TemporaryFile::write(std::string_view bytes) {
 int TemporaryFile::rename_to(const std::string& name) {
     if (error_ != 0) return error_;
     if (!file_.close()) return errno;
-    if (::renameat(folder_.number(), name_.c_str(), folder_.number(), name.c_str()) != 0) return errno;
+    if (::renameat(folder_.number(), name_.c_str(), folder_.number(), name.c_str()) != 0)
+        return errno;
     is_ours_ = false;
     return 0;
 }

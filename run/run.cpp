@@ -20,6 +20,7 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -63,6 +64,7 @@ private:
     void say(std::string what) const;
     Result<void> write_frames();
     Result<void> write_saved_run();
+    void keep_while_running();
     Result<void> write_log();
     Result<void> write_volume();
     Result<void> write_picture(const std::filesystem::path& path, const Image& image);
@@ -105,6 +107,9 @@ Result<void> Runner::prepare() {
     }
     // Folders are made last, so that a run that is refused leaves none behind.
     if (auto good = check_outputs(request_, outputs_); !good) return good;
+    if (!request_.save.empty()) {
+        if (auto good = check_savable(request_.save, script_); !good) return good;
+    }
     if (auto good = check_folders(request_); !good) return good;
     if (!request_.frames.empty()) {
         auto frames = earlier_frames(request_.frames, script_, !request_.resume.empty());
@@ -116,8 +121,28 @@ Result<void> Runner::prepare() {
         if (!frames) return tl::unexpected(frames.error());
         frames_ = std::move(*frames);
     }
+    keep_while_running();
     if (request_.resume.empty()) return {};
     return restore_run(request_.resume, script_, *simulation_);
+}
+
+/// Saves the run now and then, so that one that is killed goes on from there. What cannot be written
+/// then does not end the run; it may be possible later.
+void Runner::keep_while_running() {
+    if (!(request_.checkpoint_seconds > 0)) return;
+    const auto between = std::chrono::duration<double>(request_.checkpoint_seconds);
+    const auto kept_at = std::make_shared<Clock::time_point>(Clock::now());
+    simulation_->keep_with(
+        [kept_at, between] { return Clock::now() - *kept_at >= between; },
+        [this, kept_at] {
+            const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
+            const auto written = save_run(request_.save, script_, *simulation_);
+            if (!written && control_.warn) {
+                control_.warn(fmt::format("the run could not be kept at {}, and goes on: {}", place(),
+                                          written.error().message));
+            }
+            *kept_at = Clock::now();
+        });
 }
 
 /// There is none where the user has stopped it.

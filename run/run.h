@@ -34,6 +34,7 @@ struct RunRequest {
     std::filesystem::path sheet;       ///< `--sheet FILE`; empty: none.
     std::filesystem::path frames;      ///< `--frames DIR`; empty: none.
     std::filesystem::path save;        ///< `--save DIR`; empty: none.
+    double checkpoint_seconds = 0;     ///< Above 0: what --save writes is also written so often.
     std::filesystem::path volume;      ///< `--volume FILE.vti`; empty: none.
     std::filesystem::path resume;      ///< `--resume DIR`; empty: from the start.
     std::optional<StopAt> stop_at;
@@ -64,10 +65,15 @@ struct RunReport {
 /// the script, `script.diagnostics` has errors.
 Result<RunReport> run(Script& script, const RunRequest& request, RunControl& control);
 
-/// Writes every field of the started stages as STAGE.NAME.npy, the script, and `run.json`.
+/// Writes every field of the started stages as STAGE.NAME.npy, the script, and `run.json`. A run that is
+/// saved there already is replaced in one move (run/saved_folder.h): until the new one is complete, the old
+/// one is. Fails, and changes nothing, where a file that is not of that run has one of these names.
 Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path& folder,
                                                     const Script& script,
                                                     const Simulation& simulation);
+
+/// Looks before a run whether it will be possible to save it there.
+Result<void> check_savable(const std::filesystem::path& folder, const Script& script);
 
 /// Starts the stages of a saved run again and puts their species back. The script must be the one
 /// that was saved (load it with load_saved_script).

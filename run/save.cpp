@@ -5,6 +5,7 @@
 #include "run/bound_kernel.h"
 #include "run/png_texts.h"
 #include "run/run.h"
+#include "run/saved_folder.h"
 #include "run/saved_time.h"
 #include "solvers/finite.h"
 
@@ -15,14 +16,11 @@ namespace cascade {
 
 namespace {
 
-constexpr std::uint64_t largest_manifest = std::uint64_t{64} << 20;
-
-std::filesystem::path array_path(const std::filesystem::path& folder, const Stage& stage,
-                                 std::string_view item) {
-    return folder / fmt::format("{}.{}.npy", stage.name, item);
+std::string array_name(const Stage& stage, std::string_view item) {
+    return fmt::format("{}.{}.npy", stage.name, item);
 }
 
-std::string manifest(const Script& script, const Simulation& simulation) {
+nlohmann::json manifest(const Script& script, const Simulation& simulation) {
     nlohmann::json stages = nlohmann::json::array();
     for (std::uint32_t k = 0; k < script.program->stages.size(); ++k) {
         const StageState& state = simulation.state(k);
@@ -33,7 +31,7 @@ std::string manifest(const Script& script, const Simulation& simulation) {
                           {"condition_met", state.condition_met},
                           {"time", to_json(state)}});
     }
-    const nlohmann::json json = {
+    return {
         {"cascade", version()},
         {"name", script.name},
         {"script", script.text},
@@ -43,22 +41,6 @@ std::string manifest(const Script& script, const Simulation& simulation) {
         {"seed", script.program->domain.seed},
         {"stages", stages},
     };
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
-Result<nlohmann::json> read_manifest(const std::filesystem::path& folder) {
-    const auto text = read_file(folder / "run.json", largest_manifest);
-    if (!text) {
-        return failure(fmt::format("{} holds no saved run: {}", folder.string(),
-                                   text.error().message),
-                       "--resume takes a folder that --save has written");
-    }
-    auto json = nlohmann::json::parse(*text, nullptr, false);
-    if (json.is_discarded() || !json.is_object()) {
-        return failure(fmt::format("{}: this is not a manifest of a saved run",
-                                   (folder / "run.json").string()));
-    }
-    return json;
 }
 
 Failure damaged(const std::filesystem::path& folder, const std::string& why) {
@@ -68,7 +50,7 @@ Failure damaged(const std::filesystem::path& folder, const std::string& why) {
 /// Species as they were at the last look of `until: steady(…)` have this behind their names.
 constexpr std::string_view last_look = ".last";
 
-Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
+Result<std::vector<Field>> read_species(const std::filesystem::path& folder, const nlohmann::json& manifest,
                                         const Simulation& simulation, std::uint32_t stage,
                                         std::string_view suffix = "") {
     std::vector<Field> species;
@@ -78,13 +60,18 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
     const Grid grid = model ? Grid{static_cast<std::int64_t>(model->count()), 1} : program.domain.grid;
     for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
         if (!system.is_species(item)) continue;
-        const auto path = array_path(folder, program.stages[stage],
-                                     fmt::format("{}{}", system.item_name(item), suffix));
-        const auto array = read_npy(path, program.domain.precision);
-        if (!array) return tl::unexpected(damaged(folder, array.error().message));
+        const std::string name =
+            array_name(program.stages[stage], fmt::format("{}{}", system.item_name(item), suffix));
+        const auto file = read_saved_file(folder, manifest, name);
+        if (!file) return tl::unexpected(damaged(folder, file.error().message));
+        const auto array = parse_npy(*file, program.domain.precision);
+        if (!array) {
+            return tl::unexpected(
+                damaged(folder, fmt::format("cannot read '{}': {}", name, array.error().message)));
+        }
         if (!fits(*array, grid)) {
             return tl::unexpected(
-                damaged(folder, fmt::format("{} has another shape", path.filename().string())));
+                damaged(folder, fmt::format("{} has another shape", name)));
         }
         Field field = to_field(*array, program.domain.precision);
         if (model) field = in_rows(field, *model);
@@ -92,63 +79,69 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
         if (simulation.mask()) field = with_outside(field, *simulation.mask(), 0);
         if (first_not_finite(field)) {
             return tl::unexpected(damaged(
-                folder, fmt::format("{} has a value that is not finite", path.filename().string())));
+                folder, fmt::format("{} has a value that is not finite", name)));
         }
         species.push_back(std::move(field));
     }
     return species;
 }
 
+/// Is a plane of the stage's item saved?
+bool is_saved(const Program& program, std::uint32_t stage, std::uint32_t item) {
+    return program.system_of(stage).is_species(item) || !program.stages[stage].uniform[item];
+}
+
 }  // namespace
+
+Result<void> check_savable(const std::filesystem::path& folder, const Script& script) {
+    const Program& program = *script.program;
+    std::vector<std::string> names;
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        const System& system = program.system_of(k);
+        for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+            const std::string_view name = system.item_name(item);
+            if (is_saved(program, k, item)) names.push_back(array_name(program.stages[k], name));
+            if (!program.stages[k].time.steady || !system.is_species(item)) continue;
+            names.push_back(array_name(program.stages[k], fmt::format("{}{}", name, last_look)));
+        }
+    }
+    return check_savable(folder, names);
+}
 
 Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path& folder,
                                                     const Script& script,
                                                     const Simulation& simulation) {
     if (auto made = make_folder(folder); !made) return tl::unexpected(made.error());
-    // The manifest comes last: a folder without one is not taken for a saved run. Nor is one whose
-    // arrays are half new and half of an earlier run.
-    const auto path_of_manifest = folder / "run.json";
-    std::error_code error;
-    std::filesystem::remove(path_of_manifest, error);
-    std::vector<std::filesystem::path> written;
+    auto change = SavedFolderChange::begin(folder);
+    if (!change) return tl::unexpected(change.error());
     const Program& program = *script.program;
-    const auto write = [&](const std::filesystem::path& path, const Field& field) {
+    const auto write = [&](const std::string& name, const Field& field) {
         const DomainMask* mask = simulation.mask();
-        if (mask) return write_npy(path, with_outside(field, *mask, nothing_outside));
-        if (simulation.model()) return write_npy(path, in_one_row(field, *simulation.model()));
-        return write_npy(path, field);
+        if (mask) return (*change)->add(name, encode_npy(with_outside(field, *mask, nothing_outside)));
+        if (simulation.model()) return (*change)->add(name, encode_npy(in_one_row(field, *simulation.model())));
+        return (*change)->add(name, encode_npy(field));
     };
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
         if (!simulation.state(k).started) break;
+        const Stage& stage = program.stages[k];
         const System& system = program.system_of(k);
         for (std::uint32_t item = 0; item < system.item_count(); ++item) {
-            if (!system.is_species(item) && program.stages[k].uniform[item]) continue;
-            const auto path = array_path(folder, program.stages[k], system.item_name(item));
-            if (auto done = write(path, simulation.state(k).field(item)); !done) {
-                return tl::unexpected(done.error());
-            }
-            written.push_back(path);
+            if (!is_saved(program, k, item)) continue;
+            auto done = write(array_name(stage, system.item_name(item)), simulation.state(k).field(item));
+            if (!done) return tl::unexpected(done.error());
         }
         const std::span<const Field> looked_at = simulation.state(k).watch.last();
         for (std::size_t species = 0; species < looked_at.size(); ++species) {
-            const auto path =
-                array_path(folder, program.stages[k],
-                           fmt::format("{}{}", species_name(system, species), last_look));
-            if (auto done = write(path, looked_at[species]); !done) {
-                return tl::unexpected(done.error());
-            }
-            written.push_back(path);
+            auto done = write(array_name(stage, fmt::format("{}{}", species_name(system, species), last_look)),
+                              looked_at[species]);
+            if (!done) return tl::unexpected(done.error());
         }
     }
-    if (auto done = write_file(path_of_manifest, manifest(script, simulation)); !done) {
-        return tl::unexpected(done.error());
-    }
-    written.push_back(path_of_manifest);
-    return written;
+    return (*change)->commit(manifest(script, simulation));
 }
 
 Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes) {
-    auto json = read_manifest(folder);
+    auto json = read_saved_manifest(folder);
     if (!json) return tl::unexpected(json.error());
     if (!changes.sets.empty() || changes.grid || changes.seed || changes.solver || changes.precision ||
         changes.fast) {
@@ -172,7 +165,9 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
 
 Result<void> restore_run(const std::filesystem::path& folder, const Script& script,
                          Simulation& simulation) {
-    auto json = read_manifest(folder);
+    // A run that is kept while it runs may be about to replace this one.
+    const FolderLock lock(folder, true);
+    auto json = read_saved_manifest(folder);
     if (!json) return tl::unexpected(json.error());
     try {
         const auto& stages = json->at("stages");
@@ -193,7 +188,7 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             done = done && (!is_last || condition_met || steps >= script.program->stages[k].iterations);
             if (steps < 0) return tl::unexpected(damaged(folder, "a number of steps is negative"));
             if (auto started = simulation.start_stage(k); !started) return started;
-            auto species = read_species(folder, simulation, k);
+            auto species = read_species(folder, *json, simulation, k);
             if (!species) return tl::unexpected(species.error());
             simulation.set_species(k, std::move(*species), steps, done, condition_met);
             if (!stages[k].contains("time")) continue;
@@ -202,7 +197,7 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             if (!time) return tl::unexpected(damaged(folder, "its time makes no sense"));
             SteadyWatch watch;
             if (time->last_look) {
-                auto looked_at = read_species(folder, simulation, k, last_look);
+                auto looked_at = read_species(folder, *json, simulation, k, last_look);
                 if (!looked_at) return tl::unexpected(looked_at.error());
                 if (time->formations.size() != looked_at->size()) {
                     return tl::unexpected(damaged(folder, "it lacks how a species has formed"));

@@ -202,6 +202,13 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     if (self.tilings) {
         schedule.tilings = &tilings.emplace(*self.tilings, timer.problem(), kernels.identity());
     }
+    schedule.keep_is_due = self.keep_is_due;
+    schedule.keep = [&](std::int64_t step, double t, const TimeState& time) {
+        state.steps = step;
+        state.t = t;
+        state.time = time;
+        self.keep();
+    };
     const StageOutcome outcome = advance(timer.problem(), schedule, state.species, control, progress,
                                          [&](std::int64_t step, double t, std::span<const Field>) {
                                              state.steps = step;
@@ -234,6 +241,11 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
 std::string Simulation::remark_on(std::uint32_t k) const {
     return describe_end(self_->stage(k), self_->program->system_of(k), self_->states[k],
                         k == self_->script->final_stage());
+}
+
+void Simulation::keep_with(std::function<bool()> is_due, std::function<void()> keep) {
+    self_->keep_is_due = std::move(is_due);
+    self_->keep = std::move(keep);
 }
 
 void Simulation::set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps,

@@ -132,6 +132,11 @@ public:
     /// think, and of a stage that has not ended.
     std::string remark_on(std::uint32_t stage) const;
 
+    /// From now on, while steps are taken: where `is_due` says so, which is asked some fifty times a second,
+    /// `keep` is called at a complete step, and the simulation's states are what a run can go on from with
+    /// the same bits. What is done on coarser grids before a stage's first step is not kept.
+    void keep_with(std::function<bool()> is_due, std::function<void()> keep);
+
     /// Waits for code that is being made for stages that were over before it was there, and says of which
     /// there is none, so that they were interpreted.
     void settle(RunControl& control);

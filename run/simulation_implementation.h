@@ -49,6 +49,8 @@ struct Simulation::Implementation {
     /// By stage, of those that were over before it was known whether there can be code for all.
     std::map<std::uint32_t, StepKernels> unsettled;
     bool has_expected = false;  ///< Does the stepper know what later stages need?
+    std::function<bool()> keep_is_due;   ///< As keep_with has it; none: nothing is kept.
+    std::function<void()> keep;
     std::unique_ptr<Team> team;
     InputFiles files;
     std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.

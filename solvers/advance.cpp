@@ -92,7 +92,8 @@ private:
         stepper_.use_threads(thread_tuner_.threads());
         stepper_.use_tiling(tile_tuner_.tiling());
         const std::int64_t count = std::min(steps_of_batch(), stop - step_);
-        const bool look = step_ + count == stop;
+        const bool is_kept = schedule_.keep_is_due && schedule_.keep_is_due();
+        const bool look = step_ + count == stop || is_kept;
         // What is best for interpreted steps, or for some of either kind, is no matter.
         const bool is_good_measure = !stepper_.problem().is_provisional() && !tile_tuner_.is_trying();
         const Clock::time_point before = Clock::now();
@@ -102,7 +103,9 @@ private:
         if (is_good_measure) thread_tuner_.took(count, after - before);
         if (!good) return false;
         if (pace_.report_due(after)) report(after, false);
-        return !look || do_what_is_due();
+        if (look && !do_what_is_due()) return false;
+        if (is_kept && !outcome_.ended) keep();
+        return true;
     }
 
     std::int64_t steps_of_batch() const {
@@ -245,6 +248,16 @@ private:
         auto answer = look();
         stepper_.current() = std::move(species_);
         return answer;
+    }
+
+    /// Hands over what steps go on from.
+    void keep() {
+        TimeState time = time_;
+        time.control = control_of_steps_.state();
+        lend([&] {
+            schedule_.keep(step_, now(), time);
+            return true;
+        });
     }
 
     /// Tries steps until one's error is small enough; those before are as if they had not been.

@@ -135,7 +135,7 @@ refused 2 'holds no saved run' run --resume nowhere
 mv saved/s.a.npy saved/s.c.npy
 refused 3 'the saved run in saved is damaged' run --resume saved -q
 cp file saved/s.a.npy
-refused 3 'it is not a .npy file' run --resume saved -q
+refused 3 's.a.npy has changed since the run was saved' run --resume saved -q
 echo '{' >saved/run.json
 refused 2 'this is not a manifest of a saved run' run --resume saved -q
 stage 'b: field("good.cascade")' field.cascade

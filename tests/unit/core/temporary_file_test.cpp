@@ -35,7 +35,8 @@ protected:
 
     std::set<std::string> names() const {
         std::set<std::string> names;
-        for (const auto& entry : fs::directory_iterator(folder_)) names.insert(entry.path().filename());
+        for (const auto& entry : fs::directory_iterator(folder_))
+            names.insert(entry.path().filename());
         return names;
     }
     void make_old(const fs::path& path) const {
@@ -49,7 +50,8 @@ TEST_F(TemporaryFiles, NamesAreNeverMetTwice) {
     std::set<std::string> digits;
     for (int k = 0; k < 1000; ++k) digits.insert(random_digits());
     EXPECT_EQ(digits.size(), 1000u);
-    for (const std::string& each : digits) EXPECT_TRUE(is_temporary_name(".cascade-" + each + ".tmp"));
+    for (const std::string& each : digits)
+        EXPECT_TRUE(is_temporary_name(".cascade-" + each + ".tmp"));
 }
 
 TEST_F(TemporaryFiles, NoOtherNameIsTaken) {
@@ -119,7 +121,8 @@ TEST_F(TemporaryFiles, ManyProcessesOfOneNumberDoNotMeet) {
     for (int t = 0; t < 4; ++t) {
         threads.emplace_back([this, t] {
             for (int k = 0; k < 50; ++k) {
-                EXPECT_TRUE(write_file(folder_ / std::to_string(k), std::string(100, static_cast<char>('a' + t))));
+                EXPECT_TRUE(write_file(folder_ / std::to_string(k),
+                                       std::string(100, static_cast<char>('a' + t))));
             }
         });
     }
@@ -146,8 +149,10 @@ TEST_F(TemporaryFiles, APipeIsWrittenAsFastAsItIsRead) {
     std::vector<char> piece(65536);
     while (read.size() < bytes.size()) {
         const ssize_t got = ::read(reader.number(), piece.data(), piece.size());
-        if (got > 0) read.append(piece.data(), static_cast<std::size_t>(got));
-        else std::this_thread::yield();
+        if (got > 0)
+            read.append(piece.data(), static_cast<std::size_t>(got));
+        else
+            std::this_thread::yield();
     }
     writer.join();
     EXPECT_EQ(read, bytes);

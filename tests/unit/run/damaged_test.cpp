@@ -70,12 +70,15 @@ TEST_F(DamagedTest, ManifestsAreCheckedBeforeTheyAreBelieved) {
 }
 
 TEST_F(DamagedTest, ArraysWithValuesThatAreNotFiniteAreRefused) {
-    save();
-    std::string array = bytes("saved/large.b.npy");
-    const float nan = std::numeric_limits<float>::quiet_NaN();
-    std::memcpy(array.data() + array.size() - sizeof nan, &nan, sizeof nan);
-    ASSERT_TRUE(write_file(path("saved/large.b.npy"), array));
-    EXPECT_THAT(resume(), HasSubstr("large.b.npy has a value that is not finite"));
+    // As a run of an earlier version, which has no checksums.
+    EXPECT_THAT(resume_with([this](auto& run) {
+                    run.erase("files");
+                    std::string array = bytes("saved/large.b.npy");
+                    const float nan = std::numeric_limits<float>::quiet_NaN();
+                    std::memcpy(array.data() + array.size() - sizeof nan, &nan, sizeof nan);
+                    ASSERT_TRUE(write_file(path("saved/large.b.npy"), array));
+                }),
+                HasSubstr("large.b.npy has a value that is not finite"));
 }
 
 TEST_F(DamagedTest, AStartThatIsNotFiniteIsToldAtAnyStep) {
@@ -95,17 +98,6 @@ TEST_F(DamagedTest, AStartThatIsNotFiniteIsToldAtAnyStep) {
     const auto end = (*simulation)->advance_stage(0, 300, control, {});
     ASSERT_FALSE(end);
     EXPECT_THAT(end.error().message, HasSubstr("value of b is not finite at column 3, row 2"));
-}
-
-TEST_F(DamagedTest, ASaveOverAnotherDropsItsManifestFirst) {
-    save();
-    std::filesystem::remove(path("saved/large.a.npy"));
-    std::filesystem::create_directory(path("saved/large.a.npy"));  // An array that cannot be written.
-    Script script = load(two_stages);
-    RunRequest wanted = request();
-    wanted.save = path("saved");
-    run_badly(script, wanted);
-    EXPECT_FALSE(std::filesystem::exists(path("saved/run.json")));
 }
 
 TEST_F(DamagedTest, StoredOptionsMakeSense) {

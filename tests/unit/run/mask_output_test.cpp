@@ -6,6 +6,7 @@
 #include "run/measured.h"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 
@@ -83,6 +84,10 @@ TEST_F(RunTest, ValuesOfTheDomainThatAreNotFiniteAreRefused) {
     EXPECT_FALSE(std::isfinite(values.at(0, 0)));  // Outside it may be so.
     values.at(10, 8) = values.at(0, 0);
     ASSERT_TRUE(write_npy(path("saved/second.a.npy"), values));
+    // As a run of an earlier version, which has no checksums.
+    auto manifest = nlohmann::json::parse(bytes("saved/run.json"));
+    manifest.erase("files");
+    ASSERT_TRUE(write_file(path("saved/run.json"), manifest.dump()));
     wanted.stop_at.reset();
     wanted.resume = path("saved");
     EXPECT_THAT(run_badly(*resumed, wanted),
