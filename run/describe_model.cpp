@@ -4,7 +4,7 @@
 #include "core/quantities.h"
 #include "mesh/make_mesh.h"
 #include "mesh/model_file.h"
-#include "run/memory.h"
+#include "run/free_memory.h"
 
 #include <fmt/format.h>
 

@@ -6,6 +6,7 @@
 #include "lang/derivative.h"
 #include "lang/diffusion.h"
 #include "lang/lower.h"
+#include "run/free_memory.h"
 #include "run/stage_time.h"
 #include "solvers/advance.h"
 #include "solvers/scheme.h"
@@ -13,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -23,17 +23,6 @@ std::string describe_sides(const Grid& grid) {
     std::string sides = fmt::format("{} × {}", grid.width, grid.height);
     if (grid.depth > 1) sides += fmt::format(" × {}", grid.depth);
     return sides;
-}
-
-std::uint64_t available_memory() {
-    std::ifstream meminfo("/proc/meminfo");
-    std::string key, unit;
-    std::uint64_t kibibytes = 0;
-    while (meminfo >> key >> kibibytes) {
-        std::getline(meminfo, unit);
-        if (key == "MemAvailable:") return kibibytes * 1024;
-    }
-    return 0;
 }
 
 namespace {

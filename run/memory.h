@@ -17,11 +17,8 @@ std::string describe_sides(const Grid& grid);
 double memory_of(const Program& program, StagePlans& plans);
 double memory_of(const Program& program);
 
-/// Bytes that the system would give without swapping; 0 where it does not say.
-std::uint64_t available_memory();
-
 /// Fails if a run on this grid that needs so many bytes would not fit into `limit` bytes (0: no limit
-/// but the machine) or into the machine's free memory.
+/// but the machine) or into the free memory of the machine and of the container.
 Result<void> check_memory(const Grid& grid, double needed, std::uint64_t limit = 0);
 
 }  // namespace cascade

@@ -13,7 +13,7 @@
 #include "mesh/model_file.h"
 #include "mesh/normals.h"
 #include "mesh/shapes.h"
-#include "run/memory.h"
+#include "run/free_memory.h"
 #include "run/model_directions.h"
 #include "surface/cell_file.h"
 #include "surface/cell_gradient.h"

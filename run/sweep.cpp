@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "core/temporary_file.h"
 #include "run/measured.h"
+#include "run/free_memory.h"
 #include "run/memory.h"
 #include "run/picture_remarks.h"
 #include "run/png_texts.h"
