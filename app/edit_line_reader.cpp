@@ -1,4 +1,5 @@
 // Lines with libedit. The only file that sees its header.
+#include "app/history_file.h"
 #include "app/line_reader.h"
 #include "app/prompt_text.h"
 
@@ -6,7 +7,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <system_error>
 #include <termios.h>
 #include <unistd.h>
 
@@ -34,16 +34,16 @@ private:
 
 class EditReader : public LineReader {
 public:
-    EditReader(std::filesystem::path history_file, NamesToComplete names)
+    EditReader(const std::filesystem::path& history_file, NamesToComplete names)
         : names_(std::move(names)),
-          history_file_(std::move(history_file)),
+          history_file_(history_file),
           history_(history_init()),
           edit_(el_init("cascade", stdin, stdout, stderr)) {
         HistEvent event;
-        history(history_.get(), &event, H_SETSIZE, 2000);
+        history(history_.get(), &event, H_SETSIZE, static_cast<int>(HistoryFile::most_lines));
         history(history_.get(), &event, H_SETUNIQUE, 1);
-        if (!history_file_.empty()) {
-            history(history_.get(), &event, H_LOAD, history_file_.c_str());
+        for (const std::string& line : history_file_.load()) {
+            history(history_.get(), &event, H_ENTER, line.c_str());
         }
         EditLine* const edit = edit_.get();
         el_set(edit, EL_CLIENTDATA, this);
@@ -60,14 +60,6 @@ public:
         el_source(edit, nullptr);  // The user's own ~/.editrc has the last word.
     }
 
-    ~EditReader() override {
-        if (history_file_.empty()) return;
-        std::error_code error;
-        std::filesystem::create_directories(history_file_.parent_path(), error);
-        HistEvent event;
-        if (!error) history(history_.get(), &event, H_SAVE, history_file_.c_str());
-    }
-
     TypedLine read(const std::string& prompt) override {
         prompt_ = prompt;
         dropped_ = false;
@@ -81,6 +73,7 @@ public:
         if (line.text.find_first_not_of(" \t") != std::string::npos) {
             HistEvent event;
             history(history_.get(), &event, H_ENTER, line.text.c_str());
+            history_file_.add(line.text);
         }
         return line;
     }
@@ -123,7 +116,7 @@ private:
     }
 
     NamesToComplete names_;
-    std::filesystem::path history_file_;
+    HistoryFile history_file_;
     std::string prompt_;
     bool dropped_ = false;
     std::unique_ptr<History, EndHistory> history_;

@@ -211,7 +211,14 @@ void PromptSession::set(const std::string& assignment) {
         fail({"there is no script yet", ""});
         return;
     }
+    // The last one of a name wins, so those before it need not be remembered.
+    const auto name = [](std::string_view text) {
+        text = text.substr(0, text.find('='));
+        const std::size_t begin = text.find_first_not_of(" \t");
+        return begin == std::string_view::npos ? "" : text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
+    };
     Overrides overrides = script_->overrides;
+    std::erase_if(overrides.sets, [&](const std::string& set) { return name(set) == name(assignment); });
     overrides.sets.push_back(assignment);
     if (change(load_script(script_->name, script_->text, script_->folder, std::move(overrides))) &&
         is_over()) {

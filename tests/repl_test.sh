@@ -44,6 +44,13 @@ feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 
 says out 's: turing_spots, step 60 of 100'
 cmp -s right/s.b.npy set/s.b.npy && fail ":set changed nothing"
 
+# A parameter that is set again is kept once.
+feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 10 }' \
+    ':set s.ka=1/40' ':set beta=12' ':set s.ka = 1/60' ':set s.ka=1/80' ':text'
+[ "$(grep -c '^# :set' out)" = 2 ] || fail "settings that were replaced are kept"
+says out '# :set beta=12'
+says out '# :set s.ka=1/80'
+
 # Saved, loaded, gone on with: the same bits.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 60' ':save half'
 feed ':load half' ':run 40' ':save loaded'
@@ -80,10 +87,14 @@ export ASAN_OPTIONS="${ASAN_OPTIONS:-}:detect_leaks=0"
 XDG_STATE_HOME=$PWD/state python3 - "$CASCADE" <<'END' || { echo "repl: in a terminal"; exit 1; }
 import os, pty, select, sys, time
 
-pid, terminal = pty.fork()
-if pid == 0:
-    os.environ["TERM"] = "xterm"
-    os.execv(sys.argv[1], ["cascade", "repl"])
+def start():
+    pid, terminal = pty.fork()
+    if pid == 0:
+        os.environ["TERM"] = "xterm"
+        os.execv(sys.argv[1], ["cascade", "repl"])
+    return pid, terminal
+
+pid, terminal = start()
 
 def expect(words, seconds=60):
     seen, end = b"", time.time() + seconds
@@ -116,7 +127,31 @@ type_in(b":stages\r")                           # and the prompt goes on.
 expect(b"of 100000000")
 type_in(b":quit\r")
 _, status = os.waitpid(pid, 0)
-history = open(os.environ["XDG_STATE_HOME"] + "/cascade/history").read()
-sys.exit(0 if status == 0 and "stages" in history else f"status {status}, history {history!r}")
+file = os.environ["XDG_STATE_HOME"] + "/cascade/history"
+history = open(file).read()
+if status != 0 or "stages" not in history:
+    sys.exit(f"status {status}, history {history!r}")
+
+# A terminal that is closed, and a program that is killed, lose nothing that was typed.
+for number, signal in enumerate(["closed", 9]):
+    pid, terminal = start()
+    expect(b"1> ")
+    type_in(b"domain { grid: 1%d, 8 }\r" % number)
+    expect(b"2> ")
+    if signal == "closed":
+        os.close(terminal)
+    else:
+        os.kill(pid, signal)
+    os.waitpid(pid, 0)
+    kept = open(file).read()
+    if not kept.startswith(history) or len(kept) <= len(history):
+        sys.exit(f"{signal}: the history was {history!r} and is {kept!r}")
+    history = kept
+pid, terminal = start()
+expect(b"1> ")
+type_in(b"\x1b[A")                              # Up: the line that was typed last.
+expect(b"grid: 11, 8")
+type_in(b"\x03\x04")
+os.waitpid(pid, 0)
 END
 echo "repl: right"
