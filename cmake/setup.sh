@@ -56,6 +56,16 @@ install_packages() {
     fi
 }
 
+# show_progress LOG: how many files of how many are built, as ninja and make tell it, until it is ended.
+show_progress() {
+    local line shown=''
+    while sleep 0.5; do
+        line=$(tail -c 4000 "$1" | grep -oE '^\[ *[0-9]+(/[0-9]+|%)\]' | tail -n 1)
+        [ -n "$line" ] && [ "$line" != "$shown" ] && printf '\rcascade: %s \033[K' "$line" >&2
+        shown=$line
+    done
+}
+
 # configure_and_build LOG BUILD_FOLDER TARGET [CMAKE OPTION]…
 configure_and_build() {
     local log=$1 build=$2 target=$3
@@ -71,9 +81,20 @@ configure_and_build() {
         options+=(-G Ninja)
     fi
     command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-    if ! { cmake -S "$root" -B "$build" "${options[@]}" &&
+    local watcher='' status=0
+    if [ -t 2 ]; then
+        show_progress "$log" &
+        watcher=$!
+    fi
+    { cmake -S "$root" -B "$build" "${options[@]}" &&
         cmake --build "$build" --target "$target" --parallel "$(nproc)"; } \
-        </dev/null >>"$log" 2>&1; then
+        </dev/null >>"$log" 2>&1 || status=1
+    if [ -n "$watcher" ]; then
+        kill "$watcher" 2>/dev/null
+        wait "$watcher" 2>/dev/null
+        printf '\r\033[K' >&2
+    fi
+    if [ "$status" != 0 ]; then
         say "the build failed; the end of $log:"
         tail -n 40 "$log" >&2
         return 1

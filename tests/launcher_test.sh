@@ -55,7 +55,9 @@ launch run 'a b.cascade'
 [ "$(cat out)" = "ran in $PWD/elsewhere: run a b.cascade" ] || fail "arguments or folder: $(cat out)"
 [ "$(count 'apt-get.*install.* libfmt-dev$')" = 1 ] || fail "libfmt-dev alone is missing"
 [ "$(count 'cmake --build')" = 1 ] || fail "the first call builds"
-[ "$(wc -l <err)" -le 3 ] || fail "too many words: $(cat err)"
+[ "$(wc -l <err)" -le 4 ] || fail "too many words: $(cat err)"
+grep -q 'minutes of processor time' err || fail "how long the first build takes is not said: $(cat err)"
+! grep -q $'\r' err || fail "progress is drawn where nobody watches"
 
 launch
 [ ! -s calls ] && [ ! -s err ] || fail "nothing has changed: $(cat err)"
@@ -63,6 +65,15 @@ ln -sf tree/cascade by_link
 : >calls
 ./by_link >out 2>err
 [ ! -s calls ] && [ "$(cat out)" = "ran in $PWD: " ] || fail "through a link: $(cat out err)"
+
+# In a terminal one sees how far it is.
+if command -v script >/dev/null; then
+    touch tree/core/a.cpp
+    sed -i 's|^    sleep 0.3|    echo "[1/20] one"; sleep 0.7; echo "[17/20] two"; sleep 0.8|' bin/cmake
+    script -qec "tree/cascade" /dev/null >out </dev/null
+    grep -q '\[17/20\]' out || fail "no progress in a terminal: $(cat out)"
+    sed -i 's|^    echo "\[1/20.*|    sleep 0.3|' bin/cmake
+fi
 
 touch tree/core/a.cpp
 launch
