@@ -60,6 +60,12 @@ bool takes_speed_by_cell(Solver solver) {
 }
 int order_of(Solver solver) { return row(solver).order; }
 
+int order_of_estimate(Solver solver) {
+    if (is_adaptive(solver)) return order_of(solver);
+    // imex2 is compared with its own stage of first order.
+    return solver == Solver::imex2 ? 2 : std::min(order_of(solver) + 1, 3);
+}
+
 /// Meyer, Balsara, Aslam 2014, equations 15 and 24: (s² + s) / 2 and (s² + s − 2) / 4 Euler steps,
 /// each of which is stable down to −2.
 double stability_interval(Solver solver, std::uint32_t stages) {

@@ -32,6 +32,9 @@ inline bool takes_long_steps(Solver solver) {
 bool takes_speed_by_cell(Solver solver);
 /// Its order: the error of a whole run is proportional to step^order.
 int order_of(Solver solver);
+/// The error of a step that is estimated is proportional to step^this: of an adaptive solver by its
+/// embedded pair, of the others as in solvers/error_estimate.h.
+int order_of_estimate(Solver solver);
 /// −λ · step must be below this for every negative eigenvalue λ of the rates. `stages` counts those
 /// of a stabilised solver.
 double stability_interval(Solver solver, std::uint32_t stages = 1);

@@ -38,8 +38,10 @@ struct SweepTerm {
 /// left.
 struct SweepOutput {
     enum class Kind : std::uint8_t {
-        state,   ///< Values of species: a frozen cell keeps its value.
-        change,  ///< Rates, increments, errors: 0 where a cell is frozen.
+        state,   ///< Values of species. Invariants clamp them; a frozen cell keeps its value.
+        /// Rates, increments, errors: 0 where a cell is frozen. A rate that would carry a value beyond
+        /// the bound at which an invariant holds it counts as 0.
+        change,
     };
     Kind kind = Kind::state;
     std::vector<SweepTerm> terms;
@@ -57,7 +59,9 @@ struct SweepForm {
     std::vector<SweepOutput> outputs; ///< Result o·S + s is output o of the s-th species written.
     /// Numbers of the species that are written (0 is the system's first); empty for all.
     std::vector<std::uint32_t> species;
-    bool last = true;                 ///< Output 0 is the new step: invariants clamp it.
+    /// A value that stands at a bound in input 0, which its rate there would carry it beyond, stays at it
+    /// whatever the terms say. For terms that were mixed with those of other cells.
+    bool holds = false;
 
     /// Does it evaluate the rates, or only put together what was computed before?
     bool uses_rates() const {

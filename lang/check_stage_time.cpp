@@ -94,7 +94,10 @@ void fill_time(Stage& stage, const Settings& own, const Settings& defaults) {
     StageTime& time = stage.time;
     time.solver = pick(own.time.solver, defaults.time.solver, Solver::euler);
     time.solver_span = (own.time.solver ? own : defaults).time.solver_span;
-    time.tolerance = pick(own.time.tolerance, defaults.time.tolerance, time.tolerance);
+    time.tolerance = own.time.tolerance ? own.time.tolerance : defaults.time.tolerance;
+    const TimeSettings& largest = own.time.largest_step ? own.time : defaults.time;
+    time.largest_step = largest.largest_step;
+    time.largest_step_span = largest.largest_step_span;
     time.automatic_speed = pick(own.time.automatic_speed, defaults.time.automatic_speed, false);
     time.coarse = pick(own.time.coarse, defaults.time.coarse, time.coarse);
     time.coarse_span = (own.time.coarse ? own : defaults).time.coarse_span;
@@ -120,6 +123,11 @@ void check_time(Workspace& work, std::uint32_t index) {
     if (time.automatic_speed && !time.has_duration() && !time.open_end) {
         work.diagnostics.error(speed_span, "with 'speed: auto' a stage ends by its duration",
                                "write duration: … in place of iterations");
+    }
+    if (time.largest_step && !time.chooses_steps()) {
+        work.diagnostics.error(time.largest_step_span, "'largest_step' limits steps that are chosen, and these "
+                               "are as long as 'speed' says",
+                               "write speed: auto, or take the solver rk23 or rk45");
     }
     if (time.chooses_steps()) {
         if (const Node* reader = reader_of_speed(work.program, stage)) {

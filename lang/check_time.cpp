@@ -12,6 +12,7 @@ namespace cascade::checking {
 namespace {
 
 constexpr double least_tolerance = 1e-7, most_tolerance = 0.1;
+constexpr double least_step = 1e-12;
 constexpr double longest_duration = 1e12;
 constexpr std::int64_t most_coarse = 64;
 
@@ -122,8 +123,8 @@ void check_start(Workspace& work, const ast::Script& script, ast::Expression val
 }  // namespace
 
 bool is_time_setting(const ast::Script& script, const ast::Sentence& sentence) {
-    static constexpr std::array<std::string_view, 6> names{"solver", "tolerance", "duration",
-                                                           "until",  "check",     "start"};
+    static constexpr std::array<std::string_view, 7> names{
+        "solver", "tolerance", "largest_step", "duration", "until", "check", "start"};
     const std::string_view name = sentence.name.text;
     if (name == "speed") return word_of(script, sentence.values[0]) == "auto";
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -146,6 +147,9 @@ void check_time_setting(Workspace& work, const ast::Script& script, const ast::S
         check_solver(work, script, value, time);
     } else if (name == "tolerance") {
         time.tolerance = check_range(work, script, value, name, least_tolerance, most_tolerance);
+    } else if (name == "largest_step") {
+        time.largest_step = check_range(work, script, value, name, least_step, longest_duration);
+        time.largest_step_span = sentence.name.span;
     } else if (name == "duration") {
         time.duration = check_range(work, script, value, name, 0, longest_duration);
     } else if (name == "check") {

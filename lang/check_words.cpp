@@ -16,9 +16,9 @@ constexpr std::size_t most_suggestions = 200;
 constexpr std::size_t most_names_compared = 1'000'000;
 constexpr std::size_t most_listed = 24;
 
-constexpr std::array<std::string_view, 11> settings{
+constexpr std::array<std::string_view, 12> settings{
     "iterations", "interval", "frozen", "speed", "show", "duration",
-    "solver",     "tolerance", "until", "check", "start"};
+    "solver",     "tolerance", "largest_step", "until", "check", "start"};
 
 template <std::size_t count>
 bool among(const std::array<std::string_view, count>& words, std::string_view word) {

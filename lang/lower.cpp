@@ -145,7 +145,7 @@ public:
         std::vector<PartId> wanted;
         for (const std::uint32_t item : system_.rate_order) {
             if (std::find(species_.begin(), species_.end(), item) == species_.end()) continue;
-            if (form_.uses_rates()) wanted.push_back(rates_[item]);
+            if (form_.uses_rates() || (form_.holds && is_clamped(item))) wanted.push_back(rates_[item]);
         }
         for (std::size_t k = 0; k < system_.invariants.size(); ++k) {
             if (!is_clamped(system_.invariants[k])) continue;
@@ -165,9 +165,13 @@ public:
     }
 
 private:
+    bool is_clamped(std::uint32_t item) const {
+        return std::any_of(system_.invariants.begin(), system_.invariants.end(),
+                           [&](const Invariant& invariant) { return invariant.species == item; });
+    }
+
     bool is_clamped(const Invariant& invariant) const {
-        return form_.last && std::find(species_.begin(), species_.end(), invariant.species) !=
-                                 species_.end();
+        return std::find(species_.begin(), species_.end(), invariant.species) != species_.end();
     }
 
     ValueId base(KernelAssembly& assembly, std::uint32_t item) const {
@@ -175,7 +179,7 @@ private:
     }
 
     ValueId term(KernelAssembly& assembly, const PassLowering& values, const SweepTerm& term,
-                 std::uint32_t item) const {
+                 SweepOutput::Kind kind, std::uint32_t item) const {
         KernelBuilder& builder = assembly.builder();
         ValueId value{};
         switch (term.source) {
@@ -183,7 +187,15 @@ private:
             case SweepTerm::Source::difference:
                 value = builder.subtract(assembly.input(term.input, item), base(assembly, item));
                 break;
-            case SweepTerm::Source::rate: value = values.value(rates_[item])[0]; break;
+            case SweepTerm::Source::rate:
+                value = values.value(rates_[item])[0];
+                // A method that puts a step together from rates, or filters them, would otherwise let a
+                // held cell pull at others.
+                if (kind != SweepOutput::Kind::change) break;
+                if (const auto held = is_held(assembly, values, item)) {
+                    value = builder.select(*held, builder.number(0), value);
+                }
+                break;
         }
         switch (term.weight) {
             case SweepTerm::Weight::one: return value;
@@ -202,13 +214,16 @@ private:
         for (const std::uint32_t item : species_) {
             std::optional<ValueId> sum;
             for (const SweepTerm& each : output.terms) {
-                const ValueId value = term(assembly, values, each, item);
+                const ValueId value = term(assembly, values, each, output.kind, item);
                 sum = sum ? builder.add(*sum, value) : value;
             }
             CHECK(sum, "lowering: an output has terms");
             next[item] = *sum;
         }
-        if (form_.last && number == 0) clamp(assembly, values, next);
+        if (output.kind == SweepOutput::Kind::state) {
+            if (form_.holds) hold(assembly, values, next);
+            clamp(assembly, values, next);
+        }
         const bool freezes = !assembly.stage().uniform[system_.frozen_item()];
         for (const std::uint32_t item : species_) {
             if (freezes) {
@@ -219,6 +234,14 @@ private:
                                             next[item]);
             }
             assembly.result(system_.quantities[item].name, within_mask(assembly, next[item], 0));
+        }
+    }
+
+    void hold(KernelAssembly& assembly, const PassLowering& values, std::vector<ValueId>& next) const {
+        for (const std::uint32_t item : species_) {
+            if (const auto held = is_held(assembly, values, item)) {
+                next[item] = assembly.builder().select(*held, base(assembly, item), next[item]);
+            }
         }
     }
 
@@ -234,6 +257,29 @@ private:
             value = invariant.at_least ? builder.clamp_below(value, bound)
                                        : builder.clamp_above(value, bound);
         }
+    }
+
+    /// Does a value stand at a bound in input 0, which its rate would carry it beyond? Empty where nothing
+    /// bounds it.
+    std::optional<ValueId> is_held(KernelAssembly& assembly, const PassLowering& values,
+                                   std::uint32_t item) const {
+        KernelBuilder& builder = assembly.builder();
+        const ValueId zero = builder.number(0);
+        std::optional<ValueId> held;
+        std::size_t bound_number = 0;
+        for (const Invariant& invariant : system_.invariants) {
+            if (!is_clamped(invariant)) continue;
+            const ValueId bound = values.value(bounds_[bound_number++])[0];
+            if (invariant.species != item) continue;
+            const ValueId value = assembly.input(0, item), rate = values.value(rates_[item])[0];
+            const auto less = [&](Op op, ValueId low, ValueId high) {
+                return invariant.at_least ? builder.apply(op, low, high) : builder.apply(op, high, low);
+            };
+            const ValueId is_here = builder.apply(Op::logical_and, less(Op::less_equal, value, bound),
+                                                  less(Op::less, rate, zero));
+            held = held ? builder.apply(Op::logical_or, *held, is_here) : is_here;
+        }
+        return held;
     }
 
     const Program& program_;

@@ -64,7 +64,8 @@ void print_time(const Program& program, const System& system, const Stage& stage
     const StageTime& time = stage.time;
     if (time.coarse > 1) fmt::format_to(out, "  start: coarse({})\n", time.coarse);
     if (time.solver != Solver::euler) fmt::format_to(out, "  solver: {}\n", name_of(time.solver));
-    if (is_adaptive(time.solver)) fmt::format_to(out, "  tolerance: {}\n", time.tolerance);
+    if (time.chooses_steps()) fmt::format_to(out, "  tolerance: {}\n", time.step_tolerance());
+    if (time.largest_step) fmt::format_to(out, "  largest_step: {}\n", *time.largest_step);
     if (time.duration) fmt::format_to(out, "  duration: {}\n", *time.duration);
     if (time.duration_in_steps) {
         fmt::format_to(out, "  duration: {} * [speed]\n", *time.duration_in_steps);

@@ -203,6 +203,8 @@ struct TimeSettings {
     std::optional<Formula> until;         ///< Either a condition …
     std::optional<double> steady;         ///< … or `steady(…)`.
     std::optional<std::int64_t> check;
+    std::optional<double> largest_step;
+    Span largest_step_span;
     std::optional<std::int64_t> coarse;   ///< `start: coarse(…)`.
     Span coarse_span;
 };
@@ -211,13 +213,16 @@ struct TimeSettings {
 struct StageTime {
     Solver solver = Solver::euler;
     Span solver_span;                 ///< Where it was written, for messages.
-    double tolerance = 1e-4;          ///< Of an adaptive solver: relative error of a step.
+    std::optional<double> tolerance;  ///< Of steps of chosen length, as written; see step_tolerance().
+    /// Steps of chosen length are no longer than this.
+    std::optional<double> largest_step;
+    Span largest_step_span;           ///< Where that was written.
     /// The stage ends when t is so large; empty where it ends after its iterations.
     std::optional<double> duration;
     /// The duration is so many times the speed when the stage starts.
     std::optional<std::int64_t> duration_in_steps;
     bool open_end = false;            ///< Only `until` ends it, or the most steps it may take.
-    bool automatic_speed = false;     ///< The step is as long as stability allows.
+    bool automatic_speed = false;     ///< The step is as long as stability and accuracy allow.
     std::optional<Formula> until;     ///< The stage ends where this, the same in all cells, is true.
     std::optional<double> steady;     ///< The stage ends when its pattern has settled so far.
     std::optional<std::int64_t> check;  ///< Steps between two looks at `until`; see below.
@@ -228,6 +233,11 @@ struct StageTime {
     bool has_duration() const { return duration || duration_in_steps; }
     /// Are the steps of different length, chosen as the stage runs?
     bool chooses_steps() const { return automatic_speed || is_adaptive(solver); }
+    /// The relative error of a step of chosen length.
+    double step_tolerance() const {
+        return tolerance.value_or(is_adaptive(solver) ? default_tolerance : default_automatic_tolerance);
+    }
+    static constexpr double default_tolerance = 1e-4, default_automatic_tolerance = 1e-3;
     /// Steps that are as long as the state allows need closer looks.
     std::int64_t steps_between_looks() const {
         return check.value_or(chooses_steps() || takes_long_steps(solver) ? 10 : 100);

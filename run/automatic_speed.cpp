@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cascade {
 
 namespace {
 
-constexpr double most_of_duration = 0.05, cautious_part = 0.001;
-
-bool is_usable(double bound) { return std::isfinite(bound) && bound > 0; }
+bool limits(double bound) { return std::isfinite(bound) && bound > 0; }
 
 }  // namespace
 
@@ -22,42 +21,26 @@ std::uint32_t choose_stages(Solver solver, const RateBounds& bounds, double step
     return stages_for(solver, step * bounds.whole / 2 / step_safety);
 }
 
-StepChoice choose_step(Solver solver, const RateBounds& bounds, double duration) {
-    StepChoice choice;
-    const double longest = most_of_duration * duration;
-    if (!std::isfinite(bounds.whole) || !std::isfinite(bounds.reaction)) {
-        choice.step = cautious_part * duration;
-        choice.stages = is_stabilised(solver) ? 3 : 0;
-        return choice;
-    }
-    if (!takes_long_steps(solver)) {
-        choice.step = longest;
-        if (is_usable(bounds.whole)) {
-            choice.step = std::min(longest, step_safety * stability_interval(solver) / bounds.whole);
-        }
-        return choice;
-    }
-    double wanted = longest;
-    const double part = bounds.jumps ? reaction_part_with_jumps : reaction_part;
-    if (is_usable(bounds.reaction)) wanted = std::min(wanted, part / bounds.reaction);
-    if (is_semi_implicit(solver)) {
-        choice.step = wanted;
-        return choice;
-    }
+double stable_step(Solver solver, const RateBounds& bounds, std::uint32_t stages) {
+    if (!limits(bounds.whole)) return std::numeric_limits<double>::infinity();
+    return step_safety * stability_interval(solver, stages) / bounds.whole;
+}
+
+SafeStep safe_step(Solver solver, const RateBounds& bounds, double wanted) {
+    if (!takes_long_steps(solver)) return {std::min(wanted, stable_step(solver, bounds, 1)), 0};
+    if (limits(bounds.reaction)) wanted = std::min(wanted, reaction_part / bounds.reaction);
+    if (is_semi_implicit(solver)) return {wanted, 0};
+    SafeStep best{0, least_stages(solver)};
     double most_per_stage = 0;
     for (std::uint32_t stages = least_stages(solver); stages <= most_stages; stages += 2) {
-        double step = wanted;
-        if (is_usable(bounds.whole)) {
-            step = std::min(step, step_safety * stability_interval(solver, stages) / bounds.whole);
-        }
+        const double step = std::min(wanted, stable_step(solver, bounds, stages));
         if (step / stages > most_per_stage) {
             most_per_stage = step / stages;
-            choice.step = step;
-            choice.stages = stages;
+            best = {step, stages};
         }
         if (step == wanted) break;
     }
-    return choice;
+    return best;
 }
 
 }  // namespace cascade

@@ -9,6 +9,7 @@
 #include "run/free_memory.h"
 #include "run/stage_time.h"
 #include "solvers/advance.h"
+#include "solvers/error_estimate.h"
 #include "solvers/scheme.h"
 
 #include <fmt/format.h>
@@ -32,7 +33,10 @@ namespace {
 std::uint64_t planes_while_running(const Program& program, std::uint32_t k, StagePlans& plans) {
     const Stage& stage = program.stages[k];
     const std::uint32_t species = program.system_of(k).species_count();
-    const Scheme scheme = make_scheme(stage.time.solver, species, steps_by_item(stage));
+    Scheme scheme = make_scheme(stage.time.solver, species, steps_by_item(stage));
+    if (stage.time.automatic_speed && scheme.error_register == 0) {
+        scheme = with_error_estimate(std::move(scheme));
+    }
     std::uint32_t temporaries = plans.start(k).temporaries;
     for (const SweepForm& form : scheme.forms) {
         temporaries = std::max(temporaries, plans.sweep(k, form).temporaries);
@@ -41,7 +45,9 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
     const StepPlan& lasting = plans.lasting(k);
     temporaries = std::max(temporaries, lasting.temporaries) + lasting.result_count;
     const DomainSettings& domain = program.domain;
-    const bool keeps = keeps_copy(Schedule{}, species, domain.grid, domain.precision);
+    Schedule schedule;
+    schedule.judges_all = judges_all_steps(stage);
+    const bool keeps = keeps_copy(schedule, species, domain.grid, domain.precision);
     std::uint64_t planes = temporaries + std::uint64_t{scheme.registers - (keeps ? 0 : 1)} * species;
     if (!is_semi_implicit(stage.time.solver)) return planes;
     // Factors of diffusion that change are written to planes.

@@ -26,15 +26,37 @@ bool makes_sense(std::uint32_t stages, Solver solver) {
     return stages <= most_stages && (stages == 0 || stages % 2 == 1);
 }
 
+bool makes_sense(const TimeState& time) {
+    return is_length(time.least_step) && time.next_judged >= 0 && time.stretch >= 1 &&
+           time.bounded_at >= -1 && is_length(time.bounds.whole) && is_length(time.bounds.reaction);
+}
+
 bool makes_sense(const SavedTime& saved, Solver solver) {
     const StageClock& clock = saved.state.clock;
     const StepControl::State& control = saved.state.control;
     return is_length(saved.t) && is_length(clock.base_time) && is_length(clock.step) &&
            clock.base_step >= 0 && is_length(control.step) && is_length(control.error_before) &&
-           control.error_before > 0 && makes_sense(saved.state.stages, solver) &&
+           control.error_before > 0 && makes_sense(saved.state.stages, solver) && makes_sense(saved.state) &&
            (!saved.last_look || is_length(*saved.last_look)) &&
            std::all_of(saved.formations.begin(), saved.formations.end(),
                        [](const Formation& formation) { return makes_sense(formation); });
+}
+
+nlohmann::json chosen_to_json(const TimeState& time) {
+    return {{"least_step", time.least_step}, {"next_judged", time.next_judged},
+            {"stretch", time.stretch},       {"bounded_at", time.bounded_at},
+            {"whole", time.bounds.whole},    {"reaction", time.bounds.reaction},
+            {"jumps", time.bounds.jumps}};
+}
+
+void read_chosen(const nlohmann::json& json, TimeState& time) {
+    json.at("least_step").get_to(time.least_step);
+    json.at("next_judged").get_to(time.next_judged);
+    json.at("stretch").get_to(time.stretch);
+    json.at("bounded_at").get_to(time.bounded_at);
+    json.at("whole").get_to(time.bounds.whole);
+    json.at("reaction").get_to(time.bounds.reaction);
+    json.at("jumps").get_to(time.bounds.jumps);
 }
 
 nlohmann::json to_json(std::span<const Formation> formations) {
@@ -67,7 +89,8 @@ nlohmann::json to_json(const StageState& state) {
                            {"stages", state.time.stages},
                            {"next_step", state.time.control.step},
                            {"error_before", state.time.control.error_before},
-                           {"rejected", state.time.control.rejected}};
+                           {"rejected", state.time.control.rejected},
+                           {"chosen", chosen_to_json(state.time)}};
     if (!state.watch.last().empty()) {
         json["last_look"] = state.watch.last_time();
         json["formations"] = to_json(state.watch.formations());
@@ -85,6 +108,7 @@ std::optional<SavedTime> saved_time_from(const nlohmann::json& json, Solver solv
     json.at("next_step").get_to(saved.state.control.step);
     json.at("error_before").get_to(saved.state.control.error_before);
     json.at("rejected").get_to(saved.state.control.rejected);
+    read_chosen(json.at("chosen"), saved.state);
     if (json.contains("last_look")) {
         saved.last_look = json.at("last_look").get<double>();
         for (const nlohmann::json& each : json.at("formations")) {

@@ -349,6 +349,26 @@ StageTools Simulation::Implementation::tools(std::uint32_t k, Compile steps) con
         diffusion.add_to(problem);
         return problem;
     };
+    tools.over_time = [this, k](const Formula& formula, double duration) {
+        const Grid one{1, 1, Boundary::periodic};
+        // Compiled once and not for every moment.
+        std::map<const CellKernel*, KernelPointer> made;
+        const Compile compile = [&made, interpret = interpreted(one)](const CellKernel& kernel) {
+            KernelPointer& known = made[&kernel];
+            if (!known) known = interpret(kernel);
+            return known;
+        };
+        PlanRunner runner(plan_view(*program, formula, k), compile);
+        Team alone(1);
+        BindingContext context = this->context(k);
+        context.grid = one;
+        std::vector<double> values;
+        for (std::size_t n = 0; n <= Forcing::intervals; ++n) {
+            context.t = duration * static_cast<double>(n) / static_cast<double>(Forcing::intervals);
+            values.push_back(runner.run(context, alone)[0].number_at(0, 0));
+        }
+        return values;
+    };
     tools.inside = counted();
     tools.is_true = [this, k](const Formula& formula) {
         look_at_until(k);

@@ -3,13 +3,16 @@
 
 #include "lang/program.h"
 #include "run/automatic_speed.h"
+#include "run/forcing.h"
 #include "run/simulation.h"
+#include "solvers/advance.h"
 #include "solvers/scheme.h"
 
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cascade {
@@ -25,6 +28,8 @@ struct StageTools {
     std::function<StepProblem(const Scheme&)> bind;
     /// Makes what computes formulas that are the same in all cells, again and again.
     std::function<NumberSource(std::span<const Formula* const>)> numbers;
+    /// The values of a formula that reads constants and `t` alone, at n / Forcing::intervals of a duration.
+    std::function<std::vector<double>(const Formula&, double duration)> over_time;
     std::function<bool(const Formula&)> is_true;
     /// A bound of the eigenvalues by a power iteration, where there is none by rule.
     std::function<double()> estimate;
@@ -45,10 +50,18 @@ public:
 
 private:
     bool chooses() const;
+    bool chooses_by_error() const;
     std::uint32_t substeps(const Program& program, std::uint32_t stage) const;
     RateBounds bounds() const;
-    StepChoice choose(std::int64_t step);
-    const StepProblem& problem_of(std::uint32_t stages);
+    Forcing forcing(const Program& program, std::uint32_t stage) const;
+    void set_first_step();
+    double longest_step(const RateBounds* bounds) const;
+    void look_at_bounds(std::int64_t step, TimeState& time);
+    StepChoice choose_stages_at(std::int64_t step, TimeState& time);
+    StepChoice choose_by_error(std::int64_t step, TimeState& time, bool rejected);
+    std::int64_t stretch_after(const RateBounds& before, const TimeState& time, bool rejected,
+                               double length, double longest) const;
+    const StepProblem& problem_of(std::uint32_t stages, bool is_judged);
     bool has_ended(double t);
 
     const Stage& stage_;
@@ -58,13 +71,18 @@ private:
     bool uniform_speed_;
     double speed_;      ///< The item's value; 1 where it varies by cell.
     double duration_;   ///< Infinite where there is none.
+    Forcing forcing_;   ///< Of steps of chosen length.
     NumberSource bounds_by_rule_;  ///< Of RateBounds; none where there is no rule.
     bool jumps_ = false;           ///< Do rates jump at thresholds?
-    std::map<std::uint32_t, StepProblem> problems_;  ///< By the number of stages.
+    /// By the number of stages, and whether the error of the step is estimated.
+    std::map<std::pair<std::uint32_t, bool>, StepProblem> problems_;
 };
 
 /// Is each step of a stage as long as its item `speed` says, which may vary by cell?
 bool steps_by_item(const Stage& stage);
+
+/// Is the error of every step estimated?
+bool judges_all_steps(const Stage& stage);
 
 /// The duration of a stage that has started; infinite where it has none.
 double duration_of(const Stage& stage, const System& system, const StageState& state);

@@ -50,6 +50,8 @@ public:
           tile_tuner_(tuner_of(tilings_to_try())),
           time_(schedule.time),
           control_of_steps_(schedule.time.control, schedule.error_order),
+          plain_(&problem),
+          judged_(schedule.judged != nullptr ? schedule.judged : &problem),
           step_(schedule.first_step),
           last_look_(schedule.first_step),
           began_(Clock::now()) {
@@ -62,7 +64,7 @@ public:
     StageOutcome run() {
         report(Clock::now(), false);
         outcome_.ended = is_over();
-        if (step_ == 0) choose();
+        if (step_ == 0 && !outcome_.ended) choose();
         bool going_on = true;
         while (going_on && !outcome_.ended && step_ < schedule_.last_step && !control_.cancel) {
             going_on = batch();
@@ -82,7 +84,12 @@ public:
     }
 
 private:
-    bool is_adaptive() const { return schedule_.tolerance > 0; }
+    bool is_judging() const { return schedule_.tolerance > 0; }
+    /// Is the error of the next step estimated?
+    bool judges_next() const {
+        // What is left of the stage may be shorter than a step, and its last step is judged.
+        return is_judging() && (step_ + 1 >= time_.next_judged || whole_steps_left() <= 1);
+    }
     bool has_end_time() const { return std::isfinite(schedule_.end_time); }
     double now() const { return time_.clock.at(step_); }
 
@@ -97,7 +104,7 @@ private:
         // What is best for interpreted steps, or for some of either kind, is no matter.
         const bool is_good_measure = !stepper_.problem().is_provisional() && !tile_tuner_.is_trying();
         const Clock::time_point before = Clock::now();
-        const bool good = is_adaptive() ? take_adaptive_step() : take_steps(count, look);
+        const bool good = judges_next() ? take_judged_step() : take_steps(count, look);
         const Clock::time_point after = Clock::now();
         pace_.took(count, after - before);
         if (is_good_measure) thread_tuner_.took(count, after - before);
@@ -134,6 +141,7 @@ private:
 
     /// Steps of one length.
     bool take_steps(std::int64_t count, bool look) {
+        use_plain();
         const bool is_native = !stepper_.problem().is_provisional();
         // What is tried is how steps are taken, not how they are looked at, and on one number of threads.
         const bool is_trial = tile_tuner_.is_trying();
@@ -169,7 +177,8 @@ private:
             outcome_.ended = true;
             progress_.condition_met = true;
         }
-        if (!outcome_.ended) choose();
+        const bool is_due = schedule_.choose_every > 0 && step_ % schedule_.choose_every == 0;
+        if (is_due && !outcome_.ended && !is_judging()) choose();
         return true;
     }
 
@@ -177,28 +186,31 @@ private:
     /// finite, no stage ends with them, and steps change their length only there, so that those
     /// since the last look can be taken again.
     std::int64_t next_stop() {
-        if (is_adaptive()) return step_ + 1;
+        if (judges_next()) return step_ + 1;
         std::int64_t stop = last_look_ + schedule_.check_every;
         for (const std::int64_t of :
              {schedule_.interval, schedule_.check, schedule_.choose_every}) {
             if (of > 0) stop = std::min(stop, next_multiple(step_, of));
         }
         stop = std::min(stop, schedule_.last_step);
+        if (is_judging()) stop = std::min(stop, time_.next_judged - 1);
         if (!has_end_time()) return stop;
         if (looks_at_tenths()) {
             stop = std::min(stop, step_ + steps_until((tenths_seen_ + 1) * schedule_.end_time / 10));
         }
-        const double left = schedule_.end_time - now();
-        const std::int64_t whole = whole_steps(left);
-        if (whole > 0) return std::min(stop, step_ + whole);
+        if (const std::int64_t whole = whole_steps_left(); whole > 0) {
+            return std::min(stop, step_ + (is_judging() ? whole - 1 : whole));
+        }
         // What is left is shorter than a step.
-        set_step(left);
+        set_step(schedule_.end_time - now());
         return step_ + 1;
     }
 
-    /// Whole steps that fit into a stretch of time, of which rounding may have taken some.
-    std::int64_t whole_steps(double stretch) const {
-        return static_cast<std::int64_t>(std::floor(stretch / time_.clock.step + rounding_of_time));
+    /// Whole steps that fit into the time that is left, of which rounding may have taken some.
+    std::int64_t whole_steps_left() const {
+        if (!has_end_time()) return std::numeric_limits<std::int64_t>::max();
+        const double steps = (schedule_.end_time - now()) / time_.clock.step;
+        return static_cast<std::int64_t>(std::min(std::floor(steps + rounding_of_time), 1e18));
     }
     /// The steps after which t has come so far; at least one.
     std::int64_t steps_until(double t) const {
@@ -215,18 +227,24 @@ private:
         stepper_.set_clock(time_.clock);
     }
 
+    double wanted_step() const {
+        const double wanted = std::min(control_of_steps_.step(), schedule_.largest_step);
+        return schedule_.longest_step ? std::min(wanted, schedule_.longest_step(now())) : wanted;
+    }
+
     /// Lets the caller choose how long the next steps are.
-    void choose() {
-        if (schedule_.choose_every <= 0 || step_ % schedule_.choose_every != 0) return;
-        const StepChoice choice = lend([&] { return schedule_.choose(step_, species_); });
-        if (choice.problem != nullptr) use(*choice.problem);
-        time_.stages = choice.stages;
+    void choose(bool rejected = false) {
+        if (!schedule_.choose) return;
+        const StepChoice choice = lend([&] { return schedule_.choose(step_, time_, rejected); });
+        plain_ = choice.problem;
+        judged_ = choice.judged;
         set_step(choice.step);
     }
 
     /// What was found about tilings stays where the new passes have the same ones to choose from.
-    void use(const StepProblem& problem) {
-        stepper_.use(problem);
+    void use_plain() {
+        if (plain_ == &stepper_.problem()) return;
+        stepper_.use(*plain_);
         auto tilings = tilings_to_try();
         if (tilings != tile_tuner_.candidates()) tile_tuner_ = tuner_of(std::move(tilings));
     }
@@ -262,22 +280,33 @@ private:
 
     /// Tries steps until one's error is small enough; those before are as if they had not been.
     /// False where steps have become too short.
-    bool take_adaptive_step() {
+    bool take_judged_step() {
         const double t = now(), left = schedule_.end_time - t;
+        if (!schedule_.choose) set_step(wanted_step());
         while (true) {
             // A last step that would leave a crumb is made a little longer.
-            const double wanted = control_of_steps_.step();
-            const double length = left < 1.01 * wanted ? left : wanted;
+            const double length = left < 1.01 * time_.clock.step ? left : time_.clock.step;
             set_step(length);
+            stepper_.use(*judged_);
             const CopyRoles before = stepper_.roles();
             const double error = stepper_.attempt(step_, schedule_.tolerance);
             if (control_of_steps_.judge(length, error)) break;
+            if (length <= time_.least_step) {
+                if (std::isfinite(error)) break;
+                return fail_after(before);
+            }
             if (control_of_steps_.step() < least_step(t)) {
                 outcome_.too_short = where_error_is_largest(t);
                 stepper_.undo(before);
                 return false;
             }
             stepper_.undo(before);
+            if (schedule_.choose) {
+                time_.control = control_of_steps_.state();
+                choose(true);
+            } else {
+                set_step(wanted_step());
+            }
         }
         ++step_;
         time_.clock.begin_at(step_);
@@ -285,7 +314,22 @@ private:
         stepper_.accept();
         stepper_.keep();
         last_look_ = step_;
+        time_.control = control_of_steps_.state();
+        if (!is_over()) choose();
         return true;
+    }
+
+    /// Goes back to before the step just tried, which spoiled a value. `last_checked` gets the state then.
+    bool fail_after(CopyRoles before) {
+        outcome_.not_finite = find_not_finite(stepper_.current(), step_ + 1, step_);
+        stepper_.undo(before);
+        // Where the values are finite, their rates are not.
+        if (!outcome_.not_finite) {
+            outcome_.too_short = where_error_is_largest(now());
+            return false;
+        }
+        for (const Field& field : stepper_.current()) outcome_.last_checked.push_back(field.clone());
+        return false;
     }
 
     /// Shorter steps would not end in anybody's lifetime.
@@ -372,6 +416,8 @@ private:
     TileTuner tile_tuner_;
     TimeState time_;
     StepControl control_of_steps_;
+    const StepProblem* plain_;    ///< The sweeps of steps whose error is not estimated,
+    const StepProblem* judged_;   ///< and of those whose error is.
     std::int64_t step_;
     std::int64_t last_look_;
     Clock::time_point began_;
@@ -386,6 +432,8 @@ double tenths_reached(double t, double end_time) {
 }
 
 bool keeps_copy(const Schedule& schedule, std::size_t species, const Grid& grid, Precision precision) {
+    // A step whose error was estimated can be taken back without one.
+    if (schedule.judges_all) return false;
     const auto bytes = PlaneLayout(grid).size() * static_cast<std::int64_t>(bytes_of(precision));
     return bytes * static_cast<std::int64_t>(species) <= schedule.most_kept_bytes;
 }

@@ -40,10 +40,12 @@ using Keeper = std::function<void(std::int64_t step, double t, const TimeState& 
 /// How the next steps are taken.
 struct StepChoice {
     double step = 0;                        ///< Their length.
-    std::uint32_t stages = 0;               ///< Of a stabilised solver, to be kept with the state.
-    const StepProblem* problem = nullptr;   ///< Their sweeps; nullptr for those in use.
+    const StepProblem* problem = nullptr;   ///< Their sweeps,
+    const StepProblem* judged = nullptr;    ///< and those of a step whose error is estimated, if any is.
 };
-using StepChooser = std::function<StepChoice(std::int64_t step, std::span<const Field> species)>;
+/// Chooses from the present values, which the caller holds meanwhile, and from the `time` so far. It may change
+/// whatever of `time` is not the clock's or the controller's. `rejected`: the last choice was too long a step.
+using StepChooser = std::function<StepChoice(std::int64_t step, TimeState& time, bool rejected)>;
 
 /// Which steps to take and how closely to watch them.
 struct Schedule {
@@ -58,10 +60,19 @@ struct Schedule {
     bool tenths = false;              ///< Then also where `interval` is not 0.
     std::int64_t check = 0;           ///< `ends` is asked at multiples of this; 0 for never.
     EndTest ends = {};
-    std::int64_t choose_every = 0;    ///< `choose` is asked at multiples of this, 0 included.
+    /// `choose` is asked at multiples of this, 0 included; with a tolerance after every step whose error is
+    /// estimated.
+    std::int64_t choose_every = 0;
     StepChooser choose = {};
-    double tolerance = 0;             ///< Above 0: steps are adaptive, with this relative error.
-    int error_order = 1;              ///< The error of an adaptive step is proportional to step^this.
+    /// Above 0: the error of steps is estimated, of all of them or, where `choose` says so, of some; and
+    /// they are taken again, shorter, where it is larger than this part of the values.
+    double tolerance = 0;
+    double largest_step = std::numeric_limits<double>::infinity();  ///< Of such steps,
+    std::function<double(double t)> longest_step = {};              ///< and of one that begins at t.
+    int error_order = 1;              ///< That error is proportional to step^this.
+    /// With a tolerance: the sweeps of a step whose error is estimated, where it is not that of all steps.
+    const StepProblem* judged = nullptr;
+    bool judges_all = false;          ///< It is.
     std::int64_t check_every = 64;    ///< Steps between two looks for values that are not finite.
     Onlooker onlooker = {};           ///< Sees the species at each of those looks.
     /// A copy of all species of at most so many bytes is kept from look to look, to find out in which

@@ -73,10 +73,9 @@ Number* PassRunner::plane(const StepProblem::PlaneRef& ref, Registers registers)
     return const_cast<Number*>(static_cast<const Number*>(ref.cells));
 }
 
-void PassRunner::run(Worker& worker, Team& team, Registers registers, const StepMoment& moment,
-                     std::size_t first_pass) {
-    for (std::size_t pass = first_pass; pass < problem_.passes.size(); ++pass) {
-        if (pass > first_pass) team.barrier();
+void PassRunner::run(Worker& worker, Team& team, Registers registers, const StepMoment& moment) {
+    for (std::size_t pass = 0; pass < problem_.passes.size(); ++pass) {
+        if (pass > 0) team.barrier();
         prepare_pass(worker, team, pass, registers, moment);
         bind(worker, 0, pass, registers, moment);
         run_rows(worker, 0, worker.rows);

@@ -65,11 +65,10 @@ public:
     /// Prepares a worker for its rows, being thread `number` of `count`.
     void prepare(Worker& worker, int number, int count) const;
 
-    /// One thread's part of a step, from pass `first_pass` on. All threads of the team in use call it
-    /// with the same registers and moment. When it returns, this thread's rows of the results are written and their halo
-    /// filled; another meeting of the team makes them everybody's.
-    void run(Worker& worker, Team& team, Registers registers, const StepMoment& moment,
-             std::size_t first_pass = 0);
+    /// One thread's part of a step. All threads of the team in use call it with the same registers and
+    /// moment. When it returns, this thread's rows of the results are written and their halo filled;
+    /// another meeting of the team makes them everybody's.
+    void run(Worker& worker, Team& team, Registers registers, const StepMoment& moment);
 
     /// All passes once, rows shared by the team.
     void run_once(Team& team, Registers registers, const StepMoment& moment);

@@ -74,7 +74,6 @@ private:
         const std::vector<double>& row = row_of(stage + 1);
         SweepForm form;
         Sweep sweep;
-        form.last = stage + 1 == tableau_.b.size();
         sweep.inputs = {register_of(stage)};
         sweep.outputs = {register_of(stage + 1)};
         sweep.time = time_of(tableau_.a[stage]);
@@ -164,7 +163,6 @@ private:
     void add_first_rate() {
         SweepForm form;
         Sweep sweep;
-        form.last = false;
         sweep.inputs = {old_register};
         scheme_.first_rate_register = rate_register_[0] = next_register_++;
         keep_rate(form, sweep, rate_register_[0]);
@@ -175,7 +173,6 @@ private:
     void add_second_state() {
         SweepForm form;
         Sweep sweep;
-        form.last = false;
         form.inputs = 2;
         form.coefficients = 1;
         form.outputs = {{SweepOutput::Kind::state,
@@ -189,7 +186,7 @@ private:
     void add_stage(std::uint32_t stage) {
         SweepForm form;
         Sweep sweep;
-        form.last = stage + 1 == tableau_.b.size();
+        const bool is_last = stage + 1 == tableau_.b.size();
         form.base_input = form.inputs++;
         sweep.inputs = {state_register(stage), old_register};
         sweep.time = time_of(tableau_.a[stage]);
@@ -199,7 +196,7 @@ private:
         state.terms.push_back(own_rate(form, sweep, weights.back()));
         state.terms.push_back({Source::value, form.base_input});
         form.outputs.push_back(std::move(state));
-        sweep.outputs = {form.last ? new_register : state_register(stage + 1)};
+        sweep.outputs = {is_last ? new_register : state_register(stage + 1)};
         if (is_read_later(stage)) {
             rate_register_[stage] = next_register_++;
             keep_rate(form, sweep, rate_register_[stage]);
@@ -210,7 +207,6 @@ private:
     void add_error() {
         SweepForm form;
         Sweep sweep;
-        form.last = false;
         form.inputs = 2;
         form.base_input = 1;
         sweep.inputs = {new_register, old_register};

@@ -59,7 +59,6 @@ constexpr std::uint32_t legendre_registers = 3;
 /// Y₁ = Y₀ + μ̃₁ τ L(Y₀).
 SweepForm first_legendre_form() {
     SweepForm form;
-    form.last = false;
     form.coefficients = 1;
     form.outputs = {{SweepOutput::Kind::state, {{}, {Source::rate, 0, Weight::coefficient, 0}}}};
     return form;
@@ -68,9 +67,8 @@ SweepForm first_legendre_form() {
 /// Y_j = ((j − 1)/j (Y_{j−1} − Y_{j−2}) + μ̃ τ L(Y_{j−1})) + Y_{j−1}, which is the paper's sum in another
 /// order: its factors of Y_{j−1} and Y_{j−2} have the sum 1. So a sweep reads no third stage. Inputs:
 /// Y_{j−1}, Y_{j−2}.
-SweepForm rkl1_form(bool last) {
+SweepForm rkl1_form() {
     SweepForm form;
-    form.last = last;
     form.inputs = 2;
     form.base_input = 1;
     form.coefficients = 2;
@@ -85,11 +83,11 @@ Scheme rkl1(std::uint32_t stages) {
     const double s = stages, w = 2 / (s * s + s);
     Scheme scheme;
     scheme.registers = legendre_registers;
-    scheme.forms = {first_legendre_form(), rkl1_form(false), rkl1_form(true)};
+    scheme.forms = {first_legendre_form(), rkl1_form()};
     for (std::uint32_t j = 1; j <= stages; ++j) {
         const double n = j;
         Sweep sweep;
-        sweep.form = j == 1 ? 0 : j < stages ? 1 : 2;
+        sweep.form = j == 1 ? 0 : 1;
         sweep.time = (n * n - n) / (s * s + s);
         sweep.inputs = {place_of_stage(j - 1, stages)};
         sweep.outputs = {place_of_stage(j, stages)};
@@ -139,9 +137,8 @@ double rkl2_time(std::uint32_t j, std::uint32_t stages) {
 
 /// Y_j = ((μ (Y_{j−1} − Y₀) + ν (Y_{j−2} − Y₀)) + μ̃ τ L(Y_{j−1}) + γ̃ τ L(Y₀)) + Y₀, which is the
 /// paper's sum in another order. Inputs: Y_{j−1}, Y₀, then Y_{j−2} unless it is Y₀, then L(Y₀).
-SweepForm rkl2_form(bool second, bool last) {
+SweepForm rkl2_form(bool second) {
     SweepForm form;
-    form.last = last;
     form.inputs = 2;
     form.base_input = 1;
     std::vector<SweepTerm> terms;
@@ -162,13 +159,12 @@ Scheme rkl2(std::uint32_t stages) {
     constexpr std::uint32_t rates_register = legendre_registers;
     Scheme scheme;
     scheme.registers = rates_register + 1;
-    scheme.forms = {first_legendre_form(), rkl2_form(true, false), rkl2_form(false, false),
-                    rkl2_form(false, true)};
+    scheme.forms = {first_legendre_form(), rkl2_form(true), rkl2_form(false)};
     scheme.forms[0].outputs.push_back({SweepOutput::Kind::change, {{Source::rate}}});
     for (std::uint32_t j = 1; j <= stages; ++j) {
         const LegendreStage stage = rkl2_stage(j, stages);
         Sweep sweep;
-        sweep.form = j == 1 ? 0 : j == 2 ? 1 : j < stages ? 2 : 3;
+        sweep.form = std::min(j - 1, 2U);
         sweep.time = rkl2_time(j - 1, stages);
         sweep.inputs = {place_of_stage(j - 1, stages)};
         sweep.outputs = {place_of_stage(j, stages)};
@@ -225,15 +221,12 @@ Scheme make_substeps(std::uint32_t count) {
     CHECK(count >= 2, "a step has parts");
     Scheme scheme = euler(false);
     scheme.registers = 3;
-    scheme.forms.push_back(scheme.forms[0]);
-    scheme.forms[0].last = false;
     const auto place = [&](std::uint32_t part) {
         return part == 0 ? old_register : new_register + (count - part) % 2;
     };
     scheme.sweeps.clear();
     for (std::uint32_t part = 0; part < count; ++part) {
         Sweep sweep;
-        sweep.form = part + 1 < count ? 0 : 1;
         sweep.time = static_cast<double>(part) / count;
         sweep.coefficients = {{1.0 / count, true}};
         sweep.inputs = {place(part)};

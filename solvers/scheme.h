@@ -16,10 +16,12 @@ namespace cascade {
 struct Scheme {
     std::uint32_t registers = 2;
     std::vector<SweepForm> forms;
-    std::vector<Sweep> sweeps;  ///< In order; the last form with `last` writes the new step.
+    std::vector<Sweep> sweeps;  ///< In order; one of the last writes the new step.
     /// The register that holds an estimate of the step's error, proportional to step^order_of; 0
     /// where there is none.
     std::uint32_t error_register = 0;
+    /// The register that holds, once the step is complete, a solution of lower order; 0 where there is none.
+    std::uint32_t lower_order_register = 0;
     /// Methods whose last rate is the first of the next step ("first same as last"): sweep 0 does
     /// nothing but write the first rate, and the last sweep writes the last. Where a step follows
     /// another the two registers change places and sweep 0 is left out. 0 where there is none.
@@ -36,7 +38,7 @@ struct Scheme {
 /// stabilised solvers only: an odd number from least_stages() on.
 Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint32_t stages = 3);
 
-/// A step of explicit Euler as `count` equal parts of it, at least 2. Invariants are kept at its end.
+/// A step of explicit Euler as `count` equal parts of it, at least 2.
 Scheme make_substeps(std::uint32_t count);
 
 }  // namespace cascade

@@ -12,15 +12,14 @@ using Weight = SweepTerm::Weight;
 /// The rate at input 0.
 SweepForm rate_form() {
     SweepForm form;
-    form.last = false;
     form.outputs = {{SweepOutput::Kind::change, {{Source::rate}}}};
     return form;
 }
 
 /// c₀ · change + c₁ · change + … + old, changes being the inputs behind the old step.
-SweepForm sum_form(std::uint32_t changes, bool last) {
+SweepForm sum_form(std::uint32_t changes) {
     SweepForm form;
-    form.last = last;
+    form.holds = true;  // A filter spreads the changes of free cells into those that are held.
     form.inputs = 1 + changes;
     form.coefficients = changes;
     std::vector<SweepTerm> terms;
@@ -38,7 +37,7 @@ Scheme one_filter(WaveResponse response) {
     constexpr std::uint32_t change = 2;
     Scheme scheme;
     scheme.registers = 3;
-    scheme.forms = {rate_form(), sum_form(1, true)};
+    scheme.forms = {rate_form(), sum_form(1)};
     Sweep rate, sum;
     rate.inputs = {old_register};
     rate.outputs = {change};
@@ -56,12 +55,13 @@ Scheme rosenbrock() {
     const double gamma = 1 - 1 / std::sqrt(2.0);
     Scheme scheme;
     scheme.registers = 5;
+    scheme.lower_order_register = state;
     // f − 2 k₁: inputs are the state, then k₁.
     SweepForm second_rate = rate_form();
     second_rate.inputs = 2;
     second_rate.coefficients = 1;
     second_rate.outputs[0].terms.push_back({Source::value, 1, Weight::coefficient, 0});
-    scheme.forms = {rate_form(), sum_form(1, false), std::move(second_rate), sum_form(2, true)};
+    scheme.forms = {rate_form(), sum_form(1), std::move(second_rate), sum_form(2)};
     scheme.sweeps.resize(4);
     Sweep& rate = scheme.sweeps[0];
     rate.inputs = {old_register};

@@ -39,11 +39,24 @@ struct StageClock {
     }
 };
 
+/// Magnitudes of the rates' Jacobian in some state, in 1 / time (lang/derivative.h).
+struct RateBounds {
+    double whole = 0;     ///< No eigenvalue is larger.
+    double reaction = 0;  ///< Of what neither stages nor implicit diffusion tame.
+    bool jumps = false;   ///< Rates jump at thresholds, which no bound knows of.
+};
+
 /// What a stage that is interrupted must keep of its time to go on with the same bits.
 struct TimeState {
     StageClock clock;
     std::uint32_t stages = 0;      ///< Of a stabilised solver.
-    StepControl::State control;    ///< Of an adaptive one.
+    StepControl::State control;    ///< Of steps whose error is estimated.
+    // Of steps of chosen length:
+    double least_step = 0;         ///< A step as short as this is taken whatever its error.
+    std::int64_t next_judged = 0;  ///< The error of the step that makes so many complete is estimated;
+    std::int64_t stretch = 1;      ///< and that of the one after so many more.
+    std::int64_t bounded_at = -1;  ///< Complete steps when `bounds` were computed; −1 where they are unknown.
+    RateBounds bounds;
 };
 
 }  // namespace cascade

@@ -4,7 +4,8 @@
 // stepsize selection in explicit Runge-Kutta methods", ACM Transactions on Mathematical Software
 // 17, 1991; with the constants of E. Hairer, G. Wanner, "Solving Ordinary Differential Equations
 // II", 1996, section IV.2): next = step · 0.9 · error^(−0.7/k) · previous error^(0.4/k), k the order
-// of the error estimate, between a fifth and five times the step. A rejected step is followed by a
+// of the error estimate, between a fifth and five times the step; after a step that was shorter than step(),
+// step · 0.9 · error^(−1/k). A rejected step is followed by a
 // shorter one, step · 0.9 · error^(−1/k), a tenth at least.
 #pragma once
 

@@ -65,10 +65,12 @@ void Stepper::add_scratch() {
 }
 
 void Stepper::use(const StepProblem& problem) {
+    if (&problem == problem_) return;
     CHECK(problem.grid == problem_->grid, "passes of one grid");
+    knows_first_rates_ = knows_first_rates_ && problem.first_rate_passes > 0 &&
+                         problem.first_rate_register == problem_->first_rate_register;
     problem_ = &problem;
     add_scratch();
-    knows_first_rates_ = false;
     runner_.emplace(problem);
     for (Worker& worker : workers_) {
         runner_->prepare(worker.passes, worker.passes.number, worker.passes.count);
@@ -98,7 +100,8 @@ double Stepper::attempt(std::int64_t complete, double tolerance) {
     }
     team_.run([&](int index) {
         Worker& worker = workers_[static_cast<std::size_t>(index)];
-        step(worker, roles_, complete);
+        const std::size_t first = knows_first_rates_ ? problem_->first_rate_passes : 0;
+        work(worker, {first, complete, roles_}, problem_->passes.size() - first, true);
         add_squares(worker);
     }, static_cast<int>(workers_.size()));
     roles_.current = roles_.target();
@@ -147,10 +150,15 @@ void Stepper::use_threads(int threads) {
 
 bool Stepper::advance(std::int64_t complete, std::int64_t count, bool look) {
     knows_first_rates_ = false;
+    CopyRoles new_roles = roles_;
+    for (std::int64_t taken = 0; taken < count; ++taken) new_roles.current = new_roles.target();
     team_.run([&](int index) {
-        work(workers_[static_cast<std::size_t>(index)], complete, count, look);
+        Worker& worker = workers_[static_cast<std::size_t>(index)];
+        work(worker, {0, complete, roles_},
+             static_cast<std::size_t>(count) * problem_->passes.size(), look);
+        if (look) worker.finite = rows_finite(worker, new_roles.current);
     }, static_cast<int>(workers_.size()));
-    for (std::int64_t taken = 0; taken < count; ++taken) roles_.current = roles_.target();
+    roles_ = new_roles;
     return !look || all_finite();
 }
 
@@ -162,18 +170,16 @@ bool Stepper::is_finite() {
     return all_finite();
 }
 
-void Stepper::work(Worker& worker, std::int64_t complete, std::int64_t count, bool look) {
-    const std::size_t passes = problem_->passes.size();
-    Level level{0, complete, roles_};
-    for (auto left = static_cast<std::size_t>(count) * passes; left > 0;) {
+/// Runs so many levels from `level` on. `meets`: each thread's own rows are complete at the end.
+void Stepper::work(Worker& worker, Level level, std::size_t left, bool meets) {
+    while (left > 0) {
         const std::size_t levels = levels_from(level, left);
         run_levels(worker, level, levels);
         left -= levels;
-        // One meeting is enough: behind it nobody reads the copy that the next level overwrites, and
+        // One meeting is enough: after it nobody reads the copy that the next level overwrites, and
         // every thread has filled the halo that comes from its own rows. Tiles end in any thread's rows.
-        if (left > 0 || (look && tiles_->levels() > 1)) team_.barrier();
+        if (left > 0 || (meets && tiles_->levels() > 1)) team_.barrier();
     }
-    if (look) worker.finite = rows_finite(worker, level.roles.current);
 }
 
 void Stepper::Level::go_on(std::size_t passes) {
@@ -214,12 +220,6 @@ void Stepper::run_levels(Worker& worker, Level& level, std::size_t count) {
     } else {
         tiles_->run(worker.passes, team_, static_cast<int>(count));
     }
-}
-
-void Stepper::step(Worker& worker, CopyRoles roles, std::int64_t complete) {
-    set_registers(worker, roles);
-    runner_->run(worker.passes, team_, worker.registers, moment_of(complete),
-                 knows_first_rates_ ? problem_->first_rate_passes : 0);
 }
 
 /// The old step, the new one, then scratch.

@@ -126,8 +126,6 @@ private:
     };
 
     void set_tiling(const Tiling& tiling);
-    void work(Worker& worker, std::int64_t complete, std::int64_t count, bool look);
-    void step(Worker& worker, CopyRoles roles, std::int64_t complete);
     /// A pass of a step that begins with certain roles.
     struct Level {
         std::size_t pass = 0;
@@ -135,6 +133,7 @@ private:
         CopyRoles roles;
         void go_on(std::size_t passes);
     };
+    void work(Worker& worker, Level level, std::size_t levels, bool meets);
     std::size_t levels_from(const Level& level, std::size_t left) const;
     void run_levels(Worker& worker, Level& level, std::size_t count);
     void set_registers(Worker& worker, CopyRoles roles) const;

@@ -9,12 +9,15 @@
 namespace cascade {
 namespace {
 
+/// Is each step looked at before the next one begins?
+bool is_judged(const StepProblem& problem) { return problem.error_register != 0; }
+
 /// What hinders several steps a pass; nothing where nothing does.
 std::string hindrance(const StepProblem& problem) {
     const auto any = [&](const auto& is_so) {
         return std::any_of(problem.passes.begin(), problem.passes.end(), is_so);
     };
-    if (problem.error_register != 0) return "each may be taken back";
+    if (is_judged(problem)) return "each may be taken back";
     if (any([](const auto& pass) { return pass.filter.has_value(); })) return "its waves need all cells";
     if (any(needs_all_rows)) return "its aggregates need every step";
     return "";
@@ -25,7 +28,10 @@ void describe(const StepProblem& problem, int levels, Stepping& stepping) {
     std::string why = hindrance(problem);
     if (levels > 1 && why.empty()) {
         stepping.words = fmt::format("{} {} a pass", levels, passes == 1 ? "steps" : "sweeps");
-    } else if (levels > 1 && passes > 2 && problem.error_register == 0) {
+    } else if (levels > 1 && passes > 2 && is_judged(problem)) {
+        stepping.words = fmt::format("up to {} sweeps a pass within a step",
+                                     std::min(static_cast<std::size_t>(levels), passes));
+    } else if (levels > 1 && passes > 2) {
         stepping.words = fmt::format("up to {} sweeps a pass between its aggregates",
                                      std::min(static_cast<std::size_t>(levels), passes));
     } else {
@@ -39,8 +45,10 @@ void describe(const StepProblem& problem, int levels, Stepping& stepping) {
 /// Passes through memory of a step: tiles of nearly equal heights between passes that need all rows.
 double tiles_of_step(const StepProblem& problem, int levels) {
     const std::size_t passes = problem.passes.size();
-    if (problem.error_register != 0) return static_cast<double>(passes);
-    const auto begins = [&](std::size_t pass) { return needs_all_rows(problem.passes[pass % passes]); };
+    const auto begins = [&](std::size_t pass) {
+        const bool begins_step = pass % passes == 0 && is_judged(problem);
+        return begins_step || needs_all_rows(problem.passes[pass % passes]);
+    };
     std::size_t first = 0;
     while (first < passes && !begins(first)) ++first;
     if (first == passes) return static_cast<double>(passes) / levels;

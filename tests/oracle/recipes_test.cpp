@@ -50,8 +50,9 @@ std::set<std::string> scripts() {
 
 class RecipeTest : public testing::TestWithParam<std::string> {
 protected:
-    void expect_looks(int side, std::uint32_t seed) {
+    void expect_looks(int side, std::uint32_t seed, const std::string& solver = {}) {
         Overrides overrides;
+        if (!solver.empty()) overrides.solver = solver;
         overrides.grid = {side, side};
         overrides.seed = seed;
         const std::string file = "examples/" + GetParam() + ".cascade";
@@ -77,6 +78,15 @@ TEST_P(RecipeTest, LooksAsItShould) {
             SCOPED_TRACE(std::to_string(side) + " cells, seed " + std::to_string(seed));
             expect_looks(side, seed);
         }
+    }
+}
+
+/// Solvers that promise the pattern of Euler's method.
+TEST_P(RecipeTest, LooksTheSameWithOtherSolvers) {
+    if (!has_jit()) GTEST_SKIP() << "without native code this would take minutes";
+    for (const char* solver : {"rk2", "rk4", "rk23", "rkl1", "rkl2"}) {
+        SCOPED_TRACE(solver);
+        expect_looks(64, 1, solver);
     }
 }
 

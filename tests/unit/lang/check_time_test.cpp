@@ -38,7 +38,10 @@ TEST(CheckTime, SettingsAreTakenAsWritten) {
     for (const std::string& name : solver_names()) {
         EXPECT_EQ(name_of(time_of("solver: " + name).solver), name);
     }
-    EXPECT_EQ(time_of("tolerance: 1/1000").tolerance, 0.001);
+    EXPECT_EQ(time_of("tolerance: 1/50").step_tolerance(), 0.02);
+    EXPECT_EQ(time_of("solver: rk45; duration: 1").step_tolerance(), 0.0001);
+    EXPECT_EQ(time_of("speed: auto; duration: 1").step_tolerance(), 0.001);
+    EXPECT_EQ(time_of("speed: auto; duration: 1; largest_step: 1/4").largest_step, 0.25);
     EXPECT_EQ(time_of("duration: 2*50").duration, 100.0);
     EXPECT_EQ(time_of("check: 20; until: steady(0.5)").check, 20);
     EXPECT_EQ(time_of("until: steady(0.5/2)").steady, 0.25);

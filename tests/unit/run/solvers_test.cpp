@@ -1,5 +1,6 @@
 // Solvers through the language: orders against solutions that are known, what they conserve, the
 // same bits on every backend and after a break, and how stages end.
+#include "ran_text.h"
 #include "resumed_run.h"
 
 #include "run/simulation.h"
@@ -16,37 +17,6 @@ namespace cascade {
 namespace {
 
 using ::testing::HasSubstr;
-
-/// A script whose stages are run to their ends.
-struct Ran {
-    Script script;
-    std::unique_ptr<Simulation> simulation;
-    std::string failure;
-    std::vector<std::string> warnings;
-
-    const StageState& state(std::uint32_t stage = 0) const { return simulation->state(stage); }
-};
-
-Ran run_text(const std::string& text, const SimulationOptions& options = {BackendKind::interpreter, 0, 1},
-             const Overrides& overrides = {}) {
-    Ran ran;
-    ran.script = load_script("test", text, ".", overrides);
-    EXPECT_TRUE(ran.script.program) << ran.script.messages(false);
-    if (!ran.script.program) return ran;
-    auto made = Simulation::create(ran.script, options);
-    EXPECT_TRUE(made);
-    ran.simulation = std::move(*made);
-    RunControl control;
-    control.warn = [&](const std::string& warning) { ran.warnings.push_back(warning); };
-    for (std::uint32_t k = 0; k < ran.script.stage_count() && ran.failure.empty(); ++k) {
-        auto started = ran.simulation->start_stage(k);
-        EXPECT_TRUE(started);
-        const std::int64_t most = ran.script.program->stages[k].iterations;
-        auto end = ran.simulation->advance_stage(k, most, control, {});
-        if (!end) ran.failure = end.error().message + " | " + end.error().hint;
-    }
-    return ran;
-}
 
 /// u = 1 + cos t · cos 2πx: what a source makes it beside diffusion, whose eigenvalue on 16 cells is
 /// known; v swings with the angle sin t.

@@ -58,10 +58,14 @@ TEST(SteppingTest, PassesThatNeedAllCellsBeginATile) {
 TEST(SteppingTest, StepsThatMayBeTakenBackAreTakenOneByOne) {
     StepProblem problem = five_passes({});
     problem.error_register = 2;
-    const Stepping stepping = stepping_with(problem, levels(16), 16, 2);
-    EXPECT_EQ(stepping.sweeps_at_once, 1);
-    EXPECT_EQ(stepping.meetings, 5);
-    EXPECT_EQ(stepping.in_words(), "one step a pass: each may be taken back");
+    const Stepping tiled = stepping_with(problem, levels(16), 16, 2);
+    EXPECT_EQ(tiled.sweeps_at_once, 5);
+    EXPECT_EQ(tiled.meetings, 2);
+    EXPECT_EQ(tiled.in_words(), "up to 5 sweeps a pass within a step");
+    const Stepping plain = stepping_with(problem, {}, 1, 1);
+    EXPECT_EQ(plain.sweeps_at_once, 1);
+    EXPECT_EQ(plain.meetings, 5);
+    EXPECT_EQ(plain.in_words(), "one step a pass: each may be taken back");
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+#include "solvers/error_estimate.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace cascade {
+namespace {
+
+using Source = SweepTerm::Source;
+using Weight = SweepTerm::Weight;
+
+SweepForm first_rate_form() {
+    SweepForm form;
+    form.outputs = {{SweepOutput::Kind::change, {{Source::rate}}}};
+    return form;
+}
+
+/// Inputs: the new step, the old one, the rates at the old one. Outputs: the error, the rates at the new.
+SweepForm error_form() {
+    SweepForm form;
+    form.inputs = 3;
+    form.base_input = 1;
+    form.coefficients = 3;
+    form.outputs = {{SweepOutput::Kind::change,
+                     {{Source::value, 2, Weight::coefficient, 0},
+                      {Source::rate, 0, Weight::coefficient, 1},
+                      {Source::difference, 0, Weight::coefficient, 2}}},
+                    {SweepOutput::Kind::change, {{Source::rate}}}};
+    return form;
+}
+
+Scheme with_lower_order(Scheme scheme) {
+    Sweep error;
+    error.form = static_cast<std::uint32_t>(scheme.forms.size());
+    error.time = 1;
+    error.inputs = {new_register, scheme.lower_order_register};
+    error.outputs = {scheme.registers};
+    SweepForm form;
+    form.inputs = 2;
+    form.base_input = 1;
+    form.outputs = {{SweepOutput::Kind::change, {{Source::difference, 0}}}};
+    scheme.forms.push_back(std::move(form));
+    scheme.sweeps.push_back(std::move(error));
+    scheme.error_register = scheme.registers++;
+    return scheme;
+}
+
+}  // namespace
+
+Scheme with_error_estimate(Scheme scheme) {
+    if (scheme.lower_order_register != 0) return with_lower_order(std::move(scheme));
+    const std::uint32_t first_rate = scheme.registers;
+    scheme.first_rate_register = first_rate;
+    scheme.last_rate_register = first_rate + 1;
+    scheme.error_register = first_rate + 2;
+    scheme.registers += 3;
+    const auto forms = static_cast<std::uint32_t>(scheme.forms.size());
+    scheme.forms.push_back(first_rate_form());
+    scheme.forms.push_back(error_form());
+    Sweep first, error;
+    first.form = forms;
+    first.inputs = {old_register};
+    first.outputs = {first_rate};
+    scheme.sweeps.insert(scheme.sweeps.begin(), std::move(first));
+    error.form = forms + 1;
+    error.time = 1;
+    error.inputs = {new_register, old_register, first_rate};
+    error.outputs = {scheme.error_register, scheme.last_rate_register};
+    error.coefficients = {{0.5, true}, {0.5, true}, {-1, false}};
+    scheme.sweeps.push_back(std::move(error));
+    return scheme;
+}
+
+}  // namespace cascade
