@@ -1,5 +1,6 @@
 // glTF and GLB files, read by tinygltf: the triangles of all meshes, placed in space by the nodes
 // of the scene.
+#include "core/json_size.h"
 #include "mesh/model_file.h"
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include <tiny_gltf.h>
 #pragma GCC diagnostic pop
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -21,9 +23,17 @@ namespace cascade {
 
 namespace {
 
-constexpr int deepest_nesting = 128;
-/// A small file can place the same mesh any number of times.
-constexpr std::size_t most_points = std::size_t{1} << 27, most_corners = std::size_t{1} << 29;
+constexpr std::size_t deepest_nesting = 128;
+
+/// A small file can place the same mesh, or list the same triangles, any number of times: what comes of
+/// it is bounded by its size, with something for small files.
+struct Bounds {
+    std::size_t points, corners;
+
+    explicit Bounds(std::size_t bytes)
+        : points(std::min(std::size_t{1} << 27, (std::size_t{1} << 18) + bytes)),
+          corners(std::min(std::size_t{1} << 29, (std::size_t{1} << 20) + 4 * bytes)) {}
+};
 
 /// A placing in space: columns of a matrix of 4 × 4, as glTF writes them.
 using Matrix = std::array<double, 16>;
@@ -148,7 +158,7 @@ private:
 
 class SceneReader {
 public:
-    explicit SceneReader(const tinygltf::Model& model) : model_(model) {}
+    SceneReader(const tinygltf::Model& model, Bounds bounds) : model_(model), bounds_(bounds) {}
 
     Result<PolygonSoup> read() {
         if (model_.scenes.empty()) {
@@ -229,8 +239,9 @@ private:
             return failure("the glTF file has triangles without places or beyond its data");
         }
         const std::size_t first = soup_.points.size();
-        if (places->count() > most_points - first) {
-            return failure(fmt::format("the glTF file has more than {} points", most_points));
+        if (places->count() > bounds_.points - first) {
+            return failure(fmt::format("the glTF file has more than {} points, too many for its size",
+                                       bounds_.points));
         }
         for (std::size_t k = 0; k < places->count(); ++k) {
             soup_.points.push_back(
@@ -271,8 +282,9 @@ private:
         };
         const bool is_strip = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
         const bool is_fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
-        if (count > (most_corners - soup_.corners.size()) / 3) {
-            return failure(fmt::format("the glTF file has more than {} corners", most_corners));
+        if (count > (bounds_.corners - soup_.corners.size()) / 3) {
+            return failure(fmt::format("the glTF file has more than {} corners, too many for its size",
+                                       bounds_.corners));
         }
         for (std::size_t k = 0; k + 2 < count; k += is_strip || is_fan ? 1 : 3) {
             if (is_fan) add_triangle({0, k + 1, k + 2});
@@ -295,6 +307,7 @@ private:
     }
 
     const tinygltf::Model& model_;
+    const Bounds bounds_;
     PolygonSoup soup_;
     bool all_have_texture_ = true;
     bool any_colour_ = false;
@@ -302,20 +315,19 @@ private:
                                            PointAttribute{"blue", {}}};
 };
 
-/// Do lists and objects stand in each other at most `deepest_nesting` times? The library calls itself
-/// for each level.
-bool is_shallow(std::string_view json) {
-    int depth = 0;
-    bool is_in_text = false;
-    for (std::size_t k = 0; k < json.size(); ++k) {
-        const char c = json[k];
-        if (c == '"') is_in_text = !is_in_text;
-        if (is_in_text) k += c == '\\';
-        else if (c == '[' || c == '{') ++depth;
-        else if (c == ']' || c == '}') --depth;
-        if (depth > deepest_nesting) return false;
+/// The library makes hundreds of bytes of some objects of two, and calls itself for each level: is what
+/// it would make within bounds?
+Result<void> check_json(std::string_view json) {
+    const JsonSize size = measure_json(json);
+    if (size.depth > deepest_nesting) {
+        return failure(fmt::format("the glTF file nests more than {} lists", deepest_nesting));
     }
-    return true;
+    constexpr std::size_t bytes_of_object = 1000, bytes_of_value = 200;
+    const std::size_t wanted = bytes_of_object * size.objects + bytes_of_value * size.values;
+    if (wanted > (std::size_t{48} << 20) + 64 * json.size()) {
+        return failure("the glTF file has more objects than a model needs");
+    }
+    return {};
 }
 
 /// The text in a binary file: its length stands at byte 12, it begins at byte 20.
@@ -385,9 +397,7 @@ bool load(std::string_view bytes, bool is_binary, Buffers& buffers, tinygltf::Mo
 Result<PolygonSoup> read_gltf(std::string_view bytes, const GrantedFiles& files) {
     const bool is_binary = bytes.starts_with("glTF");
     if (bytes.size() > std::numeric_limits<unsigned>::max()) return failure("the glTF file is too large");
-    if (!is_shallow(json_of(bytes, is_binary))) {
-        return failure(fmt::format("the glTF file nests more than {} lists", deepest_nesting));
-    }
+    if (auto good = check_json(json_of(bytes, is_binary)); !good) return tl::unexpected(good.error());
     tinygltf::Model model;
     std::string fault;
     Buffers buffers(files);
@@ -397,7 +407,9 @@ Result<PolygonSoup> read_gltf(std::string_view bytes, const GrantedFiles& files)
         std::replace(fault.begin(), fault.end(), '\n', ' ');
         return failure("this is no glTF file that can be read", fault);
     }
-    return SceneReader(model).read();
+    std::size_t size = bytes.size();
+    for (const tinygltf::Buffer& buffer : model.buffers) size += buffer.data.size();
+    return SceneReader(model, Bounds(size)).read();
 }
 
 }  // namespace cascade

@@ -81,12 +81,17 @@ enum class PngDepth { eight = 8, sixteen = 16 };
 /// twice in a row). Values are UTF-8 (iTXt).
 using PngTexts = std::map<std::string, std::string>;
 
-/// The longest text that is written or read, in bytes.
+/// The most that the texts of a picture have together, in bytes, written or read.
 inline constexpr std::size_t longest_png_text = std::size_t{16} << 20;
 
-/// A PNG file in memory, as write_png writes it. Fails where a side is 0 or above 2^31 − 1, a text
-/// is too long or holds a NUL, or memory is short.
-Result<std::string> encode_png(const Image& image, PngDepth depth, const PngTexts& texts);
+/// What the levels of a PNG file are: colours in sRGB, as the file then says, or numbers of a map that no
+/// reader may bend.
+enum class PngMeaning { colours, numbers };
+
+/// A PNG file in memory, as write_png writes it. Fails where a side is 0 or above 2^31 − 1, texts
+/// are too long or hold a NUL, or memory is short.
+Result<std::string> encode_png(const Image& image, PngDepth depth, const PngTexts& texts,
+                               PngMeaning meaning = PngMeaning::colours);
 
 /// Writes atomically: a file of that name is replaced only by a complete one. A picture whose
 /// pixels are all grey is written as greyscale; where one is transparent there is an alpha channel,
@@ -97,7 +102,7 @@ Result<void> write_png(const std::filesystem::path& path, const Image& image, Pn
 
 /// The text chunks (tEXt, zTXt, iTXt) of a PNG file in memory; Latin-1 becomes UTF-8, of a keyword
 /// used twice the first text stays. The picture itself is not decoded. Fails, with the reason, on
-/// what is no PNG, is cut off, damaged (checksums are looked at) or has a text above the limit.
+/// what is no PNG, is cut off, damaged (checksums are looked at) or has texts above the limit.
 Result<PngTexts> parse_png_texts(std::string_view bytes);
 
 /// The same of a file.

@@ -5,34 +5,51 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
+#include <vector>
 
 namespace cascade {
 namespace {
 
 // Deflate makes at most 1032 bytes of one: a small file that promises more is damaged.
 constexpr std::uint64_t largest_growth = 1100;
+constexpr std::uint64_t many_pixels = std::uint64_t{1} << 24;
 
 struct Format {
     std::int64_t width = 0;
     std::int64_t height = 0;
+    std::uint64_t packed_bytes = 0;  ///< Of all rows, as they are compressed in the file.
     std::size_t row_bytes = 0;
     int channels = 0;  ///< Grey, grey and alpha, colour, colour and alpha.
     int depth = 0;     ///< 8 or 16 bits a channel.
     int passes = 1;    ///< More than one where the picture is interlaced.
 };
 
-/// Reads the header and asks for whole channels of 8 or 16 bits.
-bool read_format(PngReader& reader, Format& format) {
+/// Reads the header. Nothing as large as a row is allocated. What may stand beside the pixels (texts
+/// and profiles, which may inflate to anything) is passed over.
+bool read_header(PngReader& reader, Format& format) {
     return reader.open() && reader.guarded([&] {
         png_structp png = reader.png();
         png_infop info = reader.info();
+        png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_read_info(png, info);
-        png_set_expand(png);  // Palettes to colours, few bits to 8, a transparent colour to alpha.
-        format.passes = png_set_interlace_handling(png);
-        png_read_update_info(png, info);
         format.width = png_get_image_width(png, info);
         format.height = png_get_image_height(png, info);
+        format.packed_bytes = png_get_rowbytes(png, info) * static_cast<std::uint64_t>(format.height);
+        if (png_get_interlace_type(png, info) != PNG_INTERLACE_NONE) {
+            format.passes = PNG_INTERLACE_ADAM7_PASSES;
+        }
+    });
+}
+
+/// Asks for whole channels of 8 or 16 bits; libpng allocates its rows.
+bool start_rows(PngReader& reader, Format& format) {
+    return reader.guarded([&] {
+        png_structp png = reader.png();
+        png_infop info = reader.info();
+        png_set_expand(png);  // Palettes to colours, few bits to 8, a transparent colour to alpha.
+        png_read_update_info(png, info);
         format.row_bytes = png_get_rowbytes(png, info);
         format.channels = png_get_channels(png, info);
         format.depth = png_get_bit_depth(png, info);
@@ -57,14 +74,24 @@ float lightness(const png_byte* row, std::size_t pixel, const Format& format) {
     return grey * alpha + (1.0F - alpha);
 }
 
-/// Reads all rows; of an interlaced picture the passes fill each other's gaps. The end of the file
-/// is read too, so that one that is cut off after the pixels is known.
-bool read_rows(PngReader& reader, const Format& format, std::vector<png_byte>& bytes) {
+/// Reads all pixels row by row; a pass of an interlaced picture has some of the rows and columns. The
+/// end of the file is read too, so that one that is cut off after the pixels is known.
+bool read_pixels(PngReader& reader, const Format& format, std::vector<png_byte>& row,
+                 std::vector<float>& values) {
+    const bool is_interlaced = format.passes > 1;
+    const auto width = static_cast<png_uint_32>(format.width);
+    const auto height = static_cast<png_uint_32>(format.height);
     return reader.guarded([&] {
         for (int pass = 0; pass < format.passes; ++pass) {
-            for (std::int64_t j = 0; j < format.height; ++j) {
-                png_read_row(reader.png(),
-                             bytes.data() + static_cast<std::size_t>(j) * format.row_bytes, nullptr);
+            const std::size_t columns = is_interlaced ? PNG_PASS_COLS(width, pass) : width;
+            const std::size_t rows = is_interlaced ? PNG_PASS_ROWS(height, pass) : height;
+            for (std::size_t j = 0; j < rows && columns > 0; ++j) {
+                png_read_row(reader.png(), row.data(), nullptr);
+                const std::size_t y = is_interlaced ? PNG_ROW_FROM_PASS_ROW(j, pass) : j;
+                for (std::size_t i = 0; i < columns; ++i) {
+                    const std::size_t x = is_interlaced ? PNG_COL_FROM_PASS_COL(i, pass) : i;
+                    values[y * width + x] = lightness(row.data(), i, format);
+                }
             }
         }
         png_read_end(reader.png(), nullptr);
@@ -78,25 +105,23 @@ Failure damaged(const PngReader& reader) {
 Result<GreyPicture> parse(std::string_view bytes) {
     PngReader reader(bytes);
     Format format;
-    if (!read_format(reader, format)) return tl::unexpected<Failure>(damaged(reader));
+    if (!read_header(reader, format)) return tl::unexpected<Failure>(damaged(reader));
     if (format.width > most_pixels / format.height) {
         return failure(fmt::format("it has {} × {} pixels, and at most {} are read", format.width,
                                    format.height, most_pixels),
                        "make the picture smaller");
     }
-    const std::uint64_t size = format.row_bytes * static_cast<std::uint64_t>(format.height);
-    if (size / largest_growth > bytes.size()) {
+    // Of many pixels in a few bits each, a byte may hold more than the memory is worth.
+    const auto pixels = static_cast<std::uint64_t>(format.width * format.height);
+    const std::uint64_t least = pixels > many_pixels ? std::max(pixels, format.packed_bytes) : format.packed_bytes;
+    if (least / largest_growth > bytes.size()) {
         return failure("the PNG file is cut off or damaged: it is too short for its pixels");
     }
-    std::vector<png_byte> rows(size);
-    if (!read_rows(reader, format, rows)) return tl::unexpected<Failure>(damaged(reader));
-    GreyPicture picture{format.width, format.height, {}};
-    picture.values.reserve(static_cast<std::size_t>(format.width * format.height));
-    for (std::int64_t j = 0; j < format.height; ++j) {
-        const png_byte* row = rows.data() + static_cast<std::size_t>(j) * format.row_bytes;
-        for (std::int64_t i = 0; i < format.width; ++i) {
-            picture.values.push_back(lightness(row, static_cast<std::size_t>(i), format));
-        }
+    if (!start_rows(reader, format)) return tl::unexpected<Failure>(damaged(reader));
+    std::vector<png_byte> row(format.row_bytes);
+    GreyPicture picture{format.width, format.height, std::vector<float>(pixels)};
+    if (!read_pixels(reader, format, row, picture.values)) {
+        return tl::unexpected<Failure>(damaged(reader));
     }
     return picture;
 }

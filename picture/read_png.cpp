@@ -1,26 +1,28 @@
 // The text chunks of PNG files. The files may come from anywhere.
 //
 // libpng reads texts before the picture's data with ease, those behind it only by inflating the
-// picture. So we walk over the file's chunks ourselves and show libpng a short file: the header and
-// the texts. It checks and inflates them within the limits set here.
+// picture. So we walk over the file's chunks ourselves and show libpng short files: the header and
+// one text. It checks and inflates that within what all texts together may still have.
 #include "core/file.h"
 #include "picture/image.h"
 #include "picture/png_reader.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace cascade {
 namespace {
 
-constexpr std::uint64_t largest_file = std::uint64_t{4} << 30;
+constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
 constexpr std::size_t signature_size = 8;
 constexpr std::size_t chunk_frame = 12;  // Length, name and checksum around a chunk's data.
 constexpr std::size_t most_texts = 64;   // More are passed over.
-constexpr png_alloc_size_t text_room = longest_png_text + 1024;
+constexpr std::size_t longest_keyword = 1024;  // And what else stands in a chunk.
 
 struct Chunk {
     std::string_view name;
@@ -35,29 +37,32 @@ std::optional<Chunk> first_chunk(std::string_view bytes) {
     return Chunk{bytes.substr(4, 4), bytes.substr(0, chunk_frame + size)};
 }
 
-/// A PNG file that libpng reads up to its picture: the header and the texts of `bytes`, which begin
-/// with a signature.
-Result<std::string> file_of_texts(std::string_view bytes) {
-    std::string file(bytes.substr(0, signature_size));
-    std::size_t texts = 0;
+/// The parts of a PNG file that are looked at.
+struct HeaderAndTexts {
+    std::string_view header;              ///< The signature too.
+    std::vector<std::string_view> texts;  ///< Whole chunks.
+};
+
+/// `bytes` begin with a signature.
+Result<HeaderAndTexts> find_texts(std::string_view bytes) {
+    HeaderAndTexts found;
     for (std::size_t position = signature_size;;) {
         const std::optional<Chunk> chunk = first_chunk(bytes.substr(position));
         if (!chunk) return failure("the PNG file is cut off or damaged");
         const bool header = position == signature_size;
         if (header != (chunk->name == "IHDR")) return failure("the PNG file has no right header");
         position += chunk->whole.size();
-        if (chunk->name == "IEND") break;
+        if (header) found.header = bytes.substr(0, position);
+        if (chunk->name == "IEND") return found;
         const bool text = chunk->name == "tEXt" || chunk->name == "zTXt" || chunk->name == "iTXt";
-        if (header || (text && texts++ < most_texts)) file += chunk->whole;
+        if (text && found.texts.size() < most_texts) found.texts.push_back(chunk->whole);
     }
-    // libpng stops where it sees the beginning of the picture's data.
-    return file + std::string("\0\0\0\0IDAT", 8);
 }
 
-/// Reads the chunks up to the picture's data.
-bool read_texts(PngReader& reader) {
-    return reader.open() && reader.guarded([&reader] {
-        png_set_chunk_malloc_max(reader.png(), text_room);
+/// Reads the chunks up to the picture's data. Texts have `room` bytes at most.
+bool read_texts(PngReader& reader, std::size_t room) {
+    return reader.open() && reader.guarded([&reader, room] {
+        png_set_chunk_malloc_max(reader.png(), room + longest_keyword);
         // What libpng forgives elsewhere (a text that does not inflate, say) is an error here: a
         // picture is read for its script, and half a script is none.
         png_set_benign_errors(reader.png(), 0);
@@ -100,15 +105,25 @@ std::string text_of(const png_text& chunk) {
 Result<PngTexts> parse_png_texts(std::string_view bytes) {
     if (!has_png_signature(bytes)) return failure("it is not a PNG file");
     try {
-        const Result<std::string> short_file = file_of_texts(bytes);
-        if (!short_file) return tl::unexpected<Failure>(short_file.error());
-        PngReader reader(*short_file);
-        if (!read_texts(reader)) {
-            return failure(fmt::format("the PNG file is damaged: {}", reader.error()));
-        }
+        const Result<HeaderAndTexts> found = find_texts(bytes);
+        if (!found) return tl::unexpected<Failure>(found.error());
         PngTexts texts;
-        for (const png_text& chunk : texts_of(reader)) {
-            texts.emplace(utf8_of_latin1(chunk.key), text_of(chunk));
+        std::size_t room = longest_png_text;
+        // A header without texts has its faults, too.
+        const auto chunks = found->texts.empty() ? std::vector<std::string_view>{""} : found->texts;
+        for (const std::string_view chunk : chunks) {
+            // libpng stops where it sees the beginning of the picture's data.
+            const std::string short_file =
+                std::string(found->header).append(chunk).append("\0\0\0\0IDAT", 8);
+            PngReader reader(short_file);
+            if (!read_texts(reader, room)) {
+                return failure(fmt::format("the PNG file is damaged: {}", reader.error()));
+            }
+            for (const png_text& text : texts_of(reader)) {
+                std::string content = text_of(text);
+                room -= std::min(room, content.size());
+                texts.emplace(utf8_of_latin1(text.key), std::move(content));
+            }
         }
         return texts;
     } catch (const std::bad_alloc&) {

@@ -38,7 +38,7 @@ bool all_grey(const Image& image, unsigned highest) {
 /// All that one encoding needs, prepared so that `run` allocates nothing of C++.
 class Encoder {
 public:
-    Encoder(const Image& image, PngDepth depth, const PngTexts& texts);
+    Encoder(const Image& image, PngDepth depth, const PngTexts& texts, PngMeaning meaning);
     ~Encoder() { png_destroy_write_struct(&png_, &info_); }
     Encoder(const Encoder&) = delete;
     Encoder& operator=(const Encoder&) = delete;
@@ -53,6 +53,7 @@ private:
     void fill_row(std::int64_t y);
 
     const Image& image_;
+    PngMeaning meaning_;
     int depth_;
     bool grey_;
     bool alpha_;
@@ -65,8 +66,9 @@ private:
     png_infop info_ = nullptr;
 };
 
-Encoder::Encoder(const Image& image, PngDepth depth, const PngTexts& texts)
+Encoder::Encoder(const Image& image, PngDepth depth, const PngTexts& texts, PngMeaning meaning)
     : image_(image),
+      meaning_(meaning),
       depth_(static_cast<int>(depth)),
       grey_(all_grey(image, (1U << depth_) - 1)),
       alpha_(some_transparent(image)),
@@ -137,7 +139,7 @@ bool Encoder::run() {
                      (alpha_ ? PNG_COLOR_MASK_ALPHA : 0),
                  PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (meaning_ == PngMeaning::colours) png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_text(png_, info_, texts_.data(), static_cast<int>(texts_.size()));
     png_write_info(png_, info_);
     for (std::int64_t y = 0; y < image_.height; ++y) {
@@ -156,11 +158,13 @@ bool valid_keyword(const std::string& keyword) {
 }
 
 Result<void> check_texts(const PngTexts& texts) {
+    std::size_t size = 0;
     for (const auto& [keyword, text] : texts) {
         CHECK(valid_keyword(keyword), "the keywords of our PNG texts are plain words");
-        if (text.size() > longest_png_text) {
-            return failure(fmt::format("the text '{}' that goes with the picture is longer than "
-                                       "{} bytes", keyword, longest_png_text));
+        size += text.size();
+        if (size > longest_png_text) {
+            return failure(fmt::format("the texts that go with the picture are longer than {} bytes "
+                                       "with '{}'", longest_png_text, keyword));
         }
         if (text.find('\0') != std::string::npos) {
             return failure(fmt::format("the text '{}' that goes with the picture has a NUL byte",
@@ -172,7 +176,8 @@ Result<void> check_texts(const PngTexts& texts) {
 
 }  // namespace
 
-Result<std::string> encode_png(const Image& image, PngDepth depth, const PngTexts& texts) {
+Result<std::string> encode_png(const Image& image, PngDepth depth, const PngTexts& texts,
+                               PngMeaning meaning) {
     if (image.width < 1 || image.height < 1) return failure("the picture has no pixels");
     if (image.width > longest_side || image.height > longest_side) {
         return failure(fmt::format("a picture of {} × {} pixels is too large for a PNG file",
@@ -185,7 +190,7 @@ Result<std::string> encode_png(const Image& image, PngDepth depth, const PngText
         return tl::unexpected<Failure>(checked.error());
     }
     try {
-        Encoder encoder(image, depth, texts);
+        Encoder encoder(image, depth, texts, meaning);
         if (!encoder.run()) return failure(encoder.error());
         return encoder.take_bytes();
     } catch (const std::bad_alloc&) {

@@ -2,6 +2,7 @@
 
 #include "run/model_picture.h"
 
+#include "core/json_size.h"
 #include "core/near_name.h"
 #include "lang/check.h"
 #include "lang/parse.h"
@@ -72,6 +73,7 @@ std::string to_json(const PictureRequest& request) {
 }
 
 Result<PictureRequest> picture_request_from_json(const std::string& text) {
+    if (!is_small_json(text)) return failure("the stored picture options cannot be read");
     // The library reports by exception; none leaves this function.
     try {
         const auto json = nlohmann::json::parse(text);
