@@ -5,6 +5,7 @@
 #include "app/interrupt.h"
 #include "app/limits.h"
 #include "app/option_values.h"
+#include "core/printable.h"
 
 #include <fmt/format.h>
 
@@ -27,7 +28,8 @@ int bench_one(const std::string& path, const Options& options, RunControl& contr
     request.simulation = options.run.simulation;
     request.has_limits = !options.csv;
     const auto done = bench(script, request, control, [&](const StageBench& stage) {
-        console.print(options.csv ? bench_csv_row(script.name, stage) : bench_table(script.name, stage));
+        const std::string name = printable(script.name);
+        console.print(options.csv ? bench_csv_row(name, stage) : bench_table(name, stage));
     });
     if (done) return exit_status::success;
     console.say(script.messages(console.error().colour));

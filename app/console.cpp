@@ -1,6 +1,7 @@
 #include "app/console.h"
 
 #include "app/exit_status.h"
+#include "core/printable.h"
 
 #include <fmt/format.h>
 
@@ -51,7 +52,14 @@ Result<void> Stream::write(std::string_view text) const {
     return {};
 }
 
-void Console::print(std::string_view text) {
+void Console::print(std::string_view text) { draw(printable_lines(text)); }
+
+void Console::print_exactly(std::string_view text) {
+    if (out_.is_terminal) print(text);
+    else draw(text);
+}
+
+void Console::draw(std::string_view text) {
     if (reader_gone_ || !fault_.empty()) return;
     const auto done = out_.write(text);
     if (done) return;
@@ -61,22 +69,25 @@ void Console::print(std::string_view text) {
 
 void Console::say(std::string_view text) const { (void)error_.write(text); }
 
+void Console::note(std::string_view message) const { say(printable(message) + "\n"); }
+
 void Console::fail(const Failure& failure) const {
     const auto in_colour = [&](std::string_view colour) {
         return error_.colour ? colour : std::string_view();
     };
     std::string text = fmt::format("cascade: {}error:{} {}\n", in_colour("\x1b[1;31m"),
-                                   in_colour("\x1b[0m"), failure.message);
+                                   in_colour("\x1b[0m"), printable(failure.message));
     if (!failure.hint.empty()) {
         text += fmt::format("{}note:{} {}\n", in_colour("\x1b[1;36m"), in_colour("\x1b[0m"),
-                            failure.hint);
+                            printable(failure.hint));
     }
     say(text);
 }
 
 void Console::warn(std::string_view message) const {
-    say(error_.colour ? fmt::format("cascade: \x1b[1;35mwarning:\x1b[0m {}\n", message)
-                      : fmt::format("cascade: warning: {}\n", message));
+    const std::string text = printable(message);
+    say(error_.colour ? fmt::format("cascade: \x1b[1;35mwarning:\x1b[0m {}\n", text)
+                      : fmt::format("cascade: warning: {}\n", text));
 }
 
 int Console::finish(int status) const {

@@ -59,7 +59,7 @@ int format_standard_input(bool check_only, Console& console) {
     }
     const auto result = formatted("<standard input>", *text, console);
     if (!result) return exit_status::wrong_script;
-    if (!check_only) console.print(*result);
+    if (!check_only) console.print_exactly(*result);
     return check_only && *result != *text ? exit_status::would_change : exit_status::success;
 }
 

@@ -203,7 +203,7 @@ void PromptSession::show(const std::string& expression) {
     const Canvas canvas = painter->canvas(*simulation_);
     const Image image = painter->image(canvas);
     const int columns = console_.out().columns();
-    console_.print(console_.out().colour ? half_blocks(image, columns) : plain_characters(image, columns));
+    console_.draw(console_.out().colour ? half_blocks(image, columns) : plain_characters(image, columns));
     if (!canvas.is_colour()) {
         const Spread values = spread_of(canvas.fields[0]);
         console_.print(values.count == 0 ? "no values\n"
@@ -235,7 +235,7 @@ void PromptSession::save(const std::string& folder) {
         fail(written.error());
         return;
     }
-    console_.say(fmt::format("wrote {} files in {}\n", written->size(), folder));
+    console_.note(fmt::format("wrote {} files in {}", written->size(), folder));
 }
 
 void PromptSession::tell_place() {

@@ -180,7 +180,7 @@ void PromptSession::load(const std::string& path) {
         simulation_ = std::move(before);
         return;
     }
-    console_.say(fmt::format("{}: {} stages\n", path, script_->program->stages.size()));
+    console_.note(fmt::format("{}: {} stages", path, script_->program->stages.size()));
 }
 
 void PromptSession::load_saved(const std::string& folder) {

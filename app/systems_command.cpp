@@ -4,6 +4,7 @@
 #include "app/exit_status.h"
 #include "core/file.h"
 #include "core/near_name.h"
+#include "core/printable.h"
 #include "lang/equations.h"
 #include "lang/library_note.h"
 #include "lang/system_listing.h"
@@ -46,7 +47,7 @@ void print_library_system(const LibraryText& text, Console& console) {
 
 void print_system(const Script& script, const System& system, Console& console) {
     const LibraryText* const text = system.built_in ? find_library_text(system.name) : nullptr;
-    print_system(text ? system.name : fmt::format("{} ({})", system.name, script.name), script.tree,
+    print_system(text ? system.name : fmt::format("{} ({})", system.name, printable(script.name)), script.tree,
                  script.sources, system.name, text, console);
 }
 
