@@ -1,6 +1,7 @@
 #include "run/c_header.h"
 
 #include "core/plane.h"
+#include "run/c_comment.h"
 #include "run/c_header_text.h"
 #include "run/png_texts.h"
 
@@ -87,7 +88,7 @@ private:
         std::string text;
         for (const Entry& entry : entries) {
             text += fmt::format(" *   {}[{}_{}_{}]  {}{}\n", member, big_, prefix, entry.identifier,
-                                entry.meaning,
+                                c_comment(entry.meaning),
                                 entry.is_given ? ": to be set before the start" : "");
         }
         return text;
@@ -96,7 +97,7 @@ private:
     std::string introduction() const {
         std::string text = fmt::format(
             "/* Stage '{}' (system {}) of {}, compiled by Cascade {}.\n",
-            stage_.name, system_.name, script_, version());
+            c_comment(stage_.name), c_comment(system_.name), c_comment(script_), version());
         text += filled(R"( *
  *     struct $ s;
  *     void *memory = malloc($$_BYTES);
