@@ -45,7 +45,7 @@ Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const Paint
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel);
 
 /// The files that write_baked makes: the model itself, then NAME_color.png and, with heights,
-/// NAME_height.png (16 bits) and NAME_normal.png beside it.
+/// NAME_height.png and NAME_normal.png (16 bits) beside it.
 std::vector<std::filesystem::path> baked_paths(const std::filesystem::path& glb, bool has_heights);
 
 /// Writes a GLB file of the model with the maps inside, and the maps as PNG files with these texts. Each file

@@ -13,6 +13,7 @@ namespace {
 
 struct Maps {
     std::string colour, relief, normals;  ///< PNG files.
+    std::string normals_of_model;          ///< In 8 bits, which every viewer of GLB files knows.
 };
 
 Result<Maps> encode_maps(const Bake& bake, const PngTexts& texts) {
@@ -20,14 +21,20 @@ Result<Maps> encode_maps(const Bake& bake, const PngTexts& texts) {
     struct Map {
         const Image& image;
         PngDepth depth;
+        PngMeaning meaning;
         std::string& bytes;
     };
-    for (const auto& [image, depth, bytes] :
-         {Map{bake.colour, PngDepth::eight, maps.colour},
-          Map{bake.relief, PngDepth::sixteen, maps.relief},
-          Map{bake.normals, PngDepth::eight, maps.normals}}) {
+    PngTexts all = texts;
+    if (!bake.relief.pixels.empty()) {
+        all["Cascade heights"] = fmt::format("{:.9g} {:.9g}", bake.heights.low, bake.heights.high);
+    }
+    for (const auto& [image, depth, meaning, bytes] :
+         {Map{bake.colour, PngDepth::eight, PngMeaning::colours, maps.colour},
+          Map{bake.relief, PngDepth::sixteen, PngMeaning::numbers, maps.relief},
+          Map{bake.normals, PngDepth::sixteen, PngMeaning::numbers, maps.normals},
+          Map{bake.normals, PngDepth::eight, PngMeaning::numbers, maps.normals_of_model}}) {
         if (image.pixels.empty()) continue;
-        Result<std::string> encoded = encode_png(image, depth, texts);
+        Result<std::string> encoded = encode_png(image, depth, all, meaning);
         if (!encoded) return tl::unexpected(encoded.error());
         bytes = std::move(*encoded);
     }
@@ -61,7 +68,7 @@ Result<void> write_baked(const std::filesystem::path& glb, const SurfaceMesh& me
         if (!maps) return in_file(maps.error());
         GlbLook look;
         look.colour_map = maps->colour;
-        look.normal_map = maps->normals;
+        look.normal_map = maps->normals_of_model;
         const Result<std::string> model = encode_glb(mesh, look);
         if (!model) return in_file(model.error());
         const auto paths = baked_paths(glb, !maps->relief.empty());

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <map>
+#include <vector>
 
 namespace cascade {
 
@@ -25,16 +27,22 @@ std::string encode_obj(const SurfaceMesh& mesh, const PointResults& results) {
     for (const Vector3d& normal : normals.normals) {
         fmt::format_to(out, "vn {:.6g} {:.6g} {:.6g}\n", normal.x, normal.y, normal.z);
     }
+    std::vector<std::size_t> texture;  // Of each corner, the number of its place, from 1.
+    texture.reserve(3 * mesh.texture.size());
+    std::map<TexturePlace, std::size_t> known;
     for (const auto& corners : mesh.texture) {
         for (const TexturePlace& place : corners) {
-            fmt::format_to(out, "vt {} {}\n", place[0], place[1]);
+            const auto [entry, is_new] = known.emplace(place, known.size() + 1);
+            if (is_new) fmt::format_to(out, "vt {} {}\n", place[0], place[1]);
+            texture.push_back(entry->second);
         }
     }
+    text += "s 1\n";  // Smooth: some programs look at normals only then.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         text += 'f';
         for (std::size_t k = 0; k < 3; ++k) {
             fmt::format_to(out, " {}/", mesh.triangles[t][k] + 1);
-            if (!mesh.texture.empty()) fmt::format_to(out, "{}", 3 * t + k + 1);
+            if (!mesh.texture.empty()) fmt::format_to(out, "{}", texture[3 * t + k]);
             fmt::format_to(out, "/{}", normals.numbers[t][k] + 1);
         }
         text += '\n';

@@ -1,5 +1,6 @@
 // Textures baked from cells: what is in which texel.
 #include "core/hash.h"
+#include "core/file.h"
 #include "export/bake.h"
 #include "export/fill_gaps.h"
 #include "export/glb.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -396,6 +398,15 @@ TEST(Bake, FilesAreAModelAndItsMaps) {
     EXPECT_THAT(baked_paths(model, true),
                 ElementsAre(model, folder / "a.b_color.png", folder / "a.b_height.png",
                             folder / "a.b_normal.png"));
+    // Heights and normals are no colours, and who displaces the surface learns by how much.
+    for (const char* name : {"a.b_color.png", "a.b_height.png", "a.b_normal.png"}) {
+        const std::string bytes = read_file(folder / name, 1u << 30).value();
+        const bool is_colour = std::string_view(name) == "a.b_color.png";
+        EXPECT_EQ(bytes.find("sRGB") != std::string::npos, is_colour) << name;
+        EXPECT_EQ(int{bytes[24]}, is_colour ? 8 : 16) << name;  // Bits, in the header.
+        EXPECT_EQ(parse_png_texts(bytes)->at("Cascade heights"),
+                  fmt::format("{:.9g} {:.9g}", result.heights.low, result.heights.high));
+    }
     for (const auto& path : baked_paths(model, true)) {
         EXPECT_TRUE(std::filesystem::remove(path)) << path;
     }

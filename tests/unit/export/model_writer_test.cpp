@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <set>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -91,6 +93,13 @@ TEST(ModelWriter, ObjIsReadBackExactly) {
         EXPECT_NEAR(attribute(read, "green").values[p], colours[p][1], 0.003F);
     }
     EXPECT_THAT(encode_obj(flat_square(1), {}), HasSubstr("v 1 0 0\n"));
+    // Places of the texture that corners share are written once.
+    std::set<TexturePlace> places;
+    for (const auto& corners : mesh.texture) places.insert(corners.begin(), corners.end());
+    std::size_t written = 0;
+    for (std::size_t at = 0; (at = text.find("\nvt ", at)) != std::string::npos; ++at) ++written;
+    EXPECT_EQ(written, places.size());
+    EXPECT_THAT(text, HasSubstr("\ns 1\nf "));
 }
 
 TEST(ModelWriter, GlbIsReadBack) {
