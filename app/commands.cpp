@@ -4,6 +4,7 @@
 #include "core/counted.h"
 #include "core/file.h"
 #include "core/near_name.h"
+#include "core/printable.h"
 #include "lang/library.h"
 #include "lang/parse.h"
 #include "run/dump.h"
@@ -93,14 +94,9 @@ int check_one(const std::string& path, const Options& options, Console& console)
     if (!options.dump.empty()) return dump_command(file->script, options.dump, console);
     console.say(file->script.messages(console.error().colour));
     if (!file->script.program) return exit_status::wrong_script;
-    console.print(fmt::format("{}: no errors ({})\n", file->script.name, summary(file->script)));
+    console.print(fmt::format("{}: no errors ({})\n", printable(file->script.name),
+                              summary(file->script)));
     return exit_status::success;
-}
-
-/// The file name beside which others are named: "leopard" of "examples/leopard.cascade".
-std::filesystem::path stem_of(const Script& script) {
-    const auto stem = std::filesystem::path(script.name).stem();
-    return stem.empty() || stem.string().starts_with("<") ? "cascade" : stem;
 }
 
 Result<void> write_compiled(const CompiledStep& compiled, const std::filesystem::path& object,
@@ -151,7 +147,7 @@ int compile_command(const Options& options, Console& console) {
     if (!script.program) return exit_status::wrong_script;
 
     std::filesystem::path object = options.object;
-    if (object.empty()) object = stem_of(script).concat(".o");
+    if (object.empty()) object = output_stem(script) + ".o";
     std::filesystem::path header = options.header;
     if (header.empty()) header = std::filesystem::path(object).replace_extension(".h");
     if (object.lexically_normal() == header.lexically_normal()) {

@@ -62,8 +62,7 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
     add_value(app, "--mesh", "MODEL",
               "On this model instead: a file (PLY, OBJ, OFF, STL,\nglTF, GLB), sphere, torus, box or creature",
               any_text, [&](const std::string& model) {
-                  const bool is_shape = shape_named(model).has_value();
-                  overrides.model = is_shape ? model : std::filesystem::absolute(model).string();
+                  overrides.model = model;
                   overrides.model_is_asked_for = true;
               })
         ->group(group);

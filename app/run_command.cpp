@@ -20,14 +20,19 @@ namespace {
 /// The script that is run, and the picture options that it brings.
 std::optional<LoadedFile> load_for_run(const Options& options, const Console& console) {
     if (options.run.resume.empty()) return load(options.scripts[0], options.overrides, console);
-    auto saved = load_saved_script(options.run.resume, options.overrides);
+    std::optional<LoadedFile> given;
+    if (!options.scripts.empty()) {
+        given = load(options.scripts[0], {}, console);
+        if (!given) return std::nullopt;
+    }
+    auto saved = load_saved_script(options.run.resume, options.overrides,
+                                   given ? given->script.folder : std::filesystem::path());
     if (!saved) {
         console.fail(saved.error());
         return std::nullopt;
     }
-    if (!options.scripts.empty()) {
-        const auto given = load(options.scripts[0], {}, console);
-        if (!given) return std::nullopt;
+    if (given) {
+        saved->file = given->script.file;
         if (given->script.text != saved->text) {
             console.fail({fmt::format("{} is not the script of the run saved in {}",
                                       options.scripts[0], options.run.resume.string()),
@@ -128,7 +133,6 @@ int run_command(const Options& options, Console& console) {
     }
     request.picture = apply(options.picture, std::move(request.picture));
     if (options.timing) request.simulation.account = &times;
-    if (request.outputs.empty() && script.name.starts_with("<")) request.outputs = {"cascade.png"};
 
     RunControl control;
     ProgressDisplay display = make_progress_display(console, options.quiet);
@@ -139,7 +143,7 @@ int run_command(const Options& options, Console& console) {
     };
     control.note = [&](const std::string& message) {
         display.clear();
-        if (!options.quiet) console.say(message + "\n");
+        if (!options.quiet) console.note(message);
     };
     const InterruptGuard interrupt(control.cancel);
     const TimeLimit limit(options.limit_seconds, control.cancel);

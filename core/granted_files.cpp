@@ -21,7 +21,8 @@ fs::path real_path(const fs::path& path, std::error_code& error) {
     return error ? fs::path() : fs::weakly_canonical(absolute, error);
 }
 
-/// What leads from `folder` to `file`, both with links followed; nothing where it does not lie below.
+/// What leads from `folder` to `file`, both with links followed; nothing where it does not lie
+/// below.
 std::optional<fs::path> way_down(const fs::path& folder, const fs::path& file) {
     auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
     // A folder written with a slash at its end ends in an empty name.

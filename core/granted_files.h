@@ -1,4 +1,5 @@
-// Which files a script, a model, a picture or a saved run may name, and the only way to their bytes.
+// Which files a script, a model, a picture or a saved run may name, and the only way to their
+// bytes.
 #pragma once
 
 #include "core/result.h"
@@ -23,22 +24,23 @@ struct ReadAccess {
 /// leaves this class, so that nothing is opened that was not looked at.
 class GrantedFiles {
 public:
-    /// Names are relative to `folder`, and what lies below it may be read. `owner` is whose folder it
-    /// is, in messages: "script".
-    GrantedFiles(std::filesystem::path folder, ReadAccess access, std::string_view owner = "script");
+    /// Names are relative to `folder`, and what lies below it may be read. `owner` is whose folder
+    /// it is, in messages: "script".
+    GrantedFiles(std::filesystem::path folder, ReadAccess access,
+                 std::string_view owner = "script");
 
     /// Nothing may be read.
     static GrantedFiles none();
 
-    /// The same grants for names that are relative to the folder of `file`, itself such a name: those in
-    /// a model are relative to the model.
+    /// The same grants for names that are relative to the folder of `file`, itself such a name:
+    /// those in a model are relative to the model.
     GrantedFiles beside(const std::string& file) const;
 
-    /// All that a plain file holds. It is looked for in the folder, and if it is not there and `name`
-    /// is relative, in the folders of `--allow-read`, by the name and by its last part. Symbolic links
-    /// are followed; a file that lies, with them followed, below none of the folders is refused in the
-    /// same words whether it exists or not. Fails too on folders, pipes and devices, on what cannot be
-    /// read, and on more than `largest` bytes.
+    /// All that a plain file holds. It is looked for in the folder, and if it is not there and
+    /// `name` is relative, in the folders of `--allow-read`, by the name and by its last part.
+    /// Symbolic links are followed; a file that lies, with them followed, below none of the folders
+    /// is refused in the same words whether it exists or not. Fails too on folders, pipes and
+    /// devices, on what cannot be read, and on more than `largest` bytes.
     Result<std::string> read(const std::string& name, std::uint64_t largest) const;
 
 private:

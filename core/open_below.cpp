@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr int file_flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
 
-/// The descriptor that a call returns, or its error; a call that a signal interrupted is made again.
+/// The descriptor that a call returns, or its error; a call that a signal interrupted is made
+/// again.
 template <typename Call>
 int without_signals(const Call& call) {
     while (true) {
@@ -27,14 +28,14 @@ int without_signals(const Call& call) {
     }
 }
 
-int open_by_kernel([[maybe_unused]] const Descriptor& folder, [[maybe_unused]] const fs::path& file) {
+int open_by_kernel([[maybe_unused]] const Descriptor& folder,
+                   [[maybe_unused]] const fs::path& file) {
 #ifdef SYS_openat2
     open_how how{};
     how.flags = file_flags;
     how.resolve = RESOLVE_BENEATH | RESOLVE_NO_SYMLINKS;
-    return without_signals([&] {
-        return ::syscall(SYS_openat2, folder.number(), file.c_str(), &how, sizeof how);
-    });
+    return without_signals(
+        [&] { return ::syscall(SYS_openat2, folder.number(), file.c_str(), &how, sizeof how); });
 #else
     return -ENOSYS;
 #endif

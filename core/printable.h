@@ -8,7 +8,8 @@
 namespace cascade {
 
 /// The text in one line that a terminal only shows: control characters (line ends and tabs too),
-/// invisible characters that change the text around them, and bytes that are no UTF-8 become U+FFFD.
+/// invisible characters that change the text around them, and bytes that are no UTF-8 become
+/// U+FFFD.
 std::string printable(std::string_view text);
 
 /// The same of a text of several lines: line ends and tabs stay.

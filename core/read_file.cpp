@@ -29,7 +29,8 @@ int open_to_read(const fs::path& path, int flags) {
 enum class Accepted { everything, plain_files };
 
 /// All that an open file holds. `opened` is its descriptor or the negative number of an error.
-Result<std::string> read_all(int opened, std::uint64_t largest, std::string_view name, Accepted accepted) {
+Result<std::string> read_all(int opened, std::uint64_t largest, std::string_view name,
+                             Accepted accepted) {
     const Descriptor file(opened);
     if (!file.is_open()) return cannot("read", name, -opened);
     struct stat status {};
@@ -40,8 +41,8 @@ Result<std::string> read_all(int opened, std::uint64_t largest, std::string_view
         return failure(fmt::format("'{}' is a pipe or a device and no file", short_name(name)));
     }
     const auto too_large = [&] {
-        return failure(fmt::format("'{}' is too large: at most {} bytes are read", short_name(name),
-                                   largest));
+        return failure(
+            fmt::format("'{}' is too large: at most {} bytes are read", short_name(name), largest));
     };
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (is_plain && size > largest) return too_large();
@@ -70,13 +71,26 @@ Result<std::string> read_file(const fs::path& path, std::uint64_t largest) {
     return read_all(open_to_read(path, 0), largest, path.string(), Accepted::everything);
 }
 
+std::string first_bytes(const fs::path& path, std::size_t count) {
+    const Descriptor file(open_to_read(path, O_NONBLOCK | O_NOCTTY));
+    struct stat status {};
+    if (!file.is_open() || ::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode))
+        return {};
+    std::string bytes(count, '\0');
+    const ssize_t got = ::read(file.number(), bytes.data(), bytes.size());
+    bytes.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+    return bytes;
+}
+
 Result<std::string> read_plain_file(const fs::path& path, std::uint64_t largest) {
     const int opened = open_to_read(path, O_NONBLOCK | O_NOCTTY | O_NOFOLLOW);
-    if (opened == -ELOOP) return failure(fmt::format("'{}' is a link and no file", short_name(path.string())));
+    if (opened == -ELOOP)
+        return failure(fmt::format("'{}' is a link and no file", short_name(path.string())));
     return read_all(opened, largest, path.string(), Accepted::plain_files);
 }
 
-Result<std::string> read_linked_file(const fs::path& path, std::uint64_t largest, std::string_view name) {
+Result<std::string> read_linked_file(const fs::path& path, std::uint64_t largest,
+                                     std::string_view name) {
     return read_all(open_to_read(path, O_NONBLOCK | O_NOCTTY), largest,
                     name.empty() ? path.string() : std::string(name), Accepted::plain_files);
 }

@@ -153,7 +153,7 @@ Result<CompiledStep> compile_step(Script& script, const CompileRequest& request)
     if (!metric) return tl::unexpected(metric.error());
     const std::string name = c_identifier(
         request.function_name.empty()
-            ? std::filesystem::path(script.name).stem().string() + "_" +
+            ? output_stem(script) + "_" +
                   program.stages[*stage].name
             : request.function_name);
     auto compiled =
@@ -165,7 +165,7 @@ Result<CompiledStep> compile_step(Script& script, const CompileRequest& request)
     for (CData& each : compiled->data) content.numbers.push_back({each.name, std::move(each.values)});
     auto object = compile_object(content, program.domain.grid.stencil(), request.target);
     if (!object) return tl::unexpected(object.error());
-    const std::string file = std::filesystem::path(script.name).filename().string();
+    const std::string file = script.file.filename().string();
     return CompiledStep{std::move(*object), c_header(program, *stage, *compiled, file)};
 #else
     return failure("this build has no native compiler");

@@ -1,5 +1,9 @@
 #include "run/png_texts.h"
 
+#include "core/file.h"
+#include "core/json_size.h"
+#include "run/script_folder.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -25,6 +29,7 @@ std::int64_t whole_number(const nlohmann::json& json, std::int64_t most) {
 
 /// The list of a sheet's chunk; empty where it is not one of texts.
 std::vector<std::string> texts_of(const std::string& text) {
+    if (!is_small_json(text)) return {};
     const auto json = nlohmann::json::parse(text, nullptr, false);
     if (!json.is_array()) return {};
     std::vector<std::string> texts;
@@ -53,7 +58,7 @@ std::string overrides_to_json(const Overrides& overrides) {
     if (overrides.solver) json["solver"] = *overrides.solver;
     if (overrides.precision) json["precision"] = name_of(*overrides.precision);
     if (overrides.fast) json["fast"] = true;
-    if (overrides.model) json["mesh"] = *overrides.model;
+    if (overrides.model) json["mesh"] = portable_path(*overrides.model);
     if (overrides.cells) json["cells"] = *overrides.cells;
     if (overrides.up) json["up"] = name_of(*overrides.up);
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -62,6 +67,7 @@ std::string overrides_to_json(const Overrides& overrides) {
 Result<Overrides> overrides_from_json(const std::string& text) {
     constexpr const char* unreadable = "the stored overrides cannot be read";
     constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
+    if (!is_small_json(text)) return failure(unreadable);
     // The library reports by exception; none leaves this function.
     try {
         const auto json = nlohmann::json::parse(text);
@@ -112,10 +118,14 @@ Overrides merge(Overrides base, const Overrides& changes) {
     if (changes.until_stage) base.until_stage = changes.until_stage;
     if (changes.cells) base.cells = changes.cells;
     if (changes.model) {
+        // A picture knows of its model no more than a name: where it lies now, the user says.
+        const bool is_same_model = base.model &&
+                                   std::filesystem::path(*base.model).filename() ==
+                                       std::filesystem::path(*changes.model).filename();
         base.model = changes.model;
         base.model_is_asked_for = changes.model_is_asked_for;
         base.grid.reset();
-        base.up.reset();
+        if (!is_same_model) base.up.reset();
     } else if (changes.grid) {
         base.model.reset();
         base.cells.reset();
@@ -129,7 +139,7 @@ Overrides merge(Overrides base, const Overrides& changes) {
 PngTexts embed_script(const Script& script, const PictureRequest& picture) {
     return {
         {"Software", fmt::format("Cascade {}", version())},
-        {key_name, script.name},
+        {key_name, portable_path(script.name)},
         {key_script, script.text},
         {key_overrides, overrides_to_json(script.overrides)},
         {key_seed, fmt::format("{}", script.program->domain.seed)},
@@ -145,21 +155,24 @@ PngTexts embed_sweep(const Script& script, const PictureRequest& picture,
     return texts;
 }
 
-Result<EmbeddedScript> read_embedded_script(const std::filesystem::path& path) {
-    auto texts = read_png_texts(path);
-    if (!texts) return tl::unexpected(texts.error());
+Result<EmbeddedScript> parse_embedded_script(std::string_view bytes, const std::string& file) {
+    auto texts = parse_png_texts(bytes);
+    if (!texts) {
+        return failure(fmt::format("cannot read '{}': {}", file, texts.error().message),
+                       texts.error().hint);
+    }
     const auto script = texts->find(key_script);
     if (script == texts->end()) {
-        return failure(fmt::format("{}: this picture carries no Cascade script", path.string()),
+        return failure(fmt::format("{}: this picture carries no Cascade script", file),
                        "only pictures that 'cascade run' wrote can be run again");
     }
     auto overrides = overrides_from_json(
         texts->contains(key_overrides) ? texts->at(key_overrides) : std::string("{}"));
     if (!overrides) {
-        return failure(fmt::format("{}: {}", path.string(), overrides.error().message));
+        return failure(fmt::format("{}: {}", file, overrides.error().message));
     }
     EmbeddedScript embedded;
-    embedded.name = texts->contains(key_name) ? texts->at(key_name) : path.string();
+    embedded.name = texts->contains(key_name) ? texts->at(key_name) : file;
     embedded.text = script->second;
     embedded.overrides = std::move(*overrides);
     if (texts->contains(key_picture)) embedded.picture_options = texts->at(key_picture);
@@ -167,10 +180,17 @@ Result<EmbeddedScript> read_embedded_script(const std::filesystem::path& path) {
     if (!embedded.picture_options.empty()) {
         const auto picture = picture_request_from_json(embedded.picture_options);
         if (!picture) {
-            return failure(fmt::format("{}: {}", path.string(), picture.error().message));
+            return failure(fmt::format("{}: {}", file, picture.error().message));
         }
     }
     return embedded;
+}
+
+Result<EmbeddedScript> read_embedded_script(const std::filesystem::path& path) {
+    constexpr std::uint64_t largest_picture = std::uint64_t{1} << 30;
+    const auto bytes = read_plain_file(path, largest_picture);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return parse_embedded_script(*bytes, path.string());
 }
 
 }  // namespace cascade

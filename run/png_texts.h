@@ -34,7 +34,10 @@ PngTexts embed_script(const Script& script, const PictureRequest& picture);
 PngTexts embed_sweep(const Script& script, const PictureRequest& picture,
                      const std::vector<std::string>& varied);
 
-/// Reads them back. Fails if the file is no PNG of Cascade's.
+/// Reads them back from the bytes of a file. Fails, naming it, if it is no PNG of Cascade's.
+Result<EmbeddedScript> parse_embedded_script(std::string_view bytes, const std::string& file);
+
+/// The same of a file itself: links, pipes and devices are refused.
 Result<EmbeddedScript> read_embedded_script(const std::filesystem::path& path);
 
 /// `base` with the members that `changes` has put over it; sets are appended, so that they win.

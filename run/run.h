@@ -80,8 +80,10 @@ Result<void> check_savable(const std::filesystem::path& folder, const Script& sc
 Result<void> restore_run(const std::filesystem::path& folder, const Script& script,
                          Simulation& simulation);
 
-/// The script and overrides of a saved run. `changes` may lift or set `steps` and `until_stage`
-/// only.
-Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes);
+/// The script and overrides of a saved run. `changes` may lift or set `steps` and `until_stage`, grant
+/// reads and say where the model lies. The script's files lie in `script_folder`, where the user has
+/// named it, else where find_script_folder() says.
+Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes,
+                                 const std::filesystem::path& script_folder = {});
 
 }  // namespace cascade

@@ -17,9 +17,11 @@ namespace cascade {
 
 std::vector<std::filesystem::path> outputs_of(const Script& script, const RunRequest& request) {
     if (!request.outputs.empty()) return request.outputs;
-    auto stem = std::filesystem::path(script.name).stem();
-    if (stem.empty()) stem = "cascade";
-    return {stem.replace_extension(".png")};
+    const std::filesystem::path picture = output_stem(script) + ".png";
+    // A picture that is grown again is no output to be lost.
+    std::error_code error;
+    if (std::filesystem::equivalent(picture, script.file, error)) return {output_stem(script) + "-again.png"};
+    return {picture};
 }
 
 std::filesystem::path log_path(const RunRequest& request,

@@ -7,6 +7,7 @@
 #include "run/run.h"
 #include "run/saved_folder.h"
 #include "run/saved_time.h"
+#include "run/script_folder.h"
 #include "solvers/finite.h"
 
 #include <fmt/format.h>
@@ -33,9 +34,8 @@ nlohmann::json manifest(const Script& script, const Simulation& simulation) {
     }
     return {
         {"cascade", version()},
-        {"name", script.name},
+        {"name", portable_path(script.name)},
         {"script", script.text},
-        {"folder", std::filesystem::absolute(script.folder).string()},
         {"overrides", nlohmann::json::parse(overrides_to_json(script.overrides))},
         {"grid", {simulation.grid().width, simulation.grid().height, simulation.grid().depth}},
         {"seed", script.program->domain.seed},
@@ -140,11 +140,41 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
     return (*change)->commit(manifest(script, simulation));
 }
 
-Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes) {
+namespace {
+
+/// The model of a saved run may have another place, which the user says, and no other name.
+Result<void> take_model(Overrides& saved, const Overrides& changes) {
+    if (!changes.model) return {};
+    const auto name = [](const std::string& path) { return std::filesystem::path(path).filename(); };
+    if (!saved.model || name(*saved.model) != name(*changes.model)) {
+        return failure("a resumed run keeps its model", "--mesh can only say where that lies now");
+    }
+    saved.model = changes.model;
+    saved.model_is_asked_for = changes.model_is_asked_for;
+    return {};
+}
+
+/// What run.json repeats of the script must be what the script says.
+Result<void> check_against_script(const std::filesystem::path& folder, const nlohmann::json& json,
+                                  const Script& script, const Simulation& simulation) {
+    const Grid& grid = simulation.grid();
+    if (json.at("grid") != nlohmann::json{grid.width, grid.height, grid.depth}) {
+        return tl::unexpected(damaged(folder, "its grid is not that of its script"));
+    }
+    if (json.at("seed") != script.program->domain.seed) {
+        return tl::unexpected(damaged(folder, "its seed is not that of its script"));
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes,
+                                 const std::filesystem::path& script_folder) {
     auto json = read_saved_manifest(folder);
     if (!json) return tl::unexpected(json.error());
     if (!changes.sets.empty() || changes.grid || changes.seed || changes.solver || changes.precision ||
-        changes.fast) {
+        changes.fast || changes.cells || changes.up) {
         return failure("a resumed run keeps its grid, seed, precision, rounding, parameters and solver",
                        "only --steps and --until-stage can change");
     }
@@ -155,9 +185,14 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
         overrides->steps = changes.steps;
         overrides->until_stage = changes.until_stage;
         overrides->reads = changes.reads;
-        return load_script(json->at("name").get<std::string>(),
-                           json->at("script").get<std::string>(),
-                           json->at("folder").get<std::string>(), std::move(*overrides));
+        if (auto same = take_model(*overrides, changes); !same) return tl::unexpected(same.error());
+        const auto name = json->at("name").get<std::string>();
+        const auto text = json->at("script").get<std::string>();
+        const auto files =
+            script_folder.empty() ? find_script_folder(folder, name, text) : script_folder;
+        Script script = load_script(name, text, files, std::move(*overrides));
+        script.file = folder;
+        return script;
     } catch (const nlohmann::json::exception&) {
         return tl::unexpected(damaged(folder, "run.json lacks something or has it wrong"));
     }
@@ -170,6 +205,7 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
     auto json = read_saved_manifest(folder);
     if (!json) return tl::unexpected(json.error());
     try {
+        if (auto same = check_against_script(folder, *json, script, simulation); !same) return same;
         const auto& stages = json->at("stages");
         if (!stages.is_array()) return tl::unexpected(damaged(folder, "its stages are no list"));
         if (stages.size() > script.program->stages.size()) {
@@ -187,6 +223,10 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             const bool is_last = k + 1 == stages.size();
             done = done && (!is_last || condition_met || steps >= script.program->stages[k].iterations);
             if (steps < 0) return tl::unexpected(damaged(folder, "a number of steps is negative"));
+            // A run that --steps has cut short may have taken more than it may now.
+            if (!script.overrides.steps && steps > script.program->stages[k].iterations) {
+                return tl::unexpected(damaged(folder, fmt::format("stage {} has too many steps", k + 1)));
+            }
             if (auto started = simulation.start_stage(k); !started) return started;
             auto species = read_species(folder, *json, simulation, k);
             if (!species) return tl::unexpected(species.error());

@@ -2,6 +2,7 @@
 
 #include "core/file.h"
 #include "core/hash.h"
+#include "core/json_size.h"
 #include "core/temporary_file.h"
 
 #include <fcntl.h>
@@ -92,7 +93,8 @@ Result<std::optional<nlohmann::json>> manifest_before(const fs::path& folder) {
     std::error_code error;
     if (!fs::exists(fs::symlink_status(path, error))) return std::nullopt;
     const auto text = read_plain_file(path, largest_manifest);
-    auto json = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
+    auto json = text && is_small_json(*text) ? nlohmann::json::parse(*text, nullptr, false)
+                                             : nlohmann::json();
     if (is_manifest(json)) return json;
     return failure(fmt::format("'{}' is not of a saved run, and is not replaced", path.string()),
                    "save into another folder");
@@ -244,6 +246,9 @@ Result<nlohmann::json> read_saved_manifest(const fs::path& folder) {
         return failure(
             fmt::format("{} holds no saved run: {}", folder.string(), text.error().message),
             "--resume takes a folder that --save has written");
+    }
+    if (!is_small_json(*text)) {
+        return failure(fmt::format("the saved run in {} is damaged: run.json holds too much", folder.string()));
     }
     auto json = nlohmann::json::parse(*text, nullptr, false);
     if (is_manifest(json)) return json;

@@ -47,6 +47,13 @@ std::string example_of_stage(const Program& program) {
     return fmt::format("add 'stage spots: {} {{ }}'", system);
 }
 
+std::string output_stem(const Script& script) {
+    std::filesystem::path file = script.file.lexically_normal();
+    if (!file.has_filename()) file = file.parent_path();
+    const std::string stem = file.stem().string();
+    return stem.empty() || stem == "." || stem == ".." || stem.starts_with("<") ? "cascade" : stem;
+}
+
 Span option_span(Sources& sources, const std::string& option, const std::string& value) {
     const SourceId id = sources.add(fmt::format("<{}>", option), value);
     return {id, 0, static_cast<std::uint32_t>(value.size())};
@@ -248,6 +255,7 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
                    Overrides overrides) {
     Script script;
     script.name = std::move(name);
+    script.file = script.name;
     script.text = std::move(text);
     script.folder = folder.empty() ? "." : std::move(folder);
     script.overrides = std::move(overrides);
@@ -278,28 +286,32 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
 }
 
 Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides) {
-    // Pictures may be larger than any script; their text is limited again when it is parsed.
-    constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
-    auto bytes = read_file(path, largest_file);
-    if (!bytes) return tl::unexpected(bytes.error());
-
-    const bool is_png = bytes->starts_with("\x89PNG\r\n\x1a\n");
-    if (!is_png) {
-        if (bytes->size() > largest_script) {
-            return failure(fmt::format("{}: this script has {} bytes; the largest allowed has {}",
-                                       path.string(), bytes->size(), largest_script),
-                           "is it really a Cascade script?");
-        }
+    constexpr std::uint64_t largest_picture = std::uint64_t{1} << 30;
+    constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+    // Pictures may be larger than any script. Of a pipe or a device no more is read than a script has.
+    const bool is_picture = first_bytes(path, signature.size()) == signature;
+    auto bytes = read_file(path, is_picture ? largest_picture : largest_script);
+    if (!bytes) {
+        std::error_code unknown;
+        const auto size = std::filesystem::file_size(path, unknown);
+        if (unknown || is_picture || size <= largest_script) return tl::unexpected(bytes.error());
+        return failure(fmt::format("{}: this script has {} bytes; the largest allowed has {}",
+                                   path.string(), size, largest_script),
+                       "is it really a Cascade script?");
+    }
+    if (!bytes->starts_with(signature)) {
         return LoadedFile{load_script(path.string(), std::move(*bytes), path.parent_path(),
                                       std::move(overrides)),
                           ""};
     }
-    auto embedded = read_embedded_script(path);
+    auto embedded = parse_embedded_script(*bytes, path.string());
     if (!embedded) return tl::unexpected(embedded.error());
     Overrides merged = merge(embedded->overrides, overrides);
-    return LoadedFile{load_script(embedded->name, std::move(embedded->text), path.parent_path(),
-                                  std::move(merged)),
-                      std::move(embedded->picture_options), std::move(embedded->varied)};
+    LoadedFile file{load_script(embedded->name, std::move(embedded->text), path.parent_path(),
+                                std::move(merged)),
+                    std::move(embedded->picture_options), std::move(embedded->varied)};
+    file.script.file = path;
+    return file;
 }
 
 }  // namespace cascade

@@ -50,7 +50,10 @@ struct Script {
     Script(const Script&) = delete;  // The tree holds views into this script's own sources.
     Script& operator=(const Script&) = delete;
 
-    std::string name;                 ///< As the user typed it: "examples/leopard.cascade".
+    /// In messages: as the user typed it, "examples/leopard.cascade", or as a picture or a saved run says.
+    std::string name;
+    /// What the user named: the script, the picture or the saved run that it was found in.
+    std::filesystem::path file;
     std::string text;
     std::filesystem::path folder;     ///< Paths in the script are relative to it.
     Overrides overrides;
@@ -84,6 +87,10 @@ Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides
 
 /// What a script without stages lacks, of its own last system if it has one: "add 'stage spots: mine { }'".
 std::string example_of_stage(const Program& program);
+
+/// What outputs are called where nothing is said: "leopard" of "examples/leopard.cascade". It comes from
+/// what the user named, never from a name inside of that; "cascade" where there is none.
+std::string output_stem(const Script& script);
 
 /// A place for messages about an option: the option's own text is the source `<--option>`.
 Span option_span(Sources& sources, const std::string& option, const std::string& value);

@@ -159,8 +159,7 @@ Sweeper::Done Sweeper::plan() {
 Result<void> Sweeper::prepare_folders() {
     folder_ = request_.folder;
     if (folder_.empty()) {
-        const auto stem = std::filesystem::path(script_.name).stem().string();
-        folder_ = (stem.empty() || stem.starts_with("<") ? "cascade" : stem) + "_sweep";
+        folder_ = output_stem(script_) + "_sweep";
     }
     if (auto made = make_folder(folder_ / "runs"); !made) return made;
     for (const char* name : {"sheet.png", "features.csv", "runs/x.json"}) {

@@ -69,6 +69,15 @@ TEST_F(DamagedTest, ManifestsAreCheckedBeforeTheyAreBelieved) {
                 HasSubstr("not a manifest"));
 }
 
+TEST_F(DamagedTest, WhatAManifestRepeatsOfItsScriptMustAgreeWithIt) {
+    EXPECT_THAT(resume_with([](auto& run) { run["seed"] = 77; }), HasSubstr("its seed is not that"));
+    EXPECT_THAT(resume_with([](auto& run) { run["grid"][0] = 4096; }), HasSubstr("its grid is not that"));
+    EXPECT_THAT(resume_with([](auto& run) { run["stages"][0]["steps"] = 1'000'000'000'000'000'000; }),
+                HasSubstr("stage 1 has too many steps"));
+    EXPECT_THAT(resume_with([](auto& run) { run["more"] = std::vector<int>(300'000, 1); }),
+                HasSubstr("run.json holds too much"));
+}
+
 TEST_F(DamagedTest, ArraysWithValuesThatAreNotFiniteAreRefused) {
     // As a run of an earlier version, which has no checksums.
     EXPECT_THAT(resume_with([this](auto& run) {

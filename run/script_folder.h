@@ -1,0 +1,20 @@
+// Where the files of a script lie that comes out of a picture or a saved run, and what these say of
+// it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace cascade {
+
+/// A path as it is written into pictures and saved runs, for anybody to see: as it is where it is
+/// relative and leads down only, else its last part.
+std::string portable_path(const std::string& path);
+
+/// The folder of the script of a run that was saved in `saved`: where a file of that name has that
+/// very text still, in the current folder or in the one that `saved` lies in; otherwise `saved`
+/// itself. What a saved run says of its folder is nobody's word: it would be a right to read there.
+std::filesystem::path find_script_folder(const std::filesystem::path& saved,
+                                         const std::string& name, const std::string& text);
+
+}  // namespace cascade
