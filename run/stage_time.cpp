@@ -24,7 +24,7 @@ constexpr double least_part = 0.01, least_of_duration = 1e-6;
 /// Explicit steps are cheap beside the estimate of their error, which is made of one in so many at most,
 constexpr std::int64_t most_stretch = 64, most_stretch_with_jumps = 8;
 /// and so often in the stage's time; more often where bounds or errors change.
-constexpr double stretches_of_duration = 200;
+constexpr double stretches_of_duration = 50;
 constexpr double same_bounds = 1.25, small_error = 0.5;
 /// Stages change where that saves so much: their temporaries are made anew.
 constexpr double worth_other_stages = 1.1;
