@@ -8,9 +8,10 @@ namespace cascade {
 
 namespace {
 
-constexpr double most_of_range = 0.1;
-/// Steps are no longer than a twentieth of the time for other reasons.
-constexpr std::size_t farthest = Forcing::intervals / 20;
+/// Once a step ends within a pulse, estimates of errors know of it.
+constexpr double most_of_range = 0.3;
+/// No step is longer than a quarter of the time.
+constexpr std::size_t farthest = Forcing::intervals / 4;
 
 }  // namespace
 

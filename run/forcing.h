@@ -17,8 +17,8 @@ public:
     /// `values[part][n]` is a part of the rates at n / intervals of `duration`.
     Forcing(const std::vector<std::vector<double>>& values, double duration);
 
-    /// The longest step from `t` in which no part changes by more than a tenth of its range; at least one
-    /// interval. Infinite where no part changes.
+    /// The longest step from `t` in which no part changes by more than three tenths of its range; at least
+    /// one interval and at most a quarter of the duration. Infinite where no part changes.
     double longest_step(double t) const;
 
 private:

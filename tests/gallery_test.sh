@@ -1,12 +1,17 @@
 #!/bin/bash
-# Every picture of the gallery grows again from itself, byte for byte, and so does the C program's.
+# Every picture of the gallery grows again from itself, byte for byte, and so does the C program's. Pictures of
+# surfaces may differ in the last bits of Embree's rays.
 # Without native code the large ones would take minutes: then the small ones are drawn.
 set -u
 failed=0
 
 again() {
     "$CASCADE" run -q "$1" -o again.png || failed=1
-    if ! cmp -s "$1" again.png; then
+    case $1 in
+        */surfaces/* | */on_models/*) same=(python3 "$SOURCE/tests/same_picture.py") ;;
+        *) same=(false) ;;
+    esac
+    if ! cmp -s "$1" again.png && ! "${same[@]}" "$1" again.png; then
         echo "gallery: $1 does not grow again from itself"
         failed=1
     fi

@@ -35,6 +35,7 @@ public:
 private:
     void check(const Result<void>& result);
 
+    bool is_cut_short_;  ///< It takes fewer steps than its script says.
     Script script_;
     std::unique_ptr<Simulation> simulation_;
     bool failed_ = false;

@@ -135,6 +135,8 @@ inline constexpr HintCase hint_cases[] = {
     {"stage", "iterations: 100; duration: 5", "leave one of them out", "duration: 5"},
     {"stage", "speed: auto; iterations: 100", "write duration: … in place of iterations",
      "speed: auto; duration: 100"},
+    {"stage", "duration: 100; largest_step: 2", "write speed: auto, or take the solver rk23 or rk45",
+     "duration: 100; largest_step: 2; speed: auto"},
     {"stage", "u.sides: fixed(t * dx(x * t))",
      "put t and step outside: it is computed once, when the stage starts", "u.sides: fixed(t * dx(x))"},
     {"domain", "sides: fixed", "write fixed(0)"},

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
+
 
 namespace cascade {
 namespace {
@@ -43,6 +45,8 @@ TEST_F(ModelLibraryTest, StoppedRunsEndInTheSameBits) {
     const std::string text = "domain { mesh: \"torus.obj\"; cells: 700; seed: 3 }\n"
                              "stage one: turing_spots { iterations: 300 }\n"
                              "stage two: gray_scott { iterations: 100; solver: rkl1 }\n";
+    // A saved run finds the model beside a script that has its text.
+    std::ofstream(path("test.cascade")) << text;
     run_whole(text);
     run_in_two_parts(text, "two", 40);
     std::size_t files = 0;

@@ -192,9 +192,10 @@ TEST(Solvers, LegendreTakesNestedOperatorsInStages) {
     };
     const Ran euler = run("speed: 0.025; iterations: 2000");
     for (const char* solver : {"rkl1", "rkl2"}) {
-        const Ran legendre = run(fmt::format("solver: {}; speed: auto; duration: 50", solver));
+        const Ran legendre =
+            run(fmt::format("solver: {}; speed: auto; tolerance: 0.01; duration: 50", solver));
         EXPECT_EQ(legendre.failure, "");
-        EXPECT_LT(legendre.state().steps * (legendre.state().time.stages + 2), 1200) << solver;
+        EXPECT_LT(legendre.state().steps * (legendre.state().time.stages + 2), 1400) << solver;
         const Field& a = euler.state().species[0];
         const Field& b = legendre.state().species[0];
         EXPECT_NEAR(moments(b).mean, moments(a).mean, 1e-5) << solver;  // Nothing is lost.
@@ -203,7 +204,7 @@ TEST(Solvers, LegendreTakesNestedOperatorsInStages) {
     }
 }
 
-/// Diffusion with a direction on a surface: no fewer than ten times fewer evaluations than Euler's.
+/// Diffusion with a direction on a surface: a fifth of Euler's evaluations or fewer.
 TEST(Solvers, LegendreTakesTensorsOnASurfaceInStages) {
     Overrides changes;
     changes.solver = "rkl1";
@@ -211,11 +212,11 @@ TEST(Solvers, LegendreTakesTensorsOnASurfaceInStages) {
         "domain { grid: 48, 24; boundary: periodic, noflux; unit: 1/8\n"
         "surface: (1.2 + sy) * cos(2*pi*(sx + 0.2*sy)), (1.2 + sy) * sin(2*pi*(sx + 0.2*sy)), 3 * (1 - sy) }\n"
         "system one: witkin_kass { i: 1..1; theta[i]: pi/3; e: 2; rho: 0 }\n"
-        "stage s: one { iterations: 4000; speed: 0.005 }\n";
+        "stage s: one { iterations: 4000; speed: 0.005; tolerance: 0.03 }\n";
     const Ran ran = run_text(text, {BackendKind::interpreter, 0, 1}, changes);
     EXPECT_EQ(ran.failure, "");
     EXPECT_NEAR(ran.state().t, 20, 1e-5);
-    EXPECT_LT(ran.state().steps * ran.state().time.stages, 400);
+    EXPECT_LT(ran.state().steps * ran.state().time.stages, 800);
     EXPECT_GT(moments(ran.state().species[0]).deviation, 0.1);
 }
 
