@@ -39,6 +39,9 @@ std::string describe_even(const Canvas& canvas) {
     });
     if (!is_even) return {};
     if (canvas.is_colour()) return "the picture is of one colour";
+    if (spread_of(canvas.fields[0]).count == 0) {
+        return "the picture is of one colour: what it shows is infinite or not a number in all cells";
+    }
     return fmt::format("the picture is of one colour: what it shows is {:.4g} in all cells",
                        spread_of(canvas.fields[0]).mean);
 }

@@ -1,5 +1,6 @@
 // What the result of a stage says about itself: signs that it is wrong although all values are
 // finite.
+#include "core/spread.h"
 #include "run/result_doubts.h"
 #include "run/simulation_implementation.h"
 #include "solvers/chequerboard.h"
@@ -140,7 +141,9 @@ std::optional<std::string> Simulation::Implementation::find_chequerboard(std::ui
     const std::vector<Field>& species = states[k].species;
     const Links* links = model ? &model->links : nullptr;
     const auto alternates = [&](const Field& field) {
-        return alternating_part(field, counted(), links) >= chequerboard_threshold;
+        // What has died away is rounding, of which the fastest waves may well be left.
+        return moments(field, counted()).deviation > least_deviation &&
+               alternating_part(field, counted(), links) >= chequerboard_threshold;
     };
     const auto found = std::find_if(species.begin(), species.end(), alternates);
     if (found == species.end()) return std::nullopt;

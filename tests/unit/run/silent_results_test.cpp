@@ -224,5 +224,38 @@ TEST_F(SilentResults, WhatALaterStageBeganFromStays) {
     EXPECT_THAT(warnings_, testing::Contains("stage 'large' stays at step 100: stage 'small' has begun from it"));
 }
 
+struct Told {
+    const char* name;
+    const char* script;  ///< After a domain of 48 × 48 cells.
+    const char* words;   ///< Part of the one thing that is said.
+};
+
+constexpr Told told[] = {
+    {"growth that anti-diffusion does not bring", "system s { u: random(0, 0.1); u' = -0.01 * lap(u) - u; u >= 0-1; u <= 1 }\n"
+     "stage a: s { iterations: 500; speed: 0.5 }", "died out"},
+    {"all that is shown is infinite", "system s { u: sx + 1; u' = 0.1 * lap(u) }\n"
+     "stage a: s { iterations: 50; show: exp(1000 * u) }", "infinite or not a number in all cells"},
+    {"none of what is shown is a number", "system s { u: sx; u' = 0.1 * lap(u) }\n"
+     "stage a: s { iterations: 50; show: log(u - 5) }", "infinite or not a number in all cells"},
+    {"a front that has passed", "system s { u: disc(0.5, 0.5, 0.1); u' = 0.2 * lap(u) + u * (1 - u) }\n"
+     "stage a: s { iterations: 3000; speed: 0.5 }", "(u = 1)"},
+    {"values at their bound", "system s { u: random(0.5, 0.4); u' = u; u <= 1; u >= 0 }\n"
+     "stage a: s { iterations: 500; speed: 0.5 }", "(u = 1)"},
+    {"a pulse between two fixed steps", "system s { u: 0; u' = exp(-((t - 50.5) / 0.05)^2) * 20 }\n"
+     "stage a: s { iterations: 100 }", "ended even"},
+    {"a mixture without noise", "stage a: cahn_hilliard { c: 0.5; iterations: 500; speed: 0.02 }", "ended even"},
+    {"a condition beyond reach", "stage a: turing_spots { until: max(b over domain) > 100; iterations: 3000; ka: 0.05 }",
+     "'until' has not ended it"},
+    {"noise that has just begun to grow", "system s { u: random(0, 0.001); u' = 0.2 * lap(u) + 0.02 * u - u^3 }\n"
+     "stage a: s { iterations: 150 }", "still growing"},
+};
+
+TEST_F(SilentResults, OneTrueLineEach) {
+    for (const Told& each : told) {
+        EXPECT_THAT(words_of(std::string("domain { grid: 48, 48 }\n") + each.script), ElementsAre(HasSubstr(each.words)))
+            << each.name;
+    }
+}
+
 }  // namespace
 }  // namespace cascade
