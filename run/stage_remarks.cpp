@@ -85,13 +85,16 @@ std::string describe_until(const Stage& stage, const StageState& state) {
 
 std::string describe_end(const Stage& stage, const System& system, const StageState& state,
                          bool is_last) {
-    const StageCourse& course = state.course;
-    const bool is_told = state.done && state.steps > 0 && !course.empty() &&
-                         course.last().step == state.steps;
-    if (!is_told) return {};
+    if (!state.done || state.steps == 0) return {};
     const auto about = [&](const std::string& words) {
         return fmt::format("stage '{}' {}", stage.name, words);
     };
+    const std::uint32_t frozen = system.frozen_item();
+    if (stage.uniform[frozen] && state.numbers[frozen] != 0) {
+        return about("is frozen in all cells: nothing in it changes");
+    }
+    const StageCourse& course = state.course;
+    if (course.empty() || course.last().step != state.steps) return {};
     if (course.ended_even()) return about(describe_even(system, course));
     if ((stage.time.until || stage.time.steady) && !state.condition_met) {
         return about(describe_until(stage, state));

@@ -84,7 +84,7 @@ TEST_P(RecipeTest, LooksAsItShould) {
 /// Solvers that promise the pattern of Euler's method.
 TEST_P(RecipeTest, LooksTheSameWithOtherSolvers) {
     if (!has_jit()) GTEST_SKIP() << "without native code this would take minutes";
-    for (const char* solver : {"rk2", "rk4", "rk23", "rkl1", "rkl2"}) {
+    for (const char* solver : {"symplectic", "rk2", "rk4", "rk23", "rk45", "rkl1", "rkl2"}) {
         SCOPED_TRACE(solver);
         expect_looks(64, 1, solver);
     }

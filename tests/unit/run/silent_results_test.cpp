@@ -244,6 +244,8 @@ constexpr Told told[] = {
     {"a pulse between two fixed steps", "system s { u: 0; u' = exp(-((t - 50.5) / 0.05)^2) * 20 }\n"
      "stage a: s { iterations: 100 }", "ended even"},
     {"a mixture without noise", "stage a: cahn_hilliard { c: 0.5; iterations: 500; speed: 0.02 }", "ended even"},
+    {"a stage that is frozen everywhere", "stage a: turing_spots { iterations: 1000; frozen: 1 }",
+     "is frozen in all cells: nothing in it changes"},
     {"a condition beyond reach", "stage a: turing_spots { until: max(b over domain) > 100; iterations: 3000; ka: 0.05 }",
      "'until' has not ended it"},
     {"noise that has just begun to grow", "system s { u: random(0, 0.001); u' = 0.2 * lap(u) + 0.02 * u - u^3 }\n"
