@@ -13,6 +13,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace cascade {
 
@@ -144,13 +145,13 @@ public:
         rates_ = step.rates;
         std::vector<PartId> wanted;
         for (const std::uint32_t item : system_.rate_order) {
-            if (std::find(species_.begin(), species_.end(), item) == species_.end()) continue;
-            if (form_.uses_rates() || (form_.holds && is_clamped(item))) wanted.push_back(rates_[item]);
+            if (!is_written(item)) continue;
+            if (form_.uses_rates() || (form_.holds && is_bounded(item))) wanted.push_back(rates_[item]);
         }
         for (std::size_t k = 0; k < system_.invariants.size(); ++k) {
-            if (!is_clamped(system_.invariants[k])) continue;
-            bounds_.push_back(step.bounds[k]);
-            wanted.push_back(bounds_.back());
+            if (!is_written(system_.invariants[k].species)) continue;
+            bounds_.push_back({&system_.invariants[k], step.bounds[k]});
+            wanted.push_back(step.bounds[k]);
         }
         const std::vector<std::uint32_t> slots = species_items(system_);
         StepPlan plan = build_plan({step.graph, wanted, options, true, slots, step.lasting,
@@ -165,13 +166,13 @@ public:
     }
 
 private:
-    bool is_clamped(std::uint32_t item) const {
+    bool is_bounded(std::uint32_t item) const {
         return std::any_of(system_.invariants.begin(), system_.invariants.end(),
                            [&](const Invariant& invariant) { return invariant.species == item; });
     }
 
-    bool is_clamped(const Invariant& invariant) const {
-        return std::find(species_.begin(), species_.end(), invariant.species) != species_.end();
+    bool is_written(std::uint32_t item) const {
+        return std::find(species_.begin(), species_.end(), item) != species_.end();
     }
 
     ValueId base(KernelAssembly& assembly, std::uint32_t item) const {
@@ -249,12 +250,10 @@ private:
     void clamp(KernelAssembly& assembly, const PassLowering& values,
                std::vector<ValueId>& next) const {
         KernelBuilder& builder = assembly.builder();
-        std::size_t bound_number = 0;
-        for (const Invariant& invariant : system_.invariants) {
-            if (!is_clamped(invariant)) continue;
-            const ValueId bound = values.value(bounds_[bound_number++])[0];
-            ValueId& value = next[invariant.species];
-            value = invariant.at_least ? builder.clamp_below(value, bound)
+        for (const auto& [invariant, part] : bounds_) {
+            const ValueId bound = values.value(part)[0];
+            ValueId& value = next[invariant->species];
+            value = invariant->at_least ? builder.clamp_below(value, bound)
                                        : builder.clamp_above(value, bound);
         }
     }
@@ -266,14 +265,13 @@ private:
         KernelBuilder& builder = assembly.builder();
         const ValueId zero = builder.number(0);
         std::optional<ValueId> held;
-        std::size_t bound_number = 0;
-        for (const Invariant& invariant : system_.invariants) {
-            if (!is_clamped(invariant)) continue;
-            const ValueId bound = values.value(bounds_[bound_number++])[0];
-            if (invariant.species != item) continue;
+        for (const auto& [invariant, part] : bounds_) {
+            if (invariant->species != item) continue;
+            const bool at_least = invariant->at_least;
+            const ValueId bound = values.value(part)[0];
             const ValueId value = assembly.input(0, item), rate = values.value(rates_[item])[0];
             const auto less = [&](Op op, ValueId low, ValueId high) {
-                return invariant.at_least ? builder.apply(op, low, high) : builder.apply(op, high, low);
+                return at_least ? builder.apply(op, low, high) : builder.apply(op, high, low);
             };
             const ValueId is_here = builder.apply(Op::logical_and, less(Op::less_equal, value, bound),
                                                   less(Op::less, rate, zero));
@@ -288,7 +286,7 @@ private:
     const System& system_;
     std::vector<std::uint32_t> species_;  ///< Items that are written.
     std::vector<PartId> rates_;           ///< By item.
-    std::vector<PartId> bounds_;          ///< Of the invariants that apply.
+    std::vector<std::pair<const Invariant*, PartId>> bounds_;  ///< Of species that are written.
 };
 
 }  // namespace
