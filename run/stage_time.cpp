@@ -100,7 +100,7 @@ Forcing StageTimer::forcing(const Program& program, std::uint32_t stage) const {
 void StageTimer::set_first_step() {
     TimeState& time = state_.time;
     look_at_bounds(state_.steps, time);
-    time.control.step = longest_step(time.bounded_at >= 0 ? &time.bounds : nullptr);
+    time.control.step = longest_step(time.bounded_at >= 0);
     if (time.bounds.whole > 0) {
         time.control.step = std::min(time.control.step, first_part * 2 / time.bounds.whole);
     }
@@ -159,9 +159,12 @@ StepChoice StageTimer::choose_stages_at(std::int64_t step, TimeState& time) {
     return {speed_, &problem_of(time.stages, false), nullptr};
 }
 
-double StageTimer::longest_step(const RateBounds* bounds) const {
-    const double duration = std::isfinite(duration_) ? duration_ : usual_duration;
-    return (bounds != nullptr ? most_of_duration : most_of_duration_without_bound) * duration;
+double StageTimer::expected_duration() const {
+    return std::isfinite(duration_) ? duration_ : usual_duration;
+}
+
+double StageTimer::longest_step(bool is_bounded) const {
+    return (is_bounded ? most_of_duration : most_of_duration_without_bound) * expected_duration();
 }
 
 /// Where bounds are not finite they are as good as unknown, and looked at again in the next step.
@@ -178,13 +181,13 @@ StepChoice StageTimer::choose_by_error(std::int64_t step, TimeState& time, bool 
     state_.t = time.clock.at(step);
     const Solver solver = stage_.time.solver;
     const bool is_long = takes_long_steps(solver);
-    const std::int64_t renewal = bounds_by_rule_ ? is_long ? 10 : 1 : 100;
+    const bool by_rule = bounds_by_rule_ != nullptr;
+    const std::int64_t renewal = by_rule && !is_long ? 1 : choose_every(solver, by_rule);
     const RateBounds before = time.bounds;
     const bool is_old = time.bounded_at < 0 || step - time.bounded_at >= renewal;
     if (is_old || (rejected && time.bounded_at != step)) look_at_bounds(step, time);
 
-    const bool is_bounded = time.bounded_at >= 0;
-    const double longest = longest_step(is_bounded ? &time.bounds : nullptr);
+    const double longest = longest_step(time.bounded_at >= 0);
     const double by_time = forcing_.longest_step(state_.t);
     const double wanted =
         std::min({time.control.step, longest, stage_.time.largest_step.value_or(longest), by_time});
@@ -194,7 +197,7 @@ StepChoice StageTimer::choose_by_error(std::int64_t step, TimeState& time, bool 
         if (safe.length * time.stages <= worth_other_stages * same * safe.stages) safe = {same, time.stages};
     }
     time.stages = safe.stages;
-    time.least_step = least_of_duration * longest_step(nullptr) / most_of_duration_without_bound;
+    time.least_step = least_of_duration * expected_duration();
     if (time.bounds.whole > 0) time.least_step = std::min(time.least_step, least_part * 2 / time.bounds.whole);
     time.stretch = is_long ? 1 : stretch_after(before, time, rejected, safe.length, by_time);
     time.next_judged = step + time.stretch;
@@ -209,8 +212,8 @@ std::int64_t StageTimer::stretch_after(const RateBounds& before, const TimeState
     const double high = std::max(before.whole, time.bounds.whole);
     const bool is_calm = high <= same_bounds * low && time.control.error_before <= small_error;
     const std::int64_t wanted = is_calm ? 2 * time.stretch : time.stretch / 2;
-    const double duration = std::isfinite(duration_) ? duration_ : usual_duration;
-    const double by_time = std::min(std::min(duration / stretches_of_duration, longest) / length, 1e9);
+    const double by_time =
+        std::min(std::min(expected_duration() / stretches_of_duration, longest) / length, 1e9);
     const std::int64_t most = std::min(time.bounds.jumps ? most_stretch_with_jumps : most_stretch,
                                        static_cast<std::int64_t>(by_time));
     return std::max<std::int64_t>(1, std::min(wanted, most));

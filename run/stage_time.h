@@ -55,7 +55,8 @@ private:
     RateBounds bounds() const;
     Forcing forcing(const Program& program, std::uint32_t stage) const;
     void set_first_step();
-    double longest_step(const RateBounds* bounds) const;
+    double expected_duration() const;  ///< Finite, also where only `until` ends the stage.
+    double longest_step(bool is_bounded) const;
     void look_at_bounds(std::int64_t step, TimeState& time);
     StepChoice choose_stages_at(std::int64_t step, TimeState& time);
     StepChoice choose_by_error(std::int64_t step, TimeState& time, bool rejected);
