@@ -9,12 +9,6 @@ namespace {
 using Source = SweepTerm::Source;
 using Weight = SweepTerm::Weight;
 
-SweepForm first_rate_form() {
-    SweepForm form;
-    form.outputs = {{SweepOutput::Kind::change, {{Source::rate}}}};
-    return form;
-}
-
 /// Inputs: the new step, the old one, the rates at the old one. Outputs: the error, the rates at the new.
 SweepForm error_form() {
     SweepForm form;
@@ -55,7 +49,7 @@ Scheme with_error_estimate(Scheme scheme) {
     scheme.error_register = first_rate + 2;
     scheme.registers += 3;
     const auto forms = static_cast<std::uint32_t>(scheme.forms.size());
-    scheme.forms.push_back(first_rate_form());
+    scheme.forms.push_back(rate_form());
     scheme.forms.push_back(error_form());
     Sweep first, error;
     first.form = forms;

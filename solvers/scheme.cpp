@@ -216,6 +216,12 @@ Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint
     CHECK(false, "every solver has a scheme");
 }
 
+SweepForm rate_form() {
+    SweepForm form;
+    form.outputs = {{SweepOutput::Kind::change, {{Source::rate}}}};
+    return form;
+}
+
 /// Registers: 0; two of parts in turn, the last part in 1.
 Scheme make_substeps(std::uint32_t count) {
     CHECK(count >= 2, "a step has parts");

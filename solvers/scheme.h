@@ -38,6 +38,9 @@ struct Scheme {
 /// stabilised solvers only: an odd number from least_stages() on.
 Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint32_t stages = 3);
 
+/// Writes the rates at input 0 and nothing else.
+SweepForm rate_form();
+
 /// A step of explicit Euler as `count` equal parts of it, at least 2.
 Scheme make_substeps(std::uint32_t count);
 

@@ -9,13 +9,6 @@ namespace {
 using Source = SweepTerm::Source;
 using Weight = SweepTerm::Weight;
 
-/// The rate at input 0.
-SweepForm rate_form() {
-    SweepForm form;
-    form.outputs = {{SweepOutput::Kind::change, {{Source::rate}}}};
-    return form;
-}
-
 /// c₀ · change + c₁ · change + … + old, changes being the inputs behind the old step.
 SweepForm sum_form(std::uint32_t changes) {
     SweepForm form;
