@@ -17,7 +17,7 @@ using ::testing::Not;
 
 class DoubtfulResults : public RunTest {
 protected:
-    /// The warnings of a run, but for what it says of results that are right (silent_results_test.cpp).
+    /// The warnings of a run about a result that is in doubt.
     std::vector<std::string> warnings_of(const std::string& text) {
         warnings_.clear();
         Script script = load(text);
@@ -25,10 +25,7 @@ protected:
         if (warnings_.size() > report.remarks.size()) {
             EXPECT_THAT(report.remarks, IsEmpty()) << "more is said of what is in doubt";
         }
-        std::erase_if(warnings_, [&](const std::string& warning) {
-            return std::find(report.remarks.begin(), report.remarks.end(), warning) != report.remarks.end();
-        });
-        return warnings_;
+        return warnings_besides_remarks(report);
     }
 };
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -22,6 +23,9 @@ struct Ran {
     std::vector<std::string> warnings;
 
     const StageState& state(std::uint32_t stage = 0) const { return simulation->state(stage); }
+    const StageState& last() const { return state(static_cast<std::uint32_t>(script.stage_count() - 1)); }
+    /// Of the last stage.
+    const Field& species(std::size_t number = 0) const { return last().species[number]; }
 };
 
 inline Ran run_text(const std::string& text, const SimulationOptions& options = {BackendKind::interpreter, 0, 1},

@@ -1,5 +1,6 @@
 // Solvers that take diffusion wave by wave, through the language: what each wave becomes in a step,
 // what is conserved, steps far beyond the explicit limit, and the same bits wherever it runs.
+#include "ran_text.h"
 #include "resumed_run.h"
 
 #include "measure/spectrum.h"
@@ -20,42 +21,11 @@ using ::testing::HasSubstr;
 
 constexpr double pi = std::numbers::pi;
 
-struct Ran {
-    Script script;
-    std::unique_ptr<Simulation> simulation;
-    std::string failure;
-
-    const StageState& state() const {
-        return simulation->state(static_cast<std::uint32_t>(script.stage_count() - 1));
-    }
-    const Field& species(std::size_t number = 0) const { return state().species[number]; }
-};
-
 SimulationOptions fast() {
     SimulationOptions options;
     options.threads = 1;
     if (!has_jit()) options.backend = BackendKind::interpreter;
     return options;
-}
-
-Ran run_text(const std::string& text,
-             const SimulationOptions& options = {BackendKind::interpreter, 0, 1},
-             const Overrides& overrides = {}) {
-    Ran ran;
-    ran.script = load_script("test", text, ".", overrides);
-    EXPECT_TRUE(ran.script.program) << ran.script.messages(false);
-    if (!ran.script.program) return ran;
-    auto made = Simulation::create(ran.script, options);
-    EXPECT_TRUE(made);
-    ran.simulation = std::move(*made);
-    RunControl control;
-    for (std::uint32_t k = 0; k < ran.script.stage_count() && ran.failure.empty(); ++k) {
-        EXPECT_TRUE(ran.simulation->start_stage(k));
-        const std::int64_t most = ran.script.program->stages[k].iterations;
-        auto end = ran.simulation->advance_stage(k, most, control, {});
-        if (!end) ran.failure = end.error().message + " | " + end.error().hint;
-    }
-    return ran;
 }
 
 std::string faults_of(const std::string& text, const Overrides& overrides = {}) {
@@ -180,8 +150,8 @@ TEST(SemiImplicit, GrowsTheSameSpotsAsEuler) {
         Overrides changes;
         changes.solver = solver;
         const Ran found = spots(changes);
-        EXPECT_DOUBLE_EQ(found.state().t, 12000);
-        EXPECT_LT(found.state().steps, 2500) << solver;
+        EXPECT_DOUBLE_EQ(found.last().t, 12000);
+        EXPECT_LT(found.last().steps, 2500) << solver;
         const Field& a = euler.species(1);
         const Field& b = found.species(1);
         const double difference = moments_of_difference(a, b).root_mean_square / moments(a).deviation;

@@ -19,12 +19,7 @@ protected:
     std::vector<std::string> warnings_of(const std::string& text) {
         warnings_.clear();
         Script script = load(text);
-        const RunReport report = run_well(script, request());
-        // What is said of results that are right is no matter here.
-        std::erase_if(warnings_, [&](const std::string& warning) {
-            return std::find(report.remarks.begin(), report.remarks.end(), warning) != report.remarks.end();
-        });
-        return warnings_;
+        return warnings_besides_remarks(run_well(script, request()));
     }
 };
 
@@ -95,7 +90,7 @@ TEST_F(UndefinedValues, OfMasksAreTold) {
             "outside by it"));
 }
 
-// What no cell of the domain reads, or no comparison asks for, is nobody's concern.
+// Nothing is said of values that no cell of the domain reads or no comparison uses.
 TEST_F(UndefinedValues, ThatDoNotMatterAreNotTold) {
     for (const char* text :
          {"system s { u: 1; u' = if(u > 0.5 and sqrt(u - 0.5) > 0.3, -0.1, 0) + (u < 0)*(sqrt(-u) "
