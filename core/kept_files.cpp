@@ -41,7 +41,7 @@ bool is_private(const struct stat& status) {
     return status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
 
-/// The user's own folder; a link to one is none: whoever owns the link decides where it leads.
+/// A folder that the user owns. A link to one is refused: its owner decides where it leads.
 int open_own_folder(const fs::path& folder) {
     Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
     struct stat status {};

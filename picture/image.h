@@ -51,7 +51,7 @@ struct ValueRange {
 /// Of the finite values of the cells of a plane.
 Spread spread_of(const Field& field);
 
-/// The range in which values are drawn where nobody asks for another one: their smallest and their
+/// The range in which values are drawn where no other range is given: their smallest and their
 /// largest. Of values that are even it has no width, lest rounding be drawn in black and white; [0, 0]
 /// where there is no value.
 ValueRange automatic_range(const Spread& values);

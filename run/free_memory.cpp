@@ -72,7 +72,7 @@ std::optional<std::uint64_t> left_up_to(const fs::path& top, const std::string& 
 std::uint64_t available_memory(const fs::path& root) {
     std::uint64_t available = number_of(root / "proc/meminfo", "MemAvailable:") * 1024;
     const auto at_most = [&](const std::optional<std::uint64_t>& bytes) {
-        // A full group still says so; 0 is what nobody knows.
+        // A full group counts as 1 byte free, since 0 means that the amount is unknown.
         if (bytes)
             available =
                 std::max<std::uint64_t>(1, available > 0 ? std::min(available, *bytes) : *bytes);

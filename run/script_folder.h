@@ -13,7 +13,7 @@ std::string portable_path(const std::string& path);
 
 /// The folder of the script of a run that was saved in `saved`: where a file of that name has that
 /// very text still, in the current folder or in the one that `saved` lies in; otherwise `saved`
-/// itself. What a saved run says of its folder is nobody's word: it would be a right to read there.
+/// itself. A folder that a saved run names is not trusted: it would grant the right to read there.
 std::filesystem::path find_script_folder(const std::filesystem::path& saved,
                                          const std::string& name, const std::string& text);
 

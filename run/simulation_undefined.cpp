@@ -140,7 +140,7 @@ bool Simulation::Implementation::warn_of_undefined_parameters(std::uint32_t k,
 
 void Simulation::Implementation::warn_of_undefined_start(std::uint32_t k,
                                                          const RunControl& control) {
-    // A coarser grid has the faults of the full one.
+    // A coarser grid would repeat the warnings of the full one.
     if (!control.warn || own_program) return;
     undefined_is_told = warn_of_undefined_parameters(k, control) ||
                         warn_of_lost(k, watched_at_start(k), control) ||

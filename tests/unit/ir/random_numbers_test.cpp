@@ -86,7 +86,7 @@ void expect_new_numbers_late() {
     EXPECT_EQ(seen.size(), static_cast<std::size_t>(drawn));
 }
 
-// From 2^24 on binary32 numbers are 2 and more apart, but steps are told apart all the same.
+// From 2^24 on, binary32 numbers are at least 2 apart, but every step still has its own word.
 TEST(RandomNumbers, OfLateStepsDiffer) {
     expect_new_numbers_late<float>();
     expect_new_numbers_late<double>();
