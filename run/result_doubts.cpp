@@ -43,6 +43,18 @@ std::string describe(const FlickerReport& report) {
     return text + fmt::format("try 'speed: {:.2g}'", use.speed / 2);
 }
 
+std::string describe(const AstrayReport& report) {
+    const StepInUse& use = report.use;
+    const std::string text = fmt::format(
+        "stage '{}': the time step is too large: {} more steps would move {} by {:.2g}, and {} "
+        "steps of a third of "
+        "the length by {:.2g}, to values that differ by {:.2g}; ",
+        report.stage, report.steps, report.species, report.change, report.shorter_steps,
+        report.change_of_shorter, report.apart);
+    if (report.limit && is_too_long(use, *report.limit)) return text + advise(*report.limit, use);
+    return text + fmt::format("try 'speed: {:.2g}'", use.speed / 3);
+}
+
 std::string describe(const LostChangeReport& report) {
     return fmt::format(
         "stage '{}': a step would change {} by about {:.2g}, which is too little to be added to "

@@ -38,6 +38,21 @@ inline constexpr double undone_threshold = 0.4;
 /// The warning.
 std::string describe(const FlickerReport& report);
 
+/// Values that steps lead another way than shorter ones would, if they move at all.
+struct AstrayReport {
+    std::string stage, species;
+    StepInUse use;
+    std::optional<double> limit;     ///< Of the step, where one is known.
+    std::int64_t steps = 0;          ///< So many further steps
+    double change = 0;               ///< move the values by so much (root mean square),
+    std::int64_t shorter_steps = 0;  ///< and so many that take as long together
+    double change_of_shorter = 0;    ///< by so much,
+    double apart = 0;                ///< to values that differ by so much.
+};
+
+/// The warning.
+std::string describe(const AstrayReport& report);
+
 /// Changes that rounding has swallowed.
 struct LostChangeReport {
     std::string stage, species;

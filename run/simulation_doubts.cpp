@@ -6,10 +6,12 @@
 #include "solvers/chequerboard.h"
 #include "solvers/field_norms.h"
 #include "solvers/flicker.h"
+#include "solvers/step_paths.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace cascade {
 
@@ -19,16 +21,48 @@ namespace {
 constexpr std::int64_t most_copied_bytes = std::int64_t{64} << 20;
 /// So many more steps are taken for a look, but no more than a quarter of those before.
 constexpr std::int64_t most_steps = 8, least_steps = 4;
+/// Into so many shorter ones a step is divided for a look. Not two: what has the period of a step
+/// is often of half a step's, too.
+constexpr std::int64_t shorter_steps = 3;
+
+/// Does a rate, or what it is made of, hold a node of that kind?
+template <typename Test>
+bool holds_in_rates(const System& system, const Test& test) {
+    const auto holds = [&](const Formula& formula) {
+        return std::any_of(formula.nodes.begin(), formula.nodes.end(), test);
+    };
+    return std::any_of(system.rates.begin(), system.rates.end(), holds) ||
+           std::any_of(system.definitions.begin(), system.definitions.end(),
+                       [&](const Definition& definition) { return holds(definition.formula); });
+}
 
 bool draws_random_numbers(const System& system) {
-    const auto draws = [](const Formula& formula) {
-        return std::any_of(formula.nodes.begin(), formula.nodes.end(), [](const Node& node) {
-            return node.kind == NodeKind::call && is_random(node.function);
-        });
+    return holds_in_rates(system, [](const Node& node) {
+        return node.kind == NodeKind::call && is_random(node.function);
+    });
+}
+
+/// Do the steps of a stage depend on their number or length, or on chance? Then shorter ones are
+/// another stage's.
+bool knows_its_steps(const Program& program, std::uint32_t stage) {
+    const System& system = program.system_of(stage);
+    const auto knows = [&](const Node& node) {
+        return (node.kind == NodeKind::call && is_random(node.function)) ||
+               (node.kind == NodeKind::builtin &&
+                node.index == static_cast<std::uint32_t>(Builtin::step)) ||
+               (node.kind == NodeKind::own && node.index == system.speed_item());
     };
-    return std::any_of(system.rates.begin(), system.rates.end(), draws) ||
-           std::any_of(system.definitions.begin(), system.definitions.end(),
-                       [&](const Definition& definition) { return draws(definition.formula); });
+    const auto holds = [&](const Formula& formula) {
+        return std::any_of(formula.nodes.begin(), formula.nodes.end(), knows);
+    };
+    const Stage& own = program.stages[stage];
+    return holds_in_rates(system, knows) ||
+           std::any_of(system.invariants.begin(), system.invariants.end(),
+                       [&](const Invariant& each) { return holds(each.bound); }) ||
+           std::any_of(own.sides.begin(), own.sides.end(), [&](const auto& sides) {
+               return std::any_of(sides.begin(), sides.end(),
+                                  [&](const SideSetting& side) { return holds(side.value); });
+           });
 }
 
 /// What steps cannot add to a species.
@@ -73,16 +107,10 @@ Field sum(const Field& a, const Field& b, double factor) {
 
 }  // namespace
 
-std::optional<FlickerReport> Simulation::Implementation::find_flicker(std::uint32_t k,
-                                                                      StageTimer& timer) {
+bool Simulation::Implementation::take_trial_steps(std::uint32_t k, StageTimer& timer,
+                                                  std::int64_t count, const Observer& observe) {
     StageState& state = states[k];
-    const std::int64_t count = std::min(most_steps, state.steps / 4);
     Schedule schedule = timer.schedule(state.steps, 1);
-    schedule.most_kept_bytes = most_copied_bytes;
-    if (stage(k).time.chooses_steps() || count < least_steps ||
-        !keeps_copy(schedule, state.species.size(), grid, precision())) {
-        return std::nullopt;
-    }
     schedule.last_step = state.steps + count;
     schedule.end_time = std::numeric_limits<double>::infinity();
     schedule.check = 0;
@@ -97,18 +125,34 @@ std::optional<FlickerReport> Simulation::Implementation::find_flicker(std::uint3
     for (const Field& field : state.species) result.push_back(field.clone());
     const std::int64_t steps = state.steps;
     const double t = state.t;
-    FlickerWatch watch(counted());
-    watch.see(state.species);
+    observe(steps, t, state.species);
     RunControl nobody;
-    const StageOutcome outcome = advance(timer.problem(), schedule, state.species, nobody, {},
-                                         [&](std::int64_t, double, std::span<const Field> species) {
-                                             watch.see(species);
-                                             return true;
-                                         });
+    const StageOutcome outcome =
+        advance(timer.problem(), schedule, state.species, nobody, {}, observe);
     state.species = std::move(result);
     state.steps = steps;
     state.t = t;
-    if (outcome.not_finite) return std::nullopt;
+    return !outcome.not_finite;
+}
+
+bool Simulation::Implementation::allows_trial_steps(std::uint32_t k, StageTimer& timer) const {
+    Schedule schedule = timer.schedule(states[k].steps, 1);
+    schedule.most_kept_bytes = most_copied_bytes;
+    return !stage(k).time.chooses_steps() && states[k].steps / 4 >= least_steps &&
+           keeps_copy(schedule, states[k].species.size(), grid, precision());
+}
+
+std::optional<FlickerReport> Simulation::Implementation::find_flicker(std::uint32_t k,
+                                                                      StageTimer& timer) {
+    const StageState& state = states[k];
+    FlickerWatch watch(counted());
+    const bool is_finite =
+        take_trial_steps(k, timer, std::min(most_steps, state.steps / 4),
+                         [&](std::int64_t, double, std::span<const Field> species) {
+                             watch.see(species);
+                             return true;
+                         });
+    if (!is_finite) return std::nullopt;
 
     const System& system = program->system_of(k);
     const bool is_random = draws_random_numbers(system);
@@ -122,6 +166,45 @@ std::optional<FlickerReport> Simulation::Implementation::find_flicker(std::uint3
         report.use = step_in_use(k);
         report.part = found.flickering;
         report.largest = found.largest;
+        return report;
+    }
+    return std::nullopt;
+}
+
+std::optional<AstrayReport> Simulation::Implementation::find_astray(std::uint32_t k,
+                                                                    StageTimer& timer) {
+    const System& system = program->system_of(k);
+    if (!stage(k).uniform[system.speed_item()] || is_stabilised(stage(k).time.solver) ||
+        knows_its_steps(*program, k)) {
+        return std::nullopt;
+    }
+    const auto follow = [&](StageTimer& own, std::int64_t steps, StepPath& path) {
+        return take_trial_steps(k, own, steps,
+                                [&](std::int64_t, double, std::span<const Field> species) {
+                                    path.see(species);
+                                    return true;
+                                });
+    };
+    StepPath coarse(counted()), fine(counted());
+    if (!follow(timer, least_steps, coarse)) return std::nullopt;
+    double& speed = states[k].numbers[system.speed_item()];
+    const double own_speed = std::exchange(speed, speed / shorter_steps);
+    StageTimer shorter(*program, k, states[k], tools(k, often()));
+    const bool is_finite = follow(shorter, least_steps * shorter_steps, fine);
+    speed = own_speed;
+    if (!is_finite) return std::nullopt;
+    for (std::size_t s = 0; s < states[k].species.size(); ++s) {
+        const PathDifference found = difference(coarse, fine, s, counted());
+        if (!found.is_apart) continue;
+        AstrayReport report;
+        report.stage = stage(k).name;
+        report.species = species_name(system, s);
+        report.use = step_in_use(k);
+        report.steps = least_steps;
+        report.shorter_steps = least_steps * shorter_steps;
+        report.change = found.coarse;
+        report.change_of_shorter = found.fine;
+        report.apart = found.apart;
         return report;
     }
     return std::nullopt;
@@ -217,6 +300,15 @@ double Simulation::Implementation::decay_along(std::uint32_t k, const std::vecto
     return squares > 0 ? -products / squares / step : 0;
 }
 
+bool Simulation::Implementation::is_sure(std::uint32_t k, FlickerReport& report) {
+    report.limit = longest_step(stability(k, states[k].species), report.use);
+    if (!report.limit || !is_too_long(report.use, *report.limit)) {
+        report.limit = longest_step(stability_at_start(k), report.use);
+    }
+    return report.part >= flicker_threshold ||
+           (report.limit && is_too_long(report.use, *report.limit));
+}
+
 void Simulation::Implementation::warn_of_doubts(std::uint32_t k, StageTimer& timer,
                                                 RunControl& control) {
     if (!control.warn || states[k].steps == 0) return;
@@ -224,18 +316,16 @@ void Simulation::Implementation::warn_of_doubts(std::uint32_t k, StageTimer& tim
         control.warn(doubt);
         states[k].course = {};
     };
-    std::optional<FlickerReport> flicker = find_flicker(k, timer);
+    const bool allows_trial = allows_trial_steps(k, timer);
+    std::optional<FlickerReport> flicker;
+    if (allows_trial) flicker = find_flicker(k, timer);
     if (const auto chequerboard = find_chequerboard(k, flicker.has_value())) {
         warn(*chequerboard);
-    } else if (flicker) {
-        flicker->limit = longest_step(stability(k, states[k].species), flicker->use);
-        if (!flicker->limit || !is_too_long(flicker->use, *flicker->limit)) {
-            flicker->limit = longest_step(stability_at_start(k), flicker->use);
-        }
-        // Without a to and fro, changes that undo each other may be waves of a few steps.
-        const bool is_sure = flicker->part >= flicker_threshold ||
-                             (flicker->limit && is_too_long(flicker->use, *flicker->limit));
-        if (is_sure) warn(describe(*flicker));
+    } else if (flicker && is_sure(k, *flicker)) {
+        warn(describe(*flicker));
+    } else if (auto astray = allows_trial ? find_astray(k, timer) : std::nullopt) {
+        astray->limit = longest_step(stability(k, states[k].species), astray->use);
+        warn(describe(*astray));
     } else if (const auto lost = find_lost_change(k)) {
         warn(describe(*lost));
     }

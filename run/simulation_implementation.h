@@ -189,8 +189,19 @@ struct Simulation::Implementation {
 
     /// To be called at the end of a stage, before what no step changes is given back.
     void warn_of_doubts(std::uint32_t k, StageTimer& timer, RunControl& control);
-    /// Values that jump back and forth in a few more steps, which are taken of a copy.
+    /// Are there values of which a copy can be had, and steps enough for a few more to cost little?
+    bool allows_trial_steps(std::uint32_t k, StageTimer& timer) const;
+    /// Takes so many of a copy; `observe` sees the state before and after each. False where a value
+    /// was spoiled.
+    bool take_trial_steps(std::uint32_t k, StageTimer& timer, std::int64_t count,
+                          const Observer& observe);
+    /// Values that jump back and forth in a few more steps.
     std::optional<FlickerReport> find_flicker(std::uint32_t k, StageTimer& timer);
+    /// Finds the limit of the step. Without a to and fro, changes that undo each other may be waves
+    /// of a few steps: then only a step beyond the limit makes sure.
+    bool is_sure(std::uint32_t k, FlickerReport& report);
+    /// Values that shorter steps would lead another way.
+    std::optional<AstrayReport> find_astray(std::uint32_t k, StageTimer& timer);
     /// Changes that single precision cannot add to the values, and that would have become noticeable.
     std::optional<LostChangeReport> find_lost_change(std::uint32_t k);
     /// How fast the rates decay as the state moves along them, in 1 / time; negative where they grow.

@@ -146,6 +146,62 @@ TEST_F(DoubtfulResults, TheAdviceHelps) {
     }
 }
 
+// Steps so long that shorter ones lead elsewhere.
+
+std::string logistic(const std::string& settings) {
+    return "system l { u: 0.3 + 0.1*sx; u' = u*(1 - u) }\nstage s: l { iterations: 300; " +
+           settings + " }\n";
+}
+
+std::string carried(const std::string& velocity, const std::string& settings) {
+    return fmt::format(
+        "system c {{ u: disc(0.3, 0.5, 0.1); u' = -advect({}, u); u >= 0; u <= 1 }}\n"
+        "domain {{ grid: 48, 48 }}\nstage s: c {{ {} }}\n",
+        velocity, settings);
+}
+
+// 0.714 = 2/2.8 is a fixed point of the midpoint rule and not of the equation.
+TEST_F(DoubtfulResults, FixedPointsOfTheSolverAloneAreTold) {
+    EXPECT_THAT(
+        warnings_of(logistic("solver: rk2; speed: 2.8")),
+        ElementsAre(AllOf(
+            HasSubstr("the time step is too large: 4 more steps would move u by 0, and 12 "
+                      "steps of a third of the length by 0.29, to values that differ by 0.29"),
+            HasSubstr("try 'speed: 0.93'"))));
+    EXPECT_THAT(warnings_of(logistic("solver: rk4; speed: 3.2")),
+                ElementsAre(HasSubstr("the time step is too large: 4 more steps")));
+    EXPECT_THAT(warnings_of(logistic("solver: rk2; speed: 0.93")), IsEmpty());
+}
+
+TEST_F(DoubtfulResults, FlowOfMoreThanACellAStepIsTold) {
+    EXPECT_THAT(
+        warnings_of(carried("3, 0", "iterations: 100")),
+        ElementsAre(AllOf(HasSubstr("the time step is too large"), HasSubstr("move u by"))));
+    EXPECT_THAT(warnings_of(carried("1.4, 0.3", "iterations: 60")),
+                ElementsAre(HasSubstr("the time step is too large")));
+    EXPECT_THAT(warnings_of(carried("3, 0", "speed: 0.33; iterations: 300")), IsEmpty());
+    EXPECT_THAT(warnings_of(carried("0.9, 0", "iterations: 30")), IsEmpty());
+}
+
+// A step that is as long as the period of what drives the rate sees one moment of it alone.
+TEST_F(DoubtfulResults, APeriodOfOneStepIsTold) {
+    const std::string day =
+        "system d { u: 0.5; u' = 0.05*(1 + cos(2*pi*t))*u*(1 - u) - 0.05*u }\nstage s: d { ";
+    EXPECT_THAT(warnings_of(day + "iterations: 1000 }\n"),
+                ElementsAre(HasSubstr("the time step is too large")));
+    EXPECT_THAT(warnings_of(day + "speed: 0.1; iterations: 1000 }\n"), IsEmpty());
+}
+
+// What depends on the number of steps or on their length is another equation with shorter ones.
+TEST_F(DoubtfulResults, StepsThatAreCountedAreNotDivided) {
+    EXPECT_THAT(
+        warnings_of("system n { u: 0.5; u' = 0.1*sin(3*step) }\nstage s: n { iterations: 100 }\n"),
+        IsEmpty());
+    EXPECT_THAT(warnings_of("system n { u: x; u' = 0.1*normal(0, 1)/sqrt([speed]) - 0.1*u }\n"
+                            "stage s: n { iterations: 100 }\n"),
+                IsEmpty());
+}
+
 // Changes that single precision cannot add.
 
 TEST_F(DoubtfulResults, ChangesThatRoundingSwallowsAreTold) {
@@ -186,7 +242,11 @@ TEST_F(DoubtfulResults, SoundRunsAreNotWarnedOf) {
           "stage s: l { speed: 1; solver: symplectic; iterations: 400 }\n",
           "system l { u: random(1, 1); u' = -u; u >= 0.5 }\nstage s: l { speed: 1.8; iterations: "
           "100 }\n",
-          "system l { u: x; u' = 0.1*sin(3*step) - 0.01*u }\nstage s: l { iterations: 100 }\n"}) {
+          "system l { u: x; u' = 0.1*sin(3*step) - 0.01*u }\nstage s: l { iterations: 100 }\n",
+          "system l { u: x; v: 0.5; u' = 4*(u - u^3/3 - v); v' = 0.3*(u + 0.7 - 0.8*v) }\n"
+          "stage s: l { speed: 0.2; iterations: 400 }\n",
+          "system l { u: x; u' = -1.5*(u - sin(t)) }\nstage s: l { iterations: 100 }\n",
+          "system l { u: x; u' = 0.3*u }\nstage s: l { iterations: 100 }\n"}) {
         EXPECT_THAT(warnings_of(text), IsEmpty()) << text;
     }
 }

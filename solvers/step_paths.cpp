@@ -1,0 +1,47 @@
+#include "solvers/step_paths.h"
+
+#include "solvers/field_norms.h"
+
+#include <algorithm>
+
+namespace cascade {
+
+namespace {
+
+/// Of the longer way: the distance of the ends at least, or the shorter way at most.
+constexpr double half_the_way = 0.5;
+/// Shorter ways are rounding, or a state that has come to rest.
+constexpr double least_part_of_values = 0.01;
+
+}  // namespace
+
+void StepPath::see(std::span<const Field> species) {
+    const bool is_first = last_.empty();
+    lengths_.resize(species.size());
+    for (std::size_t k = 0; k < species.size(); ++k) {
+        if (is_first) {
+            last_.push_back(species[k].clone());
+            continue;
+        }
+        lengths_[k] += moments_of_difference(species[k], last_[k], inside_).root_mean_square;
+        last_[k] = species[k].clone();
+    }
+}
+
+PathDifference difference(const StepPath& coarse, const StepPath& fine, std::size_t species,
+                          const Mask* inside) {
+    PathDifference found;
+    found.coarse = coarse.length(species);
+    found.fine = fine.length(species);
+    found.apart =
+        moments_of_difference(coarse.end(species), fine.end(species), inside).root_mean_square;
+    const double longer = std::max(found.coarse, found.fine);
+    const double shorter = std::min(found.coarse, found.fine);
+    const double values = std::max(moments(coarse.end(species), inside).root_mean_square,
+                                   moments(fine.end(species), inside).root_mean_square);
+    const bool is_else = found.apart > half_the_way * longer || shorter < half_the_way * longer;
+    found.is_apart = is_else && longer > least_part_of_values * values;
+    return found;
+}
+
+}  // namespace cascade
