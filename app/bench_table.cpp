@@ -3,7 +3,7 @@
 #include "core/counted.h"
 #include "core/quantities.h"
 #include "core/with_commas.h"
-#include "run/memory.h"
+#include "run/stage/memory.h"
 
 #include <fmt/format.h>
 

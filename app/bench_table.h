@@ -1,7 +1,7 @@
 // What `cascade bench` prints.
 #pragma once
 
-#include "run/bench.h"
+#include "run/commands/bench.h"
 
 #include <string>
 

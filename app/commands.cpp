@@ -5,10 +5,10 @@
 #include "core/file.h"
 #include "core/near_name.h"
 #include "core/printable.h"
-#include "lang/library.h"
-#include "lang/parse.h"
-#include "run/dump.h"
-#include "run/memory.h"
+#include "lang/library/library.h"
+#include "lang/syntax/parse.h"
+#include "run/commands/dump.h"
+#include "run/stage/memory.h"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 
 #include "app/exit_status.h"
 #include "core/file.h"
-#include "lang/format_script.h"
-#include "lang/parse.h"
+#include "lang/format/format_script.h"
+#include "lang/syntax/parse.h"
 
 #include <fmt/format.h>
 

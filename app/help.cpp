@@ -1,7 +1,7 @@
 #include "app/help.h"
 
-#include "run/png_texts.h"
-#include "run/simulation.h"
+#include "core/version.h"
+#include "run/simulation/simulation.h"
 
 #include <fmt/format.h>
 

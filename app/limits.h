@@ -27,7 +27,7 @@ private:
 
 /// --limit-memory as a backstop: the system gives this process no more than `bytes`, and what the
 /// program itself takes for its code, its compiler and its threads. 0 for no limit. What runs need
-/// is counted before they begin (run/memory.h); this is for all else.
+/// is counted before they begin (run/stage/memory.h); this is for all else.
 void limit_memory(std::uint64_t bytes);
 
 }  // namespace cascade

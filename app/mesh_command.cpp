@@ -2,7 +2,7 @@
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
-#include "run/describe_model.h"
+#include "run/domain/describe_model.h"
 
 #include <atomic>
 #include <optional>

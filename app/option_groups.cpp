@@ -3,10 +3,11 @@
 #include "app/add_value.h"
 #include "app/help.h"
 #include "core/palette.h"
-#include "lang/models.h"
-#include "lang/program.h"
-#include "run/dump.h"
-#include "run/simulation.h"
+#include "lang/program/models.h"
+#include "lang/program/program.h"
+#include "run/commands/dump.h"
+#include "run/simulation/simulation.h"
+#include "run/stage/kernel_cache.h"
 
 #include <filesystem>
 #include <limits>

@@ -1,7 +1,7 @@
 #include "app/option_values.h"
 
 #include "core/near_name.h"
-#include "run/frame_folder.h"
+#include "run/pictures/frame_folder.h"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,8 @@
 #include "core/result.h"
 #include "picture/image.h"
 #include "picture/slice.h"
-#include "run/describe_model.h"
-#include "run/run.h"
+#include "run/commands/run.h"
+#include "run/domain/describe_model.h"
 
 #include <cstdint>
 #include <span>

@@ -2,13 +2,13 @@
 // CLI11, since its headers take seconds to compile.
 #pragma once
 
-#include "run/bench.h"
-#include "run/compile.h"
-#include "run/describe_model.h"
-#include "run/picture_request.h"
-#include "run/run.h"
-#include "run/script.h"
-#include "run/sweep.h"
+#include "run/commands/bench.h"
+#include "run/commands/run.h"
+#include "run/commands/sweep.h"
+#include "run/domain/describe_model.h"
+#include "run/emit_c/compile.h"
+#include "run/script/picture_request.h"
+#include "run/script/script.h"
 
 #include <filesystem>
 #include <optional>

@@ -4,7 +4,7 @@
 
 #include "core/run_control.h"
 #include "core/with_commas.h"
-#include "run/sweep.h"
+#include "run/commands/sweep.h"
 
 #include <chrono>
 #include <functional>

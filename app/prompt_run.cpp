@@ -5,8 +5,8 @@
 #include "app/interrupt.h"
 #include "app/option_values.h"
 #include "app/progress_display.h"
-#include "run/picture_request.h"
-#include "run/run.h"
+#include "run/commands/run.h"
+#include "run/pictures/painter.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 
 #include "app/prompt_text.h"
 #include "core/near_name.h"
-#include "lang/check.h"
-#include "run/run.h"
+#include "lang/check/check.h"
+#include "run/commands/run.h"
 
 #include <fmt/format.h>
 

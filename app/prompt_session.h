@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/console.h"
-#include "run/script.h"
-#include "run/simulation.h"
+#include "run/script/script.h"
+#include "run/simulation/simulation.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -5,9 +5,9 @@
 #include "core/file.h"
 #include "core/near_name.h"
 #include "core/printable.h"
-#include "lang/equations.h"
-#include "lang/library_note.h"
-#include "lang/system_listing.h"
+#include "lang/equations/equations.h"
+#include "lang/print/library_note.h"
+#include "lang/print/system_listing.h"
 
 #include <fmt/format.h>
 

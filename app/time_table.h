@@ -1,7 +1,7 @@
 // The table of `--timing`.
 #pragma once
 
-#include "run/time_account.h"
+#include "run/stage/time_account.h"
 
 #include <string>
 

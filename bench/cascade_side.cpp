@@ -1,7 +1,7 @@
 // Our side of the benchmarks.
 #include "bench/cascade_side.h"
 
-#include "run/bound_kernel.h"
+#include "run/stage/bound_kernel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 
 #include "core/grid.h"
 #include "ir/backend.h"
-#include "lang/lower.h"
-#include "run/input_files.h"
-#include "run/script.h"
-#include "run/simulation.h"
+#include "lang/lower/lower.h"
+#include "run/domain/input_files.h"
+#include "run/script/script.h"
+#include "run/simulation/simulation.h"
 #include "solvers/stepper.h"
 
 #include <cstdint>

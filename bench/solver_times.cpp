@@ -16,9 +16,9 @@
 #include "ir/solver.h"
 #include "jit/jit.h"
 #include "measure/features.h"
-#include "run/measured.h"
-#include "run/script.h"
-#include "run/simulation.h"
+#include "run/pictures/measured.h"
+#include "run/script/script.h"
+#include "run/simulation/simulation.h"
 #include "solvers/field_norms.h"
 
 #include <fmt/format.h>

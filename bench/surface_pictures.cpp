@@ -4,7 +4,7 @@
 // work. 64,000 cells, as many threads as the machine has.
 #include "mesh/make_mesh.h"
 #include "mesh/model_file.h"
-#include "run/cell_picture.h"
+#include "run/pictures/cell_picture.h"
 #include "surface/blur_cells.h"
 #include "surface/relax.h"
 #include "surface/scatter.h"

@@ -4,10 +4,9 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 # The rooms are linked in but not exported: only what cascade.h declares can be called.
-add_library(cascade_library SHARED run/pattern.cpp)
+add_library(cascade_library SHARED run/commands/pattern.cpp)
 target_link_libraries(cascade_library PRIVATE cascade_run)
 target_link_options(cascade_library PRIVATE LINKER:--exclude-libs,ALL)
-target_compile_definitions(cascade_library PRIVATE CASCADE_VERSION="${PROJECT_VERSION}")
 target_include_directories(cascade_library INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

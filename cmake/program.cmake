@@ -3,7 +3,7 @@
 find_path(LIBEDIT_INCLUDE_DIR histedit.h REQUIRED)
 find_library(LIBEDIT_LIBRARY edit REQUIRED)
 
-cascade_room(app cascade_run CLI11::CLI11 ${LIBEDIT_LIBRARY})
+cascade_room(app CLI11::CLI11 ${LIBEDIT_LIBRARY})
 target_include_directories(cascade_app SYSTEM PRIVATE ${LIBEDIT_INCLUDE_DIR})
 
 # app/ is a library too, so that its parts can be tested; only main() stays out of it.

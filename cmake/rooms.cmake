@@ -1,4 +1,4 @@
-# A room is a folder of the source tree and a static library `cascade_NAME` of all its .cpp files.
+# A room is a folder of the source tree and a static library `cascade_NAME` of all .cpp files in it.
 
 add_library(cascade_options INTERFACE)
 target_include_directories(cascade_options INTERFACE ${PROJECT_SOURCE_DIR})
@@ -18,8 +18,35 @@ if(CASCADE_SANITIZE)
   target_link_options(cascade_options INTERFACE -fsanitize=${CASCADE_SANITIZE})
 endif()
 
+# The table of the rooms and what each may include. A new line in it is seen at the next build.
+set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND
+  PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/rooms.txt)
+file(STRINGS ${PROJECT_SOURCE_DIR}/cmake/rooms.txt room_table REGEX "^[a-z]")
+
+# The outer rooms that `name` and the rooms inside it may include, but for itself.
+function(cascade_rooms_below name result)
+  set(lines ${room_table})
+  list(FILTER lines INCLUDE REGEX "^${name}[:/]")
+  if(NOT lines)
+    message(FATAL_ERROR "cmake/rooms.txt has no room ${name}")
+  endif()
+  list(TRANSFORM lines REPLACE "^[^:]*: ?" "")
+  string(REPLACE " " ";" rooms "${lines}")
+  list(TRANSFORM rooms REPLACE "/.*" "")
+  list(REMOVE_DUPLICATES rooms)
+  list(REMOVE_ITEM rooms ${name})
+  set(${result} ${rooms} PARENT_SCOPE)
+endfunction()
+
+# cascade_room(NAME PACKAGES…): the library of the folder NAME and all folders in it.
 function(cascade_room name)
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${name}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${name}/*.cpp)
   add_library(cascade_${name} STATIC ${sources})
+  cascade_rooms_below(${name} rooms)
+  foreach(room IN LISTS rooms)
+    if(NOT room STREQUAL jit OR CASCADE_JIT)
+      target_link_libraries(cascade_${name} PUBLIC cascade_${room})
+    endif()
+  endforeach()
   target_link_libraries(cascade_${name} PUBLIC cascade_options ${ARGN})
 endfunction()

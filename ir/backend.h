@@ -5,8 +5,8 @@
 // kernel and arguments.
 #pragma once
 
-#include "core/grid.h"
 #include "core/check.h"
+#include "core/grid.h"
 #include "core/links.h"
 #include "core/parallel.h"
 #include "core/result.h"

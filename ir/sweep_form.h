@@ -3,7 +3,7 @@
 //
 // A form decides the code of a kernel; which planes it reads and writes and by what it multiplies
 // are arguments, so that sweeps of one form share a kernel however long the time step is. Written
-// by time integrators (solvers/scheme.h), read by the lowering (lang/lower.h).
+// by time integrators (solvers/scheme.h), read by the lowering (lang/lower/lower.h).
 #pragma once
 
 #include <cstdint>

@@ -39,7 +39,7 @@ struct StageClock {
     }
 };
 
-/// Magnitudes of the rates' Jacobian in some state, in 1 / time (lang/derivative.h).
+/// Magnitudes of the rates' Jacobian in some state, in 1 / time (lang/calculus/derivative.h).
 struct RateBounds {
     double whole = 0;     ///< No eigenvalue is larger.
     double reaction = 0;  ///< Of what neither stages nor implicit diffusion tame.

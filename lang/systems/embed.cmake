@@ -15,7 +15,7 @@ endforeach()
 set(built_in_source ${PROJECT_BINARY_DIR}/lang/built_in_systems.cpp)
 file(CONFIGURE OUTPUT ${built_in_source} @ONLY CONTENT [[
 // Made by lang/systems/embed.cmake from lang/systems/*.cascade.
-#include "lang/library.h"
+#include "lang/library/library.h"
 
 #include <array>
 

@@ -1,6 +1,6 @@
 #include "random_scripts.h"
 
-#include "lang/program.h"
+#include "lang/program/program.h"
 #include "support/random_stream.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ struct FunctionRow {
 constexpr std::array rows = {
 #define CASCADE_FUNCTION(id, spelling, arity, places, meaning) \
     FunctionRow{spelling, arity, Places::places},
-#include "lang/functions.def"
+#include "lang/vocabulary/functions.def"
 #undef CASCADE_FUNCTION
 };
 

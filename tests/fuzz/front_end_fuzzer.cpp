@@ -3,10 +3,10 @@
 // leaks, or breaks a CHECK. Built with clang, libFuzzer and sanitizers; the commands are in
 // README.md here.
 #include "core/check.h"
-#include "lang/check.h"
-#include "lang/format_script.h"
-#include "lang/lower.h"
-#include "lang/parse.h"
+#include "lang/check/check.h"
+#include "lang/format/format_script.h"
+#include "lang/lower/lower.h"
+#include "lang/syntax/parse.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,11 +2,11 @@
 // byte chooses the reader. A manifest is read from a folder that has the arrays of a small run;
 // what it describes is restored, but no step is taken.
 #include "core/check.h"
-#include "run/kept_tilings.h"
-#include "run/picture_request.h"
-#include "run/png_texts.h"
-#include "run/run.h"
-#include "run/variation.h"
+#include "run/commands/run.h"
+#include "run/commands/variation.h"
+#include "run/script/embedded_script.h"
+#include "run/script/picture_request.h"
+#include "run/stage/kept_tilings.h"
 #include "tests/fuzz/seeds.h"
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include "tests/oracle/test_run.h"
 
 #include "core/file.h"
-#include "lang/library.h"
+#include "lang/library/library.h"
 #include "measure/features.h"
 
 #include <fmt/format.h>

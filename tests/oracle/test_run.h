@@ -1,7 +1,7 @@
 // Runs scripts for the tests of this folder, and hands out the fields.
 #pragma once
 
-#include "run/simulation.h"
+#include "run/simulation/simulation.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,6 +1,6 @@
 // The example scripts are sound: no messages, and kernels that can be verified.
 #include "core/file.h"
-#include "run/script.h"
+#include "run/script/script.h"
 #include "tests/spec/sound_kernels.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // See sound_kernels.h.
 #include "tests/spec/sound_kernels.h"
 
-#include "lang/lower.h"
+#include "lang/lower/lower.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Lowering of whole programs, for the tests of this folder.
 #pragma once
 
-#include "lang/program.h"
+#include "lang/program/program.h"
 
 namespace cascade {
 

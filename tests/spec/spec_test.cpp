@@ -2,8 +2,8 @@
 //
 // spec/README.md says what the words behind the fences mean. CASCADE_UPDATE=1 rewrites the expected
 // messages.
-#include "lang/library.h"
-#include "run/script.h"
+#include "lang/library/library.h"
+#include "run/script/script.h"
 #include "support/same_meaning.h"
 #include "tests/spec/code_blocks.h"
 #include "tests/spec/sound_kernels.h"

@@ -2,8 +2,8 @@
 // random scripts.
 #pragma once
 
-#include "lang/format_script.h"
-#include "lang/parse.h"
+#include "lang/format/format_script.h"
+#include "lang/syntax/parse.h"
 
 #include <optional>
 #include <sstream>

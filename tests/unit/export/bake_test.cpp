@@ -1,6 +1,6 @@
 // Textures baked from cells: what is in which texel.
-#include "core/hash.h"
 #include "core/file.h"
+#include "core/hash.h"
 #include "export/bake.h"
 #include "export/fill_gaps.h"
 #include "export/glb.h"

@@ -1,8 +1,8 @@
 // What the tests of checker and lowering share: a text, checked, and its faults as short lines.
 #pragma once
 
-#include "lang/check.h"
-#include "lang/parse.h"
+#include "lang/check/check.h"
+#include "lang/syntax/parse.h"
 
 #include <fmt/format.h>
 

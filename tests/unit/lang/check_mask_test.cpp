@@ -1,6 +1,6 @@
 // Domains with a mask: what is read, what is refused.
 #include "check_helpers.h"
-#include "lang/lower.h"
+#include "lang/lower/lower.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Domains that are models: control over their surface, directions of their cells, and what planes lack.
 #include "check_helpers.h"
-#include "lang/models.h"
+#include "lang/program/models.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

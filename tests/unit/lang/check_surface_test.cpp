@@ -1,6 +1,6 @@
 // Domains on a surface: what is read, what is refused.
 #include "check_helpers.h"
-#include "lang/evaluate.h"
+#include "lang/program/evaluate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

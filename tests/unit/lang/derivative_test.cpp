@@ -1,6 +1,6 @@
 // Derivatives against differences of the rates themselves, and bounds of the Jacobian against
 // eigenvalues that are known.
-#include "lang/derivative.h"
+#include "lang/calculus/derivative.h"
 
 #include "lower_helpers.h"
 

@@ -1,7 +1,7 @@
 // What semi-implicit solvers find in rates: which operators, and with which factors.
-#include "lang/diffusion.h"
+#include "lang/calculus/diffusion.h"
 
-#include "lang/print_formula.h"
+#include "lang/print/print_formula.h"
 #include "lower_helpers.h"
 
 #include <gtest/gtest.h>

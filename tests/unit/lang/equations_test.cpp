@@ -1,7 +1,7 @@
 // Equations in Unicode and TeX, notation by notation, and over the whole library.
-#include "lang/equations.h"
-#include "lang/library.h"
-#include "lang/parse.h"
+#include "lang/equations/equations.h"
+#include "lang/library/library.h"
+#include "lang/syntax/parse.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // The one style, example by example; and that formatting keeps the meaning and is done once.
-#include "lang/format_script.h"
-#include "lang/parse.h"
+#include "lang/format/format_script.h"
+#include "lang/syntax/parse.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 // something must be the hint of a case. Hints that only explain are no concern of this test.
 #include "check_helpers.h"
 #include "hint_cases.h"
-#include "lang/models.h"
-#include "lang/words_elsewhere.h"
+#include "lang/program/models.h"
+#include "lang/vocabulary/words_elsewhere.h"
 
 #include <gtest/gtest.h>
 
@@ -204,7 +204,8 @@ std::set<std::string> hints_in_sources() {
         "^(write|add|put|did you mean|leave|take|join|choose|give|make|save) "
         "|: write |is written (?!with)|, as in |^as in ");
     std::set<std::string> texts;
-    for (const auto& entry : std::filesystem::directory_iterator(CASCADE_SOURCE_DIR "/lang")) {
+    const std::filesystem::recursive_directory_iterator front_end(CASCADE_SOURCE_DIR "/lang");
+    for (const auto& entry : front_end) {
         const std::string name = entry.path().filename().string();
         // Rows of these tables have a test of their own; printed trees are no hints.
         if (name.starts_with("words_elsewhere") || name.starts_with("print_") ||

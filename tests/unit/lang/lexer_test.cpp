@@ -1,5 +1,5 @@
 // The lexer: which tokens a text has, and what it says of characters that are none.
-#include "lang/token.h"
+#include "lang/syntax/token.h"
 #include "script_faults.h"
 
 #include <gmock/gmock.h>

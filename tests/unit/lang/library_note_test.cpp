@@ -1,4 +1,4 @@
-#include "lang/library_note.h"
+#include "lang/print/library_note.h"
 
 #include "tests/unit/lang/check_helpers.h"
 

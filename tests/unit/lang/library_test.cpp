@@ -1,5 +1,5 @@
 // The library of systems: what a script pays for, and what it may replace.
-#include "lang/library.h"
+#include "lang/library/library.h"
 
 #include "check_helpers.h"
 

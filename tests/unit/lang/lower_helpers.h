@@ -8,7 +8,7 @@
 #include "core/plane.h"
 #include "ir/draw_of_step.h"
 #include "ir/interpreter.h"
-#include "lang/lower.h"
+#include "lang/lower/lower.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Minimum cuts against all choices.
-#include "lang/minimum_cut.h"
+#include "lang/lower/minimum_cut.h"
 
 #include "support/random_stream.h"
 

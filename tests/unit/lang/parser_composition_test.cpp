@@ -1,5 +1,5 @@
 // The parser: functions, families, ranges, systems from systems, doc comments and `use`.
-#include "lang/parse.h"
+#include "lang/syntax/parse.h"
 #include "script_faults.h"
 
 #include <gmock/gmock.h>

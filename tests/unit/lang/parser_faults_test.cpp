@@ -1,5 +1,5 @@
 // What the parser says of wrong scripts: line, column and text of every message, one for a mistake.
-#include "lang/parse.h"
+#include "lang/syntax/parse.h"
 #include "script_faults.h"
 
 #include <gmock/gmock.h>

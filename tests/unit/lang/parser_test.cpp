@@ -1,5 +1,5 @@
 // The parser: what binds to what, where sentences and blocks end.
-#include "lang/parse.h"
+#include "lang/syntax/parse.h"
 #include "script_faults.h"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // The planner: how many passes formulas take, what is written to planes and what is computed again.
 #include "check_helpers.h"
 
-#include "lang/lower.h"
+#include "lang/lower/lower.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include "lang/system_listing.h"
+#include "lang/print/system_listing.h"
 
-#include "lang/parse.h"
+#include "lang/syntax/parse.h"
 
 #include <gtest/gtest.h>
 

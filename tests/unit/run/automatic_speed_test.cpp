@@ -1,5 +1,5 @@
 // Steps and stages from bounds of the Jacobian.
-#include "run/automatic_speed.h"
+#include "run/stage/automatic_speed.h"
 
 #include <gtest/gtest.h>
 

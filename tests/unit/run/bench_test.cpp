@@ -1,5 +1,5 @@
 // What a step costs, counted by hand; what bounds a step.
-#include "run/bench.h"
+#include "run/commands/bench.h"
 #include "tests/unit/run/run_fixture.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // Sides against calculus: manufactured solutions for every kind of side and of operator, values that
 // change with time under every solver, sides of surfaces, and the same bits whichever way.
-#include "run/simulation.h"
+#include "run/simulation/simulation.h"
 
-#include "run/script.h"
+#include "run/script/script.h"
 #include "support/kernel_comparison.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "run/c_comment.h"
+#include "run/emit_c/c_comment.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Pictures of cells on surfaces.
-#include "run/cell_picture.h"
+#include "run/pictures/cell_picture.h"
 
 #include "picture/srgb.h"
 #include "unit/surface/even_cells.h"

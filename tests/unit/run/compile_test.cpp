@@ -3,7 +3,7 @@
 #include "run_fixture.h"
 
 #include "ir/multiply_add.h"
-#include "run/compile.h"
+#include "run/emit_c/compile.h"
 
 #include <gmock/gmock.h>
 

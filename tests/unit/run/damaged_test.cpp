@@ -2,7 +2,7 @@
 // have been damaged since: a message for each, and never a crash.
 #include "run_fixture.h"
 
-#include "run/png_texts.h"
+#include "run/script/embedded_script.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 #include "resumed_run.h"
 
 #include "ir/multiply_add.h"
-#include "run/png_texts.h"
+#include "run/script/embedded_script.h"
 
 #include <algorithm>
 #include <cmath>

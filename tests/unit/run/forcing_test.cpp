@@ -1,5 +1,5 @@
 // How far steps may go through rates that change with time.
-#include "run/forcing.h"
+#include "run/stage/forcing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // A folder of frames holds the frames of one run.
 #include "run_fixture.h"
 
-#include "run/frame_folder.h"
+#include "run/pictures/frame_folder.h"
 
 #include <gmock/gmock.h>
 

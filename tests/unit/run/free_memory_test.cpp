@@ -1,5 +1,5 @@
 // Memory that containers give, read from folders that look like /proc and /sys.
-#include "run/free_memory.h"
+#include "run/domain/free_memory.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

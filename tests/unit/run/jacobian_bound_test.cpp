@@ -1,7 +1,7 @@
 // Bounds of the rates' Jacobian against the Jacobian itself, found by differences of whole steps.
-#include "lang/derivative.h"
-#include "lang/library.h"
-#include "run/simulation.h"
+#include "lang/calculus/derivative.h"
+#include "lang/library/library.h"
+#include "run/simulation/simulation.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

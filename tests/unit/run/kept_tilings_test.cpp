@@ -1,5 +1,5 @@
 // What is found about tilings, remembered in a process and on disk.
-#include "run/kept_tilings.h"
+#include "run/stage/kept_tilings.h"
 #include "tests/unit/solvers/cell_function_kernel.h"
 
 #include <gtest/gtest.h>

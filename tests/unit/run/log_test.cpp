@@ -1,4 +1,4 @@
-#include "run/memory.h"
+#include "run/stage/memory.h"
 #include "run_fixture.h"
 
 #include <gmock/gmock.h>

@@ -2,8 +2,8 @@
 #include "run_fixture.h"
 
 #include "picture/grey_picture.h"
-#include "run/compile.h"
-#include "run/measured.h"
+#include "run/emit_c/compile.h"
+#include "run/pictures/measured.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

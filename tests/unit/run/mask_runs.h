@@ -1,8 +1,8 @@
 // What tests of masks share: scripts that have run, and their values.
 #pragma once
 
-#include "run/script.h"
-#include "run/simulation.h"
+#include "run/script/script.h"
+#include "run/simulation/simulation.h"
 
 #include <gtest/gtest.h>
 

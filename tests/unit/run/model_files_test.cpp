@@ -1,8 +1,8 @@
 // Files of runs on models: what a name says, what travels in pictures, what the library makes of cells.
 #include "cascade/cascade.h"
-#include "run/model_files.h"
-#include "run/picture_request.h"
-#include "run/run_checks.h"
+#include "run/commands/run_checks.h"
+#include "run/pictures/model_files.h"
+#include "run/pictures/painter.h"
 
 #include <gmock/gmock.h>
 

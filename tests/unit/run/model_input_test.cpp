@@ -1,7 +1,7 @@
 // What a script may not ask of a model: each has its message.
-#include "run/compile.h"
-#include "run/script.h"
-#include "run/simulation.h"
+#include "run/emit_c/compile.h"
+#include "run/script/script.h"
+#include "run/simulation/simulation.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // The library of systems on a small model, and stopped runs on one.
-#include "lang/library.h"
+#include "lang/library/library.h"
 #include "resumed_run.h"
-#include "run/simulation.h"
+#include "run/simulation/simulation.h"
 #include "support/small_models.h"
 
 #include <fmt/format.h>

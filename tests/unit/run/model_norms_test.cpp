@@ -1,8 +1,8 @@
 // What steps and ends are chosen by counts every cell of a model once, and not what fills up the last row
 // of planes: 520 cells lie in two rows of 512.
 #include "model_runs.h"
-#include "solvers/step_control.h"
 #include "solvers/steady.h"
+#include "solvers/step_control.h"
 #include "unit/solvers/scheme_runner.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Cells of a model lie in memory as steps are fastest, which nobody sees: files, random numbers and
 // sums are those of the cells in their own order.
 #include "mesh/flat.h"
-#include "run/model_cells.h"
+#include "run/domain/model_cells.h"
 #include "started_script.h"
 #include "surface/cell_gradient.h"
 

@@ -1,8 +1,8 @@
 // Runs on models for tests: what a script's text comes to.
 #pragma once
 
-#include "run/script.h"
-#include "run/simulation.h"
+#include "run/script/script.h"
+#include "run/simulation/simulation.h"
 
 #include <gtest/gtest.h>
 

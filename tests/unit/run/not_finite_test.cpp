@@ -1,4 +1,4 @@
-#include "run/not_finite.h"
+#include "run/stage/not_finite.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

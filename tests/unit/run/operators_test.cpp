@@ -1,10 +1,10 @@
 // Operators against calculus: manufactured solutions and their orders, what is conserved, directions,
 // aggregates. Parameters of a stage are computed from others, so a stage that takes no step is
 // enough to see what an operator gives.
-#include "run/simulation.h"
+#include "run/simulation/simulation.h"
 
 #include "core/grid.h"
-#include "run/script.h"
+#include "run/script/script.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

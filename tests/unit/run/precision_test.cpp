@@ -1,8 +1,8 @@
 // Runs in double precision: what they share with runs in single, and what single cannot show.
 #include "resumed_run.h"
 
-#include "run/memory.h"
-#include "run/simulation.h"
+#include "run/simulation/simulation.h"
+#include "run/stage/memory.h"
 
 #include <fmt/format.h>
 

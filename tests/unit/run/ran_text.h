@@ -1,8 +1,8 @@
 // Scripts that are run to their ends without files, for tests of what they leave.
 #pragma once
 
-#include "run/script.h"
-#include "run/simulation.h"
+#include "run/script/script.h"
+#include "run/simulation/simulation.h"
 
 #include <gtest/gtest.h>
 

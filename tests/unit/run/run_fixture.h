@@ -3,7 +3,7 @@
 
 #include "core/file.h"
 #include "picture/npy.h"
-#include "run/run.h"
+#include "run/commands/run.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -2,7 +2,7 @@
 
 #include "core/file.h"
 #include "picture/image.h"
-#include "run/png_texts.h"
+#include "run/script/embedded_script.h"
 
 #include <gmock/gmock.h>
 

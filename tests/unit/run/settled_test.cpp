@@ -1,7 +1,7 @@
 // `until: steady(e)` on real systems: the table of spec/time.md, on the planes that are quick.
 #include "resumed_run.h"
 
-#include "run/simulation.h"
+#include "run/simulation/simulation.h"
 #include "solvers/field_norms.h"
 
 #include <fmt/format.h>

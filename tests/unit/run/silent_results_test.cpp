@@ -2,7 +2,7 @@
 // runs that are as they should be say nothing.
 #include "run_fixture.h"
 
-#include "run/sweep.h"
+#include "run/commands/sweep.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

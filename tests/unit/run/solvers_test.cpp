@@ -3,7 +3,7 @@
 #include "ran_text.h"
 #include "resumed_run.h"
 
-#include "run/simulation.h"
+#include "run/simulation/simulation.h"
 #include "solvers/field_norms.h"
 
 #include <fmt/format.h>

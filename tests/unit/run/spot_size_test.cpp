@@ -1,7 +1,7 @@
 // The scale of a pattern is a length: it is the same on coarse, fine and badly cut triangles of one
 // surface, whatever the number of cells, and the same as on the plane.
 #include "measure/regions.h"
-#include "run/measured.h"
+#include "run/pictures/measured.h"
 #include "run_fixture.h"
 #include "torus_triangles.h"
 

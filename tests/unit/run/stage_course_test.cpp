@@ -1,5 +1,5 @@
 // What is told of a stage by the few moments that are remembered of it.
-#include "run/stage_course.h"
+#include "run/stage/stage_course.h"
 
 #include <gtest/gtest.h>
 

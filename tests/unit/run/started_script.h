@@ -1,8 +1,8 @@
 // A script whose first stage has its starting values, for tests of what is computed of them.
 #pragma once
 
-#include "run/script.h"
-#include "run/simulation.h"
+#include "run/script/script.h"
+#include "run/simulation/simulation.h"
 
 #include <gtest/gtest.h>
 

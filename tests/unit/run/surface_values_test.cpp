@@ -1,7 +1,7 @@
 // Values that places on a model give its cells, and cells stretched along directions.
 #include "picture/image.h"
-#include "run/model_cells.h"
-#include "run/simulation.h"
+#include "run/domain/model_cells.h"
+#include "run/simulation/simulation.h"
 #include "run_fixture.h"
 
 #include <algorithm>

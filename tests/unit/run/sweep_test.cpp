@@ -1,8 +1,8 @@
 #include "run_fixture.h"
 
 #include "measure/features.h"
-#include "run/csv.h"
-#include "run/sweep.h"
+#include "run/commands/csv.h"
+#include "run/commands/sweep.h"
 
 #include <gmock/gmock.h>
 

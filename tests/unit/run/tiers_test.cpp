@@ -1,7 +1,7 @@
 // Runs whose kernels are interpreted at first: the same bits, whenever they become native code.
 #include "core/hash.h"
 #include "ir/interpreter.h"
-#include "run/simulation.h"
+#include "run/simulation/simulation.h"
 #if CASCADE_HAS_JIT
 #include "jit/jit.h"
 #endif

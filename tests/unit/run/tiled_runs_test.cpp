@@ -1,7 +1,7 @@
 // Scripts whose steps go through memory in tiles of time: the bits of plain steps, on grids, in space, under
 // masks and on models, for all solvers, and what a run does when it is stopped or blows up meanwhile.
-#include "run/script.h"
-#include "run/simulation.h"
+#include "run/script/script.h"
+#include "run/simulation/simulation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Times of a run: parts that add up, whatever is nested in whatever.
-#include "run/time_account.h"
+#include "run/stage/time_account.h"
 #include "tests/unit/run/run_fixture.h"
 
 #include <thread>

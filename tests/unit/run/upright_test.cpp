@@ -3,9 +3,9 @@
 #include "mesh/model_file.h"
 #include "mesh/shapes.h"
 #include "picture/grey_picture.h"
-#include "run/model_files.h"
-#include "run/model_picture.h"
-#include "run/png_texts.h"
+#include "run/pictures/model_files.h"
+#include "run/pictures/model_picture.h"
+#include "run/script/embedded_script.h"
 #include "run_fixture.h"
 #include "surface/place_values.h"
 

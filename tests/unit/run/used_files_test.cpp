@@ -1,8 +1,8 @@
 // `use`, and which files a script may read.
 #include "core/file.h"
 #include "core/granted_files.h"
-#include "run/png_texts.h"
-#include "run/script.h"
+#include "run/script/embedded_script.h"
+#include "run/script/script.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

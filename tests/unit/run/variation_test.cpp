@@ -1,6 +1,6 @@
 // What --vary takes, and the runs that it makes.
-#include "run/csv.h"
-#include "run/variation.h"
+#include "run/commands/csv.h"
+#include "run/commands/variation.h"
 
 #include <gmock/gmock.h>
 

@@ -2,8 +2,8 @@
 // conserve.
 #include "solvers/scheme.h"
 
-#include "unit/solvers/scheme_runner.h"
 #include "solvers/step_control.h"
+#include "unit/solvers/scheme_runner.h"
 
 #include <gtest/gtest.h>
 

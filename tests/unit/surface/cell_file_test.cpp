@@ -1,7 +1,7 @@
 // Cells that are kept: the same ones come back, or a reason why not.
-#include "surface/cell_file.h"
 #include "core/file.h"
 #include "core/hash.h"
+#include "surface/cell_file.h"
 #include "unit/surface/cell_checks.h"
 
 #include <gtest/gtest.h>

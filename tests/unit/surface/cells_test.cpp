@@ -4,9 +4,9 @@
 #include "surface/relax.h"
 #include "surface/scatter.h"
 #include "surface/unfolding.h"
-#include "unit/surface/even_cells.h"
 #include "surface/voronoi_cells.h"
 #include "unit/surface/cell_checks.h"
+#include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>
 

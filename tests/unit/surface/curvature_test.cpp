@@ -1,7 +1,7 @@
 // Curvatures of surfaces for which there are formulas.
+#include "core/hash.h"
 #include "surface/curvature.h"
 #include "surface/place_values.h"
-#include "core/hash.h"
 #include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,7 @@
+#include "core/version.h"
+
+namespace cascade {
+
+std::string_view version() { return CASCADE_VERSION; }
+
+}  // namespace cascade

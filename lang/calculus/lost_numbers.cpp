@@ -1,0 +1,184 @@
+// Comparisons whose operands may be NaN.
+#include "lang/calculus/lost_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace cascade {
+namespace {
+
+bool is_comparison(Function function) {
+    return Function::less <= function && function <= Function::not_equal;
+}
+
+}  // namespace
+
+/// Can it make a NaN of finite numbers?
+bool LostNumbers::makes_nan(const Node& node) const {
+    const auto second = [&]() -> const Node& { return flat_.builder()[node.operands[1]]; };
+    switch (node.function) {
+        case Function::sqrt:
+        case Function::log:
+        case Function::asin:
+        case Function::acos:
+            return true;
+        case Function::divide:
+        case Function::mod:
+            return second().kind != NodeKind::number;
+        case Function::power:
+        case Function::pow:
+            return second().kind != NodeKind::number ||
+                   second().number != std::floor(second().number);
+        default:
+            return false;
+    }
+}
+
+void LostNumbers::know_all_parts() {
+    for (PartId id = static_cast<PartId>(may_be_nan_.size()); id < flat_.builder().size(); ++id) {
+        const Node& node = flat_.builder()[id];
+        bool may = false, is_of_file = false;
+        if (node.kind == NodeKind::call) {
+            may = makes_nan(node);
+            is_of_file = reads_file(node.function);
+            for (std::size_t n = 0; n < operand_count(node); ++n) {
+                may = may || may_be_nan_[node.operands[n]];
+                is_of_file = is_of_file || reads_file_[node.operands[n]];
+            }
+            // A comparison is 0 or 1, whatever is compared.
+            may = may && !is_of_file && !is_comparison(node.function);
+        }
+        may_be_nan_.push_back(may);
+        reads_file_.push_back(is_of_file);
+    }
+}
+
+bool LostNumbers::is_random(PartId root) const {
+    const Formula formula = flat_.builder().formula(root);
+    return std::any_of(formula.nodes.begin(), formula.nodes.end(), [](const Node& node) {
+        return node.kind == NodeKind::call && cascade::is_random(node.function);
+    });
+}
+
+/// Finds the comparisons of a formula and the conditions under which they matter. It does not
+/// recurse, however deep a formula is.
+class LostNumbers::Search {
+public:
+    Search(FormulaBuilder& builder, const std::vector<bool>& may_be_nan)
+        : builder_(builder), may_be_nan_(may_be_nan), seen_(may_be_nan.size(), false) {}
+
+    void find_comparisons(PartId root) {
+        visit_later(root, none);
+        while (!waiting_.empty() && found_.size() < most_found) {
+            const auto [id, guard] = waiting_.back();
+            waiting_.pop_back();
+            visit(id, guard);
+        }
+    }
+    void find_whole(PartId root) {
+        if (may_be_nan_[root]) add(root, none);
+    }
+    std::vector<LostNumber> found() && { return std::move(found_); }
+
+private:
+    static constexpr std::size_t none = SIZE_MAX;
+    /// Formulas of users have a few.
+    static constexpr std::size_t most_found = 64, most_guards = 64;
+
+    /// A part that must not be 0, or that must be, and the guards around it.
+    struct Guard {
+        PartId part = 0;
+        bool is_zero = false;
+        std::size_t around = none;
+        std::size_t depth = 1;
+    };
+
+    std::size_t inside(std::size_t guard, PartId part, bool is_zero) {
+        const std::size_t depth = guard == none ? 1 : guards_[guard].depth + 1;
+        guards_.push_back({part, is_zero, guard, depth});
+        return guards_.size() - 1;
+    }
+
+    /// What is read twice is looked at once.
+    void visit_later(PartId id, std::size_t guard) {
+        if (seen_[id] || (guard != none && guards_[guard].depth > most_guards)) return;
+        seen_[id] = true;
+        waiting_.emplace_back(id, guard);
+    }
+
+    void visit(PartId id, std::size_t guard) {
+        const Node node = builder_[id];
+        if (node.kind != NodeKind::call) return;
+        const PartId first = node.operands[0], second = node.operands[1];
+        switch (node.function) {
+            case Function::if_:
+                visit_later(first, guard);
+                visit_later(second, inside(guard, first, false));
+                visit_later(node.operands[2], inside(guard, first, true));
+                return;
+            case Function::logical_and:
+            case Function::multiply:
+                visit_later(first, inside(guard, second, false));
+                visit_later(second, inside(guard, first, false));
+                return;
+            case Function::logical_or:
+                visit_later(first, inside(guard, second, true));
+                visit_later(second, inside(guard, first, true));
+                return;
+            default:
+                break;
+        }
+        for (std::size_t n = 0; n < operand_count(node); ++n) {
+            const PartId operand = node.operands[n];
+            if (is_comparison(node.function) && may_be_nan_[operand]) add(operand, guard);
+            visit_later(operand, guard);
+        }
+    }
+
+    void add(PartId id, std::size_t guard) {
+        PartId lost = builder_.call(Function::not_equal, {id, id});
+        for (; guard != none; guard = guards_[guard].around) {
+            const Function holds = guards_[guard].is_zero ? Function::equal : Function::not_equal;
+            lost = builder_.call(
+                Function::logical_and,
+                {lost, builder_.call(holds, {guards_[guard].part, builder_.number(0)})});
+        }
+        found_.push_back({builder_.formula(lost), builder_[id].span});
+    }
+
+    FormulaBuilder& builder_;
+    const std::vector<bool>& may_be_nan_;
+    std::vector<bool> seen_;
+    std::vector<std::pair<PartId, std::size_t>> waiting_;  ///< Parts and their guards.
+    std::vector<Guard> guards_;
+    std::vector<LostNumber> found_;
+};
+
+std::vector<LostNumber> LostNumbers::in_comparisons(PartId root) {
+    know_all_parts();
+    if (is_random(root)) return {};
+    Search search(flat_.builder(), may_be_nan_);
+    search.find_comparisons(root);
+    return std::move(search).found();
+}
+
+std::vector<LostNumber> LostNumbers::in_comparisons(const Formula& formula) {
+    return formula.nodes.empty() ? std::vector<LostNumber>() : in_comparisons(flat_.add(formula));
+}
+
+std::vector<LostNumber> LostNumbers::in_rate(std::uint32_t item) {
+    return in_comparisons(flat_.rate(item));
+}
+
+std::vector<LostNumber> LostNumbers::as_whole(const Formula& formula) {
+    const PartId root = flat_.add(formula);
+    know_all_parts();
+    if (is_random(root)) return {};
+    Search search(flat_.builder(), may_be_nan_);
+    search.find_whole(root);
+    return std::move(search).found();
+}
+
+}  // namespace cascade

@@ -1,0 +1,285 @@
+// Slopes through functions, operators and vectors.
+#include "lang/calculus/slopes.h"
+
+#include "lang/calculus/derivative_rules.h"
+
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// Does the function jump as its operand n passes some value?
+bool jumps_by(Function function, std::size_t n) {
+    switch (function) {
+        case Function::logical_or:
+        case Function::logical_and:
+        case Function::logical_not:
+        case Function::less:
+        case Function::less_equal:
+        case Function::greater:
+        case Function::greater_equal:
+        case Function::equal:
+        case Function::not_equal:
+        case Function::step:
+        case Function::sign:
+        case Function::floor:
+        case Function::ceil:
+        case Function::round: return true;
+        case Function::if_: return n == 0;
+        default: return false;
+    }
+}
+
+}  // namespace
+
+SlopeRules::SlopeRules(FormulaBuilder& builder, const Program& program)
+    : builder_(builder),
+      grid_(program.domain.grid),
+      has_metric_(program.domain.surface && program.domain.surface->has_metric),
+      links_(program.domain.model ? std::optional(program.domain.model->largest_weight)
+                                  : std::nullopt),
+      zero_(builder.number(0)) {}
+
+bool SlopeRules::is_zero(const Slope& slope) const {
+    return slope.own == zero_ && slope.far == zero_ && !slope.jumps;
+}
+
+PartId SlopeRules::all_of(const Slope& slope) { return sum(magnitude(slope.own), slope.far); }
+
+void SlopeRules::add(Slope& sum_so_far, const Slope& slope) {
+    sum_so_far.own = sum(sum_so_far.own, slope.own);
+    sum_so_far.far = sum(sum_so_far.far, slope.far);
+    sum_so_far.other = sum(sum_so_far.other, slope.other);
+    sum_so_far.jumps |= slope.jumps;
+    if (sum_so_far.diffusion.size() < slope.diffusion.size()) {
+        sum_so_far.diffusion.resize(slope.diffusion.size(), zero_);
+    }
+    for (std::size_t k = 0; k < slope.diffusion.size(); ++k) {
+        sum_so_far.diffusion[k] = sum(sum_so_far.diffusion[k], slope.diffusion[k]);
+    }
+}
+
+Slope SlopeRules::scaled(const Slope& slope, PartId factor) {
+    const PartId size = magnitude(factor);
+    Slope result{product(slope.own, factor), product(slope.far, size), {},
+                 product(slope.other, size), slope.jumps};
+    for (const PartId each : slope.diffusion) result.diffusion.push_back(product(each, factor));
+    return result;
+}
+
+/// Behind an operator of diffusion, or half of one: a gradient or a divergence.
+Slope SlopeRules::through_diffusion(const Slope& slope, PartId gain) {
+    Slope result = zero();
+    result.jumps = slope.jumps;
+    result.far = product(gain, all_of(slope));
+    result.other = product(gain, slope.other);
+    result.diffusion.push_back(product(gain, slope.own));
+    for (const PartId each : slope.diffusion) result.diffusion.push_back(product(gain, each));
+    return result;
+}
+
+Slope SlopeRules::through_other(const Slope& slope, PartId gain) {
+    const PartId far = product(gain, all_of(slope));
+    return {zero_, far, {}, far, slope.jumps};
+}
+
+/// A factor's slope in a product that goes to faces: what of it is diffusion there cannot be told.
+Slope SlopeRules::as_other(const Slope& slope, PartId factor) {
+    const PartId far = product(slope.far, magnitude(factor));
+    return {product(slope.own, factor), far, {}, far, slope.jumps};
+}
+
+std::optional<Slopes> SlopeRules::slopes_of(PartId id, std::uint32_t species,
+                                            const std::vector<Slopes>& before) {
+    const Node node = builder_[id];
+    Slopes slopes{zero(), zero(), zero()};
+    if (node.kind == NodeKind::own && node.index == species) slopes[0].own = number(1);
+    if (node.kind != NodeKind::call) return slopes;
+    if (node.type == ValueType::vector) note_components(id, node);
+    bool depends = false;
+    for (std::size_t n = 0; n < operand_count(node); ++n) {
+        for (const Slope& slope : before[node.operands[n]]) depends |= !is_zero(slope);
+    }
+    if (node.type == ValueType::tensor) {
+        // A tensor that turns with a species has no rule.
+        if (depends) return std::nullopt;
+        return slopes;
+    }
+    if (!depends) return slopes;
+    if (node.type == ValueType::vector) return of_vector(node, before);
+    const auto slope = of_number(node, before);
+    if (!slope) return std::nullopt;
+    slopes[0] = *slope;
+    return slopes;
+}
+
+std::optional<Slope> SlopeRules::of_number(const Node& node, const std::vector<Slopes>& before) {
+    const Slopes& first = before[node.operands[0]];
+    switch (node.function) {
+        case Function::div: return of_divergence(first);
+        case Function::grad2: return of_squared_gradient(node, first[0]);
+        case Function::advect: return of_advection(node, before);
+        case Function::diffuse:
+            for (std::size_t n = 1; n < 4; ++n) {
+                if (!is_zero(before[node.operands[n]][0])) return std::nullopt;
+            }
+            break;
+        default: break;
+    }
+    if (const auto gain = diffusion_gain(node)) return through_diffusion(first[0], *gain);
+    if (const auto gain = other_gain(node)) return through_other(first[0], *gain);
+    return by_partials(node, before);
+}
+
+std::optional<Slope> SlopeRules::by_partials(const Node& node, const std::vector<Slopes>& before) {
+    Slope slope = zero();
+    for (std::size_t n = 0; n < operand_count(node); ++n) {
+        const Slope& inner = before[node.operands[n]][0];
+        if (is_zero(inner)) continue;
+        const auto partial = partial_derivative(builder_, node, n);
+        if (!partial) return std::nullopt;
+        add(slope, scaled(inner, *partial));
+        slope.jumps |= jumps_by(node.function, n);
+    }
+    return slope;
+}
+
+/// Σ 2 · (derivative of e) · (derivative of the change), along each direction.
+Slope SlopeRules::of_squared_gradient(const Node& node, const Slope& inner) {
+    Slope slope = zero();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!has_axis(axis)) continue;
+        // A central difference reads as far as two faces and has half the gain of one.
+        const PartId along = magnitude(derivative(node.operands[0], axis));
+        add(slope, through_other(inner, product(along, gradient_gain(axis))));
+    }
+    return slope;
+}
+
+/// Upwind, v (c − W) / h: diffusion of the gain −2 |v| / h, and waves of |v| / h.
+Slope SlopeRules::of_advection(const Node& node, const std::vector<Slopes>& before) {
+    const std::size_t velocities = operand_count(node) - 1;
+    const PartId carried = node.operands[velocities];
+    Slope slope = zero();
+    Node by_change = node;
+    bool velocity_changes = false;
+    PartId speed = zero_;
+    for (std::size_t axis = 0; axis < velocities; ++axis) {
+        const PartId velocity = node.operands[axis];
+        const Slope& change = before[velocity][0];
+        by_change.operands[axis] = change.own;
+        velocity_changes |= change.own != zero_;
+        if (!has_axis(axis)) continue;
+        add(slope, as_other({zero_, change.far, {}, change.other, change.jumps},
+                            derivative(carried, axis)));
+        speed = sum(speed, product(magnitude(velocity), gradient_gain(axis)));
+    }
+    if (velocity_changes) slope.own = builder_.part(by_change);
+    const Slope& inner = before[carried][0];
+    Slope carries = through_diffusion(inner, speed);
+    for (PartId& each : carries.diffusion) each = builder_.negate(each);
+    carries.other = sum(carries.other, product(number(0.5), carries.far));
+    add(slope, carries);
+    return slope;
+}
+
+/// What is averaged at faces counts half as a wave: (c + E)/2 − (c + W)/2 leaves (E − W)/2.
+Slope SlopeRules::of_divergence(const Slopes& flux) {
+    Slope slope = zero();
+    Node vector;
+    vector.kind = NodeKind::call;
+    vector.function = Function::vector;
+    vector.type = ValueType::vector;
+    vector.operand_count = static_cast<std::uint8_t>(has_axis(2) ? 3 : 2);
+    bool changes = false;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Slope& along = flux[axis];
+        if (axis < vector.operand_count) vector.operands[axis] = along.own;
+        changes |= along.own != zero_;
+        slope.jumps |= along.jumps;
+        if (!has_axis(axis)) continue;
+        const PartId gain = gradient_gain(axis);
+        slope.far = sum(slope.far, product(gain, all_of(along)));
+        slope.other = sum(slope.other,
+                          product(gain, sum(product(number(0.5), magnitude(along.own)), along.other)));
+        if (slope.diffusion.size() < along.diffusion.size()) {
+            slope.diffusion.resize(along.diffusion.size(), zero_);
+        }
+        for (std::size_t k = 0; k < along.diffusion.size(); ++k) {
+            slope.diffusion[k] = sum(slope.diffusion[k], product(gain, along.diffusion[k]));
+        }
+    }
+    // On a model components make no flux: that of the cell itself is bounded as those of neighbours are.
+    if (changes && !links_) slope.own = builder_.call(Function::div, {builder_.part(vector)});
+    return slope;
+}
+
+std::optional<Slopes> SlopeRules::of_vector(const Node& node, const std::vector<Slopes>& before) {
+    Slopes slopes{zero(), zero(), zero()};
+    const auto operand = [&](std::size_t n) -> const Slopes& { return before[node.operands[n]]; };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!has_axis(axis)) continue;
+        switch (node.function) {
+            case Function::grad:
+                slopes[axis] = through_diffusion(operand(0)[0], gradient_gain(axis));
+                break;
+            case Function::vector:
+                if (axis < operand_count(node)) {
+                    slopes[axis] = as_other(operand(axis)[0], number(1));
+                }
+                break;
+            case Function::negate: slopes[axis] = scaled(operand(0)[axis], number(-1)); break;
+            case Function::add:
+            case Function::subtract:
+                slopes[axis] = operand(0)[axis];
+                add(slopes[axis], scaled(operand(1)[axis],
+                                         number(node.function == Function::add ? 1 : -1)));
+                break;
+            case Function::multiply:
+            case Function::divide: return of_product(node, before);
+            default: return std::nullopt;
+        }
+    }
+    return slopes;
+}
+
+std::optional<Slopes> SlopeRules::of_product(const Node& node, const std::vector<Slopes>& before) {
+    PartId vector = node.operands[0], factor = node.operands[1];
+    if (builder_[vector].type == ValueType::tensor) {
+        return times_tensor(vector, before[factor]);
+    }
+    if (builder_[vector].type != ValueType::vector) std::swap(vector, factor);
+    const bool divides = node.function == Function::divide;
+    const PartId by = divides ? builder_.divide(number(1), factor) : factor;
+    Slopes slopes{zero(), zero(), zero()};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!has_axis(axis)) continue;
+        slopes[axis] = scaled(before[vector][axis], by);
+        PartId value = components_.at(vector)[axis];
+        if (divides) value = builder_.negate(product(value, product(by, by)));
+        add(slopes[axis], as_other(before[factor][0], value));
+    }
+    return slopes;
+}
+
+/// Of a gradient the diagonal is enough: p² a11 + q² a22 + 2 p q √(1 − p²) √(1 − q²) a12 is the
+/// symbol of div(A grad e) in units of 4/h², p and q being sines; it is never above a11 + a22 where
+/// a12² ≤ a11 a22.
+Slopes SlopeRules::times_tensor(PartId tensor, const Slopes& flux) {
+    const Node node = builder_[tensor];
+    const auto [a11, a12, a22] =
+        tensor_entries(node.operands[0], node.operands[1], node.operands[2]);
+    Slopes slopes{scaled(flux[0], a11), scaled(flux[1], a22), zero()};
+    const bool is_gradient = !has_metric_ && flux[0].own == zero_ && flux[1].own == zero_ &&
+                             flux[0].other == zero_ && flux[1].other == zero_;
+    if (is_gradient) return slopes;
+    for (const std::size_t axis : {0, 1}) {
+        Slope across = scaled(flux[1 - axis], a12);
+        across.diffusion.clear();
+        add(slopes[axis], across);
+    }
+    return slopes;
+}
+
+}  // namespace cascade

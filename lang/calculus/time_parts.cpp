@@ -1,0 +1,63 @@
+#include "lang/calculus/time_parts.h"
+
+#include "lang/calculus/flat_rates.h"
+
+#include <algorithm>
+
+namespace cascade {
+
+namespace {
+
+/// What is known of a part of a formula.
+struct Kind {
+    bool is_of_time = false;  ///< It reads constants and `t` alone,
+    bool reads_time = false;  ///< and `t` among them.
+};
+
+Kind kind_of(const Node& node, const std::vector<Kind>& before, const Program& program,
+             std::uint32_t stage) {
+    const bool is_time = node.kind == NodeKind::builtin && static_cast<Builtin>(node.index) == Builtin::t;
+    if (node.kind != NodeKind::call) {
+        const bool is_constant = (node.kind == NodeKind::number || node.kind == NodeKind::own ||
+                                  node.kind == NodeKind::earlier) &&
+                                 node.type == ValueType::number;
+        const bool is_same = !differs_by_cell(node, false, program, stage);
+        return {is_same && (is_time || is_constant), is_time};
+    }
+    const Function function = node.function;
+    Kind kind{!info(function).is_aggregate && !is_random(function) && !varies_by_cell(function) &&
+                  !differentiates(function) && node.type == ValueType::number,
+              false};
+    for (std::size_t n = 0; n < operand_count(node); ++n) {
+        kind.is_of_time = kind.is_of_time && before[node.operands[n]].is_of_time;
+        kind.reads_time = kind.reads_time || before[node.operands[n]].reads_time;
+    }
+    return kind;
+}
+
+}  // namespace
+
+std::vector<Formula> parts_of_time(const Program& program, std::uint32_t stage) {
+    const System& system = program.system_of(stage);
+    FlatRates rates(system);
+    std::vector<Kind> kinds;
+    std::vector<PartId> found;
+    const auto note = [&](PartId id) {
+        const bool is_wanted = kinds[id].is_of_time && kinds[id].reads_time;
+        if (is_wanted && std::find(found.begin(), found.end(), id) == found.end()) found.push_back(id);
+    };
+    for (PartId id = 0; id < rates.part_count(); ++id) {
+        const Node& node = rates.builder()[id];
+        kinds.push_back(kind_of(node, kinds, program, stage));
+        if (node.kind != NodeKind::call || kinds[id].is_of_time) continue;
+        for (std::size_t n = 0; n < operand_count(node); ++n) note(node.operands[n]);
+    }
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        if (system.is_species(item)) note(rates.rate(item));
+    }
+    std::vector<Formula> parts;
+    for (const PartId id : found) parts.push_back(rates.builder().formula(id));
+    return parts;
+}
+
+}  // namespace cascade

@@ -1,0 +1,144 @@
+// The checker: systems first, then stages in order, then the domain and the picture.
+#include "lang/check/check.h"
+
+#include "lang/program/models.h"
+
+#include "core/check.h"
+#include "lang/check/check_blocks.h"
+#include "lang/check/check_semi_implicit.h"
+#include "lang/check/user_functions.h"
+#include "lang/library/library.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace cascade {
+
+namespace {
+
+using checking::Workspace;
+
+/// The systems of the library that the script names, and the script's own. `library` keeps what
+/// was parsed.
+void check_systems(Workspace& work, const ast::Script& script,
+                   const std::vector<LibraryScript>& library) {
+    std::vector<checking::SystemBlock> blocks;
+    for (const LibraryScript& each : library) {
+        blocks.push_back({&each.script, &each.script.blocks[each.block], true});
+    }
+    for (const ast::Block& block : script.blocks) {
+        if (block.kind == ast::BlockKind::system) blocks.push_back({&script, &block, false});
+    }
+    const std::vector<checking::DerivedSystem> systems = checking::derive_systems(work, blocks);
+    std::vector<std::uint32_t> numbers;  // Of each of them in the program.
+    for (const checking::DerivedSystem& each : systems) {
+        std::optional<std::uint32_t> base;
+        if (each.base) base = numbers[*each.base];
+        const std::size_t errors_before = work.diagnostics.error_count();
+        numbers.push_back(checking::check_system(work, each, base));
+        checking::check_system_sides(work, *each.from.script, *each.from.block, numbers.back(), base);
+        const bool is_sound = work.diagnostics.error_count() == errors_before;
+        CHECK(is_sound || !each.from.built_in, "the systems of the library are sound");
+    }
+}
+
+/// Does the domain lie on a surface on which operators measure?
+bool measures_on_surface(const DomainSettings& domain) {
+    return domain.surface && domain.surface->has_metric;
+}
+
+/// The workspace of a program that is checked already.
+Workspace workspace_of(Program& program, Diagnostics& diagnostics) {
+    Workspace work{program, diagnostics, {}, {}, {}, {}, {}, 0};
+    work.on_surface = measures_on_surface(program.domain);
+    for (const System& system : program.systems) {
+        work.names.push_back(checking::names_of(system));
+    }
+    for (std::uint32_t i = 0; i < program.stages.size(); ++i) {
+        work.stages.emplace(program.stages[i].name, i);
+    }
+    return work;
+}
+
+}  // namespace
+
+std::optional<Program> check(const ast::Script& script, Sources& sources,
+                             Diagnostics& diagnostics) {
+    Program program;
+    Diagnostics own;
+    {
+        Workspace work{program, own, {}, {}, {}, {}, {}, 0};
+        const std::vector<LibraryScript> library = read_library(script, sources, own);
+        checking::check_domain(work, script);
+        work.on_surface = measures_on_surface(program.domain);
+        check_systems(work, script, library);
+        checking::functions_of(work, script);  // Those that nothing calls are checked too.
+        checking::check_stages(work, script);
+        checking::check_stage_sides(work, script);
+        checking::check_picture(work, script);
+        // What could not be read may have been what reads a parameter.
+        if (!own.has_errors() && !diagnostics.has_errors()) {
+            checking::warn_unread(work);
+            for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+                checking::check_semi_implicit(program, k, program.stages[k].time.solver_span, own);
+            }
+        }
+    }
+    for (Diagnostic& diagnostic : own.sorted()) diagnostics.add(std::move(diagnostic));
+    if (diagnostics.has_errors()) return std::nullopt;
+    return program;
+}
+
+std::optional<Formula> check_view(const ast::Script& script, ast::Expression expression,
+                                  std::uint32_t stage, std::uint32_t last_stage, Program& program,
+                                  const Sources& /*sources*/, Diagnostics& diagnostics) {
+    Workspace work = workspace_of(program, diagnostics);
+    checking::Scope scope;
+    scope.place = checking::Place::picture;
+    scope.stage = stage;
+    scope.system = program.stages[stage].system;
+    scope.last_stage = last_stage;
+    auto checked = checking::check_expression(work, script, expression, scope);
+    if (!checked) return std::nullopt;
+    if (!has_meaning_on_domain(program, checked->formula, diagnostics)) return std::nullopt;
+    return std::move(checked->formula);
+}
+
+std::optional<ast::Expression> picture_expression(const ast::Script& script) {
+    for (const ast::Block& block : script.blocks) {
+        if (block.kind != ast::BlockKind::picture) continue;
+        for (const ast::Sentence& sentence : block.sentences) {
+            const bool is_color = sentence.kind == ast::SentenceKind::value &&
+                                  sentence.name.text == "color" && !sentence.values.empty();
+            if (is_color) return sentence.values[0];
+        }
+    }
+    return std::nullopt;
+}
+
+std::vector<std::string> known_names(const Program& program) {
+    std::set<std::string> names{"system", "stage", "domain", "picture", "system_name", "grid",
+                                "boundary", "seed", "mask", "mesh", "cells", "laplacian", "color", "periodic", "noflux",
+                                "auto", "steady", "coarse",
+                                "directions", "stretch", "axis", "gradient",
+                                "pi", "and", "or", "not"};
+    names.insert(builtin_names.begin(), builtin_names.end());
+    names.insert(checking::setting_names().begin(), checking::setting_names().end());
+    for (std::string& solver : solver_names()) names.insert(std::move(solver));
+    for (std::size_t i = 0; i < function_count; ++i) {
+        const FunctionInfo& row = info(static_cast<Function>(i));
+        if (!row.is_operator && !row.is_aggregate) names.emplace(row.spelling);
+    }
+    for (const LibraryText& text : library_texts()) names.emplace(text.system_name());
+    for (const System& system : program.systems) {
+        names.insert(system.name);
+        for (const Quantity& quantity : system.quantities) names.insert(quantity.name);
+        for (const Definition& definition : system.definitions) names.insert(definition.name);
+    }
+    for (const Stage& stage : program.stages) names.insert(stage.name);
+    return {names.begin(), names.end()};
+}
+
+}  // namespace cascade

@@ -1,0 +1,94 @@
+// Checking the blocks of a script (internal to the checker). Each adds to the workspace's program.
+#pragma once
+
+#include "lang/check/check_expression.h"
+#include "lang/check/check_names.h"
+#include "lang/check/system_inheritance.h"
+
+namespace cascade::checking {
+
+/// A system; `base` is the number of the one it is derived from. Returns its number. The system is
+/// added even where it has faults, so that what reads it does not give messages of its own; one
+/// whose base is not known is not added (unknown_system).
+std::uint32_t check_system(Workspace& work, const DerivedSystem& derived,
+                           std::optional<std::uint32_t> base);
+
+/// The sentence if it gives a value; else null.
+const ast::Sentence* value_sentence(const ast::Sentence& sentence);
+
+/// The overrides of each stage, in order.
+using StageOverrides = std::vector<std::vector<const ast::Sentence*>>;
+
+/// Finds the stages that each override is for.
+StageOverrides distribute_overrides(Workspace& work, const ast::Script& script);
+
+/// Is this one of the texts of a system, such as title: "Gray-Scott"? It is taken then.
+bool take_text(System& system, const Statement& statement);
+
+/// Sets the range of a parameter whose statement has one; `value` is its default, where known.
+void check_range(Workspace& work, const Statement& statement, Quantity& quantity,
+                 std::optional<double> value);
+
+/// Warns of a value that is known now and lies outside of the parameter's range.
+void warn_outside(Workspace& work, const Quantity& quantity, std::optional<double> value,
+                  Span span);
+
+/// Says that there is no system of this name.
+void report_unknown_system(Workspace& work, const ast::Word& name);
+
+/// All stages of a script, with the overrides.
+void check_stages(Workspace& work, const ast::Script& script);
+
+/// The sides that the block of system `index` gives its species, behind those of system `base`,
+/// which it is derived from.
+void check_system_sides(Workspace& work, const ast::Script& script, const ast::Block& block,
+                        std::uint32_t index, std::optional<std::uint32_t> base);
+
+/// A sentence of the domain about a side, for all species.
+void check_domain_side(Workspace& work, const ast::Script& script, const ast::Sentence& sentence);
+
+/// The sides of all stages, when systems, stages and the domain are known.
+void check_stage_sides(Workspace& work, const ast::Script& script);
+
+/// What changes from outside say of sides, by stage, in their order.
+using SideOverrides = std::vector<std::vector<ast::Sentence>>;
+SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& script);
+
+/// left, right, top, bottom, front, back or sides.
+bool is_side_word(std::string_view word);
+
+/// The `domain` block, if there is one.
+void check_domain(Workspace& work, const ast::Script& script);
+
+/// Settings of the domain that belong to a model. Does the block name one? Else the settings are
+/// faults.
+bool is_model_setting(std::string_view name);
+/// Does `surface:` name a shape, such as sphere, instead of giving three expressions?
+bool is_model_surface(const ast::Script& script, const ast::Sentence& surface);
+bool check_model(Workspace& work, const ast::Script& script, const ast::Block& domain);
+
+/// Settings of the domain that belong to a surface; looked at when the grid is known.
+bool is_surface_setting(std::string_view name);
+void check_surface(Workspace& work, const ast::Script& script, const ast::Block& domain);
+
+/// The `picture` block, if there is one: read as by the last stage that takes a step.
+void check_picture(Workspace& work, const ast::Script& script);
+
+/// Warns of parameters and definitions that nothing reads; in a system that is derived from another
+/// one, what neither changes anything nor is read is an error.
+void warn_unread(Workspace& work);
+
+// Settings that stand in systems and stages.
+
+/// `iterations` or `interval`: a whole number in its range.
+std::optional<std::int64_t> check_count(Workspace& work, const ast::Script& script,
+                                        const ast::Sentence& sentence);
+
+/// The only value of a sentence; an error at the second where it has more.
+bool has_one_value(Workspace& work, const ast::Script& script, const ast::Sentence& sentence);
+
+/// Sets a setting of this name: iterations, interval, frozen, speed or show.
+void check_setting(Workspace& work, const ast::Script& script, const ast::Sentence& sentence,
+                   const Scope& scope, Settings& settings);
+
+}  // namespace cascade::checking

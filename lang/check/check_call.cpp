@@ -1,0 +1,333 @@
+// Calls: how many arguments, where a function may stand, what types it takes, what is known now.
+#include "core/check.h"
+#include "core/palette.h"
+#include "ir/space.h"
+#include "lang/check/expression_checker.h"
+#include "lang/program/fold.h"
+#include "lang/vocabulary/words_elsewhere.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr double largest_of_points = 1e15;
+/// What is taken over something, as in sum(e over i).
+constexpr std::array<std::string_view, 3> only_over{"sum", "mean", "product"};
+
+std::string number_of_values(Arity arity) {
+    if (arity.is_groups) {
+        return fmt::format("groups of {} values{}", arity.least,
+                           arity.most > arity.least ? ", and perhaps one more" : "");
+    }
+    if (arity.least != arity.most) {
+        return fmt::format("{} or {} values", arity.least, arity.most);
+    }
+    return arity.least == 1 ? std::string("1 value") : fmt::format("{} values", arity.least);
+}
+
+}  // namespace
+
+void ExpressionChecker::visit(const ast::Call& call) {
+    const auto function = function_named(call.function.text);
+    if (!function) return unknown_function(call.function);
+    if (!info(*function).arity.takes(call.argument_count)) {
+        return wrong_count(*function, call.argument_count);
+    }
+    if (!belongs_here(*function, call.function.span)) return;
+    if (info(*function).arity.is_groups) return take_surface_value(*function, call);
+    Operands operands{};
+    for (std::uint32_t i = 0; i < call.argument_count; ++i) {
+        operands[i] = part_of(script_.arguments[call.first_argument + i]);
+    }
+    apply(*function, operands, call.argument_count);
+}
+
+/// distance(…) and keys(…): their numbers are known now, so that cells get their values once.
+void ExpressionChecker::take_surface_value(Function function, const ast::Call& call) {
+    SurfaceValue value{function, {}};
+    for (std::uint32_t k = 0; k < call.argument_count; ++k) {
+        const std::uint32_t part = part_of(script_.arguments[call.first_argument + k]);
+        if (parts_[part].faulty) parts_.back().faulty = true;
+        if (parts_.back().faulty) return;
+        if (parts_[part].constant && !(std::abs(parts_[part].value) <= largest_of_points)) {
+            return fault(formula_.nodes[part].span, "this number is too large",
+                         "coordinates are 0..1 along the longest side");
+        }
+        if (!parts_[part].constant) {
+            return fault(formula_.nodes[part].span,
+                         fmt::format("{} takes numbers that are known before the run",
+                                     info(function).spelling),
+                         "the points stay where they are");
+        }
+        value.numbers.push_back(parts_[part].value);
+    }
+    const bool has_smoothing = value.numbers.size() % 4 == 1;
+    if (function == Function::keys && has_smoothing && value.numbers.back() < 0) {
+        const ast::ExprId last = script_.arguments[call.first_argument + call.argument_count - 1];
+        return fault(formula_.nodes[part_of(last)].span, "a length of smoothing is not below 0");
+    }
+    Node& node = formula_.nodes.back();
+    node.kind = NodeKind::surface_value;
+    std::vector<SurfaceValue>& known = work_.program.surface_values;
+    const auto found = std::find(known.begin(), known.end(), value);
+    node.index = static_cast<std::uint32_t>(found - known.begin());
+    if (found == known.end()) known.push_back(std::move(value));
+}
+
+/// mean(e over domain). Aggregates over an index have been written out before.
+void ExpressionChecker::visit(const ast::Over& over) {
+    const auto function = function_named(fmt::format("{} over domain", over.function.text));
+    if (!function || over.index.text != "domain") {
+        return fault(over.function.span,
+                     fmt::format("{} cannot be taken over the domain", over.function.text),
+                     "mean, sum, min and max can");
+    }
+    if (!belongs_here(*function, over.function.span)) return;
+    apply(*function, {part_of(over.operand)}, 1);
+}
+
+void ExpressionChecker::visit(const ast::Indexed&) {
+    CHECK(false, "members of families are names when an expression is checked");
+}
+
+void ExpressionChecker::wrong_count(Function function, std::size_t count) {
+    const FunctionInfo& row = info(function);
+    std::string hint(row.meaning);
+    if (count == 1 && (function == Function::min || function == Function::max)) {
+        hint = fmt::format("over all cells it is {}(e over domain)", row.spelling);
+    }
+    fault(formula_.nodes.back().span,
+          fmt::format("{} takes {}, not {}", row.spelling, number_of_values(row.arity), count),
+          std::move(hint));
+}
+
+void ExpressionChecker::unknown_function(const ast::Word& name) {
+    report_unknown_function(work_, name, functions_of(work_, from_).names());
+    parts_.back().faulty = true;
+}
+
+bool is_function_name(std::string_view name) {
+    return function_named(name) ||
+           std::find(only_over.begin(), only_over.end(), name) != only_over.end();
+}
+
+void report_unknown_function(Workspace& work, const ast::Word& name,
+                             const std::vector<std::string>& own) {
+    if (std::find(only_over.begin(), only_over.end(), name.text) != only_over.end()) {
+        return work.diagnostics.error(
+            name.span, fmt::format("{} is taken over something", name.text),
+            fmt::format("write {0}(e over i) or {0}(e over domain)", name.text));
+    }
+    std::string hint(advice_about(name.text, WordPlace::function));
+    if (hint.empty() && !is_hopeless(work)) {
+        std::vector<std::string> names = own;
+        for (std::size_t i = 0; i < function_count; ++i) {
+            const FunctionInfo& row = info(static_cast<Function>(i));
+            if (!row.is_operator && !row.is_aggregate) names.emplace_back(row.spelling);
+        }
+        hint = did_you_mean(work, name.text, names);
+    }
+    work.diagnostics.error(name.span, fmt::format("there is no function '{}'", name.text),
+                           std::move(hint));
+}
+
+/// Of derivatives along the axes of the grid: on a surface these are no straight lines.
+bool is_grid_derivative(Function function) {
+    switch (function) {
+        case Function::dz:
+        case Function::dxx:
+        case Function::dyy:
+        case Function::dzz:
+        case Function::dxy:
+        case Function::dxz:
+        case Function::dyz: return true;
+        default: return false;
+    }
+}
+
+bool ExpressionChecker::belongs_here(Function function, Span span) {
+    const FunctionInfo& row = info(function);
+    const Place place = scope_.place;
+    const bool at_step = place == Place::rate;
+    const bool at_start = place == Place::value || place == Place::mask;
+    const auto refuse = [&](const char* where) {
+        fault(span, fmt::format("{} cannot stand here", row.spelling), where);
+        return false;
+    };
+    const bool varies = row.is_aggregate || varies_by_cell(function);
+    if (place == Place::position && !fold(function, std::vector<double>(most_operands, 1.0))) {
+        return refuse("a surface is made of numbers, sx, sy and functions of numbers");
+    }
+    if (place == Place::mask && (row.is_aggregate || differentiates(function))) {
+        return refuse("a mask says which cells the domain has, and reads no others");
+    }
+    if (place == Place::mask && needs_model(function)) {
+        return refuse("a mask is that of a plane; it belongs to the cells of a model");
+    }
+    if (work_.on_surface && is_grid_derivative(function)) {
+        return refuse("second derivatives by name have no meaning on a surface; lap and div have");
+    }
+    if (place == Place::constant && varies) {
+        fault(span, fmt::format("{} must be one number, but {} is {}", scope_.subject,
+                                row.spelling,
+                                row.is_aggregate ? "known only in a run" : "varying by cell"));
+        return false;
+    }
+    if (place == Place::bound && varies) {
+        return refuse("a bound is made of numbers and parameters only");
+    }
+    switch (row.places) {
+        case Places::any:
+        case Places::cells: return true;
+        case Places::rates:
+            return at_step || refuse("it belongs in rates and definitions of a system");
+        case Places::values: return at_start || refuse("it belongs in values (name: …)");
+        case Places::noisy:
+            return at_start || at_step || refuse("pictures have no randomness of their own");
+        case Places::picture:
+            return place == Place::picture || refuse("colours belong in pictures");
+    }
+    return true;
+}
+
+void ExpressionChecker::apply(Function function, const Operands& operands, std::size_t count) {
+    Node& node = formula_.nodes.back();
+    node.kind = NodeKind::call;
+    node.function = function;
+    node.operands = operands;
+    node.operand_count = static_cast<std::uint8_t>(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (parts_[operands[i]].faulty) parts_.back().faulty = true;
+    }
+    if (parts_.back().faulty) return;
+    check_types(node);
+    if (!parts_.back().faulty) fold_constants(node);
+}
+
+void ExpressionChecker::need(std::uint32_t part, ValueType type) {
+    const Node& operand = formula_.nodes[part];
+    if (operand.type == type || parts_.back().faulty) return;
+    if (type == ValueType::text) {
+        return fault(operand.span, "a text in quotes is expected here");
+    }
+    const TypeWords words = words_of(operand.type);
+    fault(operand.span, fmt::format("{} is no number", words.name), std::string(words.hint));
+}
+
+void ExpressionChecker::check_types(const Node& node) {
+    const auto& operands = node.operands;
+    if (check_vectors(node)) return;
+    if (differentiates(node.function)) return check_operator(node);
+    switch (node.function) {
+        case Function::if_:
+            need(operands[0], ValueType::number);
+            return check_choice(formula_.nodes.back(), operands[1], operands[2]);
+        case Function::mix:
+            need(operands[2], ValueType::number);
+            return check_choice(formula_.nodes.back(), operands[0], operands[1]);
+        case Function::palette: return check_palette(node);
+        case Function::field:
+        case Function::image:
+        case Function::attr:
+        case Function::uvimage: return need(operands[0], ValueType::text);
+        case Function::noise:
+        case Function::lattice:
+        case Function::diamond: check_lattice(formula_.nodes.back()); break;
+        default: break;
+    }
+    for (std::size_t i = 0; i < node.operand_count; ++i) need(operands[i], ValueType::number);
+    if (node.function == Function::rgb) formula_.nodes.back().type = ValueType::colour;
+}
+
+void ExpressionChecker::check_choice(Node& node, std::uint32_t a, std::uint32_t b) {
+    const ValueType type = formula_.nodes[a].type;
+    const bool is_chosen = type == ValueType::number || type == ValueType::colour;
+    if ((type != formula_.nodes[b].type || !is_chosen) && !parts_.back().faulty) {
+        return fault(formula_.nodes[b].span,
+                     fmt::format("{} chooses between two numbers or two colours",
+                                 info(node.function).spelling));
+    }
+    node.type = type;
+}
+
+void ExpressionChecker::check_palette(const Node& node) {
+    for (std::size_t i = 0; i < 3; ++i) need(node.operands[i], ValueType::number);
+    need(node.operands[3], ValueType::text);
+    if (parts_.back().faulty) return;
+    const Node& text = formula_.nodes[node.operands[3]];
+    const std::string& name = work_.program.texts[text.index];
+    if (find_palette(name) == nullptr) {
+        std::vector<std::string> names;
+        for (const Palette& palette : palettes()) names.emplace_back(palette.name);
+        std::string hint = did_you_mean(work_, name, names);
+        if (hint.empty()) hint = "palettes are " + list_names(names);
+        return fault(text.span, fmt::format("there is no palette '{}'", name), std::move(hint));
+    }
+    formula_.nodes.back().type = ValueType::colour;
+}
+
+/// The first value of noise and lattices is a length; the octaves of noise are counted now.
+void ExpressionChecker::check_lattice(Node& node) {
+    const Part& side = parts_[node.operands[0]];
+    if (side.constant && !(side.value > 0)) {
+        return fault(formula_.nodes[node.operands[0]].span,
+                     fmt::format("the {} must be above 0",
+                                 node.function == Function::noise ? "scale of noise" : "spacing"));
+    }
+    if (node.function != Function::noise) return;
+    node.number = 1;
+    if (node.operand_count < 2) return;
+    const Part& octaves = parts_[node.operands[1]];
+    const bool is_count = octaves.constant && octaves.value == std::floor(octaves.value) &&
+                          octaves.value >= 1 && octaves.value <= most_octaves;
+    if (!is_count) {
+        return fault(formula_.nodes[node.operands[1]].span,
+                     fmt::format("octaves are a whole number from 1 to {}", most_octaves),
+                     "it must be known before the run");
+    }
+    node.number = octaves.value;
+}
+
+void ExpressionChecker::fold_constants(const Node& node) {
+    std::array<double, most_operands> values{};
+    bool constant = true;
+    for (std::size_t i = 0; i < node.operand_count; ++i) {
+        const Part& part = parts_[node.operands[i]];
+        constant = constant && part.constant;
+        values[i] = part.value;
+    }
+    // Numbers are flushed to zero where a float is denormal, so such a divisor is zero as well.
+    const bool divides = node.function == Function::divide || node.function == Function::mod;
+    if (divides && parts_[node.operands[1]].constant &&
+        std::abs(values[1]) < static_cast<double>(FLT_MIN)) {
+        return fault(formula_.nodes[node.operands[1]].span, "division by zero");
+    }
+    if (!constant) return;
+    const auto value = fold(node.function, values);
+    if (!value) return;
+    const bool was_finite = std::all_of(values.begin(), values.begin() + node.operand_count,
+                                        [](double each) { return std::isfinite(each); });
+    const bool was_in_range = std::all_of(values.begin(), values.begin() + node.operand_count,
+                                          [](double each) { return std::abs(each) <= double{FLT_MAX}; });
+    const bool leaves_range = was_in_range && std::abs(*value) > double{FLT_MAX};
+    if (was_finite && (!std::isfinite(*value) || leaves_range)) {
+        const std::string hint =
+            std::isnan(*value)   ? "it is not defined for these numbers"
+            : std::isinf(*value) ? "it is infinite for these numbers"
+                                 : fmt::format("{:.3g} is infinite in single precision, which ends at 3.4e38", *value);
+        Diagnostic diagnostic{Severity::warning, node.span,
+                              fmt::format("{} has no finite value here", info(node.function).spelling),
+                              hint, {}};
+        add_call(work_, diagnostic);
+        work_.diagnostics.add(std::move(diagnostic));
+    }
+    parts_.back() = {false, true, *value};
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,22 @@
+// Cycles: values that read each other (internal to the checker).
+#pragma once
+
+#include "lang/check/check_names.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cascade::checking {
+
+/// Reports a circle of values at the place in `items` where it is read; `from_system[i]` tells
+/// which formulas are defaults, whose places are of less use to the reader.
+void report_item_circle(Workspace& work, const System& system,
+                        const std::vector<const Formula*>& items,
+                        const std::vector<bool>& from_system,
+                        const std::vector<std::uint32_t>& circle);
+
+/// Reports a circle of definitions and rates.
+void report_step_circle(Workspace& work, const System& system,
+                        const std::vector<std::uint32_t>& circle);
+
+}  // namespace cascade::checking

@@ -1,0 +1,14 @@
+// `directions` of a domain with a model (internal to the checker).
+#pragma once
+
+#include "lang/check/check_blocks.h"
+
+#include <optional>
+
+namespace cascade::checking {
+
+/// axis(…), gradient(…), curvature_high, curvature_low or keys(…); nothing with a message.
+std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Script& script,
+                                                  const ast::Sentence& sentence);
+
+}  // namespace cascade::checking

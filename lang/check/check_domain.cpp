@@ -1,0 +1,288 @@
+// The `domain` and `picture` blocks.
+#include "lang/check/check_blocks.h"
+#include "lang/vocabulary/words_elsewhere.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr double most_cells = 2147483648.0;  // 2^31: a cell's number fits a 32-bit word.
+constexpr double largest_seed = 4294967295.0;
+constexpr double least_spacing = 1e-15;  // Its square and inverse square are normal numbers.
+
+const ast::Block* find_block(Workspace& work, const ast::Script& script, ast::BlockKind kind,
+                             const char* name) {
+    const ast::Block* first = nullptr;
+    for (const ast::Block& block : script.blocks) {
+        if (block.kind != kind) continue;
+        if (first == nullptr) {
+            first = &block;
+        } else {
+            report_twice(work, block.keyword.span, first->keyword.span,
+                         fmt::format("there are two {} blocks", name));
+        }
+    }
+    return first;
+}
+
+Span span_of(const ast::Script& script, ast::Expression expression) {
+    return script.expressions[expression.root].span;
+}
+
+/// One side of the grid, or nothing with a message.
+std::optional<double> check_side(Workspace& work, const ast::Script& script,
+                                 ast::Expression expression) {
+    const auto side = check_constant(work, script, expression, "a side of the grid");
+    if (!side) return std::nullopt;
+    if (!(*side >= 1) || *side != std::floor(*side)) {
+        work.diagnostics.error(span_of(script, expression),
+                               "a side of the grid must be a whole number of at least 1");
+        return std::nullopt;
+    }
+    return side;
+}
+
+void check_grid(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (sentence.values.size() > 3) {
+        work.diagnostics.error(span_of(script, sentence.values[3]),
+                               "the grid has one, two or three sides");
+        return;
+    }
+    std::array<std::int64_t, 3> counts{1, 1, 1};
+    double cells = 1;
+    bool is_sound = true;
+    for (std::size_t axis = 0; axis < sentence.values.size(); ++axis) {
+        const auto side = check_side(work, script, sentence.values[axis]);
+        is_sound = is_sound && side.has_value();
+        if (!side) continue;
+        cells *= *side;
+        if (cells <= most_cells) counts[axis] = static_cast<std::int64_t>(*side);
+    }
+    if (!is_sound) return;
+    const Span sides = join(span_of(script, sentence.values.front()),
+                            span_of(script, sentence.values.back()));
+    if (cells < 2) {
+        work.diagnostics.error(sides, "a grid needs more than one cell");
+        return;
+    }
+    if (!(cells <= most_cells)) {
+        work.diagnostics.error(sides, "the grid is too large",
+                               "the largest has 2147483648 cells");
+        return;
+    }
+    Grid& grid = work.program.domain.grid;
+    grid.width = counts[0];
+    grid.height = counts[1];
+    grid.depth = counts[2];
+    work.program.domain.grid_span = sides;
+}
+
+/// `periodic` or `noflux`, or nothing with a message.
+std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& script,
+                                            ast::Expression expression) {
+    const ast::Expr& value = script.expressions[expression.root];
+    if (std::holds_alternative<ast::Garbage>(value.node)) return std::nullopt;
+    const auto* name = std::get_if<ast::Name>(&value.node);
+    const std::string_view word = name != nullptr ? name->name : std::string_view();
+    if (word == "periodic") return Boundary::periodic;
+    if (word == "noflux") return Boundary::no_flux;
+    const auto* call = std::get_if<ast::Call>(&value.node);
+    std::string hint(advice_about(call ? call->function.text : word, WordPlace::boundary));
+    if (hint.empty()) hint = did_you_mean(work, word, {"periodic", "noflux"});
+    work.diagnostics.error(value.span, "the boundary is periodic or noflux", std::move(hint));
+    return std::nullopt;
+}
+
+/// One word for all axes, or one for each.
+void check_boundary(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (sentence.values.size() > 3) {
+        work.diagnostics.error(span_of(script, sentence.values[3]),
+                               "the boundary has one word, or one for each of three axes at most");
+        return;
+    }
+    std::vector<Boundary> along;
+    for (const ast::Expression value : sentence.values) {
+        const auto boundary = check_boundary_word(work, script, value);
+        if (!boundary) return;
+        along.push_back(*boundary);
+    }
+    Boundaries& target = work.program.domain.grid.boundary;
+    target = Boundaries(along[0]);
+    if (along.size() > 1) target.y = along[1];
+    if (along.size() > 1) target.z = along.size() > 2 ? along[2] : Boundary::periodic;
+}
+
+void check_spacing(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (!has_one_value(work, script, sentence)) return;
+    const auto spacing = check_constant(work, script, sentence.values[0], "spacing");
+    if (!spacing) return;
+    if (!(*spacing >= least_spacing && *spacing <= 1 / least_spacing)) {
+        work.diagnostics.error(span_of(script, sentence.values[0]),
+                               *spacing > 0 ? "spacing must be from 1e-15 to 1e15"
+                                            : "spacing must be above 0",
+                               "it is the side of a cell in your unit of length");
+        return;
+    }
+    work.program.domain.grid.spacing = *spacing;
+}
+
+void check_seed(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (!has_one_value(work, script, sentence)) return;
+    const auto seed = check_constant(work, script, sentence.values[0], "seed");
+    if (!seed) return;
+    if (!(*seed >= 0) || *seed > largest_seed || *seed != std::floor(*seed)) {
+        work.diagnostics.error(span_of(script, sentence.values[0]),
+                               "seed must be a whole number from 0 to 4294967295");
+        return;
+    }
+    work.program.domain.seed = static_cast<std::uint32_t>(*seed);
+}
+
+/// What is not 0 where the domain is.
+void check_mask(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (!has_one_value(work, script, sentence)) return;
+    Scope scope;
+    scope.place = Place::mask;
+    scope.system = unknown_system;
+    auto checked = check_number(work, script, sentence.values[0], scope);
+    if (!checked) return;
+    work.program.domain.mask = {std::move(checked->formula), span_of(script, sentence.values[0])};
+}
+
+void check_precision(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (!has_one_value(work, script, sentence)) return;
+    const ast::Expr& value = script.expressions[sentence.values[0].root];
+    if (std::holds_alternative<ast::Garbage>(value.node)) return;
+    const auto* name = std::get_if<ast::Name>(&value.node);
+    const std::string_view word = name != nullptr ? name->name : std::string_view();
+    if (const auto precision = precision_of_name(word)) {
+        work.program.domain.precision = *precision;
+        return;
+    }
+    work.diagnostics.error(value.span, "the precision is single or double",
+                           did_you_mean(work, word, {"single", "double"}));
+}
+
+/// Of one species, in a block that knows none.
+void report_sides(Workspace& work, const ast::Block& block) {
+    for (const ast::Sentence& sentence : block.sides) {
+        work.diagnostics.error(join(sentence.name.span, sentence.side.span),
+                               "the sides of one species belong in its system or in a stage",
+                               "left: … in the domain is for all species");
+    }
+}
+
+void check_domain_sentence(Workspace& work, const ast::Script& script,
+                           const ast::Sentence& sentence) {
+    const std::string_view key = sentence.name.text;
+    if (sentence.kind != ast::SentenceKind::value) {
+        work.diagnostics.error(sentence.span, "a domain holds settings only (name: …)");
+    } else if (key == "grid") {
+        check_grid(work, script, sentence);
+    } else if (key == "boundary") {
+        check_boundary(work, script, sentence);
+    } else if (key == "spacing") {
+        check_spacing(work, script, sentence);
+    } else if (is_side_word(key)) {
+        check_domain_side(work, script, sentence);
+    } else if (key == "seed") {
+        check_seed(work, script, sentence);
+    } else if (key == "mask") {
+        check_mask(work, script, sentence);
+    } else if (key == "precision") {
+        check_precision(work, script, sentence);
+    } else if (is_surface_setting(key) || is_model_setting(key)) {
+        return;  // They come together, see below.
+    } else {
+        std::string hint(advice_about(key, WordPlace::domain));
+        if (hint.empty()) {
+            hint = did_you_mean(work, key, {"grid", "spacing", "boundary", "seed", "mask",
+                                            "precision", "left", "right", "top", "bottom",
+                                            "front", "back", "sides", "mesh", "cells",
+                                            "laplacian", "directions", "stretch", "up"});
+        }
+        if (hint.empty()) {
+            hint = "a domain has grid, spacing, boundary, sides, mask, precision, seed, surface and mesh";
+        }
+        work.diagnostics.error(sentence.name.span,
+                               fmt::format("'{}' is not a setting of the domain", key),
+                               std::move(hint));
+    }
+}
+
+/// The last stage that takes a step, or the last one where none does.
+std::uint32_t shown_stage(const Program& program) {
+    for (std::size_t i = program.stages.size(); i > 0; --i) {
+        if (program.stages[i - 1].iterations > 0) return static_cast<std::uint32_t>(i - 1);
+    }
+    return static_cast<std::uint32_t>(program.stages.size() - 1);
+}
+
+void check_color(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (work.program.stages.empty() || !has_one_value(work, script, sentence)) return;
+    Scope scope;
+    scope.place = Place::picture;
+    scope.stage = shown_stage(work.program);
+    scope.system = work.program.stages[*scope.stage].system;
+    scope.last_stage = static_cast<std::uint32_t>(work.program.stages.size() - 1);
+    const auto checked = check_expression(work, script, sentence.values[0], scope);
+    if (!checked) return;
+    if (checked->type() != ValueType::colour) {
+        work.diagnostics.error(span_of(script, sentence.values[0]), "color must be a colour",
+                               "rgb(…) and palette(…) make colours");
+        return;
+    }
+    mark_reads(work, checked->formula, scope.system);
+}
+
+}  // namespace
+
+void check_domain(Workspace& work, const ast::Script& script) {
+    const ast::Block* block = find_block(work, script, ast::BlockKind::domain, "domain");
+    if (block == nullptr) return;
+    std::unordered_map<std::string, Span> seen;
+    for (const ast::Sentence& sentence : block->sentences) {
+        if (sentence.name.empty() || sentence.values.empty()) continue;
+        const auto [first, is_new] =
+            seen.try_emplace(std::string(sentence.name.text), sentence.name.span);
+        if (is_new) {
+            check_domain_sentence(work, script, sentence);
+        } else {
+            report_twice(work, sentence.name.span, first->second,
+                         fmt::format("'{}' is given a value twice", sentence.name.text));
+        }
+    }
+    report_sides(work, *block);
+    if (!check_model(work, script, *block)) check_surface(work, script, *block);
+}
+
+void check_picture(Workspace& work, const ast::Script& script) {
+    const ast::Block* block = find_block(work, script, ast::BlockKind::picture, "picture");
+    if (block == nullptr) return;
+    report_sides(work, *block);
+    const ast::Sentence* first = nullptr;
+    for (const ast::Sentence& sentence : block->sentences) {
+        if (sentence.name.empty() || sentence.values.empty()) continue;
+        if (sentence.kind != ast::SentenceKind::value || sentence.name.text != "color") {
+            const std::string_view advice = advice_about(sentence.name.text, WordPlace::picture);
+            work.diagnostics.error(
+                sentence.name.span,
+                fmt::format("'{}' is not a setting of the picture", sentence.name.text),
+                advice.empty() ? "a picture has color: …" : std::string(advice));
+        } else if (first != nullptr) {
+            report_twice(work, sentence.name.span, first->name.span,
+                         "'color' is given a value twice");
+        } else {
+            first = &sentence;
+            check_color(work, script, sentence);
+        }
+    }
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,193 @@
+// One expression: from parts of the syntax tree to parts of a formula, one for one and in order.
+#include "lang/check/expression_checker.h"
+
+#include <fmt/format.h>
+
+namespace cascade::checking {
+
+namespace {
+
+/// Texts are looked for among the last few only, so that very many cost no time.
+std::uint32_t add_text(Program& program, const std::string& text) {
+    const std::size_t count = program.texts.size();
+    for (std::size_t i = count; i > 0 && count - i < 64; --i) {
+        if (program.texts[i - 1] == text) return static_cast<std::uint32_t>(i - 1);
+    }
+    program.texts.push_back(text);
+    return static_cast<std::uint32_t>(count);
+}
+
+Function function_of(ast::UnaryOp op) {
+    return op == ast::UnaryOp::negate ? Function::negate : Function::logical_not;
+}
+
+Function function_of(ast::BinaryOp op) {
+    switch (op) {
+        case ast::BinaryOp::logical_or: return Function::logical_or;
+        case ast::BinaryOp::logical_and: return Function::logical_and;
+        case ast::BinaryOp::less: return Function::less;
+        case ast::BinaryOp::less_equal: return Function::less_equal;
+        case ast::BinaryOp::greater: return Function::greater;
+        case ast::BinaryOp::greater_equal: return Function::greater_equal;
+        case ast::BinaryOp::equal: return Function::equal;
+        case ast::BinaryOp::not_equal: return Function::not_equal;
+        case ast::BinaryOp::add: return Function::add;
+        case ast::BinaryOp::subtract: return Function::subtract;
+        case ast::BinaryOp::multiply: return Function::multiply;
+        case ast::BinaryOp::divide: return Function::divide;
+        case ast::BinaryOp::power: return Function::power;
+    }
+    return Function::add;
+}
+
+/// Leaves out the parts that the part `root` does not need, directly or through others, so that it
+/// becomes the last one.
+Formula keep_needed(const Formula& formula, std::uint32_t root) {
+    std::vector<bool> needed(root + 1, false);
+    needed[root] = true;
+    for (std::uint32_t part = root + 1; part-- > 0;) {
+        const Node& node = formula.nodes[part];
+        if (!needed[part] || node.kind != NodeKind::call) continue;
+        for (std::size_t i = 0; i < node.operand_count; ++i) needed[node.operands[i]] = true;
+    }
+    Formula kept;
+    std::vector<std::uint32_t> places(root + 1, 0);
+    for (std::uint32_t part = 0; part <= root; ++part) {
+        if (!needed[part]) continue;
+        places[part] = static_cast<std::uint32_t>(kept.nodes.size());
+        Node node = formula.nodes[part];
+        for (std::size_t i = 0; i < node.operand_count; ++i) {
+            node.operands[i] = places[node.operands[i]];
+        }
+        kept.nodes.push_back(node);
+    }
+    return kept;
+}
+
+}  // namespace
+
+std::optional<CheckedExpression> ExpressionChecker::run() {
+    const std::uint32_t count = expression_.root - expression_.first + 1;
+    formula_.nodes.reserve(count);
+    parts_.reserve(count);
+    find_text_places();
+    bool faulty = false;
+    for (std::uint32_t part = 0; part < count; ++part) {
+        Node node;
+        node.span = expr(part).span;
+        formula_.nodes.push_back(node);
+        parts_.emplace_back();
+        if (expanded_ != nullptr) work_.call = expanded_->calls[part];
+        std::visit([this](const auto& kind) { visit(kind); }, expr(part).node);
+        faulty = faulty || parts_.back().faulty;
+    }
+    work_.call = std::nullopt;
+    if (faulty) return std::nullopt;
+    const std::uint32_t root = expanded_ != nullptr ? expanded_->root : count - 1;
+    CheckedExpression checked;
+    checked.formula =
+        expanded_ != nullptr ? keep_needed(formula_, root) : std::move(formula_);
+    if (parts_[root].constant) checked.constant = parts_[root].value;
+    return checked;
+}
+
+/// Palettes and files are named by texts. A bare word in such a place is no unknown name but a text
+/// without its quotes. The texts of a call that is wrong itself are not told to be misplaced.
+void ExpressionChecker::find_text_places() {
+    wants_text_.assign(expression_.root - expression_.first + 1, false);
+    for (ast::ExprId id = expression_.first; id <= expression_.root; ++id) {
+        const auto* call = std::get_if<ast::Call>(&script_.expressions[id].node);
+        if (call == nullptr) continue;
+        const auto function = function_named(call->function.text);
+        const std::uint32_t end = call->first_argument + call->argument_count;
+        if (!function || !info(*function).arity.takes(call->argument_count)) {
+            for (std::uint32_t k = call->first_argument; k < end; ++k) {
+                const ast::ExprId argument = script_.arguments[k];
+                wants_text_[part_of(argument)] =
+                    std::holds_alternative<ast::Text>(script_.expressions[argument].node);
+            }
+        } else if (function == Function::palette || reads_file(*function)) {
+            wants_text_[part_of(script_.arguments[end - 1])] = true;
+        }
+    }
+}
+
+void ExpressionChecker::visit(const ast::Number& number) {
+    formula_.nodes.back().number = number.value;
+    parts_.back() = {false, true, number.value};
+}
+
+void ExpressionChecker::visit(const ast::Text& text) {
+    Node& node = formula_.nodes.back();
+    node.kind = NodeKind::text;
+    node.type = ValueType::text;
+    if (!wants_text_[parts_.size() - 1]) {
+        return fault(node.span, "a text can only name a palette or a file",
+                     "palette(v, low, high, \"grey\"), field(\"a.npy\")");
+    }
+    node.index = add_text(work_.program, text.value);
+}
+
+void ExpressionChecker::visit(const ast::Name& name) {
+    const Span span = formula_.nodes.back().span;
+    if (wants_text_[parts_.size() - 1]) {
+        return fault(span, "a text in quotes is expected here", fmt::format("\"{}\"", name.name));
+    }
+    take(resolve_bare(work_, scope_, name.name, span));
+}
+
+void ExpressionChecker::visit(const ast::Bracketed& bracketed) {
+    take(resolve_bracketed(work_, scope_, bracketed.name, formula_.nodes.back().span));
+}
+
+void ExpressionChecker::visit(const ast::Qualified& qualified) {
+    take(resolve_qualified(work_, scope_, qualified, formula_.nodes.back().span));
+}
+
+void ExpressionChecker::visit(const ast::RateOf& rate) {
+    take(resolve_rate(work_, scope_, rate.name, formula_.nodes.back().span));
+}
+
+void ExpressionChecker::take(std::optional<Node> node) {
+    if (!node) {
+        parts_.back().faulty = true;
+        return;
+    }
+    if (node->kind == NodeKind::number) parts_.back() = {false, true, node->number};
+    formula_.nodes.back() = *node;
+}
+
+void ExpressionChecker::visit(const ast::Unary& unary) {
+    apply(function_of(unary.op), {part_of(unary.operand)}, 1);
+}
+
+void ExpressionChecker::visit(const ast::Binary& binary) {
+    apply(function_of(binary.op), {part_of(binary.left), part_of(binary.right)}, 2);
+}
+
+std::optional<CheckedExpression> check_expression(Workspace& work, const ast::Script& script,
+                                                  ast::Expression expression,
+                                                  const Scope& scope) {
+    if (!needs_expansion(work, script, expression, scope)) {
+        return check_parts(work, script, expression, scope);
+    }
+    const Expanded expanded = expand(work, script, expression, scope);
+    return ExpressionChecker(work, script, expanded, scope).run();
+}
+
+std::optional<CheckedExpression> check_parts(Workspace& work, const ast::Script& script,
+                                             ast::Expression expression, const Scope& scope) {
+    return ExpressionChecker(work, script, expression, scope).run();
+}
+
+std::optional<CheckedExpression> check_number(Workspace& work, const ast::Script& script,
+                                              ast::Expression expression, const Scope& scope) {
+    auto checked = check_expression(work, script, expression, scope);
+    if (!checked || checked->type() == ValueType::number) return checked;
+    const TypeWords words = words_of(checked->type());
+    work.diagnostics.error(checked->formula.nodes.back().span,
+                           fmt::format("{} is no number", words.name), std::string(words.hint));
+    return std::nullopt;
+}
+
+}  // namespace cascade::checking

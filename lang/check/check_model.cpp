@@ -1,0 +1,260 @@
+// The settings of a domain that is a model: mesh, cells, laplacian, unit, and surfaces by name.
+#include "lang/check/check_blocks.h"
+#include "lang/check/check_directions.h"
+#include "lang/check/setting_words.h"
+#include "lang/program/models.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr double most_stretched = 100;
+constexpr double most_cells = 268435456;  // 2^28: elements of a plane are numbered by 32-bit words.
+
+struct ShapeName {
+    std::string_view word;
+    ModelShape shape;
+    std::size_t sizes;     ///< How many lengths may stand in brackets.
+    std::string_view example;
+};
+constexpr std::array<ShapeName, 5> shape_names{{
+    {"sphere", ModelShape::sphere, 0, "sphere"},
+    {"torus", ModelShape::torus, 2, "torus(1, 0.4)"},
+    {"box", ModelShape::box, 3, "box(1, 1, 2)"},
+    {"creature", ModelShape::creature, 0, "creature"},
+    {"implicit", ModelShape::implicit, 1, "implicit(1 - x^2 - y^2 - z^2)"},
+}};
+
+const ShapeName* shape_of(std::string_view word) {
+    for (const ShapeName& name : shape_names) {
+        if (name.word == word) return &name;
+    }
+    return nullptr;
+}
+
+class ModelChecker {
+public:
+    ModelChecker(Workspace& work, const ast::Script& script, const ast::Block& domain)
+        : work_(work), script_(script), domain_(domain) {}
+
+    void check() {
+        const ast::Sentence* mesh = find("mesh");
+        const ast::Sentence* surface = find("surface");
+        if (surface != nullptr && !is_model_surface(script_, *surface)) surface = nullptr;
+        if (mesh != nullptr && surface != nullptr) {
+            return report_twice(work_, surface->name.span, mesh->name.span,
+                                "a domain has a mesh or a surface, not both");
+        }
+        if (mesh != nullptr) check_mesh(*mesh);
+        if (surface != nullptr) check_shape(*surface);
+        if (!model_) return;
+        if (const auto* cells = find("cells")) check_cells(*cells);
+        if (const auto* laplacian = find("laplacian")) check_laplacian(*laplacian);
+        if (const auto* unit = find("unit")) check_unit(*unit);
+        if (const auto* up = find("up")) check_up(*up);
+        check_anisotropy(find("directions"), find("stretch"));
+        for (const ast::Sentence& other : domain_.sentences) refuse(other);
+        set_model(work_.program, *std::move(model_));
+    }
+
+private:
+    const ast::Sentence* find(std::string_view name) const {
+        for (const ast::Sentence& sentence : domain_.sentences) {
+            if (sentence.name.text == name && !sentence.values.empty()) return &sentence;
+        }
+        return nullptr;
+    }
+
+    /// Settings of rows and columns.
+    void refuse(const ast::Sentence& sentence) {
+        const std::string_view word = sentence.name.text;
+        const bool is_shape = word == "grid" || word == "spacing" || word == "metric";
+        const bool is_border = word == "boundary" || word == "mask" || is_side_word(word);
+        if (!is_shape && !is_border) return;
+        work_.diagnostics.error(sentence.name.span, fmt::format("a model has no {}", word),
+                                is_shape ? "its cells are spread over it: cells: 20000"
+                                         : "it ends where its surface ends, and nothing flows out");
+    }
+
+    Span span_of(const ast::Sentence& sentence) const { return value_of(script_, sentence).span; }
+
+    void check_mesh(const ast::Sentence& sentence) {
+        if (!has_one_value(work_, script_, sentence)) return;
+        const ast::Expr& value = value_of(script_, sentence);
+        if (std::holds_alternative<ast::Garbage>(value.node)) return;
+        const auto* text = std::get_if<ast::Text>(&value.node);
+        if (text == nullptr || text->value.empty()) {
+            work_.diagnostics.error(value.span, "a mesh is the name of a file in quotes",
+                                    shape_of(word_of(value)) != nullptr
+                                        ? fmt::format("write surface: {}", word_of(value))
+                                        : "mesh: \"horse.ply\"");
+            return;
+        }
+        model_.emplace();
+        model_->path = text->value;
+        model_->span = value.span;
+    }
+
+    void check_shape(const ast::Sentence& sentence) {
+        const ast::Expr& value = value_of(script_, sentence);
+        const ShapeName& name = *shape_of(word_of(value));
+        const std::vector<ast::Expression> arguments = arguments_of(script_, sentence.values[0]);
+        const bool is_implicit = name.shape == ModelShape::implicit;
+        const bool has_box = is_implicit && arguments.size() == 2;
+        if (arguments.size() != name.sizes && !has_box && (is_implicit || !arguments.empty())) {
+            work_.diagnostics.error(
+                value.span,
+                name.sizes == 0 ? fmt::format("'{}' stands alone", name.word)
+                                : fmt::format("{} takes {} in brackets", name.word,
+                                              is_implicit ? "an expression of x, y and z, and perhaps half the side of its box"
+                                              : name.sizes == 2 ? "its two radii" : "its three sides"),
+                fmt::format("surface: {}", name.example));
+            return;
+        }
+        ModelSettings model;
+        model.shape = name.shape;
+        model.span = value.span;
+        if (is_implicit) {
+            Scope scope;
+            scope.place = Place::position;
+            auto checked = check_number(work_, script_, arguments[0], scope);
+            if (!checked) return;
+            model.implicit = std::move(checked->formula);
+        }
+        for (const ast::Expression each : std::span(arguments).subspan(is_implicit ? 1 : 0)) {
+            const auto size = check_constant(work_, script_, each, "a size");
+            if (!size) return;
+            if (!(*size >= 1e-6 && *size <= 1e6)) {
+                work_.diagnostics.error(script_.expressions[each.root].span,
+                                        "a size is from 1e-6 to 1e6");
+                return;
+            }
+            model.sizes.push_back(*size);
+        }
+        if (model.shape == ModelShape::torus && !model.sizes.empty() &&
+            model.sizes[1] >= model.sizes[0]) {
+            work_.diagnostics.error(value.span, "the tube of a torus is thinner than its ring",
+                                    "surface: torus(1, 0.4)");
+            return;
+        }
+        model_ = std::move(model);
+    }
+
+    void check_cells(const ast::Sentence& sentence) {
+        if (!has_one_value(work_, script_, sentence)) return;
+        const std::string_view word = word_of(value_of(script_, sentence));
+        model_->cells_span = span_of(sentence);
+        if (word == "faces" || word == "vertices") {
+            model_->cells = word == "faces" ? ModelCellKind::faces : ModelCellKind::vertices;
+            return;
+        }
+        if (std::holds_alternative<ast::Name>(value_of(script_, sentence).node)) {
+            work_.diagnostics.error(span_of(sentence), "cells are a number, faces or vertices",
+                                    did_you_mean(work_, word, {"faces", "vertices"}));
+            return;
+        }
+        const auto count = check_constant(work_, script_, sentence.values[0], "cells");
+        if (!count) return;
+        if (!(*count >= 1 && *count <= most_cells) || *count != std::floor(*count)) {
+            work_.diagnostics.error(span_of(sentence),
+                                    "cells must be a whole number from 1 to 268435456",
+                                    "cells: 20000");
+            return;
+        }
+        model_->count = static_cast<std::int64_t>(*count);
+    }
+
+    void check_laplacian(const ast::Sentence& sentence) {
+        if (!has_one_value(work_, script_, sentence)) return;
+        const std::string_view word = word_of(value_of(script_, sentence));
+        if (word == "turk") {
+            model_->laplacian = ModelLaplacian::turk;
+        } else if (word != "fv") {
+            work_.diagnostics.error(span_of(sentence), "the laplacian of a model is fv or turk",
+                                    did_you_mean(work_, word, {"fv", "turk"}));
+        }
+    }
+
+    void check_unit(const ast::Sentence& sentence) {
+        if (!has_one_value(work_, script_, sentence)) return;
+        const auto unit = check_constant(work_, script_, sentence.values[0], "unit");
+        if (!unit) return;
+        if (!(*unit > 0) || !std::isfinite(*unit)) {
+            work_.diagnostics.error(span_of(sentence), "the unit of length must be above 0");
+            return;
+        }
+        model_->unit = *unit;
+    }
+
+    void check_up(const ast::Sentence& sentence) {
+        if (!has_one_value(work_, script_, sentence)) return;
+        const std::string_view word = word_of(value_of(script_, sentence));
+        if (const auto axis = axis_of_name(word)) {
+            model_->up = *axis;
+        } else {
+            work_.diagnostics.error(span_of(sentence), "the axis that points upwards is x, y or z");
+        }
+    }
+
+    void check_anisotropy(const ast::Sentence* directions, const ast::Sentence* stretch) {
+        if (directions != nullptr) model_->directions = check_directions(work_, script_, *directions);
+        if (stretch == nullptr) return;
+        if (directions == nullptr) {
+            work_.diagnostics.error(stretch->name.span, "cells are stretched along directions",
+                                    "directions: axis(0, 1, 0)");
+            return;
+        }
+        if (!has_one_value(work_, script_, *stretch)) return;
+        const auto ratio = check_constant(work_, script_, stretch->values[0], "stretch");
+        if (!ratio) return;
+        if (!(*ratio >= 1 && *ratio <= most_stretched)) {
+            work_.diagnostics.error(span_of(*stretch), "stretch is from 1 to 100",
+                                    "cells are so many times as long as wide");
+            return;
+        }
+        model_->stretch = *ratio;
+    }
+
+    Workspace& work_;
+    const ast::Script& script_;
+    const ast::Block& domain_;
+    std::optional<ModelSettings> model_;
+};
+
+}  // namespace
+
+bool is_model_setting(std::string_view name) {
+    return name == "mesh" || name == "cells" || name == "laplacian" || name == "directions" ||
+           name == "stretch" || name == "up";
+}
+
+bool is_model_surface(const ast::Script& script, const ast::Sentence& surface) {
+    return surface.values.size() == 1 && shape_of(word_of(value_of(script, surface))) != nullptr;
+}
+
+bool check_model(Workspace& work, const ast::Script& script, const ast::Block& domain) {
+    bool names_model = false;
+    for (const ast::Sentence& sentence : domain.sentences) {
+        if (sentence.values.empty()) continue;
+        names_model |= sentence.name.text == "mesh" ||
+                       (sentence.name.text == "surface" && is_model_surface(script, sentence));
+    }
+    if (names_model) {
+        ModelChecker(work, script, domain).check();
+        return true;
+    }
+    for (const ast::Sentence& sentence : domain.sentences) {
+        if (sentence.values.empty() || !is_model_setting(sentence.name.text)) continue;
+        work.diagnostics.error(sentence.name.span, "only a domain with a model has this setting",
+                               "mesh: \"horse.ply\" or surface: sphere");
+    }
+    return false;
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,386 @@
+// Resolving names: from a word in an expression to the item, definition or built-in it stands for.
+#include "lang/check/check_names.h"
+
+#include "lang/vocabulary/words_elsewhere.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+namespace cascade::checking {
+
+namespace {
+
+const System& system_at(const Workspace& work, std::uint32_t index) {
+    return work.program.systems[index];
+}
+
+Node make_node(NodeKind kind, Span span, std::uint32_t index, std::uint32_t stage = 0) {
+    Node node;
+    node.kind = kind;
+    node.span = span;
+    node.index = index;
+    node.stage = stage;
+    return node;
+}
+
+void report(Workspace& work, Span span, std::string message, std::string hint,
+            std::string note = "") {
+    Diagnostic diagnostic;
+    diagnostic.span = span;
+    diagnostic.message = std::move(message);
+    diagnostic.hint = std::move(hint);
+    if (!note.empty()) diagnostic.notes.push_back({std::nullopt, std::move(note)});
+    add_call(work, diagnostic);
+    work.diagnostics.add(std::move(diagnostic));
+}
+
+/// Are the names of systems out of reach?
+bool is_constant(const Scope& scope) {
+    return scope.place == Place::constant || scope.place == Place::position ||
+           scope.place == Place::mask;
+}
+
+bool is_of_model(std::string_view name) {
+    const auto builtin = builtin_named(name);
+    return builtin && is_of_model(*builtin);
+}
+
+bool varies_by_cell(std::string_view builtin) { return builtin != "t" && builtin != "step"; }
+
+void report_constant(Workspace& work, const Scope& scope, std::string_view name, Span span) {
+    if (scope.place == Place::position) {
+        report(work, span, fmt::format("a surface knows nothing of '{}'", name),
+               "it is made of numbers, sx, sy, pi and functions of them");
+        return;
+    }
+    if (scope.place == Place::mask) {
+        report(work, span, fmt::format("a mask knows nothing of '{}'", name),
+               "it is made of coordinates, numbers, shapes, noise and files");
+        return;
+    }
+    if (reserved(name) == Reserved::builtin && varies_by_cell(name)) {
+        report(work, span,
+               fmt::format("{} must be one number, but '{}' is varying by cell", scope.subject,
+                           name),
+               "");
+        return;
+    }
+    report(work, span, fmt::format("{} must be one number", scope.subject),
+           "only numbers, operators and functions of them can stand here");
+}
+
+std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::string_view name,
+                                    Span span) {
+    if (name == "pi") {
+        Node node = make_node(NodeKind::number, span, 0);
+        node.number = std::numbers::pi;
+        return node;
+    }
+    if (scope.place == Place::constant) {
+        report_constant(work, scope, name, span);
+        return std::nullopt;
+    }
+    if (scope.place == Place::bound) {
+        report(work, span, "a bound is made of numbers and parameters only", "");
+        return std::nullopt;
+    }
+    if ((scope.place == Place::position || scope.place == Place::mask) && is_of_model(name)) {
+        report_constant(work, scope, name, span);
+        return std::nullopt;
+    }
+    if (scope.place == Place::position && !varies_by_cell(name)) {
+        report(work, span, fmt::format("a surface cannot depend on '{}'", name), "it stays as it is");
+        return std::nullopt;
+    }
+    if (scope.place == Place::mask && !varies_by_cell(name)) {
+        report(work, span, fmt::format("a mask cannot depend on '{}'", name), "it stays as it is");
+        return std::nullopt;
+    }
+    if (scope.place == Place::value && !varies_by_cell(name) && !scope.knows_time) {
+        report(work, span, fmt::format("'{}' has no value when a stage starts", name),
+               "it can be read in rates, definitions and pictures");
+        return std::nullopt;
+    }
+    const auto index = static_cast<std::uint32_t>(*builtin_named(name));
+    return make_node(NodeKind::builtin, span, index);
+}
+
+/// Words that belong to the language and are no values of a stage.
+bool report_reserved(Workspace& work, const Scope& scope, std::string_view name, Span span) {
+    const Reserved kind = reserved(name);
+    if (is_constant(scope)) {
+        report_constant(work, scope, name, span);
+        return true;
+    }
+    if (kind == Reserved::setting && name != "frozen" && name != "speed") {
+        report(work, span, fmt::format("the setting '{}' cannot be read", name), "");
+        return true;
+    }
+    return false;
+}
+
+std::vector<std::string> readable_names(const System& system, const Scope& scope) {
+    std::vector<std::string> names = quantity_names(system);
+    if (scope.place == Place::rate) {
+        for (const Definition& definition : system.definitions) names.push_back(definition.name);
+    }
+    for (const std::string_view name : builtin_names) {
+        if (varies_by_cell(name)) names.emplace_back(name);
+    }
+    for (const char* name : {"pi", "frozen", "speed"}) names.push_back(name);
+    return names;
+}
+
+std::string not_a_parameter(std::string_view name, const System& system) {
+    return fmt::format("'{}' is not a parameter of {}", name, system.name);
+}
+
+void report_unknown_own(Workspace& work, const Scope& scope, std::string_view name, Span span) {
+    const System& system = system_at(work, scope.system);
+    if (is_hopeless(work)) return report(work, span, not_a_parameter(name, system), "");
+    if (auto explained = explain_family(work, system, name)) {
+        return report(work, span, std::move(explained->message), std::move(explained->hint));
+    }
+    if (is_incomplete(work, scope.system)) return;
+    const std::string names = list_names(quantity_names(system));
+    std::string hint(advice_about(name, WordPlace::value));
+    if (hint.empty()) hint = did_you_mean(work, name, readable_names(system, scope));
+    if (hint.empty() && scope.place == Place::rate) hint = fmt::format("add {}: 0.1, for example", name);
+    if (function_named(name)) hint = fmt::format("'{0}' is a function: {0}(…)", name);
+    if (name == "steady") hint = "write steady(0.1)";
+    std::string note = fmt::format("{} has {}", system.name, names);
+    if (scope.place == Place::value && scope.stage) {
+        note = fmt::format("[name] reads this stage ({}: {})", system.name, names);
+        if (reserved(name) == Reserved::builtin) {
+            hint = fmt::format("'{}' is built in and needs no brackets", name);
+        }
+    }
+    report(work, span, not_a_parameter(name, system), std::move(hint), std::move(note));
+}
+
+/// A name of the system itself, or of the stage that is being set or shown.
+std::optional<Node> resolve_own(Workspace& work, const Scope& scope, std::string_view name,
+                                Span span) {
+    if (scope.system == unknown_system || report_reserved(work, scope, name, span)) {
+        return std::nullopt;
+    }
+    const Meaning* meaning = find(work.names[scope.system], name);
+    if (meaning == nullptr) {
+        report_unknown_own(work, scope, name, span);
+        return std::nullopt;
+    }
+    if (meaning->is_faulty) return std::nullopt;
+    if (meaning->is_definition) {
+        if (scope.place == Place::rate) {
+            return make_node(NodeKind::definition, span, meaning->index);
+        }
+        report(work, span, fmt::format("'{}' is a definition and cannot be read here", name),
+               "definitions can be read in rates and other definitions");
+        return std::nullopt;
+    }
+    if (scope.place == Place::bound && system_at(work, scope.system).is_species(meaning->index)) {
+        report(work, span, "a bound is made of numbers and parameters only",
+               fmt::format("'{}' is a species", name));
+        return std::nullopt;
+    }
+    return make_node(NodeKind::own, span, meaning->index);
+}
+
+void report_first_stage(Workspace& work, const Scope& scope, std::string_view name, Span span) {
+    std::string hint;
+    if (scope.system != unknown_system && !is_hopeless(work)) {
+        const System& system = system_at(work, scope.system);
+        if (find(work.names[scope.system], name) != nullptr) {
+            hint = fmt::format("[{0}] is the '{0}' of this stage", name);
+        } else {
+            hint = did_you_mean(work, name, readable_names(system, scope));
+        }
+    }
+    report(work, span,
+           fmt::format("'{}' reads the previous stage, but this is the first stage", name),
+           std::move(hint));
+}
+
+void report_unknown_previous(Workspace& work, const Scope& scope, std::string_view name,
+                             Span span) {
+    const Stage& previous = work.program.stages[*scope.stage - 1];
+    const System& system = system_at(work, previous.system);
+    if (is_hopeless(work)) return report(work, span, not_a_parameter(name, system), "");
+    if (auto explained = explain_family(work, system, name)) {
+        return report(work, span, std::move(explained->message), std::move(explained->hint));
+    }
+    if (is_incomplete(work, previous.system)) return;
+    std::string hint;
+    if (scope.system != unknown_system && find(work.names[scope.system], name) != nullptr) {
+        hint = fmt::format("[{0}] is the '{0}' of this stage", name);
+    } else {
+        hint = advice_about(name, WordPlace::value);
+        if (hint.empty()) hint = did_you_mean(work, name, readable_names(system, scope));
+    }
+    report(work, span, not_a_parameter(name, system), std::move(hint),
+           fmt::format("bare names read the previous stage '{}' ({}: {})", previous.name,
+                       system.name, list_names(quantity_names(system))));
+}
+
+/// An item of another stage.
+std::optional<Node> resolve_other(Workspace& work, std::uint32_t stage, std::string_view name,
+                                  Span span) {
+    const System& system = system_at(work, work.program.stages[stage].system);
+    const Meaning* meaning = find(work.names[work.program.stages[stage].system], name);
+    if (meaning == nullptr || meaning->is_faulty) return std::nullopt;
+    if (meaning->is_definition) {
+        report(work, span, fmt::format("'{}' is a definition of {}, not a value of its stages",
+                                       name, system.name), "");
+        return std::nullopt;
+    }
+    return make_node(NodeKind::earlier, span, meaning->index, stage);
+}
+
+std::optional<Node> resolve_previous(Workspace& work, const Scope& scope, std::string_view name,
+                                     Span span) {
+    if (report_reserved(work, scope, name, span)) return std::nullopt;
+    if (*scope.stage == 0) {
+        report_first_stage(work, scope, name, span);
+        return std::nullopt;
+    }
+    const std::uint32_t previous = *scope.stage - 1;
+    const std::uint32_t system = work.program.stages[previous].system;
+    if (system == unknown_system) return std::nullopt;
+    if (find(work.names[system], name) == nullptr) {
+        report_unknown_previous(work, scope, name, span);
+        return std::nullopt;
+    }
+    return resolve_other(work, previous, name, span);
+}
+
+std::vector<std::string> stage_names(const Workspace& work, std::size_t count) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < count && i < work.program.stages.size(); ++i) {
+        names.push_back(work.program.stages[i].name);
+    }
+    return names;
+}
+
+/// The stage that `stage.name` means, or nothing with a message.
+std::optional<std::uint32_t> find_stage(Workspace& work, const Scope& scope,
+                                        const ast::Qualified& qualified) {
+    const std::string_view name = qualified.stage.text;
+    const auto found = work.stages.find(std::string(name));
+    const bool picture = scope.place == Place::picture;
+    const std::size_t readable = picture ? scope.last_stage + 1u : *scope.stage;
+    if (found == work.stages.end()) {
+        std::string hint;
+        if (!is_hopeless(work)) hint = did_you_mean(work, name, stage_names(work, readable));
+        report(work, qualified.stage.span, fmt::format("there is no stage '{}'", name),
+               std::move(hint));
+        return std::nullopt;
+    }
+    if (found->second < readable) return found->second;
+    if (picture) {
+        report(work, qualified.stage.span, fmt::format("stage '{}' has not run yet", name), "");
+    } else if (found->second == *scope.stage) {
+        report(work, qualified.stage.span, fmt::format("'{}' is this stage itself", name),
+               fmt::format("write [{}]", qualified.name.text));
+    } else {
+        report(work, qualified.stage.span, fmt::format("stage '{}' runs after this one", name),
+               "a stage can read earlier stages only");
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Node> resolve_bare(Workspace& work, const Scope& scope, std::string_view name,
+                                 Span span) {
+    if (reserved(name) == Reserved::builtin) return resolve_builtin(work, scope, name, span);
+    if (is_constant(scope)) {
+        report_reserved(work, scope, name, span);
+        return std::nullopt;
+    }
+    if (scope.place == Place::value && scope.stage) {
+        return resolve_previous(work, scope, name, span);
+    }
+    return resolve_own(work, scope, name, span);
+}
+
+std::optional<Node> resolve_bracketed(Workspace& work, const Scope& scope, const ast::Word& name,
+                                      Span span) {
+    if (is_constant(scope)) {
+        report_constant(work, scope, name.text, span);
+        return std::nullopt;
+    }
+    auto node = resolve_own(work, scope, name.text, name.span);
+    if (node) node->span = span;
+    return node;
+}
+
+std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
+                                      const ast::Qualified& qualified, Span span) {
+    if (is_constant(scope)) {
+        report_constant(work, scope, qualified.name.text, span);
+        return std::nullopt;
+    }
+    if (!scope.stage) {
+        report(work, span, "a system cannot read a stage",
+               "a system does not know what ran before it");
+        return std::nullopt;
+    }
+    const auto stage = find_stage(work, scope, qualified);
+    if (!stage) return std::nullopt;
+    const std::uint32_t index = work.program.stages[*stage].system;
+    if (index == unknown_system) return std::nullopt;
+    if (scope.place == Place::picture && *stage == *scope.stage) {
+        return resolve_own(work, scope, qualified.name.text, qualified.name.span);
+    }
+    if (report_reserved(work, scope, qualified.name.text, qualified.name.span)) {
+        return std::nullopt;
+    }
+    if (find(work.names[index], qualified.name.text) == nullptr) {
+        const System& system = system_at(work, index);
+        if (auto explained = explain_family(work, system, qualified.name.text)) {
+            report(work, qualified.name.span, std::move(explained->message),
+                   std::move(explained->hint));
+            return std::nullopt;
+        }
+        const std::vector<std::string> names = quantity_names(system);
+        std::string hint = did_you_mean(work, qualified.name.text, names);
+        report(work, qualified.name.span, not_a_parameter(qualified.name.text, system),
+               std::move(hint), fmt::format("stage '{}' has {}", qualified.stage.text,
+                                            list_names(names)));
+        return std::nullopt;
+    }
+    return resolve_other(work, *stage, qualified.name.text, qualified.name.span);
+}
+
+std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast::Word& name,
+                                 Span span) {
+    if (is_constant(scope)) {
+        report_constant(work, scope, name.text, span);
+        return std::nullopt;
+    }
+    if (scope.place != Place::rate) {
+        report(work, span, fmt::format("the rate {}' cannot be read here", name.text),
+               "rates can be read in rates and definitions");
+        return std::nullopt;
+    }
+    const System& system = system_at(work, scope.system);
+    const Meaning* meaning = find(work.names[scope.system], name.text);
+    if (meaning != nullptr && meaning->is_faulty) return std::nullopt;
+    if (meaning != nullptr && !meaning->is_definition && system.is_species(meaning->index)) {
+        return make_node(NodeKind::rate, span, meaning->index);
+    }
+    if (auto explained = explain_family(work, system, name.text)) {
+        report(work, name.span, std::move(explained->message), std::move(explained->hint));
+        return std::nullopt;
+    }
+    std::vector<std::string> species;
+    for (const Quantity& quantity : system.quantities) {
+        if (quantity.is_species) species.push_back(quantity.name);
+    }
+    report(work, name.span, fmt::format("'{}' is not a species of {}", name.text, system.name),
+           did_you_mean(work, name.text, species));
+    return std::nullopt;
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,114 @@
+// Operators of derivatives, and the vectors and tensors that some of them take.
+//
+// A vector is a flux: grad(e), vector(ex, ey), and what numbers, tensors, + and - make of them. It
+// ends in div, which makes a number of it.
+#include "lang/check/expression_checker.h"
+
+#include <fmt/format.h>
+
+namespace cascade::checking {
+
+TypeWords words_of(ValueType type) {
+    switch (type) {
+        case ValueType::number: return {"a number", ""};
+        case ValueType::colour: return {"a colour", ""};
+        case ValueType::text: return {"a text", ""};
+        case ValueType::vector: return {"a vector", "div(…) makes a number of it"};
+        case ValueType::tensor:
+            return {"a tensor", "it multiplies a vector: div(tensor(a1, a2, theta) * grad(e))"};
+    }
+    return {"", ""};
+}
+
+/// Arithmetic of vectors. False where no operand is a vector or a tensor, so that the function is
+/// one of numbers.
+bool ExpressionChecker::check_vectors(const Node& node) {
+    const auto type_of = [&](std::size_t k) { return formula_.nodes[node.operands[k]].type; };
+    const auto is_geometric = [](ValueType type) {
+        return type == ValueType::vector || type == ValueType::tensor;
+    };
+    const bool is_arithmetic =
+        node.function == Function::add || node.function == Function::subtract ||
+        node.function == Function::multiply || node.function == Function::divide ||
+        node.function == Function::negate;
+    if (!is_arithmetic) return false;
+    const ValueType left = type_of(0);
+    if (node.function == Function::negate) {
+        if (left != ValueType::vector) return false;
+        formula_.nodes.back().type = ValueType::vector;
+        parts_.back().turned = parts_[node.operands[0]].turned;
+        return true;
+    }
+    const ValueType right = type_of(1);
+    if (!is_geometric(left) && !is_geometric(right)) return false;
+    const Span span = node.span;
+    const auto words = [](ValueType type) { return words_of(type).name; };
+    bool fits = false;
+    std::string message, hint;
+    switch (node.function) {
+        case Function::multiply:
+            fits = (left == ValueType::number && right == ValueType::vector) ||
+                   (left == ValueType::vector && right == ValueType::number) ||
+                   (left == ValueType::tensor && right == ValueType::vector);
+            message = fmt::format("{} cannot be multiplied by {}", words(left), words(right));
+            if (left == ValueType::vector && right == ValueType::tensor) {
+                hint = "the tensor stands before the vector";
+            } else {
+                hint = "a number or a tensor can multiply a vector";
+            }
+            break;
+        case Function::divide:
+            fits = left == ValueType::vector && right == ValueType::number;
+            message = fmt::format("{} cannot be divided by {}", words(left), words(right));
+            break;
+        default:
+            fits = left == ValueType::vector && right == ValueType::vector;
+            message = fmt::format("{} and {} cannot be {}", words(left), words(right),
+                                  node.function == Function::add ? "added" : "subtracted");
+    }
+    const bool by_tensor = left == ValueType::tensor;
+    const bool is_turned = parts_[node.operands[0]].turned || parts_[node.operands[1]].turned;
+    if (fits && by_tensor && is_turned && work_.on_surface) {
+        fault(span, "on a surface a tensor cannot multiply what a tensor has multiplied",
+              "make one tensor of the two");
+    } else if (fits) {
+        formula_.nodes.back().type = ValueType::vector;
+        parts_.back().turned = by_tensor || is_turned;
+    } else {
+        fault(span, std::move(message), std::move(hint));
+    }
+    return true;
+}
+
+/// A derivative of what is made of numbers alone is a slip.
+bool ExpressionChecker::is_same_everywhere(std::uint32_t part) {
+    if (!parts_[part].constant) return false;
+    const Node& node = formula_.nodes.back();
+    fault(formula_.nodes[part].span,
+          fmt::format("{} of a number is 0 everywhere", info(node.function).spelling),
+          "it takes something that can differ from cell to cell");
+    return true;
+}
+
+void ExpressionChecker::check_operator(const Node& node) {
+    if (node.function == Function::div) {
+        const Node& flux = formula_.nodes[node.operands[0]];
+        if (flux.type == ValueType::vector) return;
+        return fault(flux.span, "div takes a vector",
+                     "such as grad(e), d * grad(e) or vector(ex, ey)");
+    }
+    for (std::size_t k = 0; k < node.operand_count; ++k) {
+        need(node.operands[k], ValueType::number);
+    }
+    if (parts_.back().faulty) return;
+    switch (node.function) {
+        case Function::vector: formula_.nodes.back().type = ValueType::vector; return;
+        case Function::tensor: formula_.nodes.back().type = ValueType::tensor; return;
+        default: break;
+    }
+    const bool is_first = node.function == Function::diffuse;
+    if (is_same_everywhere(node.operands[is_first ? 0 : node.operand_count - 1u])) return;
+    if (node.function == Function::grad) formula_.nodes.back().type = ValueType::vector;
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,184 @@
+// Changes from outside the script, as of --set: which stages each of them is for.
+#include "lang/check/check_blocks.h"
+#include "lang/vocabulary/words_elsewhere.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cascade::checking {
+
+const ast::Sentence* value_sentence(const ast::Sentence& sentence) {
+    const bool usable = sentence.kind == ast::SentenceKind::value && !sentence.name.empty() &&
+                        !sentence.values.empty();
+    return usable ? &sentence : nullptr;
+}
+
+namespace {
+
+/// Can the sentence set something in this stage?
+bool has_name(const Workspace& work, const Stage& stage, const ast::Sentence& sentence) {
+    if (stage.system == unknown_system) return true;
+    const std::string_view name = sentence.name.text;
+    if (!sentence.index.empty()) return has_family(work.program.systems[stage.system], name);
+    if (reserved(name) != Reserved::no) return true;
+    return find(work.names[stage.system], name) != nullptr;
+}
+
+void report_unknown_override(Workspace& work, const ast::Word& name) {
+    std::vector<std::string> names;
+    for (const Stage& stage : work.program.stages) {
+        if (stage.system == unknown_system) continue;
+        for (std::string& each : quantity_names(work.program.systems[stage.system])) {
+            names.push_back(std::move(each));
+        }
+    }
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    Diagnostic diagnostic;
+    diagnostic.span = name.span;
+    diagnostic.message = fmt::format("no stage has a parameter '{}'", name.text);
+    diagnostic.hint = advice_about(name.text, WordPlace::stage);
+    if (!names.empty()) {
+        diagnostic.notes.push_back({std::nullopt, "there are " + list_names(names)});
+    }
+    names.insert(names.end(), setting_names().begin(), setting_names().end());
+    if (diagnostic.hint.empty()) diagnostic.hint = did_you_mean(work, name.text, names);
+    work.diagnostics.add(std::move(diagnostic));
+}
+
+void report_unknown_stage(Workspace& work, const ast::Word& name) {
+    std::vector<std::string> names;
+    for (const Stage& stage : work.program.stages) names.push_back(stage.name);
+    work.diagnostics.error(name.span, fmt::format("there is no stage '{}'", name.text),
+                           did_you_mean(work, name.text, names));
+}
+
+/// `--set gray_scott.feed=…` where no stage is called so: it holds in every stage of that system.
+bool set_in_stages_of_system(const Workspace& work, std::string_view system,
+                             const ast::Sentence* sentence, StageOverrides& result) {
+    bool used = false;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const std::uint32_t its = work.program.stages[i].system;
+        if (its == unknown_system || work.program.systems[its].name != system) continue;
+        result[i].push_back(sentence);
+        used = true;
+    }
+    return used;
+}
+
+bool is_system(const Workspace& work, std::string_view name) {
+    return std::any_of(work.program.systems.begin(), work.program.systems.end(),
+                       [&](const System& system) { return system.name == name; });
+}
+
+/// Has the stage a species, or a family of such, of the sentence's name?
+bool has_species(const Workspace& work, const Stage& stage, const ast::Sentence& sentence) {
+    if (stage.system == unknown_system) return false;
+    const System& system = work.program.systems[stage.system];
+    const std::string name = sentence.index.empty() ? std::string(sentence.name.text)
+                                                    : fmt::format("{}[", sentence.name.text);
+    return std::any_of(system.quantities.begin(), system.quantities.end(),
+                       [&](const Quantity& quantity) {
+        if (!quantity.is_species) return false;
+        return sentence.index.empty() ? quantity.name == name : quantity.name.starts_with(name);
+    });
+}
+
+/// A change of a side: `stage` is empty where it is for all stages with the species.
+struct SideChange {
+    ast::Word stage;
+    ast::Sentence sentence;
+};
+
+/// Is this about a side? u.left is one if no stage and no system is called u.
+std::optional<SideChange> as_side(const Workspace& work, const ast::Override& change) {
+    if (!change.sentence.side.empty()) return SideChange{change.stage, change.sentence};
+    const bool may_be = !change.stage.empty() && change.sentence.index.empty() &&
+                        is_side_word(change.sentence.name.text) &&
+                        !work.stages.contains(std::string(change.stage.text)) &&
+                        !is_system(work, change.stage.text);
+    if (!may_be) return std::nullopt;
+    SideChange side{{}, change.sentence};
+    side.sentence.side = side.sentence.name;
+    side.sentence.name = change.stage;
+    const bool is_species = std::any_of(
+        work.program.stages.begin(), work.program.stages.end(),
+        [&](const Stage& stage) { return has_species(work, stage, side.sentence); });
+    return is_species ? std::optional(std::move(side)) : std::nullopt;
+}
+
+void report_no_side(Workspace& work, const ast::Word& word) {
+    std::vector<std::string> names(side_names.begin(), side_names.end());
+    names.emplace_back("sides");
+    work.diagnostics.error(word.span, fmt::format("'{}' is no side of the grid", word.text),
+                           did_you_mean(work, word.text, names));
+}
+
+}  // namespace
+
+SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& script) {
+    SideOverrides result(work.program.stages.size());
+    for (const ast::Override& change : script.overrides) {
+        if (value_sentence(change.sentence) == nullptr) continue;
+        const auto side = as_side(work, change);
+        if (!side) continue;
+        const ast::Sentence& sentence = side->sentence;
+        if (!is_side_word(sentence.side.text)) {
+            report_no_side(work, sentence.side);
+            continue;
+        }
+        bool is_stage = false, is_used = false;
+        for (std::size_t k = 0; k < result.size(); ++k) {
+            const Stage& stage = work.program.stages[k];
+            const bool is_its_system =
+                stage.system != unknown_system && !work.stages.contains(std::string(side->stage.text)) &&
+                work.program.systems[stage.system].name == side->stage.text;
+            const bool is_named = stage.name == side->stage.text || is_its_system;
+            is_stage |= is_named;
+            // That a stage which is named lacks the species is said there.
+            if (side->stage.empty() ? !has_species(work, stage, sentence) : !is_named) continue;
+            result[k].push_back(sentence);
+            is_used = true;
+        }
+        if (is_used) continue;
+        if (!side->stage.empty() && !is_stage) {
+            report_unknown_stage(work, side->stage);
+        } else {
+            work.diagnostics.error(sentence.name.span, fmt::format("no stage has a species '{}'",
+                                                                   sentence.name.text));
+        }
+    }
+    return result;
+}
+
+StageOverrides distribute_overrides(Workspace& work, const ast::Script& script) {
+    StageOverrides result(work.program.stages.size());
+    for (const ast::Override& change : script.overrides) {
+        const ast::Sentence* sentence = value_sentence(change.sentence);
+        if (sentence == nullptr || as_side(work, change)) continue;
+        if (!change.stage.empty()) {
+            const auto found = work.stages.find(std::string(change.stage.text));
+            if (found != work.stages.end()) {
+                result[found->second].push_back(sentence);
+                continue;
+            }
+            if (set_in_stages_of_system(work, change.stage.text, sentence, result)) continue;
+            report_unknown_stage(work, change.stage);
+            continue;
+        }
+        bool used = false;
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            if (!has_name(work, work.program.stages[i], *sentence)) continue;
+            result[i].push_back(sentence);
+            used = true;
+        }
+        if (!used) report_unknown_override(work, sentence->name);
+    }
+    return result;
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,84 @@
+#include "lang/check/check_semi_implicit.h"
+
+#include "lang/calculus/diffusion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace cascade::checking {
+
+namespace {
+
+bool is_there(const Formula& factor) { return !factor.nodes.empty(); }
+
+bool has_diffusion(const std::vector<SpeciesDiffusion>& diffusion) {
+    return std::any_of(diffusion.begin(), diffusion.end(), [](const SpeciesDiffusion& species) {
+        return std::any_of(species.begin(), species.end(), is_there);
+    });
+}
+
+/// A species that is held at a side and whose rate applies lap to lap of it, if there is one. The
+/// inner lap lies in a plane, which is mirrored at sides: its waves are none of the species.
+std::optional<std::size_t> held_and_nested(const Stage& stage,
+                                           const std::vector<SpeciesDiffusion>& diffusion) {
+    for (std::size_t s = 0; s < stage.sides.size(); ++s) {
+        const bool is_held = std::any_of(
+            stage.sides[s].begin(), stage.sides[s].end(),
+            [](const SideSetting& side) { return side.kind == SideKind::fixed; });
+        const auto powers = diffusion[s].begin() + laplacian_powers;
+        if (is_held && std::any_of(diffusion[s].begin() + 1, powers, is_there)) return s;
+    }
+    return std::nullopt;
+}
+
+std::string_view species_name(const System& system, std::size_t number) {
+    for (std::uint32_t item = 0;; ++item) {
+        if (system.is_species(item) && number-- == 0) return system.item_name(item);
+    }
+}
+
+}  // namespace
+
+void check_semi_implicit(const Program& program, std::uint32_t stage, Span span,
+                         Diagnostics& diagnostics) {
+    const Stage& checked = program.stages[stage];
+    const Solver solver = checked.time.solver;
+    if (!is_semi_implicit(solver)) return;
+    if (program.domain.surface && program.domain.surface->has_metric) {
+        diagnostics.error(span, fmt::format("stage '{}': {} needs cells that are squares, and these "
+                                            "lie on a surface", checked.name, name_of(solver)),
+                          "rkl1 takes long steps there");
+        return;
+    }
+    if (program.domain.mask) {
+        diagnostics.error(span, fmt::format("stage '{}': {} needs all cells of the grid, and the domain has "
+                                            "a mask", checked.name, name_of(solver)),
+                          "rkl1 takes long steps there");
+        return;
+    }
+    if (!checked.uniform[program.system_of(stage).frozen_item()]) {
+        diagnostics.error(span, fmt::format("stage '{}' freezes cells, which {} cannot: its waves run "
+                                            "through all of them", checked.name, name_of(solver)),
+                          "rkl1 takes long steps around frozen cells");
+        return;
+    }
+    const std::vector<SpeciesDiffusion> diffusion = diffusion_of(program, stage);
+    if (const auto held = held_and_nested(checked, diffusion)) {
+        diagnostics.error(span, fmt::format("stage '{}': {} cannot hold {} at a side, for its rate "
+                                            "applies lap to lap of it", checked.name,
+                                            name_of(solver),
+                                            species_name(program.system_of(stage), *held)),
+                          "rkl1 can");
+    } else if (!has_diffusion(diffusion)) {
+        diagnostics.error(span, fmt::format("stage '{}': {} finds no diffusion to take implicitly",
+                                            checked.name, name_of(solver)),
+                          "it looks for lap, dxx, diffuse or div(k * grad(u)) in the rate of u; "
+                          "rk45 takes what comes");
+    }
+}
+
+}  // namespace cascade::checking

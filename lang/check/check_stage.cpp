@@ -1,0 +1,355 @@
+// Stages: each sentence checked, defaults filled in, the order of items found, and which of them
+// are the same in all cells.
+#include "lang/check/check_blocks.h"
+#include "lang/check/check_cycles.h"
+#include "lang/check/check_expression.h"
+#include "lang/check/check_time.h"
+#include "lang/library/library.h"
+#include "lang/program/dependencies.h"
+#include "lang/vocabulary/words_elsewhere.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr std::size_t most_stages = 1000;
+/// Defaults are copied into every stage; a script whose copies hold more parts than this is
+/// refused before it fills the memory.
+constexpr std::size_t most_copied_nodes = 8u << 20;
+
+Formula number_formula(double value, Span span) {
+    Node node;
+    node.number = value;
+    node.span = span;
+    return {{node}};
+}
+
+class StageChecker {
+public:
+    StageChecker(Workspace& work, const ast::Script& script, std::uint32_t index,
+                 std::size_t& copied)
+        : work_(work), script_(script), index_(index), copied_(copied) {}
+
+    /// `overrides` come from outside the script; of two with one name the last counts.
+    void run(const ast::Block& block, const std::vector<const ast::Sentence*>& overrides);
+
+private:
+    Stage& stage() { return work_.program.stages[index_]; }
+    const System& system() const {
+        return work_.program.systems[work_.program.stages[index_].system];
+    }
+    Scope scope() const {
+        Scope result;
+        result.system = work_.program.stages[index_].system;
+        result.stage = index_;
+        result.last_stage = index_;
+        return result;
+    }
+    std::vector<Statement> collect(const ast::Block& block,
+                                   const std::vector<const ast::Sentence*>& overrides);
+    std::vector<Statement> statements_of(const ast::Sentence& sentence);
+    void set(const Statement& statement);
+    void report_unknown(const Statement& statement);
+    void fill_defaults();
+    void take_default(std::uint32_t item, const Formula* formula, double otherwise);
+    void order_items();
+    void find_uniform();
+
+    Workspace& work_;
+    const ast::Script& script_;
+    std::uint32_t index_;
+    std::size_t& copied_;
+    Settings settings_;
+    std::vector<bool> from_system_;
+};
+
+/// With an unknown system nothing is known of families either.
+std::vector<Statement> StageChecker::statements_of(const ast::Sentence& sentence) {
+    if (stage().system != unknown_system) {
+        return stage_statements(work_, system(), script_, sentence);
+    }
+    Statement statement;
+    statement.script = &script_;
+    statement.sentence = &sentence;
+    statement.name = fmt::format("{}[{}]", sentence.name.text, sentence.index.text);
+    return {std::move(statement)};
+}
+
+std::vector<Statement> StageChecker::collect(const ast::Block& block,
+                                             const std::vector<const ast::Sentence*>& overrides) {
+    std::vector<Statement> statements;
+    std::unordered_map<std::string, std::size_t> positions;
+    const auto add = [&](Statement statement, bool from_outside) {
+        const auto [first, is_new] = positions.try_emplace(statement.name, statements.size());
+        if (is_new) return statements.push_back(std::move(statement));
+        Statement& before = statements[first->second];
+        // u[2]: … says more of u[2] than u[i]: … does; of two overrides the last counts.
+        const bool replaces = from_outside || (before.index && !statement.index);
+        const bool is_replaced = !from_outside && !before.index && statement.index;
+        if (!replaces && !is_replaced) {
+            report_twice(work_, statement.span(), before.span(),
+                         fmt::format("'{}' is given a value twice", statement.name));
+        }
+        if (replaces) before = std::move(statement);
+    };
+    for (const ast::Sentence& sentence : block.sentences) {
+        if (sentence.name.empty()) continue;
+        const ast::Sentence* value = value_sentence(sentence);
+        if (value == nullptr) {
+            if (sentence.kind == ast::SentenceKind::value) continue;
+            work_.diagnostics.error(sentence.span, "a stage holds values only (name: …)",
+                                    sentence.kind == ast::SentenceKind::definition
+                                        ? fmt::format("write {}: …", sentence.name.text)
+                                        : "rates, definitions and bounds belong in a system");
+            continue;
+        }
+        if (sentence.range) {
+            work_.diagnostics.error(sentence.range->span, "the range of a parameter stands in "
+                                                          "its system");
+        }
+        for (Statement& statement : statements_of(*value)) add(std::move(statement), false);
+    }
+    for (const ast::Sentence* sentence : overrides) {
+        for (Statement& statement : statements_of(*sentence)) add(std::move(statement), true);
+    }
+    return statements;
+}
+
+void StageChecker::run(const ast::Block& block,
+                       const std::vector<const ast::Sentence*>& overrides) {
+    const std::vector<Statement> statements = collect(block, overrides);
+    if (stage().system == unknown_system) return;
+    stage().items.resize(system().item_count());
+    from_system_.assign(system().item_count(), false);
+    // An end that comes from outside the script replaces the script's, whichever of the two it is.
+    const SourceId own_source = stage().span.source;
+    const auto is_end = [&](const Statement& statement, bool from_outside) {
+        return is_end_setting(statement.name) &&
+               (statement.span().source != own_source) == from_outside;
+    };
+    const bool has_new_end = std::any_of(statements.begin(), statements.end(), [&](const auto& each) {
+        return is_end(each, true);
+    });
+    for (const Statement& statement : statements) {
+        if (!has_new_end || !is_end(statement, false)) set(statement);
+    }
+    for (const Formula& formula : stage().items) mark_reads(work_, formula, stage().system);
+    for (const auto* formula : {&settings_.show, &settings_.time.until}) {
+        if (*formula) mark_reads(work_, **formula, stage().system);
+    }
+    fill_defaults();
+    order_items();
+    find_uniform();
+    check_time(work_, index_);
+}
+
+void StageChecker::set(const Statement& statement) {
+    const ast::Sentence& sentence = *statement.sentence;
+    const std::string_view name = statement.name;
+    const Reserved kind = reserved(name);
+    if (kind == Reserved::setting) {
+        check_setting(work_, script_, sentence, scope(), settings_);
+        return;
+    }
+    const Meaning* meaning = find(work_.names[stage().system], name);
+    if (meaning == nullptr) return report_unknown(statement);
+    if (meaning->is_faulty) return;
+    if (meaning->is_definition) {
+        work_.diagnostics.error(
+            sentence.name.span,
+            fmt::format("'{}' is a definition of {} and cannot be set", name, system().name));
+        return;
+    }
+    if (!has_one_value(work_, script_, sentence)) return;
+    Scope own = scope();
+    own.index = statement.index;
+    auto checked = check_number(work_, script_, sentence.values[0], own);
+    if (!checked) return;
+    if (meaning->index < system().quantities.size()) {
+        warn_outside(work_, system().quantities[meaning->index], checked->constant,
+                     script_.expressions[sentence.values[0].root].span);
+    }
+    stage().items[meaning->index] = std::move(checked->formula);
+}
+
+void StageChecker::report_unknown(const Statement& statement) {
+    Diagnostic diagnostic;
+    diagnostic.span = statement.span();
+    if (auto explained = explain_family(work_, system(), statement.name)) {
+        work_.diagnostics.error(statement.span(), std::move(explained->message),
+                                std::move(explained->hint));
+        return;
+    }
+    if (is_incomplete(work_, stage().system)) return;
+    diagnostic.message =
+        fmt::format("'{}' is not a parameter of {}", statement.name, system().name);
+    if (!is_hopeless(work_)) {
+        std::vector<std::string> names = quantity_names(system());
+        diagnostic.notes.push_back({std::nullopt, fmt::format("{} has {}", system().name,
+                                                              list_names(names))});
+        names.insert(names.end(), setting_names().begin(), setting_names().end());
+        diagnostic.hint = advice_about(statement.name, WordPlace::stage);
+        if (diagnostic.hint.empty()) diagnostic.hint = did_you_mean(work_, statement.name, names);
+        if (is_side_word(statement.name)) {
+            diagnostic.hint = fmt::format("a side of one species is SPECIES.{0}: …, of all {0}: … in the domain",
+                                          statement.name);
+        }
+    }
+    work_.diagnostics.add(std::move(diagnostic));
+}
+
+void StageChecker::take_default(std::uint32_t item, const Formula* formula, double otherwise) {
+    Formula& target = stage().items[item];
+    if (!target.nodes.empty()) return;
+    from_system_[item] = true;
+    if (formula == nullptr || formula->nodes.empty()) {
+        target = number_formula(otherwise, stage().span);
+        return;
+    }
+    copied_ += formula->nodes.size();
+    if (copied_ > most_copied_nodes) {
+        work_.diagnostics.error(stage().span, "the stages of this script are too large together");
+        target = number_formula(otherwise, stage().span);
+        return;
+    }
+    target = *formula;
+}
+
+void StageChecker::fill_defaults() {
+    const System& from = system();
+    const Settings& defaults = from.settings;
+    const auto pick = [](const std::optional<Formula>& own, const std::optional<Formula>& other) {
+        return own ? &*own : other ? &*other : nullptr;
+    };
+    if (settings_.frozen) stage().items[from.frozen_item()] = std::move(*settings_.frozen);
+    if (settings_.speed) stage().items[from.speed_item()] = std::move(*settings_.speed);
+    mark_reads(work_, stage().items[from.frozen_item()], stage().system);
+    mark_reads(work_, stage().items[from.speed_item()], stage().system);
+    for (std::uint32_t item = 0; item < from.quantities.size(); ++item) {
+        take_default(item, &from.quantities[item].start, 0);
+    }
+    take_default(from.frozen_item(), pick(defaults.frozen, std::nullopt), 0);
+    take_default(from.speed_item(), pick(defaults.speed, std::nullopt), 1);
+
+    Stage& target = stage();
+    fill_time(target, settings_, defaults);
+    if (const Formula* show = pick(settings_.show, defaults.show)) {
+        target.show = *show;
+        return;
+    }
+    Node first_species;
+    first_species.kind = NodeKind::own;
+    first_species.span = target.span;
+    while (first_species.index + 1 < from.quantities.size() &&
+           !from.quantities[first_species.index].is_species) {
+        ++first_species.index;
+    }
+    target.show = {{first_species}};
+}
+
+void StageChecker::order_items() {
+    std::vector<const Formula*> items;
+    for (const Formula& formula : stage().items) items.push_back(&formula);
+    Order order = topological_order(item_dependencies(items));
+    for (const auto& circle : order.circles) {
+        // A circle of defaults has been reported with the system.
+        const bool is_default = std::all_of(circle.begin(), circle.end(), [&](std::uint32_t item) {
+            return from_system_[item];
+        });
+        if (!is_default) report_item_circle(work_, system(), items, from_system_, circle);
+    }
+    stage().order = std::move(order.order);
+}
+
+/// The same in all cells is what reads nothing that differs between cells. An aggregate over the
+/// domain is a single number whatever it is taken of.
+void StageChecker::find_uniform() {
+    Stage& target = stage();
+    target.uniform.assign(target.items.size(), false);
+    std::vector<std::uint32_t> depths(target.items.size());
+    std::vector<bool> varies;
+    for (const std::uint32_t item : target.order) {
+        const std::vector<Node>& nodes = target.items[item].nodes;
+        varies.clear();
+        for (const Node& node : nodes) {
+            bool operand_varies = false;
+            if (node.kind == NodeKind::call) {
+                for (std::size_t k = 0; k < operand_count(node); ++k) {
+                    operand_varies = operand_varies || varies[node.operands[k]];
+                }
+            }
+            varies.push_back(differs_by_cell(node, operand_varies, work_.program, index_));
+        }
+        target.uniform[item] = !system().is_species(item) && (varies.empty() || !varies.back());
+        depths[item] = check_nesting(work_, target.items[item], [&](const Node& node) {
+            return node.kind == NodeKind::own ? depths[node.index] : 0;
+        });
+    }
+}
+
+std::uint32_t find_system(Workspace& work, const ast::Word& name) {
+    const auto found = work.systems.find(std::string(name.text));
+    if (found != work.systems.end()) return found->second;
+    if (!name.empty()) report_unknown_system(work, name);
+    return unknown_system;
+}
+
+void add_stage(Workspace& work, const ast::Block& block) {
+    const auto index = static_cast<std::uint32_t>(work.program.stages.size());
+    Stage stage;
+    stage.span = block.name.empty() ? block.keyword.span : block.name.span;
+    stage.name = block.name.empty() ? fmt::format("stage{}", index + 1)
+                                    : std::string(block.name.text);
+    stage.system = find_system(work, block.base);
+    const auto [first, is_new] = work.stages.try_emplace(stage.name, index);
+    if (!is_new) {
+        report_twice(work, stage.span, work.program.stages[first->second].span,
+                     fmt::format("there are two stages '{}'", stage.name));
+    }
+    work.program.stages.push_back(std::move(stage));
+}
+
+}  // namespace
+
+void report_unknown_system(Workspace& work, const ast::Word& name) {
+    std::vector<std::string> names;
+    if (!is_hopeless(work)) {
+        for (const LibraryText& text : library_texts()) names.emplace_back(text.system_name());
+        for (const System& system : work.program.systems) {
+            if (!system.built_in) names.push_back(system.name);
+        }
+    }
+    Diagnostic diagnostic;
+    diagnostic.span = name.span;
+    diagnostic.message = fmt::format("there is no system '{}'", name.text);
+    diagnostic.hint = did_you_mean(work, name.text, names);
+    diagnostic.notes.push_back({std::nullopt, "'cascade systems' lists those of the library"});
+    work.diagnostics.add(std::move(diagnostic));
+}
+
+void check_stages(Workspace& work, const ast::Script& script) {
+    std::vector<const ast::Block*> blocks;
+    for (const ast::Block& block : script.blocks) {
+        if (block.kind != ast::BlockKind::stage && block.kind != ast::BlockKind::classic_stage) {
+            continue;
+        }
+        if (blocks.size() == most_stages) {
+            work.diagnostics.error(block.keyword.span,
+                                   fmt::format("a script has at most {} stages", most_stages));
+            break;
+        }
+        blocks.push_back(&block);
+        add_stage(work, block);
+    }
+    const StageOverrides overrides = distribute_overrides(work, script);
+    std::size_t copied = 0;
+    for (std::uint32_t i = 0; i < blocks.size(); ++i) {
+        StageChecker(work, script, i, copied).run(*blocks[i], overrides[i]);
+    }
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,204 @@
+// Time of a whole stage: settings and their defaults, and whether they go together.
+#include "lang/check/check.h"
+#include "lang/check/check_semi_implicit.h"
+#include "lang/check/check_time.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr std::int64_t default_iterations = 1000;
+/// A stage that ends by a condition is given up after so many steps.
+constexpr std::int64_t most_iterations_until = 1'000'000;
+
+template <typename T>
+T pick(const std::optional<T>& own, const std::optional<T>& other, T otherwise) {
+    return own.value_or(other.value_or(std::move(otherwise)));
+}
+
+/// Steps that are chosen as the stage runs do not count: they end with the time that as many steps
+/// of the given speed would take.
+void count_duration_in_steps(Stage& stage) {
+    if (stage.time.has_duration() || stage.time.open_end) return;
+    stage.time.duration_in_steps = stage.iterations;
+    stage.iterations = most_iterations;
+}
+
+void fill_end(Stage& stage, const Settings& own, const Settings& defaults) {
+    // What the stage itself says about its end goes before what its system says.
+    const bool own_end = own.iterations || own.time.duration;
+    const auto& iterations = own_end ? own.iterations : defaults.iterations;
+    stage.time.duration = own_end ? own.time.duration : defaults.time.duration;
+    const bool has_condition = stage.time.until || stage.time.steady;
+    stage.time.open_end = has_condition && !own_end;
+    stage.iterations = stage.time.duration   ? most_iterations
+                       : stage.time.open_end ? most_iterations_until
+                                             : iterations.value_or(default_iterations);
+    if (is_adaptive(stage.time.solver)) count_duration_in_steps(stage);
+    const std::int64_t tenth = std::max<std::int64_t>(1, stage.iterations / 10);
+    stage.interval = pick(own.interval, defaults.interval, stage.time.has_duration() ? 0 : tenth);
+}
+
+/// The first part of a formula that reads an item; nothing where none does.
+const Node* find_reader(const Formula& formula, std::uint32_t item) {
+    const auto found = std::find_if(
+        formula.nodes.begin(), formula.nodes.end(),
+        [&](const Node& node) { return node.kind == NodeKind::own && node.index == item; });
+    return found == formula.nodes.end() ? nullptr : &*found;
+}
+
+/// What reads `speed` needs it to be one number, known beforehand.
+const Node* reader_of_speed(const Program& program, const Stage& stage) {
+    const System& system = program.systems[stage.system];
+    std::vector<const Formula*> formulas;
+    for (const Formula& formula : stage.items) formulas.push_back(&formula);
+    for (const Formula& rate : system.rates) formulas.push_back(&rate);
+    for (const Definition& definition : system.definitions) formulas.push_back(&definition.formula);
+    for (const Invariant& invariant : system.invariants) formulas.push_back(&invariant.bound);
+    if (stage.time.until) formulas.push_back(&*stage.time.until);
+    for (const Formula* formula : formulas) {
+        if (const Node* node = find_reader(*formula, system.speed_item())) return node;
+    }
+    return nullptr;
+}
+
+/// The first part that makes a formula differ between cells. Operands stand before what reads them.
+const Node* varying_part(const Program& program, std::uint32_t stage, const Formula& formula) {
+    std::vector<const Node*> cause(formula.nodes.size(), nullptr);
+    for (std::size_t part = 0; part < formula.nodes.size(); ++part) {
+        const Node& node = formula.nodes[part];
+        if (differs_by_cell(node, false, program, stage)) cause[part] = &node;
+        if (node.kind != NodeKind::call || info(node.function).is_aggregate) continue;
+        for (std::size_t n = 0; n < operand_count(node); ++n) {
+            if (cause[part] == nullptr) cause[part] = cause[node.operands[n]];
+        }
+    }
+    return cause.back();
+}
+
+void check_condition(Workspace& work, std::uint32_t stage) {
+    const Node* varying =
+        varying_part(work.program, stage, *work.program.stages[stage].time.until);
+    if (varying == nullptr) return;
+    work.diagnostics.error(varying->span, "a stage ends for all cells at once, and this differs by cell",
+                           "take one number of all cells, as in mean(u over domain) > 0.5");
+}
+
+}  // namespace
+
+void fill_time(Stage& stage, const Settings& own, const Settings& defaults) {
+    StageTime& time = stage.time;
+    time.solver = pick(own.time.solver, defaults.time.solver, Solver::euler);
+    time.solver_span = (own.time.solver ? own : defaults).time.solver_span;
+    time.tolerance = own.time.tolerance ? own.time.tolerance : defaults.time.tolerance;
+    const TimeSettings& largest = own.time.largest_step ? own.time : defaults.time;
+    time.largest_step = largest.largest_step;
+    time.largest_step_span = largest.largest_step_span;
+    time.automatic_speed = pick(own.time.automatic_speed, defaults.time.automatic_speed, false);
+    time.coarse = pick(own.time.coarse, defaults.time.coarse, time.coarse);
+    time.coarse_span = (own.time.coarse ? own : defaults).time.coarse_span;
+    time.check = own.time.check ? own.time.check : defaults.time.check;
+    const bool own_condition = own.time.until || own.time.steady;
+    const TimeSettings& condition = own_condition ? own.time : defaults.time;
+    time.until = condition.until;
+    time.steady = condition.steady;
+    fill_end(stage, own, defaults);
+}
+
+void check_time(Workspace& work, std::uint32_t index) {
+    const Stage& stage = work.program.stages[index];
+    const System& system = work.program.systems[stage.system];
+    const StageTime& time = stage.time;
+    const Formula& speed = stage.items[system.speed_item()];
+    const Span speed_span = speed.nodes.back().span;
+    if (!takes_speed_by_cell(time.solver) && !stage.uniform[system.speed_item()]) {
+        work.diagnostics.error(
+            speed_span, fmt::format("with {} the speed is the same in all cells", name_of(time.solver)),
+            "euler and symplectic take one that varies");
+    }
+    if (time.automatic_speed && !time.has_duration() && !time.open_end) {
+        work.diagnostics.error(speed_span, "with 'speed: auto' a stage ends by its duration",
+                               "write duration: … in place of iterations");
+    }
+    if (time.largest_step && !time.chooses_steps()) {
+        work.diagnostics.error(time.largest_step_span, "'largest_step' limits steps that are chosen, and these "
+                               "are as long as 'speed' says",
+                               "write speed: auto, or take the solver rk23 or rk45");
+    }
+    if (time.chooses_steps()) {
+        if (const Node* reader = reader_of_speed(work.program, stage)) {
+            work.diagnostics.error(
+                reader->span, fmt::format("stage '{}' chooses its steps as it runs: its speed is no "
+                                          "number that can be read", stage.name));
+        }
+    }
+    if (time.until) check_condition(work, index);
+}
+
+}  // namespace cascade::checking
+
+namespace cascade {
+
+void change_solver(Program& program, Solver solver, Span span, Diagnostics& diagnostics) {
+    for (std::uint32_t index = 0; index < program.stages.size(); ++index) {
+        Stage& stage = program.stages[index];
+        const System& system = program.systems[stage.system];
+        if (!takes_speed_by_cell(solver) && !stage.uniform[system.speed_item()]) {
+            diagnostics.error(span, fmt::format("{} cannot take the speed of stage '{}', which varies "
+                                                "by cell", name_of(solver), stage.name));
+            continue;
+        }
+        stage.time.solver = solver;
+        checking::check_semi_implicit(program, index, span, diagnostics);
+        if (is_adaptive(solver) || takes_long_steps(solver)) {
+            checking::count_duration_in_steps(stage);
+            if (stage.time.has_duration()) stage.interval = 0;
+        }
+        if (takes_long_steps(solver)) stage.time.automatic_speed = true;
+        if (!stage.time.chooses_steps()) continue;
+        if (const Node* reader = checking::reader_of_speed(program, stage)) {
+            Diagnostic diagnostic;
+            diagnostic.span = span;
+            diagnostic.message = fmt::format("{} chooses its steps as stage '{}' runs, whose speed is "
+                                             "read", name_of(solver), stage.name);
+            diagnostic.notes.push_back({reader->span, "it is read here"});
+            diagnostics.add(std::move(diagnostic));
+        }
+    }
+}
+
+void check_coarse_starts(const Program& program, Diagnostics& diagnostics) {
+    constexpr std::int64_t fewest_cells = 4;
+    const Grid& grid = program.domain.grid;
+    for (const Stage& stage : program.stages) {
+        const std::int64_t times = stage.time.coarse;
+        if (times == 1) continue;
+        if (program.domain.surface) {
+            diagnostics.error(stage.time.coarse_span,
+                              fmt::format("stage '{}' starts on a coarser grid, which a surface does "
+                                          "not have", stage.name));
+            continue;
+        }
+        if (program.domain.mask) {
+            diagnostics.error(stage.time.coarse_span,
+                              fmt::format("stage '{}' starts on a coarser grid, on which a masked domain "
+                                          "has another shape", stage.name));
+            continue;
+        }
+        for (const std::int64_t cells : {grid.width, grid.height, grid.depth}) {
+            if (cells == 1 || (cells % times == 0 && cells / times >= fewest_cells)) continue;
+            diagnostics.error(stage.time.coarse_span,
+                              fmt::format("a side of {} cells has no grid of {} times as wide cells",
+                                          cells, times),
+                              fmt::format("sides must be multiples of {}, and {} at least", times,
+                                          fewest_cells * times));
+            break;
+        }
+    }
+}
+
+}  // namespace cascade

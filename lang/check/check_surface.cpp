@@ -1,0 +1,99 @@
+// The settings of a domain that lay its grid on a surface: surface, metric, unit.
+#include "lang/check/check_blocks.h"
+
+#include <cmath>
+
+namespace cascade::checking {
+
+namespace {
+
+void check_position(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (sentence.values.size() != 3) {
+        work.diagnostics.error(sentence.span, "a surface is three expressions: x, y and z in space",
+                               "surface: sx, sy, 0.1 * sin(2 * pi * sx)");
+        return;
+    }
+    Scope scope;
+    scope.place = Place::position;
+    std::array<Formula, 3> position;
+    for (std::size_t k = 0; k < 3; ++k) {
+        auto checked = check_number(work, script, sentence.values[k], scope);
+        if (!checked) return;
+        position[k] = std::move(checked->formula);
+    }
+    SurfaceSettings& surface = work.program.domain.surface.emplace();
+    surface.position = std::move(position);
+    surface.span = sentence.name.span;
+}
+
+Span span_of_value(const ast::Script& script, const ast::Sentence& sentence) {
+    return script.expressions[sentence.values[0].root].span;
+}
+
+/// `metric: 0` or `metric: 1`.
+void check_metric(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (!has_one_value(work, script, sentence)) return;
+    const auto metric = check_constant(work, script, sentence.values[0], "metric");
+    if (!metric) return;
+    if (*metric != 0 && *metric != 1) {
+        work.diagnostics.error(span_of_value(script, sentence), "metric is 0 or 1");
+        return;
+    }
+    work.program.domain.surface->has_metric = *metric != 0;
+}
+
+void check_unit(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
+    if (!has_one_value(work, script, sentence)) return;
+    const auto unit = check_constant(work, script, sentence.values[0], "unit");
+    if (!unit) return;
+    if (!(*unit > 0) || !std::isfinite(*unit)) {
+        work.diagnostics.error(span_of_value(script, sentence),
+                               "the unit of length must be above 0");
+        return;
+    }
+    work.program.domain.surface->unit = *unit;
+}
+
+const ast::Sentence* find_sentence(const ast::Block& block, std::string_view name) {
+    for (const ast::Sentence& sentence : block.sentences) {
+        if (sentence.name.text == name && !sentence.values.empty()) return &sentence;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+bool is_surface_setting(std::string_view name) {
+    return name == "surface" || name == "metric" || name == "unit";
+}
+
+void check_surface(Workspace& work, const ast::Script& script, const ast::Block& domain) {
+    const ast::Sentence* surface = find_sentence(domain, "surface");
+    const ast::Sentence* metric = find_sentence(domain, "metric");
+    const ast::Sentence* unit = find_sentence(domain, "unit");
+    if (surface == nullptr) {
+        for (const ast::Sentence* lonely : {metric, unit}) {
+            if (lonely == nullptr) continue;
+            work.diagnostics.error(lonely->name.span,
+                                   "only a domain with a surface has this setting",
+                                   "surface: x, y, z");
+        }
+        return;
+    }
+    check_position(work, script, *surface);
+    if (!work.program.domain.surface) return;
+    const Grid& grid = work.program.domain.grid;
+    if (grid.width < 2 || grid.height < 2 || grid.depth > 1) {
+        work.diagnostics.error(surface->name.span, "a surface needs a grid of two axes",
+                               "grid: 128, 128");
+    }
+    if (grid.spacing != 1) {
+        work.diagnostics.error(surface->name.span,
+                               "a domain has a surface or a spacing, not both",
+                               "unit: … is the length of one unit on a surface");
+    }
+    if (metric != nullptr) check_metric(work, script, *metric);
+    if (unit != nullptr) check_unit(work, script, *unit);
+}
+
+}  // namespace cascade::checking

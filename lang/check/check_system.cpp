@@ -1,0 +1,459 @@
+// A `system` block: what it declares, its formulas, and the order of its definitions and rates.
+#include "lang/check/check_blocks.h"
+#include "lang/check/check_cycles.h"
+#include "lang/check/check_expression.h"
+#include "lang/check/check_time.h"
+#include "lang/program/dependencies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cascade::checking {
+
+namespace {
+
+/// The sentences that make a rate.
+struct RateSentences {
+    const Statement* assignment = nullptr;
+    std::vector<const Statement*> terms;
+    bool empty() const { return assignment == nullptr && terms.empty(); }
+};
+
+class SystemChecker {
+public:
+    SystemChecker(Workspace& work, const DerivedSystem& derived, std::uint32_t index)
+        : work_(work), derived_(derived), index_(index),
+          statements_(system_statements(work, system(), derived.sentences)) {}
+
+    void run();
+
+private:
+    System& system() { return work_.program.systems[index_]; }
+    Scope scope(Place place, const Statement& statement) const {
+        Scope result;
+        result.place = place;
+        result.system = index_;
+        result.index = statement.index;
+        return result;
+    }
+
+    void declare(const Statement& statement);
+    bool can_declare(const Statement& statement);
+    void collect_rate(const Statement& statement);
+    void report_rate_of_definition(const Statement& rate);
+    void report_no_species(const Statement& statement, const Meaning* meaning);
+    void report_families();
+    void report_no_rates();
+    std::optional<CheckedExpression> check_value(const Statement& statement, Place place);
+    void check_values();
+    void check_definitions();
+    void check_rates();
+    void check_invariants();
+    void report_no_bound(const Statement& statement);
+    void check_settings();
+    void order_values();
+    void order_steps();
+    void check_depths();
+
+    Workspace& work_;
+    const DerivedSystem& derived_;
+    std::uint32_t index_;
+    std::vector<Statement> statements_;
+    std::unordered_map<std::string, Span> declared_;
+    std::vector<const Statement*> values_, definitions_, invariants_, settings_;
+    std::vector<const Statement*> rate_sentences_;
+    std::vector<RateSentences> rates_;
+};
+
+void SystemChecker::run() {
+    for (const Index& index : system().indices) declared_.emplace(index.name, index.span);
+    for (const Statement& statement : statements_) declare(statement);
+    report_families();
+    work_.names[index_] = names_of(system());
+    rates_.resize(system().quantities.size());
+    for (const Statement* statement : rate_sentences_) collect_rate(*statement);
+    if (rate_sentences_.empty() && !is_incomplete(work_, index_)) {
+        report_no_rates();
+    }
+    work_.items_read[index_].assign(system().item_count(), false);
+    work_.definitions_read[index_].assign(system().definitions.size(), false);
+    check_values();
+    check_definitions();
+    check_rates();
+    check_invariants();
+    check_settings();
+    order_values();
+    order_steps();
+}
+
+/// `u_t = …` is a definition here, and a rate on paper.
+void SystemChecker::report_no_rates() {
+    const auto is_paper_rate = [&](const Statement* each) {
+        return each->name.size() > 2 && each->name.ends_with("_t");
+    };
+    const auto found = std::find_if(definitions_.begin(), definitions_.end(), is_paper_rate);
+    if (found == definitions_.end()) {
+        work_.diagnostics.error(system().span,
+                                fmt::format("system '{}' has no rates", system().name),
+                                "a rate is written name' = …");
+        return;
+    }
+    for (auto each = found; each != definitions_.end(); ++each) {
+        if (!is_paper_rate(*each)) continue;
+        const std::string_view name = (*each)->name;
+        work_.diagnostics.error((*each)->span(), fmt::format("'{}' is no rate", name),
+                                fmt::format("write {}' = …", name.substr(0, name.size() - 2)));
+    }
+}
+
+bool SystemChecker::can_declare(const Statement& statement) {
+    const std::string_view name = statement.sentence->name.text;
+    const Reserved kind = reserved(name);
+    if (kind == Reserved::builtin) {
+        work_.diagnostics.error(
+            statement.span(), fmt::format("'{}' is built in and cannot be declared", name));
+        return false;
+    }
+    const bool is_member = !statement.sentence->index.empty();
+    if (kind == Reserved::setting && is_member) {
+        work_.diagnostics.error(statement.span(),
+                                fmt::format("'{}' is a setting and no family", name));
+        return false;
+    }
+    if (kind == Reserved::setting && statement.kind() == ast::SentenceKind::definition) {
+        work_.diagnostics.error(statement.span(),
+                                fmt::format("'{}' is a setting and no definition", name),
+                                fmt::format("write {}: …", name));
+        return false;
+    }
+    const auto [first, is_new] = declared_.try_emplace(statement.name, statement.span());
+    if (is_new) return true;
+    report_twice(work_, statement.span(), first->second,
+                 fmt::format("'{}' is given a value twice", statement.name));
+    return false;
+}
+
+void SystemChecker::declare(const Statement& statement) {
+    switch (statement.kind()) {
+        case ast::SentenceKind::value: {
+            if (!can_declare(statement)) return;
+            if (take_text(system(), statement)) return;
+            if (reserved(statement.name) == Reserved::setting) {
+                settings_.push_back(&statement);
+                return;
+            }
+            values_.push_back(&statement);
+            Quantity quantity;
+            quantity.name = statement.name;
+            quantity.span = statement.span();
+            quantity.doc = statement.doc;
+            system().quantities.push_back(std::move(quantity));
+            return;
+        }
+        case ast::SentenceKind::definition:
+            if (!can_declare(statement)) return;
+            definitions_.push_back(&statement);
+            system().definitions.push_back({statement.name, statement.span(), {}});
+            return;
+        case ast::SentenceKind::index: return;
+        case ast::SentenceKind::rate:
+        case ast::SentenceKind::rate_term: rate_sentences_.push_back(&statement); return;
+        case ast::SentenceKind::at_least:
+        case ast::SentenceKind::at_most: invariants_.push_back(&statement); return;
+    }
+}
+
+/// The name of a family cannot be that of a quantity or an index too.
+void SystemChecker::report_families() {
+    for (const Statement& statement : statements_) {
+        const ast::Sentence& sentence = *statement.sentence;
+        const bool declares = statement.kind() == ast::SentenceKind::value ||
+                              statement.kind() == ast::SentenceKind::definition;
+        if (sentence.index.empty() || !declares) continue;
+        const auto plain = declared_.find(std::string(sentence.name.text));
+        if (plain == declared_.end()) continue;
+        Diagnostic diagnostic;
+        diagnostic.span = sentence.name.span;
+        diagnostic.message =
+            fmt::format("'{}' cannot be a family and one quantity", sentence.name.text);
+        diagnostic.notes.push_back({plain->second, "the other is here"});
+        work_.diagnostics.add(std::move(diagnostic));
+    }
+}
+
+/// A name is a definition and has a rate: `u = 1` in place of `u: 1`. In a system that is derived
+/// from another one the later of the two is the slip.
+void SystemChecker::report_rate_of_definition(const Statement& rate) {
+    const auto definition =
+        std::find_if(definitions_.begin(), definitions_.end(),
+                     [&](const Statement* each) { return each->name == rate.name; });
+    if (definition != definitions_.end() && (*definition)->level >= rate.level) {
+        work_.diagnostics.error((*definition)->span(),
+                                fmt::format("'{}' is a species and cannot be a definition", rate.name),
+                                fmt::format("write {}: … for its starting value", rate.name));
+        return;
+    }
+    work_.diagnostics.error(rate.span(),
+                            fmt::format("'{}' is a definition and has no rate", rate.name));
+}
+
+/// A rate of something that is no species: said once, later readers of the name stay silent.
+void SystemChecker::report_no_species(const Statement& statement, const Meaning* meaning) {
+    const std::string& name = statement.name;
+    if (meaning != nullptr && meaning->is_definition) {
+        report_rate_of_definition(statement);
+        return;
+    }
+    if (reserved(name) != Reserved::no) {
+        work_.diagnostics.error(statement.span(), fmt::format("'{}' has no rate", name));
+        return;
+    }
+    if (auto explained = explain_family(work_, system(), name)) {
+        work_.diagnostics.error(statement.span(), std::move(explained->message),
+                                std::move(explained->hint));
+    } else if (!is_incomplete(work_, index_)) {  // Else it may be what could not be read.
+        std::string hint;
+        if (!is_hopeless(work_)) hint = did_you_mean(work_, name, quantity_names(system()));
+        if (hint.empty()) hint = fmt::format("add {}: …", name);
+        work_.diagnostics.error(statement.span(),
+                                fmt::format("species '{}' has no starting value", name),
+                                std::move(hint));
+    }
+    work_.names[index_].emplace(name, Meaning{false, 0, true});
+}
+
+/// A name with a rate is a species.
+void SystemChecker::collect_rate(const Statement& statement) {
+    const Meaning* meaning = find(work_.names[index_], statement.name);
+    const bool is_quantity = meaning != nullptr && !meaning->is_definition &&
+                             meaning->index < system().quantities.size();
+    if (meaning != nullptr && meaning->is_faulty) return;
+    if (!is_quantity) return report_no_species(statement, meaning);
+    system().quantities[meaning->index].is_species = true;
+    RateSentences& rate = rates_[meaning->index];
+    if (statement.kind() == ast::SentenceKind::rate_term) {
+        rate.terms.push_back(&statement);
+    } else if (rate.assignment == nullptr) {
+        rate.assignment = &statement;
+    } else {
+        report_twice(work_, statement.span(), rate.assignment->span(),
+                     fmt::format("the rate of '{}' is given twice", statement.name));
+    }
+}
+
+/// The number that a statement says, or nothing with a message.
+std::optional<CheckedExpression> SystemChecker::check_value(const Statement& statement,
+                                                            Place place) {
+    if (!has_one_value(work_, *statement.script, *statement.sentence)) return std::nullopt;
+    auto checked = check_number(work_, *statement.script, statement.sentence->values[0],
+                                scope(place, statement));
+    if (checked) mark_reads(work_, checked->formula, index_);
+    return checked;
+}
+
+void SystemChecker::check_values() {
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+        Quantity& quantity = system().quantities[i];
+        auto checked = check_value(*values_[i], Place::value);
+        if (checked) quantity.start = std::move(checked->formula);
+        if (values_[i]->range != nullptr) {
+            check_range(work_, *values_[i], quantity, checked ? checked->constant : std::nullopt);
+        }
+    }
+}
+
+void SystemChecker::check_definitions() {
+    for (std::size_t i = 0; i < definitions_.size(); ++i) {
+        auto checked = check_value(*definitions_[i], Place::rate);
+        if (checked) system().definitions[i].formula = std::move(checked->formula);
+    }
+}
+
+/// Appends a term to a sum.
+void superpose(Formula& sum, Formula term) {
+    if (sum.nodes.empty()) {
+        sum = std::move(term);
+        return;
+    }
+    const auto shift = static_cast<std::uint32_t>(sum.nodes.size());
+    for (Node& node : term.nodes) {
+        for (std::uint32_t& operand : node.operands) operand += shift;
+        sum.nodes.push_back(node);
+    }
+    Node addition;
+    addition.kind = NodeKind::call;
+    addition.function = Function::add;
+    addition.span = sum.nodes.back().span;
+    addition.operands = {shift - 1, static_cast<std::uint32_t>(sum.nodes.size() - 1), 0, 0};
+    sum.nodes.push_back(addition);
+}
+
+void SystemChecker::check_rates() {
+    system().rates.resize(system().quantities.size());
+    for (std::size_t i = 0; i < rates_.size(); ++i) {
+        std::vector<const Statement*> statements = rates_[i].terms;
+        if (rates_[i].assignment != nullptr) {
+            statements.insert(statements.begin(), rates_[i].assignment);
+        }
+        for (const Statement* statement : statements) {
+            auto checked = check_value(*statement, Place::rate);
+            if (checked) superpose(system().rates[i], std::move(checked->formula));
+        }
+    }
+}
+
+void SystemChecker::report_no_bound(const Statement& statement) {
+    if (auto explained = explain_family(work_, system(), statement.name)) {
+        work_.diagnostics.error(statement.span(), std::move(explained->message),
+                                std::move(explained->hint));
+        return;
+    }
+    if (is_incomplete(work_, index_)) return;
+    std::vector<std::string> species;
+    for (const Quantity& quantity : system().quantities) {
+        if (quantity.is_species && !is_hopeless(work_)) species.push_back(quantity.name);
+    }
+    std::string hint = did_you_mean(work_, statement.name, species);
+    work_.diagnostics.error(
+        statement.span(),
+        fmt::format("'{}' is not a species of {}", statement.name, system().name),
+        std::move(hint));
+}
+
+void SystemChecker::check_invariants() {
+    for (const Statement* statement : invariants_) {
+        const Meaning* meaning = find(work_.names[index_], statement->name);
+        if (meaning != nullptr && meaning->is_faulty) continue;
+        if (meaning == nullptr || meaning->is_definition || !system().is_species(meaning->index)) {
+            report_no_bound(*statement);
+            continue;
+        }
+        auto checked = check_value(*statement, Place::bound);
+        if (!checked) continue;
+        system().invariants.push_back({meaning->index,
+                                       statement->kind() == ast::SentenceKind::at_least,
+                                       std::move(checked->formula)});
+    }
+}
+
+void SystemChecker::check_settings() {
+    Settings settings;
+    std::uint32_t level_of_end = 0;
+    for (const Statement* statement : settings_) {
+        if (is_end_setting(statement->name)) level_of_end = std::max(level_of_end, statement->level);
+    }
+    for (const Statement* statement : settings_) {
+        if (is_end_setting(statement->name) && statement->level < level_of_end) continue;
+        check_setting(work_, *statement->script, *statement->sentence,
+                      scope(Place::value, *statement), settings);
+    }
+    for (const auto* formula :
+         {&settings.frozen, &settings.speed, &settings.show, &settings.time.until}) {
+        if (*formula) mark_reads(work_, **formula, index_);
+    }
+    system().settings = std::move(settings);
+}
+
+/// Defaults that need each other are a fault of the system, whatever its stages replace.
+void SystemChecker::order_values() {
+    std::vector<const Formula*> items;
+    for (const Quantity& quantity : system().quantities) items.push_back(&quantity.start);
+    const Settings& settings = system().settings;
+    items.push_back(settings.frozen ? &*settings.frozen : nullptr);
+    items.push_back(settings.speed ? &*settings.speed : nullptr);
+    const Order order = topological_order(item_dependencies(items));
+    const std::vector<bool> from_system(items.size(), false);
+    for (const auto& circle : order.circles) {
+        report_item_circle(work_, system(), items, from_system, circle);
+    }
+}
+
+/// Puts definitions behind those they read and finds the order of the rates.
+void SystemChecker::order_steps() {
+    System& target = system();
+    const Order order = topological_order(step_dependencies(target));
+    for (const auto& circle : order.circles) report_step_circle(work_, target, circle);
+    const auto count = static_cast<std::uint32_t>(target.definitions.size());
+    std::vector<std::uint32_t> position(count);
+    std::vector<Definition> definitions;
+    std::vector<bool> read;
+    for (const std::uint32_t value : order.order) {
+        if (value < count) {
+            position[value] = static_cast<std::uint32_t>(definitions.size());
+            definitions.push_back(std::move(target.definitions[value]));
+            read.push_back(work_.definitions_read[index_][value]);
+        } else if (target.quantities[value - count].is_species) {
+            target.rate_order.push_back(value - count);
+        }
+    }
+    target.definitions = std::move(definitions);
+    work_.definitions_read[index_] = std::move(read);
+    const auto renumber = [&](Formula& formula) {
+        for (Node& node : formula.nodes) {
+            if (node.kind == NodeKind::definition) node.index = position[node.index];
+        }
+    };
+    for (Definition& definition : target.definitions) renumber(definition.formula);
+    for (Formula& rate : target.rates) renumber(rate);
+    for (auto& [name, meaning] : work_.names[index_]) {
+        if (meaning.is_definition) meaning.index = position[meaning.index];
+    }
+    if (order.circles.empty()) check_depths();
+}
+
+/// How deep operators lie in each other through definitions and rates.
+void SystemChecker::check_depths() {
+    const System& target = system();
+    std::vector<std::uint32_t> definitions(target.definitions.size());
+    std::vector<std::uint32_t> rates(target.quantities.size());
+    const auto of_leaf = [&](const Node& node) {
+        if (node.kind == NodeKind::definition) return definitions[node.index];
+        return node.kind == NodeKind::rate ? rates[node.index] : 0;
+    };
+    const auto count = static_cast<std::uint32_t>(definitions.size());
+    for (const std::uint32_t value : topological_order(step_dependencies(target)).order) {
+        if (value < count) {
+            definitions[value] = check_nesting(work_, target.definitions[value].formula, of_leaf);
+        } else {
+            rates[value - count] = check_nesting(work_, target.rates[value - count], of_leaf);
+        }
+    }
+}
+
+}  // namespace
+
+std::uint32_t check_system(Workspace& work, const DerivedSystem& derived,
+                           std::optional<std::uint32_t> base) {
+    const ast::Block& block = *derived.from.block;
+    const auto index = static_cast<std::uint32_t>(work.program.systems.size());
+    System system;
+    system.name = std::string(block.name.text);
+    system.span = block.name.span;
+    system.built_in = derived.from.built_in;
+    system.base = base;
+    system.doc = block.doc;
+    const std::uint32_t number = derived.is_known ? index : unknown_system;
+    const auto [found, is_new] = work.systems.try_emplace(system.name, number);
+    if (!is_new && !block.name.empty()) {
+        const bool is_known = found->second != unknown_system;
+        if (is_known && work.program.systems[found->second].built_in) {
+            found->second = number;  // The script's own takes the place of the library's.
+        } else {
+            report_twice(work, block.name.span,
+                         is_known ? work.program.systems[found->second].span : block.name.span,
+                         fmt::format("there are two systems '{}'", system.name));
+        }
+    }
+    if (!derived.is_known) return unknown_system;
+    work.program.systems.push_back(std::move(system));
+    work.names.emplace_back();
+    work.items_read.emplace_back();
+    work.definitions_read.emplace_back();
+    work.incomplete.resize(index + 1);
+    work.incomplete[index] = block.is_damaged || (base && is_incomplete(work, *base));
+    SystemChecker(work, derived, index).run();
+    return index;
+}
+
+}  // namespace cascade::checking

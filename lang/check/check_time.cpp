@@ -1,0 +1,164 @@
+// The settings of time: each by itself. How they go together is in check_stage_time.cpp.
+#include "lang/check/check_time.h"
+#include "lang/check/check_blocks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr double least_tolerance = 1e-7, most_tolerance = 0.1;
+constexpr double least_step = 1e-12;
+constexpr double longest_duration = 1e12;
+constexpr std::int64_t most_coarse = 64;
+
+const ast::Expr& root_of(const ast::Script& script, ast::Expression expression) {
+    return script.expressions[expression.root];
+}
+
+/// The word that an expression is made of, or nothing.
+std::string_view word_of(const ast::Script& script, ast::Expression expression) {
+    const auto* name = std::get_if<ast::Name>(&root_of(script, expression).node);
+    return name == nullptr ? std::string_view() : name->name;
+}
+
+/// The call of this name that an expression is, or nothing.
+const ast::Call* call_of(const ast::Script& script, ast::Expression expression,
+                         std::string_view name) {
+    const auto* call = std::get_if<ast::Call>(&root_of(script, expression).node);
+    return call != nullptr && call->function.text == name ? call : nullptr;
+}
+
+/// The argument of a call of one, as an expression of its own: the parts before the call itself.
+ast::Expression argument_of(const ast::Script& script, ast::Expression expression,
+                            const ast::Call& call) {
+    return {expression.first, script.arguments[call.first_argument]};
+}
+
+/// A constant of a range; a message and nothing where it is none.
+std::optional<double> check_range(Workspace& work, const ast::Script& script,
+                                  ast::Expression expression, std::string_view subject, double low,
+                                  double high) {
+    const auto value = check_constant(work, script, expression, subject);
+    if (!value) return std::nullopt;
+    if (*value >= low && *value <= high) return value;
+    work.diagnostics.error(root_of(script, expression).span,
+                           fmt::format("{} must be from {} to {}", subject, low, high));
+    return std::nullopt;
+}
+
+void check_solver(Workspace& work, const ast::Script& script, ast::Expression value,
+                  TimeSettings& time) {
+    const std::string_view word = word_of(script, value);
+    const Span span = root_of(script, value).span;
+    if (word.empty()) {
+        if (std::holds_alternative<ast::Garbage>(root_of(script, value).node)) return;
+        work.diagnostics.error(span, "a solver is one word",
+                               fmt::format("solvers are {}", list_names(solver_names())));
+        return;
+    }
+    time.solver = solver_of(word);
+    time.solver_span = span;
+    if (time.solver) return;
+    std::string hint = did_you_mean(work, word, solver_names());
+    if (hint.empty()) hint = fmt::format("solvers are {}", list_names(solver_names()));
+    work.diagnostics.error(span, fmt::format("there is no solver '{}'", word), std::move(hint));
+}
+
+void check_until(Workspace& work, const ast::Script& script, ast::Expression value,
+                 const Scope& scope, TimeSettings& time) {
+    if (const ast::Call* call = call_of(script, value, "steady")) {
+        if (call->argument_count != 1) {
+            work.diagnostics.error(root_of(script, value).span,
+                                   "steady takes one value: the change that counts as none",
+                                   "as in steady(0.01)");
+            return;
+        }
+        time.steady = check_range(work, script, argument_of(script, value, *call), "steady", 1e-6, 0.9);
+        return;
+    }
+    // It reads the stage as it is when it is tested, as a picture does.
+    Scope present = scope;
+    present.place = Place::picture;
+    present.last_stage = scope.stage.value_or(0);
+    auto checked = check_number(work, script, value, present);
+    if (checked) time.until = std::move(checked->formula);
+}
+
+void check_start(Workspace& work, const ast::Script& script, ast::Expression value,
+                 TimeSettings& time) {
+    static constexpr std::string_view example = "as in start: coarse(4)";
+    const Span span = root_of(script, value).span;
+    if (std::holds_alternative<ast::Garbage>(root_of(script, value).node)) return;
+    const ast::Call* call = call_of(script, value, "coarse");
+    if (call == nullptr) {
+        work.diagnostics.error(span, "a stage starts as its values say, or on coarser grids first",
+                               std::string(example));
+        return;
+    }
+    if (call->argument_count != 1) {
+        work.diagnostics.error(span, "coarse takes one value: how many times as wide cells are",
+                               std::string(example));
+        return;
+    }
+    const ast::Expression argument = argument_of(script, value, *call);
+    const auto times = check_constant(work, script, argument, "coarse");
+    if (!times) return;
+    std::int64_t power = 2;
+    while (power < most_coarse && static_cast<double>(power) != *times) power *= 2;
+    if (static_cast<double>(power) != *times) {
+        work.diagnostics.error(root_of(script, argument).span,
+                               fmt::format("coarse takes 2, 4, 8, … {}", most_coarse),
+                               "each grid has cells half as wide as the one before it");
+        return;
+    }
+    time.coarse = power;
+    time.coarse_span = span;
+}
+
+}  // namespace
+
+bool is_time_setting(const ast::Script& script, const ast::Sentence& sentence) {
+    static constexpr std::array<std::string_view, 7> names{
+        "solver", "tolerance", "largest_step", "duration", "until", "check", "start"};
+    const std::string_view name = sentence.name.text;
+    if (name == "speed") return word_of(script, sentence.values[0]) == "auto";
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_end_setting(std::string_view name) { return name == "iterations" || name == "duration"; }
+
+void check_time_setting(Workspace& work, const ast::Script& script, const ast::Sentence& sentence,
+                        const Scope& scope, Settings& settings) {
+    const std::string_view name = sentence.name.text;
+    const ast::Expression value = sentence.values[0];
+    TimeSettings& time = settings.time;
+    if (name == "speed") {
+        time.automatic_speed = true;
+        Node one;
+        one.number = 1;
+        one.span = root_of(script, value).span;
+        settings.speed = Formula{{one}};
+    } else if (name == "solver") {
+        check_solver(work, script, value, time);
+    } else if (name == "tolerance") {
+        time.tolerance = check_range(work, script, value, name, least_tolerance, most_tolerance);
+    } else if (name == "largest_step") {
+        time.largest_step = check_range(work, script, value, name, least_step, longest_duration);
+        time.largest_step_span = sentence.name.span;
+    } else if (name == "duration") {
+        time.duration = check_range(work, script, value, name, 0, longest_duration);
+    } else if (name == "check") {
+        time.check = check_count(work, script, sentence);
+    } else if (name == "until") {
+        check_until(work, script, value, scope, time);
+    } else {
+        check_start(work, script, value, time);
+    }
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,34 @@
+// The settings of time (internal to the checker): solver, tolerance, duration, until, check and
+// `speed: auto`; `start` is kept for later. What they mean is in spec/time.md.
+#pragma once
+
+#include "lang/check/check_expression.h"
+#include "lang/check/check_names.h"
+
+#include <cstdint>
+#include <string_view>
+
+namespace cascade::checking {
+
+/// The most steps a stage may take.
+inline constexpr std::int64_t most_iterations = 1'000'000'000;
+
+/// Is this one of the settings above? `speed` is where it is `auto`.
+bool is_time_setting(const ast::Script& script, const ast::Sentence& sentence);
+
+/// `iterations` and `duration`: a stage ends by one of them, and what replaces either replaces both.
+bool is_end_setting(std::string_view name);
+
+/// Sets it. The sentence has one value.
+void check_time_setting(Workspace& work, const ast::Script& script, const ast::Sentence& sentence,
+                        const Scope& scope, Settings& settings);
+
+/// Iterations, interval and all of time of a stage: its own settings, then its system's, then the
+/// language's.
+void fill_time(Stage& stage, const Settings& own, const Settings& defaults);
+
+/// Faults that only show when the whole stage is known: settings that do not go together, a speed
+/// that varies where it must not, a condition that varies by cell.
+void check_time(Workspace& work, std::uint32_t stage);
+
+}  // namespace cascade::checking

@@ -1,0 +1,85 @@
+// What nothing reads: mostly a name that was misspelt.
+#include "lang/check/check_blocks.h"
+#include "lang/vocabulary/words_elsewhere.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace cascade::checking {
+
+namespace {
+
+/// A quantity or definition that nothing reads.
+struct Unread {
+    const std::string* name;
+    Span span;
+    const char* kind;
+};
+
+std::string family_of(const std::string& name) { return name.substr(0, name.find('[')); }
+
+/// Of a family one message speaks, and only where none of its members is read.
+std::vector<Unread> find_unread(const Workspace& work, std::uint32_t index) {
+    const System& system = work.program.systems[index];
+    std::unordered_set<std::string> read;
+    std::vector<Unread> unread;
+    for (std::size_t item = 0; item < system.quantities.size(); ++item) {
+        const Quantity& quantity = system.quantities[item];
+        if (quantity.is_species || work.items_read[index][item]) {
+            read.insert(family_of(quantity.name));
+        } else {
+            unread.push_back({&quantity.name, quantity.span, "parameter"});
+        }
+    }
+    for (std::size_t i = 0; i < system.definitions.size(); ++i) {
+        const Definition& definition = system.definitions[i];
+        if (work.definitions_read[index][i]) {
+            read.insert(family_of(definition.name));
+        } else {
+            unread.push_back({&definition.name, definition.span, "definition"});
+        }
+    }
+    std::erase_if(unread, [&](const Unread& each) {
+        return !read.insert(family_of(*each.name)).second;
+    });
+    return unread;
+}
+
+/// In a derived system: what the base has has been told there; what it does not have and nothing
+/// reads was to change something of the base.
+void report_change_of_nothing(Workspace& work, const System& system, const Unread& unread) {
+    const System& base = work.program.systems[*system.base];
+    if (find(work.names[*system.base], *unread.name) != nullptr) return;
+    const std::string family = family_of(*unread.name);
+    if (family != *unread.name && has_family(base, family)) return;
+    std::vector<std::string> names = quantity_names(base);
+    for (const Definition& definition : base.definitions) names.push_back(definition.name);
+    work.diagnostics.error(
+        unread.span,
+        fmt::format("{} has no '{}' to change, and nothing reads it", base.name, family),
+        did_you_mean(work, *unread.name, names));
+}
+
+}  // namespace
+
+void warn_unread(Workspace& work) {
+    for (std::uint32_t index = 0; index < work.program.systems.size(); ++index) {
+        const System& system = work.program.systems[index];
+        if (system.built_in) continue;
+        for (const Unread& unread : find_unread(work, index)) {
+            if (system.base) {
+                report_change_of_nothing(work, system, unread);
+            } else {
+                const bool is_parameter = unread.kind == std::string_view("parameter");
+                const auto place = WordPlace::stage;  // Its settings are those of a system, too.
+                work.diagnostics.warning(
+                    unread.span, fmt::format("{} '{}' is never read", unread.kind, *unread.name),
+                    std::string(is_parameter ? advice_about(*unread.name, place) : ""));
+            }
+        }
+    }
+}
+
+}  // namespace cascade::checking

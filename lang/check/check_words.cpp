@@ -1,0 +1,174 @@
+// Words of the checker: which are reserved, which are near to each other, how lists are written.
+#include "core/near_name.h"
+#include "lang/check/check_names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace cascade::checking {
+
+namespace {
+
+/// From so many errors on no near names are looked for any more.
+constexpr std::size_t most_suggestions = 200;
+constexpr std::size_t most_names_compared = 1'000'000;
+constexpr std::size_t most_listed = 24;
+
+constexpr std::array<std::string_view, 12> settings{
+    "iterations", "interval", "frozen", "speed", "show", "duration",
+    "solver",     "tolerance", "largest_step", "until", "check", "start"};
+
+template <std::size_t count>
+bool among(const std::array<std::string_view, count>& words, std::string_view word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+}  // namespace
+
+Reserved reserved(std::string_view name) {
+    if (among(settings, name)) return Reserved::setting;
+    if (name == "pi" || builtin_named(name)) return Reserved::builtin;
+    return Reserved::no;
+}
+
+std::span<const std::string_view> setting_names() { return settings; }
+
+NameTable names_of(const System& system) {
+    NameTable table;
+    table.reserve(system.item_count() + system.definitions.size());
+    for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+        table.try_emplace(std::string(system.item_name(item)), Meaning{false, item});
+    }
+    for (std::uint32_t index = 0; index < system.definitions.size(); ++index) {
+        table.try_emplace(system.definitions[index].name, Meaning{true, index});
+    }
+    return table;
+}
+
+const Meaning* find(const NameTable& table, std::string_view name) {
+    const auto found = table.find(std::string(name));
+    return found == table.end() ? nullptr : &found->second;
+}
+
+bool is_incomplete(const Workspace& work, std::uint32_t system) {
+    return system < work.incomplete.size() && work.incomplete[system];
+}
+
+bool is_hopeless(const Workspace& work) {
+    return work.diagnostics.error_count() > most_suggestions ||
+           work.names_compared > most_names_compared;
+}
+
+std::string did_you_mean(Workspace& work, std::string_view name,
+                         const std::vector<std::string>& candidates) {
+    if (is_hopeless(work)) return "";
+    work.names_compared += candidates.size();
+    const std::string near = nearest_name(name, candidates);
+    return near.empty() ? "" : fmt::format("did you mean '{}'?", near);
+}
+
+namespace {
+
+/// Calls `take` with the number of each member of a family, as it is written.
+template <typename Take>
+void each_member(const System& system, std::string_view family, const Take& take) {
+    const auto look = [&](const std::string& name) {
+        const bool is_member = name.size() > family.size() && name.starts_with(family) &&
+                               name[family.size()] == '[';
+        if (is_member) take(std::string_view(name).substr(family.size() + 1));
+    };
+    for (const Quantity& quantity : system.quantities) look(quantity.name);
+    for (const Definition& definition : system.definitions) look(definition.name);
+}
+
+}  // namespace
+
+bool has_family(const System& system, std::string_view name) {
+    bool has = false;
+    each_member(system, name, [&](std::string_view) { has = true; });
+    return has;
+}
+
+std::optional<Explanation> explain_family(Workspace& work, const System& system,
+                                          std::string_view name) {
+    if (is_hopeless(work)) return std::nullopt;
+    work.names_compared += system.quantities.size() + system.definitions.size();
+    const std::string_view family = name.substr(0, name.find('['));
+    std::string first, last;
+    each_member(system, family, [&](std::string_view number) {
+        last = std::string(number.substr(0, number.find(']')));
+        if (first.empty()) first = last;
+    });
+    if (family.size() < name.size() && !first.empty()) {
+        return Explanation{fmt::format("'{}' is no member of its family", name),
+                           fmt::format("there are {0}[{1}] to {0}[{2}]", family, first, last)};
+    }
+    if (family.size() < name.size()) {
+        const auto same = std::find_if(
+            system.quantities.begin(), system.quantities.end(),
+            [&](const Quantity& quantity) { return quantity.name == family; });
+        if (same == system.quantities.end()) return std::nullopt;
+        return Explanation{fmt::format("'{}' is no family", family),
+                           fmt::format("write {} without an index", family)};
+    }
+    if (!first.empty()) {
+        return Explanation{fmt::format("'{}' is a family", name),
+                           fmt::format("write {0}[{1}], or {0}[i] where i has a value", name,
+                                       first)};
+    }
+    for (const Index& index : system.indices) {
+        if (index.name != name) continue;
+        return index_without_value(name);
+    }
+    return std::nullopt;
+}
+
+Explanation index_without_value(std::string_view index) {
+    return {fmt::format("the index '{}' has no value here", index),
+            fmt::format("it has one in sentences of u[{0}] and in sum(… over {0})", index)};
+}
+
+void add_call(const Workspace& work, Diagnostic& diagnostic) {
+    if (work.call) diagnostic.notes.push_back({*work.call, "in what this call stands for"});
+}
+
+std::vector<std::string> quantity_names(const System& system) {
+    std::vector<std::string> names;
+    names.reserve(system.quantities.size());
+    for (const Quantity& quantity : system.quantities) names.push_back(quantity.name);
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string list_names(const std::vector<std::string>& names) {
+    std::string list;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i == most_listed) return list + ", …";
+        if (i > 0) list += ", ";
+        list += names[i];
+    }
+    return list;
+}
+
+void report_twice(Workspace& work, Span second, Span first, std::string message) {
+    Diagnostic diagnostic;
+    diagnostic.span = second;
+    diagnostic.message = std::move(message);
+    diagnostic.notes.push_back({first, "the first is here"});
+    work.diagnostics.add(std::move(diagnostic));
+}
+
+void mark_reads(Workspace& work, const Formula& formula, std::uint32_t system) {
+    for (const Node& node : formula.nodes) {
+        if (node.kind == NodeKind::own) work.items_read[system][node.index] = true;
+        if (node.kind == NodeKind::definition) work.definitions_read[system][node.index] = true;
+        if (node.kind == NodeKind::earlier) {
+            const std::uint32_t other = work.program.stages[node.stage].system;
+            if (other != unknown_system) work.items_read[other][node.index] = true;
+        }
+    }
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,376 @@
+// Writing out, with a stack of tasks: no depth of calls overflows anything.
+#include "lang/check/expand.h"
+
+#include "core/check.h"
+#include "lang/check/check_expression.h"
+#include "lang/check/user_functions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr std::size_t most_parts = 1'000'000;
+
+/// What an index can be taken over with.
+bool is_reduction(std::string_view name) {
+    constexpr std::array<std::string_view, 5> names{"sum", "product", "mean", "min", "max"};
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+class Expander {
+public:
+    Expander(Workspace& work, const ast::Script& script, const Scope& scope)
+        : work_(work), scope_(scope) {
+        frames_.push_back({&script, nullptr, 0, std::nullopt});
+        if (scope.index) values_[scope.index->name].push_back(scope.index->value);
+    }
+
+    Expanded run(ast::ExprId root);
+
+private:
+    enum class TaskKind : std::uint8_t {
+        visit,     ///< Write out a part and what it reads.
+        finish,    ///< Its operands are written: write the part itself.
+        call,      ///< The arguments are written: go on with the function's value.
+        leave,     ///< The function's value is written.
+        repeat,    ///< An aggregate: bind its index to `value` and write the operand.
+        combine,   ///< The operand is written for `value`.
+    };
+    struct Task {
+        TaskKind kind = TaskKind::visit;
+        ast::ExprId part = 0;
+        std::int64_t value = 0;  ///< Of an index; for members the number of parts before.
+    };
+    /// The expression itself, or the value of a function.
+    struct Frame {
+        const ast::Script* script = nullptr;
+        const UserFunction* function = nullptr;
+        std::size_t first_argument = 0;  ///< In arguments_.
+        std::optional<Span> call;        ///< The outermost call.
+    };
+
+    const ast::Script& script() const { return *frames_.back().script; }
+    const ast::Expr& expr(ast::ExprId part) const { return script().expressions[part]; }
+    void visit(ast::ExprId part);
+    void visit_name(const ast::Expr& expr, const ast::Name& name);
+    void visit_call(ast::ExprId part, const ast::Call& call);
+    void visit_over(ast::ExprId part, const ast::Over& over);
+    void finish(const Task& task);
+    void finish_call(const ast::Expr& expr, const ast::Call& call);
+    void finish_member(const ast::Expr& expr, const ast::Indexed& member, std::size_t before);
+    void enter(ast::ExprId part);
+    void repeat(const Task& task);
+    void combine(const Task& task);
+    std::optional<std::int64_t> index_value(ast::ExprId first, ast::ExprId last, Span span);
+
+    ast::ExprId append(Span span, decltype(ast::Expr::node) node);
+    void emit(Span span, decltype(ast::Expr::node) node) {
+        results_.push_back(append(span, std::move(node)));
+    }
+    void fault(Span span, std::string message, std::string hint) {
+        work_.diagnostics.error(span, std::move(message), std::move(hint));
+        emit(span, ast::Garbage{});
+    }
+    ast::ExprId take() {
+        const ast::ExprId id = results_.back();
+        results_.pop_back();
+        return id;
+    }
+    void push(TaskKind kind, ast::ExprId part, std::int64_t value = 0) {
+        tasks_.push_back({kind, part, value});
+    }
+
+    Workspace& work_;
+    const Scope& scope_;
+    Expanded out_;
+    std::vector<Task> tasks_;
+    std::vector<Frame> frames_;
+    std::vector<ast::ExprId> arguments_;  ///< Of the functions in frames_.
+    std::vector<ast::ExprId> results_;    ///< Parts of out_ that are still to be read.
+    std::size_t open_indices_ = 0;        ///< Members whose index is being written.
+    /// The values of the indices, the innermost last. Functions do not see them.
+    std::unordered_map<std::string_view, std::vector<std::int64_t>> values_;
+};
+
+Expanded Expander::run(ast::ExprId root) {
+    const Span span = expr(root).span;
+    push(TaskKind::visit, root);
+    while (!tasks_.empty()) {
+        if (++work_.parts_written > most_parts) {
+            out_ = {};
+            results_.clear();
+            if (work_.parts_written == most_parts + 1) {
+                work_.diagnostics.error(
+                    span, "this expression is too large when its functions and families are "
+                          "written out",
+                    fmt::format("a script may grow to {} parts", most_parts));
+            }
+            frames_.resize(1);
+            emit(span, ast::Garbage{});
+            break;
+        }
+        const Task task = tasks_.back();
+        tasks_.pop_back();
+        switch (task.kind) {
+            case TaskKind::visit: visit(task.part); break;
+            case TaskKind::finish: finish(task); break;
+            case TaskKind::call: enter(task.part); break;
+            case TaskKind::leave:
+                arguments_.resize(frames_.back().first_argument);
+                frames_.pop_back();
+                break;
+            case TaskKind::repeat: repeat(task); break;
+            case TaskKind::combine: combine(task); break;
+        }
+    }
+    out_.root = take();
+    return std::move(out_);
+}
+
+ast::ExprId Expander::append(Span span, decltype(ast::Expr::node) node) {
+    const auto id = static_cast<ast::ExprId>(out_.parts.expressions.size());
+    out_.parts.expressions.push_back({span, std::move(node)});
+    out_.calls.push_back(frames_.back().call);
+    return id;
+}
+
+void Expander::visit(ast::ExprId part) {
+    const ast::Expr& here = expr(part);
+    if (const auto* name = std::get_if<ast::Name>(&here.node)) return visit_name(here, *name);
+    if (const auto* call = std::get_if<ast::Call>(&here.node)) return visit_call(part, *call);
+    if (const auto* over = std::get_if<ast::Over>(&here.node)) return visit_over(part, *over);
+    if (const auto* unary = std::get_if<ast::Unary>(&here.node)) {
+        push(TaskKind::finish, part);
+        return push(TaskKind::visit, unary->operand);
+    }
+    if (const auto* binary = std::get_if<ast::Binary>(&here.node)) {
+        push(TaskKind::finish, part);
+        push(TaskKind::visit, binary->right);
+        return push(TaskKind::visit, binary->left);
+    }
+    if (const auto* member = std::get_if<ast::Indexed>(&here.node)) {
+        ++open_indices_;
+        push(TaskKind::finish, part, static_cast<std::int64_t>(out_.parts.expressions.size()));
+        return push(TaskKind::visit, member->index);
+    }
+    emit(here.span, here.node);
+}
+
+/// A parameter of the function, an index with a value, or any other name.
+void Expander::visit_name(const ast::Expr& here, const ast::Name& name) {
+    const Frame& frame = frames_.back();
+    if (frame.function != nullptr) {
+        const auto parameter = frame.function->parameters.find(name.name);
+        if (parameter != frame.function->parameters.end()) {
+            results_.push_back(arguments_[frame.first_argument + parameter->second]);
+            return;
+        }
+        return emit(here.span, name);
+    }
+    const auto values = values_.find(name.name);
+    if (values != values_.end() && !values->second.empty()) {
+        return emit(here.span, ast::Number{static_cast<double>(values->second.back())});
+    }
+    // Elsewhere it may be a parameter of the previous stage.
+    if (open_indices_ > 0 && find_index(work_, scope_, name.name) != nullptr) {
+        Explanation explanation = index_without_value(name.name);
+        return fault(here.span, std::move(explanation.message), std::move(explanation.hint));
+    }
+    emit(here.span, name);
+}
+
+void Expander::visit_call(ast::ExprId part, const ast::Call& call) {
+    const UserFunction* function = functions_of(work_, script()).find(call.function.text);
+    if (function != nullptr && function->faulty) return emit(expr(part).span, ast::Garbage{});
+    if (function != nullptr && !has_right_count(work_, *function, call, expr(part).span)) {
+        return emit(expr(part).span, ast::Garbage{});
+    }
+    push(function != nullptr ? TaskKind::call : TaskKind::finish, part);
+    for (std::uint32_t i = call.argument_count; i > 0; --i) {
+        push(TaskKind::visit, script().arguments[call.first_argument + i - 1]);
+    }
+}
+
+void Expander::enter(ast::ExprId part) {
+    const auto& call = std::get<ast::Call>(expr(part).node);
+    const UserFunction* function = functions_of(work_, script()).find(call.function.text);
+    Frame frame{&script(), function, arguments_.size(), frames_.back().call};
+    if (!frame.call) frame.call = expr(part).span;
+    arguments_.insert(arguments_.end(), results_.end() - call.argument_count, results_.end());
+    results_.resize(results_.size() - call.argument_count);
+    frames_.push_back(frame);
+    push(TaskKind::leave, part);
+    push(TaskKind::visit, function->definition->body.root);
+}
+
+void Expander::visit_over(ast::ExprId part, const ast::Over& over) {
+    if (over.index.text == "domain") {
+        push(TaskKind::finish, part);
+        return push(TaskKind::visit, over.operand);
+    }
+    const Index* index = find_index(work_, scope_, over.index.text);
+    const auto& faulty = work_.faulty_indices;
+    if (index == nullptr && std::find(faulty.begin(), faulty.end(), over.index.text) != faulty.end()) {
+        return emit(over.index.span, ast::Garbage{});
+    }
+    if (index == nullptr) {
+        return fault(over.index.span, fmt::format("there is no index '{}'", over.index.text),
+                     "an index is declared in a system: i: 1..3");
+    }
+    if (!is_reduction(over.function.text)) {
+        return fault(over.function.span,
+                     fmt::format("{} cannot be taken over an index", over.function.text),
+                     "sum, product, mean, min and max can");
+    }
+    push(TaskKind::repeat, part, index->low);
+}
+
+void Expander::repeat(const Task& task) {
+    const auto& over = std::get<ast::Over>(expr(task.part).node);
+    values_[over.index.text].push_back(task.value);
+    push(TaskKind::combine, task.part, task.value);
+    push(TaskKind::visit, over.operand);
+}
+
+/// ((e1 + e2) + e3) + …, min(min(e1, e2), e3), …
+void Expander::combine(const Task& task) {
+    const ast::Expr& here = expr(task.part);
+    const auto& over = std::get<ast::Over>(here.node);
+    const Index* index = find_index(work_, scope_, over.index.text);
+    values_[over.index.text].pop_back();
+    if (task.value > index->low) {
+        const ast::ExprId next = take();
+        const ast::ExprId before = take();
+        const std::string_view name = over.function.text;
+        if (name == "min" || name == "max") {
+            auto& arguments = out_.parts.arguments;
+            const auto first = static_cast<std::uint32_t>(arguments.size());
+            arguments.insert(arguments.end(), {before, next});
+            emit(here.span, ast::Call{over.function, first, 2});
+        } else {
+            const auto op = name == "product" ? ast::BinaryOp::multiply : ast::BinaryOp::add;
+            emit(here.span, ast::Binary{op, before, next});
+        }
+    }
+    if (task.value < index->high) return push(TaskKind::repeat, task.part, task.value + 1);
+    if (over.function.text != "mean") return;
+    const ast::ExprId sum = take();
+    const auto count = static_cast<double>(index->high - index->low + 1);
+    const ast::ExprId divisor = append(here.span, ast::Number{count});
+    emit(here.span, ast::Binary{ast::BinaryOp::divide, sum, divisor});
+}
+
+void Expander::finish(const Task& task) {
+    const ast::Expr& here = expr(task.part);
+    if (const auto* unary = std::get_if<ast::Unary>(&here.node)) {
+        return emit(here.span, ast::Unary{unary->op, take()});
+    }
+    if (const auto* binary = std::get_if<ast::Binary>(&here.node)) {
+        const ast::ExprId right = take();
+        const ast::ExprId left = take();
+        return emit(here.span, ast::Binary{binary->op, left, right});
+    }
+    if (const auto* over = std::get_if<ast::Over>(&here.node)) {
+        return emit(here.span, ast::Over{over->function, take(), over->index});
+    }
+    if (const auto* call = std::get_if<ast::Call>(&here.node)) return finish_call(here, *call);
+    finish_member(here, std::get<ast::Indexed>(here.node), static_cast<std::size_t>(task.value));
+}
+
+void Expander::finish_call(const ast::Expr& here, const ast::Call& call) {
+    auto& arguments = out_.parts.arguments;
+    const auto first = static_cast<std::uint32_t>(arguments.size());
+    arguments.insert(arguments.end(), results_.end() - call.argument_count, results_.end());
+    results_.resize(results_.size() - call.argument_count);
+    emit(here.span, ast::Call{call.function, first, call.argument_count});
+}
+
+/// The parts of the index, [before, …), have done their work when its value is known.
+void Expander::finish_member(const ast::Expr& here, const ast::Indexed& member,
+                             std::size_t before) {
+    --open_indices_;
+    const ast::ExprId last = take();
+    const auto value =
+        index_value(static_cast<ast::ExprId>(before), last, expr(member.index).span);
+    out_.parts.expressions.resize(before, {{}, ast::Garbage{}});
+    out_.calls.resize(before);
+    if (!value) return emit(here.span, ast::Garbage{});
+    const auto named = [&](std::string_view family) -> std::string_view {
+        return out_.names.emplace_back(member_name(family, *value));
+    };
+    const ast::Expr& base = expr(member.base);
+    if (const auto* name = std::get_if<ast::Name>(&base.node)) {
+        return emit(here.span, ast::Name{named(name->name)});
+    }
+    if (const auto* own = std::get_if<ast::Bracketed>(&base.node)) {
+        return emit(here.span, ast::Bracketed{{here.span, named(own->name.text)}});
+    }
+    if (const auto* rate = std::get_if<ast::RateOf>(&base.node)) {
+        return emit(here.span, ast::RateOf{{here.span, named(rate->name.text)}});
+    }
+    const auto& other = std::get<ast::Qualified>(base.node);
+    emit(here.span, ast::Qualified{other.stage, {here.span, named(other.name.text)}});
+}
+
+/// The whole number that the parts [first, last] are, or nothing with a message.
+std::optional<std::int64_t> Expander::index_value(ast::ExprId first, ast::ExprId last, Span span) {
+    Scope constant;
+    constant.place = Place::constant;
+    constant.subject = "an index";
+    const auto checked = check_parts(work_, out_.parts, {first, last}, constant);
+    if (!checked) return std::nullopt;
+    if (!checked->constant) {
+        work_.diagnostics.error(span, "an index must be one number");
+        return std::nullopt;
+    }
+    const double value = *checked->constant;
+    if (value == std::floor(value) && std::abs(value) < 1e9) {
+        return static_cast<std::int64_t>(value);
+    }
+    work_.diagnostics.error(span, fmt::format("an index is a whole number, not {}", value));
+    return std::nullopt;
+}
+
+}  // namespace
+
+const Index* find_index(const Workspace& work, const Scope& scope, std::string_view name) {
+    if (scope.place == Place::constant || scope.system == unknown_system) return nullptr;
+    for (const Index& index : work.program.systems[scope.system].indices) {
+        if (index.name == name) return &index;
+    }
+    return nullptr;
+}
+
+std::string member_name(std::string_view family, std::int64_t index) {
+    return fmt::format("{}[{}]", family, index);
+}
+
+bool needs_expansion(Workspace& work, const ast::Script& script, ast::Expression expression,
+                     const Scope& scope) {
+    const FunctionTable& functions = functions_of(work, script);
+    for (ast::ExprId id = expression.first; id <= expression.root; ++id) {
+        const auto& node = script.expressions[id].node;
+        if (std::holds_alternative<ast::Indexed>(node)) return true;
+        if (const auto* over = std::get_if<ast::Over>(&node)) {
+            if (over->index.text != "domain") return true;
+        } else if (const auto* name = std::get_if<ast::Name>(&node)) {
+            if (scope.index && scope.index->name == name->name) return true;
+        } else if (const auto* call = std::get_if<ast::Call>(&node)) {
+            if (!functions.empty() && functions.find(call->function.text) != nullptr) return true;
+        }
+    }
+    return false;
+}
+
+Expanded expand(Workspace& work, const ast::Script& script, ast::Expression expression,
+                const Scope& scope) {
+    return Expander(work, script, scope).run(expression.root);
+}
+
+}  // namespace cascade::checking

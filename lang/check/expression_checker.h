@@ -1,0 +1,93 @@
+// Checking one expression, part by part (internal to the checker).
+//
+// check_expression.cpp walks the parts and resolves names and texts; check_call.cpp checks what is
+// called: arguments, places, types and constants; check_operators.cpp what is particular to operators
+// of derivatives, vectors and tensors.
+#pragma once
+
+#include "lang/check/check_expression.h"
+#include "lang/check/expand.h"
+#include "lang/check/user_functions.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace cascade::checking {
+
+/// What is known of a part besides its node.
+struct Part {
+    bool faulty = false;  ///< A message has been given; whatever reads it stays silent.
+    bool constant = false;
+    double value = 0;
+    bool turned = false;   ///< A vector that a tensor has multiplied, or is made of such.
+};
+
+class ExpressionChecker {
+public:
+    ExpressionChecker(Workspace& work, const ast::Script& script, ast::Expression expression,
+                      const Scope& scope)
+        : work_(work), script_(script), expression_(expression), scope_(scope) {}
+    /// For an expression that was written out: `from` is the script that it was written in.
+    ExpressionChecker(Workspace& work, const ast::Script& from, const Expanded& expanded,
+                      const Scope& scope)
+        : work_(work), script_(expanded.parts),
+          expression_{0, static_cast<ast::ExprId>(expanded.parts.expressions.size() - 1)},
+          scope_(scope), from_(from), expanded_(&expanded) {}
+
+    std::optional<CheckedExpression> run();
+
+private:
+    const ast::Expr& expr(std::uint32_t part) const {
+        return script_.expressions[expression_.first + part];
+    }
+    std::uint32_t part_of(ast::ExprId id) const { return id - expression_.first; }
+    void fault(Span span, std::string message, std::string hint = "") {
+        Diagnostic diagnostic{Severity::error, span, std::move(message), std::move(hint), {}};
+        add_call(work_, diagnostic);
+        work_.diagnostics.add(std::move(diagnostic));
+        parts_.back().faulty = true;
+    }
+
+    void find_text_places();
+    void visit(const ast::Number& number);
+    void visit(const ast::Text& text);
+    void visit(const ast::Name& name);
+    void visit(const ast::Bracketed& bracketed);
+    void visit(const ast::Qualified& qualified);
+    void visit(const ast::RateOf& rate);
+    void visit(const ast::Unary& unary);
+    void visit(const ast::Binary& binary);
+    void visit(const ast::Call& call);
+    void visit(const ast::Over& over);
+    void visit(const ast::Indexed& indexed);
+    void visit(const ast::Garbage&) { parts_.back().faulty = true; }
+
+    void take(std::optional<Node> node);
+    void apply(Function function, const Operands& operands, std::size_t count);
+    void take_surface_value(Function function, const ast::Call& call);
+    void unknown_function(const ast::Word& name);
+    void wrong_count(Function function, std::size_t count);
+    bool belongs_here(Function function, Span span);
+    void check_types(const Node& node);
+    void check_choice(Node& node, std::uint32_t a, std::uint32_t b);
+    void check_palette(const Node& node);
+    void check_lattice(Node& node);
+    bool check_vectors(const Node& node);
+    void check_operator(const Node& node);
+    bool is_same_everywhere(std::uint32_t part);
+    void need(std::uint32_t part, ValueType type);
+    void fold_constants(const Node& node);
+
+    Workspace& work_;
+    const ast::Script& script_;
+    ast::Expression expression_;
+    const Scope& scope_;
+    const ast::Script& from_ = script_;    ///< Whose functions can be called.
+    const Expanded* expanded_ = nullptr;
+    Formula formula_;
+    std::vector<Part> parts_;
+    std::vector<bool> wants_text_;
+};
+
+}  // namespace cascade::checking

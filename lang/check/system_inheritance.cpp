@@ -1,0 +1,123 @@
+#include "lang/check/system_inheritance.h"
+
+#include "lang/check/check_blocks.h"
+#include "lang/program/order.h"
+
+#include <fmt/format.h>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr std::size_t most_sentences = 1'000'000;
+constexpr std::size_t most_named = 12;
+
+class Derivation {
+public:
+    Derivation(Workspace& work, const std::vector<SystemBlock>& blocks)
+        : work_(work), blocks_(blocks) {
+        for (std::uint32_t i = 0; i < blocks.size(); ++i) {
+            auto& names = blocks[i].built_in ? library_ : own_;
+            names.try_emplace(blocks[i].block->name.text, i);
+        }
+    }
+
+    std::vector<DerivedSystem> run();
+
+private:
+    std::optional<std::uint32_t> find_base(std::uint32_t index);
+    void report_circle(const std::vector<std::uint32_t>& circle);
+    DerivedSystem derive(std::uint32_t index, const std::vector<DerivedSystem>& before);
+
+    Workspace& work_;
+    const std::vector<SystemBlock>& blocks_;
+    std::unordered_map<std::string_view, std::uint32_t> own_, library_;
+    std::vector<std::optional<std::uint32_t>> bases_;
+    std::vector<bool> is_known_;
+    std::vector<std::size_t> places_;  ///< Of each block in the result.
+    std::size_t copied_ = 0;
+};
+
+std::optional<std::uint32_t> Derivation::find_base(std::uint32_t index) {
+    const ast::Word& base = blocks_[index].block->base;
+    if (base.empty()) return std::nullopt;
+    const auto own = own_.find(base.text);
+    const auto library = library_.find(base.text);
+    const bool changes_library =
+        base.text == blocks_[index].block->name.text && library != library_.end();
+    if (own != own_.end() && !blocks_[index].built_in && !changes_library) return own->second;
+    if (library != library_.end()) return library->second;
+    is_known_[index] = false;
+    report_unknown_system(work_, base);
+    return std::nullopt;
+}
+
+void Derivation::report_circle(const std::vector<std::uint32_t>& circle) {
+    std::string path;
+    for (std::size_t i = 0; i < circle.size(); ++i) {
+        is_known_[circle[i]] = false;
+        if (i == most_named) path += "… -> ";
+        if (i < most_named) path += fmt::format("{} -> ", blocks_[circle[i]].block->name.text);
+    }
+    const ast::Block& first = *blocks_[circle[0]].block;
+    work_.diagnostics.error(
+        first.base.span,
+        circle.size() == 1
+            ? fmt::format("'{}' is derived from itself", first.name.text)
+            : fmt::format("systems are derived from each other in a circle: {}{}", path,
+                          first.name.text));
+}
+
+DerivedSystem Derivation::derive(std::uint32_t index, const std::vector<DerivedSystem>& before) {
+    DerivedSystem system;
+    system.from = blocks_[index];
+    system.is_known = is_known_[index];
+    std::uint32_t level = 0;
+    if (bases_[index] && system.is_known) {
+        system.base = places_[*bases_[index]];
+        const DerivedSystem& base = before[*system.base];
+        system.is_known = base.is_known;
+        if (copied_ <= most_sentences && copied_ + base.sentences.size() > most_sentences) {
+            work_.diagnostics.error(system.from.block->base.span,
+                                    "the systems of this script are too large together");
+        }
+        copied_ += base.sentences.size();
+        if (copied_ > most_sentences) {
+            system.is_known = false;
+        } else if (!base.sentences.empty()) {
+            system.sentences = base.sentences;
+            level = base.sentences.back().level + 1;
+        }
+    }
+    for (const ast::Sentence& sentence : system.from.block->sentences) {
+        system.sentences.push_back({system.from.script, &sentence, level});
+    }
+    return system;
+}
+
+std::vector<DerivedSystem> Derivation::run() {
+    is_known_.assign(blocks_.size(), true);
+    Dependencies reads(blocks_.size());
+    for (std::uint32_t i = 0; i < blocks_.size(); ++i) {
+        bases_.push_back(find_base(i));
+        if (bases_[i]) reads[i].push_back(*bases_[i]);
+    }
+    const Order order = topological_order(reads);
+    for (const auto& circle : order.circles) report_circle(circle);
+    places_.assign(blocks_.size(), 0);
+    std::vector<DerivedSystem> systems;
+    for (const std::uint32_t index : order.order) {
+        places_[index] = systems.size();
+        systems.push_back(derive(index, systems));
+    }
+    return systems;
+}
+
+}  // namespace
+
+std::vector<DerivedSystem> derive_systems(Workspace& work,
+                                          const std::vector<SystemBlock>& blocks) {
+    return Derivation(work, blocks).run();
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,150 @@
+#include "lang/check/system_sentences.h"
+
+#include "lang/library/library.h"
+#include "lang/syntax/parse.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+
+namespace cascade {
+
+namespace {
+
+bool is_rate(const ast::Sentence& sentence) {
+    return sentence.kind == ast::SentenceKind::rate ||
+           sentence.kind == ast::SentenceKind::rate_term;
+}
+
+/// What a sentence is about. One of a derived system takes the place of those of its bases about
+/// the same, unless it is a term to be added.
+std::string subject_of(const ast::Sentence& sentence) {
+    auto kind = is_rate(sentence) ? ast::SentenceKind::rate : sentence.kind;
+    if (kind == ast::SentenceKind::definition) kind = ast::SentenceKind::value;
+    return fmt::format("{} {}", static_cast<int>(kind), sentence.name.text);
+}
+
+/// "[2]" of a sentence about one member of a family; empty for others.
+std::string member_of(const ast::Sentence& sentence) {
+    const std::string_view index = sentence.index.text;
+    const bool is_one = !index.empty() && index[0] >= '0' && index[0] <= '9';
+    return is_one ? fmt::format("[{}]", index) : "";
+}
+
+SaidSentence said(const ast::Script& script, const Sources& sources,
+                  const ast::Sentence& sentence) {
+    SaidSentence result{&script, &sources, &sentence};
+    if (!sentence.doc.empty()) result.doc = &sentence;
+    if (sentence.range) {
+        result.range = &sentence;
+        result.range_script = &script;
+        result.range_sources = &sources;
+    }
+    return result;
+}
+
+}  // namespace
+
+SystemBlocks system_blocks(const ast::Script& script) {
+    SystemBlocks blocks;
+    for (const ast::Block& block : script.blocks) {
+        if (block.kind == ast::BlockKind::system) blocks.try_emplace(block.name.text, &block);
+    }
+    return blocks;
+}
+
+SystemSentences::SystemSentences(const ast::Script& script, const Sources& sources,
+                                 const SystemBlocks& blocks, std::string_view system) {
+    std::vector<Place> chain;  // From the system to the one that is derived from none.
+    Place place = find_block({&script, &sources, &blocks, nullptr}, system);
+    if (place.block == nullptr) place = find_in_library(system);
+    constexpr std::size_t longest_chain = 1000;  // The checks allow no circle.
+    while (place.block != nullptr && chain.size() < longest_chain) {
+        chain.push_back(place);
+        const std::string_view base = place.block->base.text;
+        if (base.empty()) break;
+        // `system a: a { … }` changes the library's a.
+        const bool is_own_name = base == place.block->name.text;
+        place = is_own_name ? Place{} : find_block(place, base);
+        if (place.block == nullptr) place = find_in_library(base);
+    }
+    found_ = !chain.empty();
+    if (found_) doc_ = chain.front().block->doc;
+    for (auto each = chain.rbegin(); each != chain.rend(); ++each) derive(*each);
+    for (const SaidSentence& each : sentences_) {
+        if (is_rate(*each.sentence)) species_.insert(each.sentence->name.text);
+    }
+}
+
+/// Adds the sentences of a block to those it inherits, or puts them in the place of those.
+void SystemSentences::derive(const Place& place) {
+    struct Change {
+        std::size_t first = SIZE_MAX;  ///< The inherited sentence whose place it takes.
+        bool is_used = false;
+    };
+    std::unordered_map<std::string, Change> changes;
+    for (const ast::Sentence& sentence : place.block->sentences) {
+        if (sentence.kind == ast::SentenceKind::rate_term) continue;
+        changes.try_emplace(subject_of(sentence) + member_of(sentence));
+    }
+    std::vector<bool> dropped(sentences_.size(), false);
+    for (std::size_t k = 0; k < sentences_.size(); ++k) {
+        const ast::Sentence& inherited = *sentences_[k].sentence;
+        // What is said of all members is said of each.
+        for (const std::string& member : {std::string(), member_of(inherited)}) {
+            const auto change = changes.find(subject_of(inherited) + member);
+            if (change == changes.end()) continue;
+            dropped[k] = true;
+            if (change->second.first == SIZE_MAX) change->second.first = k;
+        }
+    }
+    for (const ast::Sentence& sentence : place.block->sentences) {
+        SaidSentence added = said(*place.script, *place.sources, sentence);
+        const auto change = changes.find(subject_of(sentence) + member_of(sentence));
+        const bool takes_place = sentence.kind != ast::SentenceKind::rate_term &&
+                                 change != changes.end() && !change->second.is_used &&
+                                 change->second.first != SIZE_MAX;
+        if (!takes_place) {
+            sentences_.push_back(added);
+            dropped.push_back(false);
+            continue;
+        }
+        change->second.is_used = true;
+        SaidSentence& before = sentences_[change->second.first];
+        if (added.doc == nullptr) added.doc = before.doc;
+        if (added.range == nullptr) {
+            added.range = before.range;
+            added.range_script = before.range_script;
+            added.range_sources = before.range_sources;
+        }
+        before = added;
+        dropped[change->second.first] = false;
+    }
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < sentences_.size(); ++k) {
+        if (!dropped[k]) sentences_[kept++] = sentences_[k];
+    }
+    sentences_.resize(kept);
+}
+
+SystemSentences::Place SystemSentences::find_block(Place beside, std::string_view system) {
+    const auto found = beside.blocks->find(system);
+    beside.block = found == beside.blocks->end() ? nullptr : found->second;
+    return beside;
+}
+
+SystemSentences::Place SystemSentences::find_in_library(std::string_view system) {
+    const LibraryText* const text = find_library_text(system);
+    if (text == nullptr) return {};
+    LibraryScript& read = library_.emplace_back();
+    Diagnostics never_any;
+    const SourceId source =
+        read.sources.add(std::string(text->file_name), std::string(text->text));
+    read.script = parse(source, read.sources, never_any);
+    read.blocks = system_blocks(read.script);
+    return find_block({&read.script, &read.sources, &read.blocks, nullptr}, system);
+}
+
+}  // namespace cascade

@@ -1,0 +1,69 @@
+#include "lang/check/unread_stages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+namespace {
+
+void note_reads(const Formula& formula, std::vector<bool>& is_read) {
+    for (const Node& node : formula.nodes) {
+        if (node.kind == NodeKind::earlier) is_read[node.stage] = true;
+    }
+}
+
+std::vector<std::string> species_of(const System& system) {
+    std::vector<std::string> names;
+    for (const Quantity& quantity : system.quantities) {
+        if (quantity.is_species) names.push_back(quantity.name);
+    }
+    return names;
+}
+
+/// What to write for the next stage to go on from a stage.
+std::string how_to_go_on(const Program& program, std::uint32_t stage) {
+    const Stage& next = program.stages[stage + 1];
+    const std::vector<std::string> species = species_of(program.system_of(stage));
+    const bool is_alike = species == species_of(program.system_of(stage + 1));
+    const bool is_family = std::any_of(species.begin(), species.end(), [](const std::string& name) {
+        return name.find('[') != std::string::npos;
+    });
+    if (!is_alike || is_family || species.size() > 4) {
+        return fmt::format("a stage begins with its own starting values: 'p: {}.{}' would read this one",
+                           program.stages[stage].name, species.front());
+    }
+    std::vector<std::string> sentences;
+    for (const std::string& name : species) sentences.push_back(fmt::format("{}: {}", name, name));
+    return fmt::format("'{}' in stage '{}' goes on from it", fmt::join(sentences, "; "), next.name);
+}
+
+}  // namespace
+
+void warn_of_unread_stages(const Program& program, std::uint32_t shown, const Formula* picture,
+                           Diagnostics& diagnostics) {
+    if (program.stages.empty()) return;
+    std::vector<bool> is_read(program.stages.size());
+    is_read.back() = is_read[shown] = true;
+    if (picture != nullptr) note_reads(*picture, is_read);
+    for (const Stage& stage : program.stages) {
+        for (const Formula& item : stage.items) note_reads(item, is_read);
+        note_reads(stage.show, is_read);
+        if (stage.time.until) note_reads(*stage.time.until, is_read);
+        for (const auto& sides : stage.sides) {
+            for (const SideSetting& side : sides) note_reads(side.value, is_read);
+        }
+    }
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        if (is_read[k]) continue;
+        diagnostics.warning(program.stages[k].span,
+                            fmt::format("no later stage and no picture reads stage '{}'",
+                                        program.stages[k].name),
+                            how_to_go_on(program, k));
+    }
+}
+
+}  // namespace cascade

@@ -1,0 +1,196 @@
+// Checking the functions of a script: their names, what they read, and that none calls itself.
+#include "lang/check/user_functions.h"
+
+#include "core/counted.h"
+#include "lang/program/order.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr std::size_t most_named = 12;
+constexpr const char* what_it_reads = "a function reads its parameters and built-in values only";
+
+}  // namespace
+
+std::vector<std::string> FunctionTable::names() const {
+    std::vector<std::string> names;
+    for (const auto& [name, index] : by_name_) names.emplace_back(name);
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+class FunctionTableMaker {
+public:
+    FunctionTableMaker(Workspace& work, const ast::Script& script)
+        : work_(work), script_(script) {}
+
+    FunctionTable run() {
+        for (const ast::FunctionDefinition& definition : script_.functions) declare(definition);
+        calls_.resize(table_.functions_.size());
+        for (std::uint32_t i = 0; i < table_.functions_.size(); ++i) check_body(i);
+        for (const auto& circle : topological_order(calls_).circles) report_circle(circle);
+        return std::move(table_);
+    }
+
+private:
+    void declare(const ast::FunctionDefinition& definition);
+    void check_body(std::uint32_t index);
+    void check_name(UserFunction& function, std::string_view name, Span span);
+    void check_call(std::uint32_t index, const ast::Call& call, Span span);
+    void report_circle(const std::vector<std::uint32_t>& circle);
+    void fault(UserFunction& function, Span span, std::string message, std::string hint) {
+        work_.diagnostics.error(span, std::move(message), std::move(hint));
+        function.faulty = true;
+    }
+
+    Workspace& work_;
+    const ast::Script& script_;
+    FunctionTable table_;
+    Dependencies calls_;
+};
+
+void FunctionTableMaker::declare(const ast::FunctionDefinition& definition) {
+    UserFunction function;
+    function.definition = &definition;
+    const ast::Word& name = definition.name;
+    if (is_function_name(name.text)) {
+        work_.diagnostics.error(name.span,
+                                fmt::format("'{}' is a function of the language", name.text),
+                                "choose another name");
+        return;
+    }
+    for (const ast::Word& parameter : definition.parameters) {
+        const auto number = static_cast<std::uint32_t>(function.parameters.size());
+        const auto [first, is_new] = function.parameters.try_emplace(parameter.text, number);
+        if (is_new) continue;
+        report_twice(work_, parameter.span, definition.parameters[first->second].span,
+                     fmt::format("'{}' is a parameter twice", parameter.text));
+        function.faulty = true;
+    }
+    const auto index = static_cast<std::uint32_t>(table_.functions_.size());
+    const auto [first, is_new] = table_.by_name_.try_emplace(name.text, index);
+    if (!is_new) {
+        report_twice(work_, name.span,
+                     table_.functions_[first->second].definition->name.span,
+                     fmt::format("there are two functions '{}'", name.text));
+    }
+    table_.functions_.push_back(std::move(function));
+}
+
+void FunctionTableMaker::check_body(std::uint32_t index) {
+    UserFunction& function = table_.functions_[index];
+    const ast::Expression body = function.definition->body;
+    std::vector<bool> is_family(body.root - body.first + 1, false);
+    for (ast::ExprId id = body.first; id <= body.root; ++id) {
+        const auto* member = std::get_if<ast::Indexed>(&script_.expressions[id].node);
+        if (member != nullptr) is_family[member->base - body.first] = true;
+    }
+    for (ast::ExprId id = body.first; id <= body.root; ++id) {
+        const ast::Expr& part = script_.expressions[id];
+        if (is_family[id - body.first]) continue;  // Told with its index.
+        if (const auto* name = std::get_if<ast::Name>(&part.node)) {
+            check_name(function, name->name, part.span);
+        } else if (const auto* call = std::get_if<ast::Call>(&part.node)) {
+            check_call(index, *call, part.span);
+        } else if (const auto* over = std::get_if<ast::Over>(&part.node)) {
+            if (over->index.text != "domain") {
+                fault(function, over->index.span,
+                      fmt::format("a function has no index '{}'", over->index.text),
+                      "give it the members or their sum as arguments");
+            }
+        } else if (std::holds_alternative<ast::Garbage>(part.node)) {
+            function.faulty = true;
+        } else if (std::holds_alternative<ast::Indexed>(part.node)) {
+            fault(function, part.span, "a function cannot read the member of a family",
+                  "give it the member as an argument");
+        } else if (std::holds_alternative<ast::Bracketed>(part.node) ||
+                   std::holds_alternative<ast::Qualified>(part.node) ||
+                   std::holds_alternative<ast::RateOf>(part.node)) {
+            fault(function, part.span, "a function cannot read a stage or a system",
+                  what_it_reads);
+        }
+    }
+}
+
+void FunctionTableMaker::check_name(UserFunction& function, std::string_view name, Span span) {
+    if (function.parameters.contains(name)) return;
+    const Reserved kind = reserved(name);
+    if (kind == Reserved::builtin) return;
+    std::vector<std::string> names;
+    for (const ast::Word& each : function.definition->parameters) names.emplace_back(each.text);
+    std::string hint = did_you_mean(work_, name, names);
+    if (hint.empty()) hint = what_it_reads;
+    fault(function, span,
+          fmt::format("'{}' is not a parameter of the function '{}'", name,
+                      function.definition->name.text),
+          std::move(hint));
+}
+
+void FunctionTableMaker::check_call(std::uint32_t index, const ast::Call& call, Span span) {
+    UserFunction& caller = table_.functions_[index];
+    if (const UserFunction* called = table_.find(call.function.text)) {
+        calls_[index].push_back(static_cast<std::uint32_t>(called - table_.functions_.data()));
+        if (!has_right_count(work_, *called, call, span)) caller.faulty = true;
+    } else if (!is_function_name(call.function.text)) {
+        caller.faulty = true;
+        report_unknown_function(work_, call.function, table_.names());
+    }
+}
+
+void FunctionTableMaker::report_circle(const std::vector<std::uint32_t>& circle) {
+    std::string path;
+    for (std::size_t i = 0; i < circle.size(); ++i) {
+        table_.functions_[circle[i]].faulty = true;
+        if (i == most_named) path += "… -> ";
+        if (i >= most_named) continue;
+        path += fmt::format("{} -> ", table_.functions_[circle[i]].definition->name.text);
+    }
+    const ast::Word& first = table_.functions_[circle[0]].definition->name;
+    path += first.text;
+    // The place of the call: that of `circle[1]`, or of itself, in the first one's value.
+    const ast::Expression body = table_.functions_[circle[0]].definition->body;
+    const std::string_view next =
+        table_.functions_[circle[1 % circle.size()]].definition->name.text;
+    Span span = first.span;
+    for (ast::ExprId id = body.first; id <= body.root; ++id) {
+        const auto* call = std::get_if<ast::Call>(&script_.expressions[id].node);
+        if (call != nullptr && call->function.text == next) span = call->function.span;
+    }
+    work_.diagnostics.error(
+        span,
+        circle.size() == 1 ? fmt::format("the function '{}' calls itself", first.text)
+                           : fmt::format("functions call each other in a circle: {}", path),
+        "a function cannot be computed by itself");
+}
+
+const FunctionTable& functions_of(Workspace& work, const ast::Script& script) {
+    std::shared_ptr<const FunctionTable>& table = work.functions[&script];
+    if (table == nullptr) {
+        table = std::make_shared<const FunctionTable>(FunctionTableMaker(work, script).run());
+    }
+    return *table;
+}
+
+bool has_right_count(Workspace& work, const UserFunction& function, const ast::Call& call,
+                     Span span) {
+    const std::size_t count = function.definition->parameters.size();
+    if (call.argument_count == count) return true;
+    std::string form = fmt::format("{}(", function.definition->name.text);
+    for (const ast::Word& parameter : function.definition->parameters) {
+        if (&parameter != &function.definition->parameters.front()) form += ", ";
+        form += parameter.text;
+    }
+    work.diagnostics.error(span,
+                           fmt::format("{} takes {}, not {}", function.definition->name.text,
+                                       counted(count, "value"), call.argument_count),
+                           "it is defined as " + form + ")");
+    return false;
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,382 @@
+// Expressions are written from left to right with a stack of what is still to come, so that neither
+// their depth nor their length matters.
+#include "lang/equations/equation_formula.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace cascade {
+
+namespace {
+
+constexpr int a_negation = 3, a_comparison = 4, a_sign = 7, a_power = 8, an_atom = 9;
+
+/// An operand to be written, in brackets if it is looser than `least`.
+struct Operand {
+    ast::ExprId id = 0;
+    int least = 0;
+};
+using Piece = std::variant<Operand, std::string>;
+
+/// What stands around the only operand of a call. In TeX brackets grow with what is in them.
+struct Around {
+    std::string_view function, unicode_open, unicode_close, tex_open, tex_close;
+};
+constexpr Around arounds[] = {
+    {"abs", "|", "|", "\\left|", "\\right|"},
+    {"floor", "⌊", "⌋", "\\lfloor ", " \\rfloor "},
+    {"ceil", "⌈", "⌉", "\\lceil ", " \\rceil "},
+    {"log", "ln(", ")", "\\ln\\left(", "\\right)"},
+    {"exp", "exp(", ")", "\\exp\\left(", "\\right)"},
+    {"sin", "sin(", ")", "\\sin\\left(", "\\right)"},
+    {"cos", "cos(", ")", "\\cos\\left(", "\\right)"},
+    {"tan", "tan(", ")", "\\tan\\left(", "\\right)"},
+    {"sinh", "sinh(", ")", "\\sinh\\left(", "\\right)"},
+    {"cosh", "cosh(", ")", "\\cosh\\left(", "\\right)"},
+    {"tanh", "tanh(", ")", "\\tanh\\left(", "\\right)"},
+};
+
+/// Operators in front of what they act on.
+struct Prefix {
+    std::string_view function, unicode, tex;
+};
+constexpr Prefix prefixes[] = {
+    {"lap", "∇²", "\\nabla^2 "},
+    {"grad", "∇", "\\nabla "},
+    {"div", "∇·", "\\nabla \\cdot "},
+};
+
+/// Derivatives, by the directions they are taken in.
+constexpr std::string_view derivatives[] = {"dx",  "dy",  "dz",  "dxx", "dyy",
+                                            "dzz", "dxy", "dxz", "dyz"};
+
+template <typename Row, std::size_t count>
+const Row* find(const Row (&rows)[count], std::string_view function) {
+    const auto* const end = rows + count;
+    const auto* const found =
+        std::find_if(rows, end, [&](const Row& row) { return row.function == function; });
+    return found == end ? nullptr : found;
+}
+
+class FormulaPrinter {
+public:
+    FormulaPrinter(const ast::Script& script, const Sources& sources, const Symbols& symbols)
+        : script_(script), sources_(sources), symbols_(symbols),
+          tex_(symbols.notation == Notation::tex) {}
+
+    std::string run(ast::ExprId root, int least) {
+        stack_.emplace_back(Operand{root, least});
+        while (!stack_.empty()) {
+            const Piece piece = std::move(stack_.back());
+            stack_.pop_back();
+            if (const auto* text = std::get_if<std::string>(&piece)) text_ += *text;
+            else write(std::get<Operand>(piece));
+        }
+        return std::move(text_);
+    }
+
+private:
+    template <typename Node>
+    const Node* as(ast::ExprId id) const {
+        return std::get_if<Node>(&script_.expressions[id].node);
+    }
+    std::string both(std::string_view unicode, std::string_view tex) const {
+        return std::string(tex_ ? tex : unicode);
+    }
+    std::span<const ast::ExprId> arguments(const ast::Call& call) const {
+        return std::span(script_.arguments).subspan(call.first_argument, call.argument_count);
+    }
+    void push(std::vector<Piece> pieces) {
+        for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece) {
+            stack_.push_back(std::move(*piece));
+        }
+    }
+    /// Pushes an operator's pieces, in brackets if `own` is looser than the place allows.
+    void push_operator(std::vector<Piece> pieces, int own, int least) {
+        if (own < least) {
+            pieces.insert(pieces.begin(), both("(", "\\left("));
+            pieces.emplace_back(both(")", "\\right)"));
+        }
+        push(std::move(pieces));
+    }
+
+    void write(const Operand& operand) {
+        const ast::Expr& expression = script_.expressions[operand.id];
+        const int least = operand.least;
+        std::visit(
+            [&](const auto& node) {
+                using Node = std::decay_t<decltype(node)>;
+                if constexpr (std::is_same_v<Node, ast::Number>) {
+                    text_ += symbols_.number(sources_.text(expression.span));
+                } else if constexpr (std::is_same_v<Node, ast::Text>) {
+                    text_ += both("\"" + node.value + "\"", "\\texttt{" + tex_text(node.value) + "}");
+                } else if constexpr (std::is_same_v<Node, ast::Name>) {
+                    text_ += symbols_.name(node.name);
+                } else if constexpr (std::is_same_v<Node, ast::Bracketed>) {
+                    text_ += symbols_.name(node.name.text);
+                } else if constexpr (std::is_same_v<Node, ast::Qualified>) {
+                    text_ += symbols_.name(node.name.text);
+                } else if constexpr (std::is_same_v<Node, ast::RateOf>) {
+                    write_rate(symbols_.name(node.name.text), least);
+                } else if constexpr (std::is_same_v<Node, ast::Unary>) {
+                    write_unary(node, least);
+                } else if constexpr (std::is_same_v<Node, ast::Binary>) {
+                    write_binary(node, least);
+                } else if constexpr (std::is_same_v<Node, ast::Call>) {
+                    write_call(node, least);
+                } else if constexpr (std::is_same_v<Node, ast::Over>) {
+                    write_over(node, least);
+                } else if constexpr (std::is_same_v<Node, ast::Indexed>) {
+                    write_member(node, least);
+                }
+            },
+            expression.node);
+    }
+
+    void write_rate(const std::string& symbol, int least) {
+        push_operator({both("∂" + symbol + "/∂t", "\\partial_t " + symbol)}, a_power,
+                      std::min(least, an_atom));
+    }
+    void write_member(const ast::Indexed& node, int least) {
+        std::string_view family;
+        if (const auto* name = as<ast::Name>(node.base)) family = name->name;
+        if (const auto* name = as<ast::Bracketed>(node.base)) family = name->name.text;
+        if (const auto* name = as<ast::Qualified>(node.base)) family = name->name.text;
+        const auto* const rate = as<ast::RateOf>(node.base);
+        if (rate) family = rate->name.text;
+        if (tex_) {
+            std::vector<Piece> pieces = {symbols_.family_in_tex(family) + "_{",
+                                         Operand{node.index, anything}, "}"};
+            if (rate) pieces.insert(pieces.begin(), "\\partial_t ");
+            return push_operator(std::move(pieces), rate ? a_power : an_atom, least);
+        }
+        const std::string symbol =
+            symbols_.member(family, sources_.text(script_.expressions[node.index].span));
+        if (rate) write_rate(symbol, least);
+        else text_ += symbol;
+    }
+    void write_unary(const ast::Unary& node, int least) {
+        if (node.op == ast::UnaryOp::logical_not) {
+            return push_operator({both("not ", "\\lnot "), Operand{node.operand, a_comparison}},
+                                 a_negation, least);
+        }
+        // A second sign would melt with the first.
+        push_operator({both("−", "-"), Operand{node.operand, a_power}}, a_sign, least);
+    }
+
+    void write_binary(const ast::Binary& node, int least) {
+        using Op = ast::BinaryOp;
+        const auto join = [&](std::string between, int own, int left, int right) {
+            push_operator({Operand{node.left, left}, std::move(between), Operand{node.right, right}},
+                          own, least);
+        };
+        switch (node.op) {
+            case Op::logical_or: return join(both(" or ", " \\lor "), 1, 1, 2);
+            case Op::logical_and: return join(both(" and ", " \\land "), 2, 2, 3);
+            case Op::less: return join(" < ", 4, a_sum, a_sum);
+            case Op::less_equal: return join(both(" ≤ ", " \\le "), 4, a_sum, a_sum);
+            case Op::greater: return join(" > ", 4, a_sum, a_sum);
+            case Op::greater_equal: return join(both(" ≥ ", " \\ge "), 4, a_sum, a_sum);
+            case Op::equal: return join(" = ", 4, a_sum, a_sum);
+            case Op::not_equal: return join(both(" ≠ ", " \\ne "), 4, a_sum, a_sum);
+            case Op::add: return join(" + ", a_sum, a_sum, right_of_sum(node.right, a_sum));
+            case Op::subtract:
+                return join(both(" − ", " - "), a_sum, a_sum, right_of_sum(node.right, a_product));
+            case Op::multiply: return write_product(node, least);
+            case Op::divide: return write_quotient(node, least);
+            case Op::power: return write_power(node.left, node.right, least);
+        }
+    }
+    /// A sign directly behind `+` or `−` stands in brackets.
+    int right_of_sum(ast::ExprId right, int least) const {
+        return as<ast::Unary>(right) != nullptr ? a_power : least;
+    }
+
+    /// A sum over an index would swallow the factors behind it.
+    int factor(ast::ExprId id, int least) const {
+        const auto* const over = as<ast::Over>(id);
+        return over && (over->function.text == "sum" || over->function.text == "product")
+                   ? a_sign
+                   : least;
+    }
+    /// Side by side, with a point where two numbers would meet.
+    void write_product(const ast::Binary& node, int least) {
+        const auto* const left = as<ast::Binary>(node.left);
+        const auto* const right = as<ast::Binary>(node.right);
+        const bool right_is_power = right && right->op == ast::BinaryOp::power;
+        const bool right_is_product = right && right->op == ast::BinaryOp::multiply;
+        const ast::ExprId first =
+            right_is_power || right_is_product ? right->left : node.right;
+        const bool meets_number = as<ast::Number>(first) != nullptr;
+        // On one line `a / b c` would read as a / (b c).
+        const bool left_is_quotient = !tex_ && left && left->op == ast::BinaryOp::divide;
+        push_operator({Operand{node.left, left_is_quotient ? a_sign : factor(node.left, a_product)},
+                       meets_number ? both(" · ", " \\cdot ") : both(" ", " \\, "),
+                       Operand{node.right,
+                               factor(node.right, right_is_product ? a_product : a_power)}},
+                      a_product, least);
+    }
+    void write_quotient(const ast::Binary& node, int least) {
+        if (tex_) {
+            // Above and below the line everything is on its own.
+            return push_operator({"\\frac{", Operand{node.left, anything}, "}{",
+                                  Operand{node.right, anything}, "}"},
+                                 a_power, least);
+        }
+        const bool of_numbers = as<ast::Number>(node.left) && as<ast::Number>(node.right);
+        push_operator({Operand{node.left, factor(node.left, a_product)},
+                       of_numbers ? "/" : " / ", Operand{node.right, factor(node.right, a_power)}},
+                      a_product, least);
+    }
+    void write_power(ast::ExprId base, ast::ExprId exponent, int least) {
+        if (tex_) {
+            return push_operator({Operand{base, an_atom}, "^{", Operand{exponent, anything}, "}"},
+                                 a_power, least);
+        }
+        const auto above = superscript(sources_.text(script_.expressions[exponent].span));
+        if (above && as<ast::Binary>(exponent) == nullptr) {
+            return push_operator({Operand{base, an_atom}, *above}, a_power, least);
+        }
+        push_operator({Operand{base, an_atom}, "^", Operand{exponent, an_atom}}, a_power, least);
+    }
+
+    /// TeX draws roots over what they are of.
+    void write_root(const std::string& sign, const std::string& tex, ast::ExprId operand,
+                    int least) {
+        if (tex_) return push({tex + "{", Operand{operand, anything}, "}"});
+        push_operator({sign, Operand{operand, an_atom}}, a_power, least);
+    }
+    void write_call(const ast::Call& call, int least) {
+        const std::string_view function = call.function.text;
+        const auto operands = arguments(call);
+        if (operands.size() == 1) {
+            if (const Around* around = find(arounds, function)) {
+                return push({both(around->unicode_open, around->tex_open),
+                             Operand{operands[0], anything},
+                             both(around->unicode_close, around->tex_close)});
+            }
+            if (const Prefix* prefix = find(prefixes, function)) {
+                return push_operator(
+                    {both(prefix->unicode, prefix->tex), Operand{operands[0], an_atom}}, a_power,
+                    least);
+            }
+            if (function == "sqrt") return write_root("√", "\\sqrt", operands[0], least);
+            if (function == "cbrt") return write_root("∛", "\\sqrt[3]", operands[0], least);
+            if (function == "grad2") {
+                return push_operator({both("|∇", "\\left|\\nabla "), Operand{operands[0], an_atom},
+                                      both("|²", "\\right|^2")},
+                                     a_power, least);
+            }
+            if (std::find(std::begin(derivatives), std::end(derivatives), function) !=
+                std::end(derivatives)) {
+                return write_derivative(function.substr(1), operands[0], least);
+            }
+        }
+        if (operands.size() == 2 && function == "pow") {
+            return write_power(operands[0], operands[1], least);
+        }
+        if (operands.size() == 3 && function == "if") return write_choice(operands);
+        if (operands.size() >= 3 && function == "advect") return write_advection(operands, least);
+        if (operands.size() == 4 && function == "diffuse") {
+            return push_operator(
+                {both("A(", "\\mathsf{A}\\left("), Operand{operands[1], anything}, ", ",
+                 Operand{operands[2], anything}, ", ", Operand{operands[3], anything},
+                 both(") : ∇∇", "\\right) : \\nabla\\nabla "), Operand{operands[0], an_atom}},
+                a_product, least);
+        }
+        std::string head = function_symbol(function);
+        if (function == "vector") head = "";
+        if (function == "tensor") head = both("A", "\\mathsf{A}");
+        write_arguments(head, operands);
+    }
+    std::string function_symbol(std::string_view function) const {
+        if (!tex_) return std::string(function);
+        if (function == "min" || function == "max") return "\\" + std::string(function);
+        return "\\operatorname{" + tex_text(function) + "}";
+    }
+    void write_arguments(const std::string& head, std::span<const ast::ExprId> operands) {
+        std::vector<Piece> pieces = {head + both("(", "\\left(")};
+        for (std::size_t k = 0; k < operands.size(); ++k) {
+            if (k > 0) pieces.emplace_back(", ");
+            pieces.emplace_back(Operand{operands[k], anything});
+        }
+        pieces.emplace_back(both(")", "\\right)"));
+        push(std::move(pieces));
+    }
+    void write_choice(std::span<const ast::ExprId> operands) {
+        if (tex_) {
+            return push({"\\begin{cases}", Operand{operands[1], anything}, " & \\text{if } ",
+                         Operand{operands[0], anything}, " \\\\ ", Operand{operands[2], anything},
+                         " & \\text{otherwise}\\end{cases}"});
+        }
+        push({"{", Operand{operands[1], anything}, " if ", Operand{operands[0], anything},
+              ", else ", Operand{operands[2], anything}, "}"});
+    }
+    /// v · ∇e
+    void write_advection(std::span<const ast::ExprId> operands, int least) {
+        std::vector<Piece> pieces = {both("(", "\\left(")};
+        for (std::size_t k = 0; k + 1 < operands.size(); ++k) {
+            if (k > 0) pieces.emplace_back(", ");
+            pieces.emplace_back(Operand{operands[k], anything});
+        }
+        pieces.emplace_back(both(")·∇", "\\right) \\cdot \\nabla "));
+        pieces.emplace_back(Operand{operands.back(), an_atom});
+        push_operator(std::move(pieces), a_product, least);
+    }
+    /// `directions` is x, or xx, or xy, …
+    void write_derivative(std::string_view directions, ast::ExprId operand, int least) {
+        const bool is_second = directions.size() == 2;
+        if (tex_) {
+            return push_operator({"\\partial_{" + std::string(directions) + "} ",
+                                  Operand{operand, an_atom}},
+                                 a_power, least);
+        }
+        std::string below = "/∂" + std::string(directions.substr(0, 1));
+        if (is_second) {
+            below += directions[0] == directions[1] ? "²" : "∂" + std::string(directions.substr(1));
+        }
+        push_operator({is_second ? "∂²" : "∂", Operand{operand, an_atom}, below}, a_power, least);
+    }
+
+    /// sum(e over i), mean(e over domain), …
+    void write_over(const ast::Over& node, int least) {
+        const std::string_view function = node.function.text;
+        const bool of_domain = node.index.text == "domain";
+        const std::string index(node.index.text);
+        const std::string under =
+            of_domain ? both("_Ω", "_{\\Omega}")
+                      : both(subscript(index).value_or("_" + index), "_{" + index + "}");
+        if (function == "mean") {
+            return push({both("⟨", "\\left\\langle "), Operand{node.operand, anything},
+                         both("⟩", " \\right\\rangle") + (of_domain ? "" : under)});
+        }
+        if (function == "sum" || function == "product") {
+            const bool is_sum = function == "sum";
+            return push_operator({(is_sum ? both("Σ", "\\sum") : both("Π", "\\prod")) + under + " ",
+                                  Operand{node.operand, a_product}},
+                                 a_product, least);
+        }
+        push({function_symbol(function) + under + both("(", "\\left("),
+              Operand{node.operand, anything}, both(")", "\\right)")});
+    }
+
+    const ast::Script& script_;
+    const Sources& sources_;
+    const Symbols& symbols_;
+    bool tex_;
+    std::vector<Piece> stack_;
+    std::string text_;
+};
+
+}  // namespace
+
+std::string typeset(const ast::Script& script, const Sources& sources, const Symbols& symbols,
+                    ast::ExprId root, int least) {
+    return FormulaPrinter(script, sources, symbols).run(root, least);
+}
+
+}  // namespace cascade

@@ -1,0 +1,175 @@
+#include "lang/equations/equation_symbols.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace cascade {
+
+namespace {
+
+struct Letter {
+    std::string_view name;
+    std::string_view unicode;
+};
+
+/// Names that stand for a letter; TeX knows them by the same names, except those it writes as a
+/// Latin letter, which are left out. `epsilon` and `phi` are the forms that papers print.
+constexpr Letter greek[] = {
+    {"alpha", "α"},   {"beta", "β"},   {"gamma", "γ"},   {"delta", "δ"}, {"epsilon", "ε"},
+    {"zeta", "ζ"},    {"eta", "η"},    {"theta", "θ"},   {"iota", "ι"},  {"kappa", "κ"},
+    {"lambda", "λ"},  {"mu", "μ"},     {"nu", "ν"},      {"xi", "ξ"},    {"pi", "π"},
+    {"rho", "ρ"},     {"sigma", "σ"},  {"tau", "τ"},     {"phi", "φ"},   {"chi", "χ"},
+    {"psi", "ψ"},     {"omega", "ω"},  {"Gamma", "Γ"},   {"Delta", "Δ"}, {"Theta", "Θ"},
+    {"Lambda", "Λ"},  {"Xi", "Ξ"},     {"Pi", "Π"},      {"Sigma", "Σ"}, {"Phi", "Φ"},
+    {"Psi", "Ψ"},     {"Omega", "Ω"},
+};
+
+constexpr Letter above[] = {
+    {"0", "⁰"}, {"1", "¹"}, {"2", "²"}, {"3", "³"}, {"4", "⁴"}, {"5", "⁵"}, {"6", "⁶"},
+    {"7", "⁷"}, {"8", "⁸"}, {"9", "⁹"}, {"-", "⁻"}, {"+", "⁺"}, {"n", "ⁿ"}, {"i", "ⁱ"},
+};
+
+constexpr Letter below[] = {
+    {"0", "₀"}, {"1", "₁"}, {"2", "₂"}, {"3", "₃"}, {"4", "₄"}, {"5", "₅"}, {"6", "₆"},
+    {"7", "₇"}, {"8", "₈"}, {"9", "₉"}, {"-", "₋"}, {"+", "₊"}, {"(", "₍"}, {")", "₎"},
+    {"a", "ₐ"}, {"e", "ₑ"}, {"h", "ₕ"}, {"i", "ᵢ"}, {"j", "ⱼ"}, {"k", "ₖ"}, {"l", "ₗ"},
+    {"m", "ₘ"}, {"n", "ₙ"}, {"o", "ₒ"}, {"p", "ₚ"}, {"r", "ᵣ"}, {"s", "ₛ"}, {"t", "ₜ"},
+    {"u", "ᵤ"}, {"v", "ᵥ"}, {"x", "ₓ"},
+};
+
+template <std::size_t count>
+const Letter* find(const Letter (&letters)[count], std::string_view name) {
+    const auto* const end = letters + count;
+    const auto* const found = std::find_if(letters, end, [&](const Letter& letter) {
+        return letter.name == name;
+    });
+    return found == end ? nullptr : found;
+}
+
+template <std::size_t count>
+std::optional<std::string> replaced(const Letter (&letters)[count], std::string_view text) {
+    std::string result;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const Letter* const letter = find(letters, text.substr(k, 1));
+        if (letter == nullptr) return std::nullopt;
+        result += letter->unicode;
+    }
+    return result;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// A name is a stem, digits behind it, and what stands behind the first `_`.
+struct Parts {
+    std::string_view stem, below;
+    bool has_bar = false;  ///< `_` parts them.
+};
+
+Parts parts_of(std::string_view name) {
+    const std::size_t bar = name.find('_', 1);
+    if (bar != std::string_view::npos && bar + 1 < name.size()) {
+        return {name.substr(0, bar), name.substr(bar + 1), true};
+    }
+    std::size_t digits = name.size();
+    while (digits > 0 && is_digit(name[digits - 1])) --digits;
+    if (digits == 0 || name[digits - 1] == '_') return {name, "", false};
+    return {name.substr(0, digits), name.substr(digits), false};
+}
+
+/// A word of letters and digits in TeX's mathematics.
+std::string tex_word(std::string_view word) {
+    if (find(greek, word) != nullptr) {
+        const std::string variant = word == "epsilon" || word == "phi" ? "var" : "";
+        return "\\" + variant + std::string(word);
+    }
+    const bool is_number = std::all_of(word.begin(), word.end(), is_digit);
+    if (word.size() == 1 || is_number) return word == "_" ? "\\_" : std::string(word);
+    std::string text = "\\mathrm{";
+    for (const char c : word) text += c == '_' ? std::string("\\_") : std::string(1, c);
+    return text + "}";
+}
+
+/// Below the line: words that `_` parts, with commas between them.
+std::string tex_below(std::string_view words) {
+    std::string text;
+    while (true) {
+        const std::size_t bar = words.find('_');
+        const std::string_view word = words.substr(0, bar);
+        if (!word.empty()) text += (text.empty() ? "" : ",") + tex_word(word);
+        if (bar == std::string_view::npos) return text;
+        words.remove_prefix(bar + 1);
+    }
+}
+
+}  // namespace
+
+std::string tex_text(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '\\') {
+            result += "\\textbackslash{}";
+        } else if (c == '~' || c == '^') {
+            result += std::string("\\") + c + "{}";
+        } else {
+            if (std::string_view("#$%&_{}").find(c) != std::string_view::npos) result += '\\';
+            result += c;
+        }
+    }
+    return result;
+}
+
+bool has_subscript(std::string_view name) {
+    const Parts parts = parts_of(name);
+    return !parts.has_bar || subscript(parts.below).has_value();
+}
+
+std::optional<std::string> superscript(std::string_view text) { return replaced(above, text); }
+std::optional<std::string> subscript(std::string_view text) { return replaced(below, text); }
+
+std::string Symbols::name(std::string_view name) const {
+    const Parts parts = parts_of(name);
+    if (notation == Notation::tex) {
+        const std::string stem = tex_word(parts.stem);
+        const std::string under = tex_below(parts.below);
+        return under.empty() ? stem : stem + "_{" + under + "}";
+    }
+    const Letter* const letter = find(greek, parts.stem);
+    const std::string stem(letter ? letter->unicode : parts.stem);
+    const auto under = subscript(parts.below);
+    if (under && (subscripts || !parts.has_bar)) return stem + *under;
+    return stem + (parts.has_bar ? "_" : "") + std::string(parts.below);
+}
+
+std::string Symbols::family_in_tex(std::string_view family) const {
+    const std::string stem = name(family);
+    return stem.find("_{") == std::string::npos ? stem : "{" + stem + "}";
+}
+
+std::string Symbols::member(std::string_view family, std::string_view index) const {
+    std::string tight;
+    for (const char c : index) {
+        if (c != ' ' && c != '\t' && c != '\n' && c != '\r') tight += c;
+    }
+    if (notation == Notation::tex) return family_in_tex(family) + "_{" + tex_word(tight) + "}";
+    const auto under = subscript(tight);
+    const bool is_free = parts_of(family).below.empty();
+    return under && is_free ? name(family) + *under : name(family) + "[" + tight + "]";
+}
+
+std::string Symbols::number(std::string_view digits) const {
+    const std::size_t mark = digits.find_first_of("eE");
+    if (mark == std::string_view::npos) return std::string(digits);
+    const std::string_view significand = digits.substr(0, mark);
+    std::string_view exponent = digits.substr(mark + 1);
+    if (exponent.starts_with('+')) exponent.remove_prefix(1);
+    const bool is_one = significand == "1" || significand == "1.0";
+    if (notation == Notation::tex) {
+        const std::string power = "10^{" + std::string(exponent) + "}";
+        return is_one ? "{" + power + "}" : "{" + std::string(significand) + " \\cdot " + power + "}";
+    }
+    const std::string power = "10" + superscript(exponent).value_or("^" + std::string(exponent));
+    return is_one ? power : std::string(significand) + "·" + power;
+}
+
+}  // namespace cascade

@@ -1,0 +1,219 @@
+#include "lang/equations/equations.h"
+
+#include "lang/check/check_names.h"
+#include "lang/check/system_sentences.h"
+#include "lang/equations/equation_formula.h"
+#include "lang/equations/equation_lines.h"
+
+#include <fmt/format.h>
+
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace cascade {
+
+namespace {
+
+/// One line: what is said of what.
+struct Line {
+    std::string left, relation, right;
+};
+
+class EquationPrinter {
+public:
+    EquationPrinter(const SystemSentences& system, Notation notation, std::string_view name)
+        : system_(system), name_(name) {
+        symbols_.notation = notation;
+        for (const SaidSentence& said : system.all()) {
+            symbols_.subscripts =
+                symbols_.subscripts && (is_setting(*said.sentence) ||
+                                        has_subscript(said.sentence->name.text));
+        }
+        for (const SaidSentence& said : system.all()) sort(said);
+        add_functions();
+    }
+
+    std::string run(EquationParts parts) const {
+        const bool all = parts == EquationParts::all;
+        return symbols_.notation == Notation::tex ? run_tex(all) : run_unicode(all);
+    }
+
+private:
+    static bool is_setting(const ast::Sentence& sentence) {
+        return sentence.kind == ast::SentenceKind::value && sentence.index.empty() &&
+               checking::reserved(sentence.name.text) != checking::Reserved::no;
+    }
+    bool is_tex() const { return symbols_.notation == Notation::tex; }
+    std::string typeset_value(const SaidSentence& said, const ast::Expression& value,
+                              int least = anything) const {
+        return typeset(*said.script, *said.sources, symbols_, value.root, least);
+    }
+
+    void sort(const SaidSentence& said) {
+        const ast::Sentence& sentence = *said.sentence;
+        const ast::Expression& first = sentence.values.front();
+        const bool is_text =
+            std::holds_alternative<ast::Text>(said.script->expressions[first.root].node);
+        if (is_setting(sentence) || is_text) return;
+        const std::string symbol =
+            sentence.index.empty() ? symbols_.name(sentence.name.text)
+                                   : symbols_.member(sentence.name.text, sentence.index.text);
+        switch (sentence.kind) {
+            case ast::SentenceKind::rate:
+            case ast::SentenceKind::rate_term: return add_rate(said, symbol);
+            case ast::SentenceKind::definition:
+                definitions_.push_back({symbol, "=", typeset_value(said, first)});
+                return;
+            case ast::SentenceKind::at_least:
+                bounds_.push_back({symbol, is_tex() ? "\\ge" : "≥", typeset_value(said, first)});
+                return;
+            case ast::SentenceKind::at_most:
+                bounds_.push_back({symbol, is_tex() ? "\\le" : "≤", typeset_value(said, first)});
+                return;
+            case ast::SentenceKind::index:
+                indices_.push_back({symbol, "=",
+                                    typeset_value(said, first) + (is_tex() ? ", \\dots, " : " … ") +
+                                        typeset_value(said, sentence.values.back())});
+                return;
+            case ast::SentenceKind::value: break;
+        }
+        std::string value = typeset_value(said, first);
+        (system_.is_species(sentence.name.text) ? starts_ : parameters_)
+            .push_back({symbol, "=", std::move(value)});
+    }
+
+    /// Terms of one rate, wherever they were written, are one sum.
+    void add_rate(const SaidSentence& said, const std::string& symbol) {
+        const ast::Sentence& sentence = *said.sentence;
+        const auto& value = sentence.values.front();
+        const auto [place, is_new] = rate_lines_.try_emplace(symbol, rates_.size());
+        if (is_new) {
+            rates_.push_back({is_tex() ? "\\partial_t " + symbol : "∂" + symbol + "/∂t", "=",
+                              typeset_value(said, value)});
+            return;
+        }
+        std::string& sum = rates_[place->second].right;
+        const std::string term = typeset_value(said, value, a_sum);
+        const std::string_view sign = is_tex() ? "-" : "−";
+        const bool is_negative = term.starts_with(sign);
+        sum += is_negative ? fmt::format(" {} ", sign) : " + ";
+        sum += is_negative ? term.substr(sign.size()) : term;
+    }
+
+    /// The script's own functions that are called, each once, as they are met.
+    void add_functions() {
+        for (const SaidSentence& said : system_.all()) {
+            for (const ast::Expression& value : said.sentence->values) note_calls(said, value);
+        }
+        for (std::size_t k = 0; k < called_.size(); ++k) {  // The list grows.
+            const auto [said, function] = called_[k];
+            std::string symbol = function_symbol(function->name.text) + "(";
+            for (const ast::Word& parameter : function->parameters) {
+                if (&parameter != &function->parameters.front()) symbol += ", ";
+                symbol += symbols_.name(parameter.text);
+            }
+            definitions_.push_back({symbol + ")", "=", typeset_value(said, function->body)});
+            note_calls(said, function->body);
+        }
+    }
+    void note_calls(const SaidSentence& said, const ast::Expression& expression) {
+        if (said.script->functions.empty()) return;
+        for (ast::ExprId id = expression.first; id <= expression.root; ++id) {
+            const auto* const call = std::get_if<ast::Call>(&said.script->expressions[id].node);
+            if (call == nullptr || !called_names_.insert(call->function.text).second) continue;
+            for (const ast::FunctionDefinition& function : said.script->functions) {
+                if (function.name.text == call->function.text) called_.push_back({said, &function});
+            }
+        }
+    }
+    std::string function_symbol(std::string_view name) const {
+        return is_tex() ? fmt::format("\\operatorname{{{}}}", tex_text(name)) : std::string(name);
+    }
+
+    std::string run_unicode(bool all) const {
+        std::string text;
+        const auto list = [&](std::string_view head, const std::vector<Line>& lines) {
+            for (const Line& line : lines) {
+                text += fmt::format("  {:<9}{} {} {}\n", &line == &lines.front() ? head : "",
+                                    line.left, line.relation, line.right);
+            }
+        };
+        for (const Line& line : rates_) {
+            text += fmt::format("  {} {} {}\n", line.left, line.relation, line.right);
+        }
+        list("for", indices_);
+        list("where", definitions_);
+        list("always", bounds_);
+        if (all) list("with", parameters_);
+        if (all) list("at first", starts_);
+        return text;
+    }
+
+    std::string run_tex(bool all) const {
+        std::string text = fmt::format("% {}; needs \\usepackage{{amsmath}}\n", name_);
+        align(text, "align", rates_);
+        if (!indices_.empty()) text += "for " + inline_list(indices_) + "\n";
+        if (!definitions_.empty()) text += "where\n";
+        align(text, "align*", definitions_);
+        if (!bounds_.empty()) text += "Always " + inline_list(bounds_) + ".\n";
+        if (all && !parameters_.empty()) text += "With " + inline_list(parameters_) + ".\n";
+        if (all && !starts_.empty()) text += "At first " + inline_list(starts_) + ".\n";
+        return text;
+    }
+    static void align(std::string& text, std::string_view environment,
+                      const std::vector<Line>& lines) {
+        if (lines.empty()) return;
+        text += fmt::format("\\begin{{{}}}\n", environment);
+        for (const Line& line : lines) {
+            const std::vector<std::string> pieces = broken_sum(line.right);
+            text += fmt::format("  {} &{} {}", line.left, line.relation, pieces.front());
+            for (std::size_t k = 1; k < pieces.size(); ++k) {
+                text += fmt::format(" \\notag \\\\\n  &\\quad {{}} {}", pieces[k]);
+            }
+            text += &line == &lines.back() ? "\n" : " \\\\\n";
+        }
+        text += fmt::format("\\end{{{}}}\n", environment);
+    }
+    static std::string inline_list(const std::vector<Line>& lines) {
+        std::string text;
+        for (const Line& line : lines) {
+            text += fmt::format("{}${} {} {}$", text.empty() ? "" : ",\n  ", line.left,
+                                line.relation, line.right);
+        }
+        return text;
+    }
+
+    const SystemSentences& system_;
+    std::string_view name_;
+    Symbols symbols_;
+    std::unordered_map<std::string, std::size_t> rate_lines_;  ///< By what changes.
+    std::vector<std::pair<SaidSentence, const ast::FunctionDefinition*>> called_;
+    std::unordered_set<std::string_view> called_names_;
+    std::vector<Line> rates_, indices_, definitions_, bounds_, parameters_, starts_;
+};
+
+}  // namespace
+
+std::vector<std::string> print_equations(const ast::Script& script, const Sources& sources,
+                                         std::span<const std::string_view> systems,
+                                         Notation notation, EquationParts parts) {
+    const SystemBlocks blocks = system_blocks(script);
+    std::vector<std::string> texts;
+    for (const std::string_view system : systems) {
+        const SystemSentences sentences(script, sources, blocks, system);
+        texts.push_back(sentences.found()
+                            ? EquationPrinter(sentences, notation, system).run(parts)
+                            : "");
+    }
+    return texts;
+}
+
+std::string print_equations(const ast::Script& script, const Sources& sources,
+                            std::string_view system, Notation notation, EquationParts parts) {
+    return print_equations(script, sources, std::span(&system, 1), notation, parts).front();
+}
+
+}  // namespace cascade

@@ -1,0 +1,260 @@
+// Where words stand on their lines. What an author has lined up under each other (`=` and `+` of
+// neighbouring equations, comments behind sentences) stays lined up; all other extra blanks go.
+//
+// A lined-up column never moves left of where its widest line needs it, and else stays as far from
+// the words before it as the author wrote it, so that a second run finds everything in its place.
+#include "lang/format/format_lines.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::size_t before_comment = 2;  // Blanks, at least.
+constexpr std::size_t goes_on_by = 4;      // Further right than its sentence, where nothing helps.
+constexpr std::size_t furthest_start = 60;  // Deep brackets must not push lines out of sight.
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+enum class Alignment { free, relation, sum };
+
+/// Words that stand below each other in neighbouring lines.
+struct Column {
+    struct Member {
+        std::size_t line, cell;
+    };
+    std::vector<Member> members;
+    std::size_t source_column = 0;
+    bool was_stretched = false;  ///< One of them had more than one blank before it.
+};
+
+class Placer {
+public:
+    Placer(const std::vector<FormatWord>& words, std::vector<FormatLine>& lines)
+        : words_(words), lines_(lines), placed_(lines.size()) {}
+
+    void run() {
+        for (std::size_t begin = 0; begin < lines_.size();) {
+            std::size_t end = begin + 1;
+            while (end < lines_.size() && is_below(end)) ++end;
+            if (begins_sentence(begin)) place_paragraph(begin, end);
+            begin = end;
+        }
+        for (std::size_t line = 0; line < lines_.size(); ++line) place_continued(line);
+        place_comments();
+    }
+
+private:
+    const FormatWord& word(std::size_t line, std::size_t cell) const {
+        return words_[lines_[line].cells[cell].word];
+    }
+    /// Can words of the line be lined up with words of the line above?
+    bool is_below(std::size_t line) const {
+        return !lines_[line].blank_line_before && begins_sentence(line) &&
+               begins_sentence(line - 1);
+    }
+    bool begins_sentence(std::size_t line) const {
+        return !lines_[line].goes_on && !lines_[line].cells.empty();
+    }
+
+    void place_paragraph(std::size_t begin, std::size_t end) {
+        std::vector<Column> columns = columns_of(begin, end);
+        std::stable_sort(columns.begin(), columns.end(), [](const Column& a, const Column& b) {
+            return a.source_column < b.source_column;
+        });
+        for (const Column& column : columns) {
+            if (!column.was_stretched) continue;
+            std::size_t kept = none, needed = 0;
+            for (const auto [line, cell] : column.members) {
+                place_up_to(line, cell);
+                const std::size_t end_before = end_of(line, cell - 1);
+                kept = std::min(kept, end_before + word(line, cell).blanks);
+                needed = std::max(needed, end_before + gap(line, cell));
+            }
+            for (const auto [line, cell] : column.members) {
+                lines_[line].cells[cell].column = std::max(kept, needed);
+                placed_[line] = cell + 1;
+            }
+        }
+        for (std::size_t line = begin; line < end; ++line) {
+            place_up_to(line, lines_[line].cells.size());
+        }
+    }
+
+    /// What is lined up in lines [begin, end), which follow each other.
+    std::vector<Column> columns_of(std::size_t begin, std::size_t end) {
+        struct Candidate {
+            std::size_t cell = 0;
+            Alignment alignment = Alignment::free;
+            std::size_t column = none;  ///< In `columns`.
+        };
+        std::vector<Column> columns;
+        std::vector<Candidate> above;
+        for (std::size_t line = begin; line < end; ++line) {
+            std::vector<Candidate> here;
+            std::size_t depth = 0;
+            for (std::size_t cell = 0; cell < lines_[line].cells.size(); ++cell) {
+                const Alignment alignment = alignment_of(word(line, cell), depth);
+                if (alignment != Alignment::free && cell > 0) here.push_back({cell, alignment});
+            }
+            std::size_t k = 0;
+            for (Candidate& candidate : here) {
+                const std::size_t at = word(line, candidate.cell).column;
+                while (k < above.size() && word(line - 1, above[k].cell).column < at) ++k;
+                const bool meets = k < above.size() &&
+                                   word(line - 1, above[k].cell).column == at &&
+                                   above[k].alignment == candidate.alignment;
+                if (!meets) continue;
+                if (above[k].column == none) {
+                    above[k].column = columns.size();
+                    columns.push_back({{}, at, false});
+                    add(columns.back(), line - 1, above[k].cell);
+                }
+                candidate.column = above[k].column;
+                add(columns[candidate.column], line, candidate.cell);
+            }
+            above = std::move(here);
+        }
+        return columns;
+    }
+    void add(Column& column, std::size_t line, std::size_t cell) {
+        column.members.push_back({line, cell});
+        column.was_stretched = column.was_stretched || word(line, cell).blanks > 1;
+    }
+    static Alignment alignment_of(const FormatWord& word, std::size_t& depth) {
+        switch (word.kind) {
+            case TokenKind::open_round:
+            case TokenKind::open_square: ++depth; break;
+            case TokenKind::close_round:
+            case TokenKind::close_square: depth -= depth > 0 ? 1 : 0; break;
+            case TokenKind::assign:
+            case TokenKind::plus_assign:
+                if (depth == 0) return Alignment::relation;
+                break;
+            case TokenKind::plus:
+            case TokenKind::minus:
+                if (depth == 0 && !word.is_sign) return Alignment::sum;
+                break;
+            default: break;
+        }
+        return Alignment::free;
+    }
+
+    std::size_t gap(std::size_t line, std::size_t cell) const {
+        return blanks_between(word(line, cell - 1), word(line, cell));
+    }
+    std::size_t end_of(std::size_t line, std::size_t cell) const {
+        return lines_[line].cells[cell].column + width_of(word(line, cell).text);
+    }
+    /// Places the cells of a line before `end`, from the first that has no place yet.
+    void place_up_to(std::size_t line, std::size_t end) {
+        for (std::size_t& cell = placed_[line]; cell < end; ++cell) {
+            lines_[line].cells[cell].column =
+                cell == 0 ? lines_[line].indentation : end_of(line, cell - 1) + gap(line, cell);
+        }
+    }
+
+    // Lines inside a sentence begin below the first word behind the innermost open bracket, or,
+    // where none is open, below the beginning of the sentence's value.
+    struct Bracket {
+        std::size_t inside = 0;  ///< Where lines inside it begin.
+        std::size_t close = 0;   ///< Where a bracket that closes it on a line of its own stands.
+    };
+
+    void place_continued(std::size_t line) {
+        FormatLine& here = lines_[line];
+        if (here.goes_on) {
+            here.indentation = start_of_continued(line);
+            place_up_to(line, here.cells.size());
+        } else if (!here.cells.empty()) {
+            brackets_.clear();
+            value_column_ = none;
+            sentence_column_ = here.indentation;
+        }
+        for (std::size_t cell = 0; cell < here.cells.size(); ++cell) follow(line, cell);
+    }
+    std::size_t start_of_continued(std::size_t line) const {
+        const std::size_t start = helpful_start(line);
+        return start <= furthest_start ? start : sentence_column_ + goes_on_by;
+    }
+    std::size_t helpful_start(std::size_t line) const {
+        const bool is_comment = lines_[line].cells.empty();
+        if (brackets_.empty()) {
+            return value_column_ == none ? sentence_column_ + goes_on_by : value_column_;
+        }
+        const bool closes = !is_comment && (word(line, 0).kind == TokenKind::close_round ||
+                                            word(line, 0).kind == TokenKind::close_square);
+        return closes ? brackets_.back().close : brackets_.back().inside;
+    }
+    void follow(std::size_t line, std::size_t cell) {
+        const FormatLine& here = lines_[line];
+        const bool is_last = cell + 1 == here.cells.size();
+        switch (word(line, cell).kind) {
+            case TokenKind::open_round:
+            case TokenKind::open_square:
+                brackets_.push_back(is_last ? Bracket{here.indentation + 2, here.indentation}
+                                            : Bracket{here.cells[cell + 1].column,
+                                                      here.cells[cell].column});
+                break;
+            case TokenKind::close_round:
+            case TokenKind::close_square:
+                if (!brackets_.empty()) brackets_.pop_back();
+                break;
+            case TokenKind::semicolon:
+            case TokenKind::open_curly: value_column_ = none; break;
+            case TokenKind::colon:
+            case TokenKind::assign:
+            case TokenKind::plus_assign:
+                if (brackets_.empty() && value_column_ == none && !is_last) {
+                    value_column_ = here.cells[cell + 1].column;
+                }
+                break;
+            default: break;
+        }
+    }
+
+    void place_comments() {
+        for (std::size_t begin = 0; begin < lines_.size(); ++begin) {
+            FormatLine& first = lines_[begin];
+            if (!first.comment) continue;
+            if (first.cells.empty()) {
+                first.comment_column = first.indentation;
+                continue;
+            }
+            std::size_t end = begin, kept = none, needed = 0;
+            while (end < lines_.size() && is_in_column(begin, end)) {
+                const std::size_t end_before = end_of(end, lines_[end].cells.size() - 1);
+                kept = std::min(kept, end_before + words_[*lines_[end].comment].blanks);
+                needed = std::max(needed, end_before + before_comment);
+                ++end;
+            }
+            for (std::size_t line = begin; line < end; ++line) {
+                lines_[line].comment_column = std::max(kept, needed);
+            }
+            begin = end - 1;
+        }
+    }
+    /// Does the comment of `line` belong to the column of comments that begins at `first`?
+    bool is_in_column(std::size_t first, std::size_t line) const {
+        const FormatLine& here = lines_[line];
+        if (line == first) return true;
+        return here.comment && !here.cells.empty() && !here.blank_line_before &&
+               words_[*here.comment].column == words_[*lines_[first].comment].column;
+    }
+
+    const std::vector<FormatWord>& words_;
+    std::vector<FormatLine>& lines_;
+    std::vector<std::size_t> placed_;  ///< Per line: how many cells have their place.
+    std::vector<Bracket> brackets_;
+    std::size_t value_column_ = none;
+    std::size_t sentence_column_ = 0;
+};
+
+}  // namespace
+
+void place_words(const std::vector<FormatWord>& words, std::vector<FormatLine>& lines) {
+    Placer(words, lines).run();
+}
+
+}  // namespace cascade

@@ -1,0 +1,86 @@
+#include "lang/library/library.h"
+
+#include "core/check.h"
+#include "lang/syntax/parse.h"
+
+#include <algorithm>
+#include <iterator>
+#include <unordered_set>
+
+namespace cascade {
+
+namespace {
+
+/// The source of a text of the library; an equal one from an earlier check is used again.
+SourceId source_of(const LibraryText& text, Sources& sources) {
+    for (SourceId id = 0; id < sources.size(); ++id) {
+        if (sources[id].name() == text.file_name && sources[id].text() == text.text) return id;
+    }
+    return sources.add(std::string(text.file_name), std::string(text.text));
+}
+
+LibraryScript read_text(const LibraryText& text, Sources& sources, Diagnostics& diagnostics) {
+    LibraryScript result{parse(source_of(text, sources), sources, diagnostics), 0};
+    const auto& blocks = result.script.blocks;
+    const auto found = std::find_if(blocks.begin(), blocks.end(), [&](const ast::Block& block) {
+        return block.kind == ast::BlockKind::system && block.name.text == text.system_name();
+    });
+    CHECK(found != blocks.end(), "a text of the library holds the system of its name");
+    result.block = static_cast<std::size_t>(found - blocks.begin());
+    return result;
+}
+
+bool is_stage(const ast::Block& block) {
+    return block.kind == ast::BlockKind::stage || block.kind == ast::BlockKind::classic_stage;
+}
+
+/// The names under which a script may ask the library for a system, each once.
+std::vector<std::string_view> names_wanted(const ast::Script& script) {
+    std::unordered_set<std::string_view> own;
+    for (const ast::Block& block : script.blocks) {
+        if (block.kind == ast::BlockKind::system) own.insert(block.name.text);
+    }
+    std::vector<std::string_view> wanted;
+    for (const ast::Block& block : script.blocks) {
+        const bool is_derived = block.kind == ast::BlockKind::system;
+        if (!is_derived && (!is_stage(block) || own.contains(block.base.text))) continue;
+        // `system a: a { … }` changes the library's a; any other base may be the script's own.
+        if (is_derived && block.base.text != block.name.text && own.contains(block.base.text)) {
+            continue;
+        }
+        wanted.push_back(block.base.text);
+    }
+    return wanted;
+}
+
+}  // namespace
+
+const LibraryText* find_library_text(std::string_view system_name) {
+    const auto texts = library_texts();
+    const auto found = std::lower_bound(texts.begin(), texts.end(), system_name,
+                                        [](const LibraryText& each, std::string_view name) {
+                                            return each.system_name() < name;
+                                        });
+    return found != texts.end() && found->system_name() == system_name ? &*found : nullptr;
+}
+
+std::vector<LibraryScript> read_library(const ast::Script& script, Sources& sources,
+                                        Diagnostics& diagnostics) {
+    std::vector<LibraryScript> result;
+    std::unordered_set<std::string_view> read;
+    for (std::string_view name : names_wanted(script)) {
+        // From a system to what it is derived from; the last is to be checked first.
+        std::vector<LibraryScript> chain;
+        while (!name.empty() && !read.contains(name)) {
+            const LibraryText* const found = find_library_text(name);
+            if (found == nullptr) break;
+            read.insert(name);
+            chain.push_back(read_text(*found, sources, diagnostics));
+            name = chain.back().script.blocks[chain.back().block].base.text;
+        }
+        std::move(chain.rbegin(), chain.rend(), std::back_inserter(result));
+    }
+    return result;
+}
+
+}  // namespace cascade

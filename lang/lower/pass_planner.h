@@ -1,0 +1,148 @@
+// Which parts of formulas are computed in which pass (internal to lowering).
+#pragma once
+
+#include "lang/lower/part_graph.h"
+#include "lang/lower/step_plan.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cascade::lowering {
+
+/// A cell beside another one: each offset −1, 0 or 1.
+struct Offset {
+    int dx = 0, dy = 0, dz = 0;
+
+    static constexpr std::uint32_t count = 27;
+    static constexpr Offset of(std::uint32_t number) {
+        const int n = static_cast<int>(number);
+        return {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+    }
+    constexpr std::uint32_t number() const {
+        return static_cast<std::uint32_t>(dx + 1 + 3 * (dy + 1) + 9 * (dz + 1));
+    }
+    /// One cell forwards along an axis (0, 1, 2), or backwards.
+    static constexpr Offset along(int axis, int by) {
+        return {axis == 0 ? by : 0, axis == 1 ? by : 0, axis == 2 ? by : 0};
+    }
+    constexpr Offset operator+(Offset other) const {
+        return {dx + other.dx, dy + other.dy, dz + other.dz};
+    }
+    constexpr bool is_own() const { return dx == 0 && dy == 0 && dz == 0; }
+    friend constexpr bool operator==(Offset, Offset) = default;
+};
+
+/// A set of offsets, by their numbers.
+using Offsets = std::uint32_t;
+constexpr Offsets only(Offset offset) { return Offsets{1} << offset.number(); }
+inline constexpr Offsets own_cell = only(Offset{});
+
+/// The cells that stand in for those of a set that lie outside of the domain (lower_mask.cpp), and
+/// the set itself: the own cell, and for a diagonal one the two that lie between.
+Offsets with_stand_ins(Offsets offsets);
+
+/// A face between two cells and a component of a vector there: the face lies between cell `cell()`
+/// and the next one along `axis`; `side` 0 is the face behind the own cell, 1 the one before it.
+struct Face {
+    int axis = 0;
+    int component = 0;
+    int side = 0;
+
+    static constexpr std::uint32_t count = 18;
+    static constexpr Face of(std::uint32_t number) {
+        const int n = static_cast<int>(number);
+        return {n / 6, n / 2 % 3, n % 2};
+    }
+    constexpr std::uint32_t number() const {
+        return static_cast<std::uint32_t>((axis * 3 + component) * 2 + side);
+    }
+    constexpr Offset cell() const { return Offset::along(axis, -side); }
+    constexpr Offset next() const { return Offset::along(axis, 1 - side); }
+};
+
+/// The axes of more than one cell: 0 is x, 1 is y, 2 is z.
+struct Axes {
+    std::vector<int> present;
+
+    explicit Axes(const Grid& grid);
+    bool has(int axis) const;
+    Offsets crosswise() const;          ///< The own cell and the next ones along all axes.
+    Offsets pair(int axis) const;       ///< The two cells beside along an axis.
+    Offsets diagonal(int first, int second) const;  ///< The four cells across two axes.
+};
+
+/// The offsets at which a stencil reads its last operand; the own cell is among them.
+Offsets stencil_offsets(const Part& stencil, const Axes& axes);
+
+/// About how many operations of a kernel a part takes, its operands being known.
+int operations_of(const Part& part);
+
+/// In the time in which a plane is read, filled and read again (some twelve bytes a cell), a core
+/// computes about as many operations for a cell.
+inline constexpr int operations_of_writing = 40;
+/// Reading a plane alone is a third of that traffic.
+inline constexpr int operations_of_reading = operations_of_writing / 3;
+
+/// The decisions about the parts of a graph.
+class PassPlanner {
+public:
+    /// `roots` are needed in the own cell, in the last pass. `lasting` parts are known before the
+    /// first: those that vary lie in planes.
+    PassPlanner(const PartGraph& graph, std::span<const PartId> roots, Bringing bringing,
+                std::span<const PartId> lasting = {});
+
+    std::uint32_t pass_count() const { return pass_count_; }
+    bool is_needed(PartId part) const { return needed_[part]; }
+    /// Is it one of those that are known before the first pass?
+    bool is_lasting(PartId part) const { return lasting_[part]; }
+    /// Is the part written to a temporary plane?
+    bool is_written(PartId part) const { return written_[part]; }
+    /// The pass in which it can first be computed in the own cell; a written part is computed then.
+    std::uint32_t pass_of(PartId part) const { return pass_[part]; }
+    /// Is it read from a plane in `pass`?
+    bool is_plane_in(PartId part, std::uint32_t pass) const {
+        return written_[part] && pass_[part] < pass;
+    }
+    /// How an operand came to the neighbours where its reader needs it.
+    struct Brought {
+        PartId operand = 0, reader = 0;
+        std::uint32_t places = 0;   ///< At how many neighbours at most.
+        bool is_written = false;    ///< To a plane; else it is recomputed there.
+        bool is_forced = false;     ///< It cannot be recomputed.
+        bool is_open = false;       ///< It has to be: see Part::is_open.
+    };
+    /// Of all operands that are no planes and vary, in order of their readers.
+    const std::vector<Brought>& brought() const { return brought_; }
+    const Axes& axes() const { return axes_; }
+    /// Where an operand is needed that operators read at `offsets`.
+    Offsets reach(Offsets offsets) const {
+        return graph_.has_mask() ? with_stand_ins(offsets) : offsets;
+    }
+
+private:
+    void mark_needed(std::span<const PartId> roots);
+    void decide(PartId id);
+    void decide_own(PartId id);
+    std::uint32_t pass_beside(PartId operand) const;
+    void bring(PartId operand, Offsets offsets, PartId reader);
+    void bring_over_links(PartId operand, PartId reader);
+    void bring_open(PartId operand, Offsets offsets, PartId reader);
+    template <typename Visit>
+    void for_each_closed(PartId open, const Visit& visit) const;
+    bool is_plane(PartId id) const { return lasting_[id] || graph_.is_plane(id); }
+    bool is_dear(PartId id, std::uint32_t places) const;
+
+    const PartGraph& graph_;
+    Axes axes_;
+    Bringing bringing_;
+    std::uint32_t pass_count_ = 1;
+    std::vector<bool> needed_, written_, lasting_;
+    std::vector<bool> stays_;             ///< Cannot be computed for a neighbour.
+    std::vector<std::uint32_t> pass_;     ///< The first in which the own cell's value is known …
+    std::vector<std::uint32_t> beside_;   ///< … and the values of neighbours, planes being read.
+    std::vector<Brought> brought_;
+};
+
+}  // namespace cascade::lowering

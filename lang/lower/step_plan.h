@@ -1,0 +1,111 @@
+// What is computed from planes, in order: passes over the grid, and reductions between them.
+//
+// Most formulas need one pass: every cell reads planes and writes its results. More are needed
+// where an operator is applied to what contains an operator itself, as in lap(c^3 - c - lap(c)):
+// the inner part is written to a temporary plane by one pass and read at neighbours by a later one.
+// Aggregates over the domain are computed between passes.
+#pragma once
+
+#include "ir/cell_kernel.h"
+#include "ir/reduction.h"
+#include "lang/program/program.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// Where the value of a kernel's slot comes from.
+struct SlotSource {
+    enum class Kind {
+        item,       ///< Item `item` of stage `stage` (a field slot, a mask slot or a uniform slot).
+        file,       ///< The array named Program::texts[item], as a field slot.
+        image,      ///< The picture named Program::texts[item], as a field slot.
+        attribute,  ///< The model's attribute Program::texts[item], as a field slot.
+        texture,    ///< The picture painted on the model Program::texts[item], as a field slot.
+        surface_value,  ///< Program::surface_values[item], as a field slot.
+        metric,     ///< MetricPlane `item` of the surface, as a field slot.
+        model,      ///< ModelPlane `item` of the cells of a model, as a field slot.
+        neighbourhood,  ///< Which cells around are inside the mask, as a field slot of words.
+        lasting,    ///< Lasting part `item` of stage `stage`: a field slot, or a uniform.
+        step,       ///< Uniform: complete steps of the stage when the step begins.
+        draw,       ///< Uniform: the word of that step in draws (ir/draw_of_step.h).
+        time,       ///< Uniform: the stage's t when the rates are evaluated.
+        time_step,  ///< Uniform: the length of the step that is taken.
+        temporary,  ///< Temporary plane `item`, as a field slot.
+        aggregate,  ///< Uniform: aggregate `item` of the plan.
+        input,      ///< The stage's species `item` in input `stage` of a sweep, as a field slot.
+        coefficient,  ///< Uniform: coefficient `item` of a sweep.
+    };
+    Kind kind = Kind::item;
+    std::uint32_t stage = 0;
+    std::uint32_t item = 0;
+};
+
+/// The kind of slot for what a function reads by the name of a text (field, image, attr, uvimage).
+SlotSource::Kind slot_of_text(Function function);
+
+/// Is it the kind of a slot for what a text names?
+constexpr bool is_of_text(SlotSource::Kind kind) {
+    return kind >= SlotSource::Kind::file && kind <= SlotSource::Kind::texture;
+}
+
+/// A kernel, and what to put into its slots and where its results go.
+struct BoundKernel {
+    CellKernel kernel;
+    std::vector<SlotSource> fields;
+    std::vector<SlotSource> masks;
+    std::vector<SlotSource> uniforms;
+    std::vector<std::uint32_t> results;  ///< Item numbers of the stage; empty for views.
+};
+
+/// What becomes of one result of a pass.
+struct PassTarget {
+    enum class Kind { result, temporary };
+    Kind kind = Kind::result;
+    std::uint32_t index = 0;  ///< Of the plan's results or temporaries.
+    bool is_uniform = false;  ///< The same in all cells.
+    Boundaries boundary = {}; ///< How the halo of a temporary or a lasting part is filled.
+};
+
+/// An aggregate over the domain, computed from a plane.
+struct Reduction {
+    ReductionKind kind = ReductionKind::sum;
+    SlotSource operand;            ///< An item, a file or a temporary.
+    std::uint32_t aggregate = 0;   ///< Which aggregate of the plan it is.
+};
+
+struct Pass {
+    std::vector<Reduction> reductions;  ///< Done before the pass, after the one before it.
+    BoundKernel bound;
+    std::vector<PassTarget> targets;    ///< One for each result of the kernel.
+};
+
+struct StepPlan {
+    std::vector<Pass> passes;           ///< The last one writes all results. Never empty.
+    std::vector<std::uint32_t> results; ///< Item numbers of the stage; empty for views.
+    std::uint32_t result_count = 0;
+    std::uint32_t temporaries = 0;      ///< Planes that passes write for later ones.
+    std::uint32_t aggregates = 0;
+    std::uint32_t lasting = 0;          ///< Lasting parts (plan_lasting) that may be read.
+    bool is_uniform = false;            ///< Every result is the same in all cells.
+    std::string words;                  ///< What the passes do and why, where it was asked for.
+};
+
+/// How operands of operators are brought to the neighbours. All choices give the same bits.
+enum class Bringing : std::uint8_t {
+    cheaper,      ///< What is cheap is recomputed at neighbours, what is dear is written to a plane.
+    recomputing,  ///< As much as possible is recomputed.
+    writing,      ///< Everything but planes is written.
+};
+
+struct PlanOptions {
+    Bringing bringing = Bringing::cheaper;
+    bool describe = false;       ///< Fill in StepPlan::words.
+    /// Parts of rates that no step changes are read, where that pays, from what plan_lasting()
+    /// computes once. The bits are those of computing them anew in each step.
+    bool keeps_lasting = false;
+};
+
+}  // namespace cascade

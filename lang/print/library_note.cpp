@@ -1,0 +1,69 @@
+#include "lang/print/library_note.h"
+
+#include "lang/format/format_words.h"
+#include "lang/syntax/parse.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cascade {
+
+namespace {
+
+std::string in_small_letters(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return result;
+}
+
+/// A comment without its signs.
+std::string_view said_in(std::string_view comment) {
+    comment.remove_prefix(std::min(comment.find_first_not_of("# \t"), comment.size()));
+    return comment;
+}
+
+}  // namespace
+
+bool LibraryNote::mentions(std::string_view word) const {
+    return words.find(in_small_letters(word)) != std::string::npos;
+}
+
+LibraryNote note_of(const LibraryText& text) {
+    Sources sources;
+    const SourceId source = sources.add(std::string(text.file_name), std::string(text.text));
+    LibraryNote note;
+    note.words = in_small_letters(text.system_name());
+    bool in_head = true, in_about = true;
+    for (const FormatWord& word : format_words(source, sources)) {
+        in_head = in_head && word.is_comment();
+        if (word.is_comment() || word.kind == TokenKind::text) {
+            note.words += " " + in_small_letters(said_in(word.text));
+        }
+        if (!in_head) continue;
+        const std::string_view line = said_in(word.text);
+        note.lines.emplace_back(line);
+        if (!in_about || line.empty()) continue;
+        if (!note.about.empty()) note.about += ' ';
+        note.about += line;
+        in_about = !line.ends_with('.');
+    }
+    return note;
+}
+
+std::string starting_script(const LibraryText& text) {
+    Sources sources;
+    Diagnostics never_any;
+    const SourceId source = sources.add(std::string(text.file_name), std::string(text.text));
+    const ast::Script script = parse(source, sources, never_any);
+    const bool has_stage = std::any_of(
+        script.blocks.begin(), script.blocks.end(),
+        [](const ast::Block& block) { return block.kind == ast::BlockKind::stage; });
+    std::string result(text.text);
+    if (!has_stage) result += fmt::format("\nstage first: {} {{ }}\n", text.system_name());
+    return result;
+}
+
+}  // namespace cascade

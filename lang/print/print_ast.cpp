@@ -1,0 +1,162 @@
+// The syntax tree as text, for `--dump ast`: blocks and sentences indented, expressions in prefix
+// form, `(+ a (* 2 b))`, which shows what binds to what.
+#include "lang/syntax/parse.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <type_traits>
+#include <vector>
+
+namespace cascade {
+
+namespace {
+
+std::string_view spelling(ast::UnaryOp op) {
+    return op == ast::UnaryOp::negate ? "-" : "not";
+}
+
+std::string_view spelling(ast::BinaryOp op) {
+    static constexpr std::array<std::string_view, 13> spellings = {
+        "or", "and", "<", "<=", ">", ">=", "==", "!=", "+", "-", "*", "/", "^"};
+    return spellings[static_cast<std::size_t>(op)];
+}
+
+std::string print_number(double value) {
+    std::array<char, 32> buffer{};
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+    return {buffer.data(), end};
+}
+
+/// Prints expressions with a stack of its own: they may be deeper than any call stack.
+class ExpressionPrinter {
+public:
+    explicit ExpressionPrinter(const ast::Script& script) : script_(script) {}
+
+    std::string print(ast::ExprId root) {
+        text_.clear();
+        open(root);
+        while (!work_.empty()) {
+            Work& work = work_.back();
+            if (work.next == work.operands.size()) {
+                text_ += ')';
+                work_.pop_back();
+                continue;
+            }
+            const ast::ExprId operand = work.operands[work.next++];
+            text_ += ' ';
+            open(operand);  // May move `work`.
+        }
+        return std::move(text_);
+    }
+
+private:
+    /// An operator whose operands are being printed.
+    struct Work {
+        std::vector<ast::ExprId> operands;
+        std::size_t next = 0;
+    };
+
+    void begin(std::string_view head, std::vector<ast::ExprId> operands) {
+        text_ += '(';
+        text_ += head;
+        work_.push_back({std::move(operands), 0});
+    }
+
+    void open(ast::ExprId id) {
+        std::visit([this](const auto& node) { print_head(node); }, script_.expressions[id].node);
+    }
+
+    void print_head(const ast::Number& node) { text_ += print_number(node.value); }
+    void print_head(const ast::Text& node) { text_ += '"' + node.value + '"'; }
+    void print_head(const ast::Name& node) { text_ += node.name; }
+    void print_head(const ast::Bracketed& node) { text_ += fmt::format("[{}]", node.name.text); }
+    void print_head(const ast::Qualified& node) {
+        text_ += fmt::format("{}.{}", node.stage.text, node.name.text);
+    }
+    void print_head(const ast::RateOf& node) { text_ += fmt::format("{}'", node.name.text); }
+    void print_head(const ast::Unary& node) { begin(spelling(node.op), {node.operand}); }
+    void print_head(const ast::Binary& node) {
+        begin(spelling(node.op), {node.left, node.right});
+    }
+    void print_head(const ast::Call& node) {
+        const auto first = script_.arguments.begin() + node.first_argument;
+        begin(node.function.text, {first, first + node.argument_count});
+    }
+    void print_head(const ast::Over& node) {
+        begin(fmt::format("{} over {}", node.function.text, node.index.text), {node.operand});
+    }
+    void print_head(const ast::Indexed& node) { begin("member", {node.base, node.index}); }
+    void print_head(const ast::Garbage&) { text_ += "<unreadable>"; }
+
+    const ast::Script& script_;
+    std::string text_;
+    std::vector<Work> work_;
+};
+
+std::string print_sentence(const ast::Sentence& sentence, ExpressionPrinter& printer) {
+    static constexpr std::array<std::string_view, 7> relations = {":",   " =",  "' =", "' +=",
+                                                                  " >=", " <=", ":"};
+    std::string result(sentence.name.text);
+    if (!sentence.index.empty()) result += fmt::format("[{}]", sentence.index.text);
+    if (!sentence.side.empty()) result += fmt::format(".{}", sentence.side.text);
+    result += relations[static_cast<std::size_t>(sentence.kind)];
+    const char* between = sentence.kind == ast::SentenceKind::index ? " .. " : ", ";
+    for (const ast::Expression& value : sentence.values) {
+        result += &value == &sentence.values.front() ? " " : between;
+        result += printer.print(value.root);
+    }
+    if (sentence.range) {
+        result += fmt::format(" in {} .. {}", printer.print(sentence.range->low.root),
+                              printer.print(sentence.range->high.root));
+        if (sentence.range->step) {
+            result += fmt::format(" step {}", printer.print(sentence.range->step->root));
+        }
+    }
+    if (!sentence.doc.empty()) result += "  ## " + sentence.doc;
+    return result + "\n";
+}
+
+std::string print_function(const ast::FunctionDefinition& function, ExpressionPrinter& printer) {
+    std::string result = fmt::format("fn {}(", function.name.text);
+    for (const ast::Word& parameter : function.parameters) {
+        if (&parameter != &function.parameters.front()) result += ", ";
+        result += parameter.text;
+    }
+    return result + fmt::format(") = {}\n", printer.print(function.body.root));
+}
+
+}  // namespace
+
+std::string print_ast(const ast::Script& script, const Sources& sources) {
+    std::string result;
+    ExpressionPrinter printer(script);
+    for (const ast::Use& use : script.uses) result += fmt::format("use \"{}\"\n", use.path);
+    for (const ast::FunctionDefinition& function : script.functions) {
+        result += print_function(function, printer);
+    }
+    for (const ast::Block& block : script.blocks) {
+        const Span place = block.keyword.span;
+        const Location location = sources[place.source].locate(place.begin);
+        result += block.keyword.text;
+        if (!block.name.empty()) result += fmt::format(" {}", block.name.text);
+        if (!block.base.empty()) result += fmt::format(": {}", block.base.text);
+        result += fmt::format("  # line {}\n", location.line);
+        for (const ast::Sentence& sentence : block.sides) {
+            result += "    " + print_sentence(sentence, printer);
+        }
+        for (const ast::Sentence& sentence : block.sentences) {
+            result += "    " + print_sentence(sentence, printer);
+        }
+    }
+    for (const ast::Override& change : script.overrides) {
+        result += "set ";
+        if (!change.stage.empty()) result += fmt::format("{}.", change.stage.text);
+        result += print_sentence(change.sentence, printer);
+    }
+    return result;
+}
+
+}  // namespace cascade

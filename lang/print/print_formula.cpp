@@ -1,0 +1,165 @@
+// Formulas as text, without recursion: a stack holds the parts and marks still to be written.
+#include "lang/print/print_formula.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <variant>
+
+namespace cascade {
+
+namespace {
+
+/// From loosest to tightest, as in the grammar.
+int precedence(Function function) {
+    switch (function) {
+        case Function::logical_or: return 1;
+        case Function::logical_and: return 2;
+        case Function::logical_not: return 3;
+        case Function::less:
+        case Function::less_equal:
+        case Function::greater:
+        case Function::greater_equal:
+        case Function::equal:
+        case Function::not_equal: return 4;
+        case Function::add:
+        case Function::subtract: return 5;
+        case Function::multiply:
+        case Function::divide: return 6;
+        case Function::negate: return 7;
+        case Function::power: return 8;
+        default: return 9;
+    }
+}
+
+/// A part to be written inside an operator that needs at least this precedence.
+struct Part {
+    std::uint32_t node = 0;
+    int least = 0;
+};
+
+using Item = std::variant<Part, std::string_view>;
+
+constexpr std::size_t most_repeated = 10'000;
+
+class Printer {
+public:
+    Printer(const Program& program, const System& system, const Formula& formula,
+            std::optional<std::uint32_t> stage)
+        : program_(program), system_(system), formula_(formula), stage_(stage) {}
+
+    std::string run() {
+        push(Part{static_cast<std::uint32_t>(formula_.nodes.size() - 1), 0});
+        while (!stack_.empty()) {
+            const Item item = stack_.back();
+            stack_.pop_back();
+            if (const auto* mark = std::get_if<std::string_view>(&item)) text_ += *mark;
+            else write(std::get<Part>(item));
+        }
+        return std::move(text_);
+    }
+
+private:
+    void push(Item item) { stack_.push_back(item); }
+
+    void write(const Part& part) {
+        // A part that is read more than once, as the argument of a function may be, is written as
+        // often: so much and no more.
+        if (++written_ > formula_.nodes.size() + most_repeated) {
+            text_ += "…";
+            return;
+        }
+        const Node& node = formula_.nodes[part.node];
+        if (node.kind != NodeKind::call) {
+            text_ += leaf(node);
+        } else if (info(node.function).is_operator) {
+            write_operator(node, part.least);
+        } else {
+            write_call(node);
+        }
+    }
+
+    void write_operator(const Node& node, int least) {
+        const int own = precedence(node.function);
+        const bool brackets = own < least;
+        if (brackets) text_ += "(";
+        if (brackets) push(std::string_view(")"));
+        const std::string_view spelling = info(node.function).spelling;
+        if (operand_count(node) == 1) {
+            text_ += spelling;
+            if (node.function == Function::logical_not) text_ += " ";
+            push(Part{node.operands[0], own});
+            return;
+        }
+        const bool chains = own != 4;  // Comparisons do not chain.
+        const bool to_the_right = node.function == Function::power;
+        push(Part{node.operands[1], to_the_right ? 7 : own + 1});
+        push(std::string_view(" "));
+        push(spelling);
+        push(std::string_view(" "));
+        push(Part{node.operands[0], chains && !to_the_right ? own : own + 1});
+    }
+
+    void write_call(const Node& node) {
+        if (info(node.function).is_aggregate) {
+            const std::string_view spelling = info(node.function).spelling;
+            const std::size_t name = spelling.find(' ');
+            text_ += fmt::format("{}(", spelling.substr(0, name));
+            push(std::string_view(")"));
+            push(spelling.substr(name));
+            push(Part{node.operands[0], 0});
+            return;
+        }
+        text_ += info(node.function).spelling;
+        text_ += "(";
+        push(std::string_view(")"));
+        for (std::size_t i = operand_count(node); i > 0; --i) {
+            push(Part{node.operands[i - 1], 0});
+            if (i > 1) push(std::string_view(", "));
+        }
+    }
+
+    std::string leaf(const Node& node) const {
+        switch (node.kind) {
+            case NodeKind::number: return fmt::format("{}", node.number);
+            case NodeKind::text: return fmt::format("\"{}\"", program_.texts[node.index]);
+            case NodeKind::own:
+                if (!stage_) return std::string(system_.item_name(node.index));
+                return fmt::format("[{}]", system_.item_name(node.index));
+            case NodeKind::earlier:
+                return fmt::format("{}.{}", program_.stages[node.stage].name,
+                                   program_.system_of(node.stage).item_name(node.index));
+            case NodeKind::builtin: return std::string(builtin_names[node.index]);
+            case NodeKind::surface_value: return text_of(program_.surface_values[node.index]);
+            case NodeKind::definition: return system_.definitions[node.index].name;
+            case NodeKind::rate: return system_.quantities[node.index].name + "'";
+            case NodeKind::metric:
+            case NodeKind::model:
+            case NodeKind::inside:
+            case NodeKind::call: break;
+        }
+        return "";
+    }
+
+    const Program& program_;
+    const System& system_;
+    const Formula& formula_;
+    std::optional<std::uint32_t> stage_;
+    std::vector<Item> stack_;
+    std::size_t written_ = 0;
+    std::string text_;
+};
+
+}  // namespace
+
+std::string text_of(const SurfaceValue& value) {
+    return fmt::format("{}({})", info(value.function).spelling, fmt::join(value.numbers, ", "));
+}
+
+std::string print_formula(const Program& program, const System& system, const Formula& formula,
+                          std::optional<std::uint32_t> stage) {
+    if (formula.nodes.empty()) return "";
+    return Printer(program, system, formula, stage).run();
+}
+
+}  // namespace cascade

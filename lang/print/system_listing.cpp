@@ -1,0 +1,115 @@
+#include "lang/print/system_listing.h"
+
+#include "lang/check/check_names.h"
+#include "lang/check/system_sentences.h"
+#include "lang/format/format_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <variant>
+
+namespace cascade {
+
+namespace {
+
+struct Row {
+    std::string_view kind;
+    std::string name, value, range;
+    std::string_view doc;
+};
+
+/// The text of a value as its author wrote it, on one line.
+std::string source_of(const SaidSentence& said, const ast::Expression& value) {
+    const std::string_view text = said.sources->text(said.script->expressions[value.root].span);
+    std::string line;
+    for (const char c : text) {
+        const bool is_blank = c == ' ' || c == '\t' || c == '\n' || c == '\r';
+        if (!is_blank) line += c;
+        else if (!line.ends_with(' ')) line += ' ';
+    }
+    return line;
+}
+
+const ast::Text* text_of(const SaidSentence& said) {
+    const ast::ExprId root = said.sentence->values.front().root;
+    return std::get_if<ast::Text>(&said.script->expressions[root].node);
+}
+
+Row row_of(const SaidSentence& said, const SystemSentences& system) {
+    const ast::Sentence& sentence = *said.sentence;
+    const std::string_view name = sentence.name.text;
+    const bool is_setting =
+        sentence.index.empty() && checking::reserved(name) != checking::Reserved::no;
+    Row row;
+    row.kind = is_setting ? "setting" : system.is_species(name) ? "species" : "parameter";
+    row.name = sentence.index.empty() ? std::string(name)
+                                      : fmt::format("{}[{}]", name, sentence.index.text);
+    row.value = source_of(said, sentence.values.front());
+    if (sentence.kind == ast::SentenceKind::index) {
+        row.kind = "index";
+        row.value += " .. " + source_of(said, sentence.values.back());
+    }
+    if (said.range != nullptr) {
+        const SaidSentence from{said.range_script, said.range_sources, said.range};
+        const ast::Range& range = *said.range->range;
+        row.range =
+            fmt::format("in {} .. {}", source_of(from, range.low), source_of(from, range.high));
+        if (range.step) row.range += " step " + source_of(from, *range.step);
+    }
+    if (said.doc != nullptr) row.doc = said.doc->doc;
+    return row;
+}
+
+/// The text with blanks up to a width.
+std::string padded(std::string_view text, std::size_t width) {
+    const std::size_t own = width_of(text);
+    return std::string(text) + std::string(width > own ? width - own : 0, ' ');
+}
+
+}  // namespace
+
+std::vector<std::string> system_words(const ast::Script& script, const Sources& sources,
+                                      std::string_view system) {
+    const SystemSentences sentences(script, sources, system_blocks(script), system);
+    std::vector<std::string> lines;
+    if (!sentences.doc().empty()) lines.push_back(sentences.doc());
+    for (const SaidSentence& said : sentences.all()) {
+        if (said.sentence->kind != ast::SentenceKind::value) continue;
+        if (const ast::Text* text = text_of(said)) lines.push_back(text->value);
+    }
+    return lines;
+}
+
+std::string print_system_listing(const ast::Script& script, const Sources& sources,
+                                 std::string_view system) {
+    constexpr std::size_t widest_value = 24;  // Longer ones push what is behind them.
+    const SystemSentences sentences(script, sources, system_blocks(script), system);
+    std::vector<Row> rows;
+    std::size_t name_width = 0, value_width = 0, range_width = 0;
+    for (const SaidSentence& said : sentences.all()) {
+        const bool is_listed = said.sentence->kind == ast::SentenceKind::value ||
+                               said.sentence->kind == ast::SentenceKind::index;
+        if (!is_listed || text_of(said) != nullptr) continue;
+        rows.push_back(row_of(said, sentences));
+        name_width = std::max(name_width, width_of(rows.back().name));
+        const std::size_t width = width_of(rows.back().value);
+        if (width <= widest_value) value_width = std::max(value_width, width);
+        range_width = std::max(range_width, width_of(rows.back().range));
+    }
+    std::string text;
+    for (const std::string_view kind : {"index", "species", "parameter", "setting"}) {
+        for (const Row& row : rows) {
+            if (row.kind != kind) continue;
+            std::string line = fmt::format("  {:<9} {} {}", kind, padded(row.name, name_width),
+                                           padded(row.value, value_width));
+            if (range_width > 0) line += "  " + padded(row.range, range_width);
+            if (!row.doc.empty()) line += fmt::format("  {}", row.doc);
+            line.erase(line.find_last_not_of(' ') + 1);
+            text += line + '\n';
+        }
+    }
+    return text;
+}
+
+}  // namespace cascade

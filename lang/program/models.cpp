@@ -1,0 +1,187 @@
+#include "lang/program/models.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cascade {
+
+namespace {
+
+// Long enough that the padding of rows is small beside them, short enough that threads share them evenly.
+constexpr std::int64_t cells_of_row = 512;
+
+/// Why an operator is refused on a model; "" for those that have a meaning.
+std::string_view reason_against(Function function) {
+    switch (function) {
+        case Function::dxx:
+        case Function::dyy:
+        case Function::dzz:
+        case Function::dxy:
+        case Function::dxz:
+        case Function::dyz: return "a model has no second derivatives by name; lap(e) has a meaning there";
+        case Function::advect:
+            return "a flow on a model has no columns and rows to go along; "
+                   "vx * dx(e) + vy * dy(e) + vz * dz(e) is carried by central differences";
+        case Function::diffuse:
+        case Function::tensor:
+            return "an angle has no meaning on a model, which has no columns and rows";
+        case Function::vector:
+            return "a flux on a model is made of gradients, as in div(a * grad(e))";
+        case Function::field:
+            return "rows and columns of a file have no meaning on a model; "
+                   "attr(\"name\") reads what its points have";
+        case Function::image:
+            return "rows and columns of a picture have no meaning on a model; "
+                   "uvimage(\"f.png\") is a picture painted on it";
+        default: return "";
+    }
+}
+
+/// What a value is of that only a model has; nothing for all else.
+std::optional<Function> of_model_only(const Program& program, const Node& node) {
+    if (node.kind == NodeKind::surface_value) return program.surface_values[node.index].function;
+    if (node.kind == NodeKind::call && needs_model(node.function)) return node.function;
+    return std::nullopt;
+}
+
+bool has_meaning_on_model(const Formula& formula, Diagnostics& diagnostics) {
+    bool has_meaning = true;
+    for (const Node& node : formula.nodes) {
+        if (node.kind != NodeKind::call) continue;
+        const std::string_view reason = reason_against(node.function);
+        if (reason.empty()) continue;
+        has_meaning = false;
+        diagnostics.error(node.span,
+                          fmt::format("{} cannot be used on a model", info(node.function).spelling),
+                          std::string(reason));
+    }
+    return has_meaning;
+}
+
+bool has_meaning_on_plane(const Program& program, const Formula& formula, Diagnostics& diagnostics) {
+    bool has_meaning = true;
+    for (const Node& node : formula.nodes) {
+        const auto function = of_model_only(program, node);
+        if (!function) continue;
+        has_meaning = false;
+        diagnostics.error(node.span,
+                          fmt::format("{} has a meaning on models only", info(*function).spelling),
+                          "domain { mesh: \"horse.ply\" } or { surface: creature } is one");
+    }
+    return has_meaning;
+}
+
+void check_time(const Stage& stage, Diagnostics& diagnostics) {
+    if (is_semi_implicit(stage.time.solver)) {
+        diagnostics.error(stage.time.solver_span.end > 0 ? stage.time.solver_span : stage.span,
+                          fmt::format("stage '{}': the solver {} needs the waves of a grid, which "
+                                      "a model does not have", stage.name, name_of(stage.time.solver)),
+                          "rkl1 takes long steps on models");
+    }
+    if (stage.time.coarse > 1) {
+        diagnostics.error(stage.time.coarse_span,
+                          fmt::format("stage '{}' starts on a coarser grid, which a model does "
+                                      "not have", stage.name));
+    }
+}
+
+/// Boundaries of a model have no flux through them.
+void leave_sides(Stage& stage, Diagnostics& diagnostics) {
+    for (const auto& sides : stage.sides) {
+        for (const SideSetting& side : sides) {
+            if (!takes_value(side.kind)) continue;
+            diagnostics.warning(side.span, "a model has no sides: this is left aside");
+        }
+    }
+    stage.sides.clear();
+}
+
+}  // namespace
+
+Grid rows_of_cells(std::int64_t cells) {
+    Grid grid;
+    grid.width = std::min(std::max<std::int64_t>(cells, 1), cells_of_row);
+    grid.height = (std::max<std::int64_t>(cells, 1) + grid.width - 1) / grid.width;
+    grid.boundary = Boundary::no_flux;
+    grid.linked = true;
+    return grid;
+}
+
+void set_model(Program& program, ModelSettings model) {
+    DomainSettings& domain = program.domain;
+    domain.grid = rows_of_cells(model.count);
+    domain.grid_span = model.cells_span;
+    domain.mask.reset();
+    domain.surface.reset();
+    domain.sides = {};
+    domain.model = std::move(model);
+}
+
+std::optional<ModelShape> shape_named(std::string_view word) {
+    for (const ModelShape shape :
+         {ModelShape::sphere, ModelShape::torus, ModelShape::box, ModelShape::creature}) {
+        if (word == word_of(shape)) return shape;
+    }
+    return std::nullopt;
+}
+
+std::string_view word_of(ModelShape shape) {
+    switch (shape) {
+        case ModelShape::file: return "";
+        case ModelShape::sphere: return "sphere";
+        case ModelShape::torus: return "torus";
+        case ModelShape::box: return "box";
+        case ModelShape::creature: return "creature";
+        case ModelShape::implicit: return "implicit";
+    }
+    return "";
+}
+
+bool has_meaning_on_domain(const Program& program, const Formula& formula, Diagnostics& diagnostics) {
+    if (program.domain.model) return has_meaning_on_model(formula, diagnostics);
+    return has_meaning_on_plane(program, formula, diagnostics);
+}
+
+std::vector<const Formula*> formulas_of(const Program& program) {
+    std::vector<const Formula*> formulas;
+    const auto add = [&](const Formula& formula) {
+        if (!formula.nodes.empty()) formulas.push_back(&formula);
+    };
+    std::vector<bool> used(program.systems.size());
+    for (const Stage& stage : program.stages) {
+        if (!used[stage.system]) {
+            used[stage.system] = true;
+            const System& system = program.systems[stage.system];
+            for (const Formula& rate : system.rates) add(rate);
+            for (const Definition& definition : system.definitions) add(definition.formula);
+        }
+        for (const Formula& formula : stage.items) add(formula);
+        add(stage.show);
+        if (stage.time.until) add(*stage.time.until);
+        for (const auto& sides : stage.sides) {
+            for (const SideSetting& side : sides) add(side.value);
+        }
+    }
+    return formulas;
+}
+
+void check_on_domain(Program& program, Diagnostics& diagnostics) {
+    auto& model = program.domain.model;
+    if (model) {
+        for (Stage& stage : program.stages) {
+            check_time(stage, diagnostics);
+            leave_sides(stage, diagnostics);
+        }
+        if (model->directions && model->cells != ModelCellKind::spread) {
+            diagnostics.error(model->directions->span,
+                              "only cells that are spread over a model can be stretched",
+                              "cells: 20000");
+        }
+    }
+    for (const Formula* formula : formulas_of(program)) {
+        (void)has_meaning_on_domain(program, *formula, diagnostics);
+    }
+}
+
+}  // namespace cascade

@@ -1,0 +1,58 @@
+// The checked program: what differs between cells, and the names of items.
+#include "lang/program/program.h"
+
+#include "core/check.h"
+
+#include <algorithm>
+
+namespace cascade {
+
+std::size_t operand_count(const Node& call) {
+    const Arity arity = info(call.function).arity;
+    return std::max(static_cast<std::size_t>(call.operand_count),
+                    static_cast<std::size_t>(arity.least));
+}
+
+bool differs_by_cell(const Node& node, bool operand_differs, const Program& program,
+                     std::uint32_t stage) {
+    const auto item_differs = [&](std::uint32_t of, std::uint32_t item) {
+        const std::vector<bool>& uniform = program.stages[of].uniform;
+        return uniform.empty() || !uniform[item];
+    };
+    switch (node.kind) {
+        case NodeKind::number:
+        case NodeKind::text: return false;
+        case NodeKind::own: return item_differs(stage, node.index);
+        case NodeKind::earlier: return item_differs(node.stage, node.index);
+        case NodeKind::builtin: {
+            const auto builtin = static_cast<Builtin>(node.index);
+            if (builtin == Builtin::step) return false;
+            return builtin != Builtin::t ||
+                   item_differs(stage, program.system_of(stage).speed_item());
+        }
+        case NodeKind::definition:
+        case NodeKind::rate:
+        case NodeKind::metric:
+        case NodeKind::model:
+        case NodeKind::surface_value:
+        case NodeKind::inside: return true;
+        case NodeKind::call: break;
+    }
+    // An aggregate over the domain is one number whatever it is taken of.
+    if (info(node.function).is_aggregate) return false;
+    return operand_differs || (varies_by_cell(node.function) && !differentiates(node.function));
+}
+
+std::uint32_t System::species_count() const {
+    const auto count = std::count_if(quantities.begin(), quantities.end(),
+                                     [](const Quantity& quantity) { return quantity.is_species; });
+    return static_cast<std::uint32_t>(count);
+}
+
+std::string_view System::item_name(std::uint32_t item) const {
+    if (item < quantities.size()) return quantities[item].name;
+    CHECK(item < item_count(), "an item is a quantity, frozen or speed");
+    return item == frozen_item() ? "frozen" : "speed";
+}
+
+}  // namespace cascade

@@ -1,0 +1,338 @@
+// The checked program: every name resolved, every argument counted, every order found. What is
+// here makes sense; no user's error is left, later stages only CHECK.
+#pragma once
+
+#include "core/axis.h"
+#include "core/grid.h"
+#include "core/precision.h"
+#include "core/side.h"
+#include "core/source.h"
+#include "ir/solver.h"
+#include "lang/vocabulary/functions.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade {
+
+/// What operators read of the surface, a plane each (surface/parameter_surface.h).
+enum class MetricPlane : std::uint8_t {
+    inverse_11, inverse_12, inverse_22,  ///< Ṽ⁻¹.
+    area,                                ///< s, of the cell.
+    flow_11, flow_12, flow_22,           ///< s Ṽ⁻¹ Ṽ⁻ᵀ: times the differences, what flows.
+};
+inline constexpr std::size_t metric_plane_count = 7;
+
+/// What kernels read of the cells of a model, a plane each (run/domain/model_cells.h).
+enum class ModelPlane : std::uint8_t {
+    number,      ///< The cell's own number, a word; draws of random numbers take it.
+    area,        ///< In square units; 0 in cells that only fill the last row.
+    x, y, z,     ///< Its place in the model's box, whose longest side is 1 …
+    sx, sy, sz,  ///< … and with every side 1.
+    nx, ny, nz,  ///< The outward normal, of length 1.
+    curvature,   ///< Turk's estimate, in 1 / unit.
+    // What is found when it is first read (run/domain/surface_values.h).
+    curvature_mean, curvature_high, curvature_low,  ///< In 1 / unit.
+    curvature_gauss,                                ///< In 1 / unit².
+};
+inline constexpr std::size_t model_plane_count = 16;
+/// Is the plane made only for those who read it?
+constexpr bool is_made_when_read(ModelPlane plane) { return plane >= ModelPlane::curvature_mean; }
+
+enum class NodeKind : std::uint8_t {
+    number,      ///< `number`
+    text,        ///< Program::texts[index]
+    own,         ///< item `index` of this stage
+    earlier,     ///< item `index` of stage `stage`
+    builtin,     ///< Builtin `index`
+    definition,  ///< definition `index` of the stage's system
+    rate,        ///< rate of species item `index`
+    call,        ///< `function` of `operands`
+    surface_value,  ///< Program::surface_values[index]
+    metric,      ///< MetricPlane `index`; only lowering makes such nodes
+    model,       ///< ModelPlane `index`; only lowering makes such nodes
+    inside,      ///< true where the cell is inside the mask; only lowering makes such nodes
+};
+
+enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };
+
+/// A part of a formula. Operands are positions in the same formula, before this one.
+struct Node {
+    NodeKind kind = NodeKind::number;
+    Function function = Function::add;
+    ValueType type = ValueType::number;
+    Span span;
+    double number = 0;
+    std::uint32_t index = 0;
+    std::uint32_t stage = 0;
+    Operands operands{};
+    std::uint8_t operand_count = 0;  ///< Of a call that may have more or fewer; see operand_count.
+};
+
+/// How many operands a call has.
+std::size_t operand_count(const Node& call);
+
+/// A checked expression: parts in order, the whole last. Never empty.
+struct Formula {
+    std::vector<Node> nodes;
+};
+
+/// The values that make sense for a parameter, `in low .. high step s`.
+struct ParameterRange {
+    double low = 0;
+    double high = 1;
+    std::optional<double> step;
+};
+
+/// A species or a parameter of a system.
+struct Quantity {
+    std::string name;       ///< Of a member of a family: `u[2]`.
+    Span span;              ///< Where it was declared.
+    bool is_species = false;
+    std::string doc;        ///< What its doc comment says; may be empty.
+    std::optional<ParameterRange> range;
+    Formula start;          ///< Default value; its `own` nodes are items of whichever stage.
+};
+
+struct Definition {
+    std::string name;
+    Span span;
+    Formula formula;
+};
+
+struct Invariant {
+    std::uint32_t species = 0;  ///< Item of the species.
+    bool at_least = true;       ///< species >= bound, else species <= bound.
+    Formula bound;              ///< Of numbers and parameters.
+};
+
+/// Settings of time that a system may give as defaults and a stage may replace.
+struct TimeSettings {
+    std::optional<Solver> solver;
+    Span solver_span;                     ///< Where it was written.
+    std::optional<double> tolerance;
+    std::optional<double> duration;
+    std::optional<bool> automatic_speed;  ///< `speed: auto`; false where `speed` is an expression.
+    std::optional<Formula> until;         ///< Either a condition …
+    std::optional<double> steady;         ///< … or `steady(…)`.
+    std::optional<std::int64_t> check;
+    std::optional<double> largest_step;
+    Span largest_step_span;
+    std::optional<std::int64_t> coarse;   ///< `start: coarse(…)`.
+    Span coarse_span;
+};
+
+/// How the time of a stage goes on (spec/time.md).
+struct StageTime {
+    Solver solver = Solver::euler;
+    Span solver_span;                 ///< Where it was written, for messages.
+    std::optional<double> tolerance;  ///< Of steps of chosen length, as written; see step_tolerance().
+    /// Steps of chosen length are no longer than this.
+    std::optional<double> largest_step;
+    Span largest_step_span;           ///< Where that was written.
+    /// The stage ends when t is so large; empty where it ends after its iterations.
+    std::optional<double> duration;
+    /// The duration is so many times the speed when the stage starts.
+    std::optional<std::int64_t> duration_in_steps;
+    bool open_end = false;            ///< Only `until` ends it, or the most steps it may take.
+    bool automatic_speed = false;     ///< The step is as long as stability and accuracy allow.
+    std::optional<Formula> until;     ///< The stage ends where this, the same in all cells, is true.
+    std::optional<double> steady;     ///< The stage ends when its pattern has settled so far.
+    std::optional<std::int64_t> check;  ///< Steps between two looks at `until`; see below.
+    /// The stage is run first on a grid whose cells are so many times as wide; 1 for no such run.
+    std::int64_t coarse = 1;
+    Span coarse_span;                 ///< Where that was written.
+
+    bool has_duration() const { return duration || duration_in_steps; }
+    /// Are the steps of different length, chosen as the stage runs?
+    bool chooses_steps() const { return automatic_speed || is_adaptive(solver); }
+    /// The relative error of a step of chosen length.
+    double step_tolerance() const {
+        return tolerance.value_or(is_adaptive(solver) ? default_tolerance : default_automatic_tolerance);
+    }
+    static constexpr double default_tolerance = 1e-4, default_automatic_tolerance = 1e-3;
+    /// Steps that are as long as the state allows need closer looks.
+    std::int64_t steps_between_looks() const {
+        return check.value_or(chooses_steps() || takes_long_steps(solver) ? 10 : 100);
+    }
+};
+
+/// Settings that a system may give as defaults and a stage may replace.
+struct Settings {
+    std::optional<std::int64_t> iterations;
+    std::optional<std::int64_t> interval;
+    std::optional<Formula> frozen;
+    std::optional<Formula> speed;
+    std::optional<Formula> show;   ///< What a picture of a stage shows by default.
+    TimeSettings time;
+};
+
+/// An index of a system's families, `i: 1..3`.
+struct Index {
+    std::string name;
+    Span span;
+    std::int64_t low = 1;
+    std::int64_t high = 1;
+};
+
+/// What a species is at a side.
+struct SideSetting {
+    SideKind kind = SideKind::no_flux;
+    Formula value;  ///< Of fixed and flux: found when a stage starts; its `own` nodes are of the stage.
+    Span span;      ///< Where it was written; empty where it comes from the boundary.
+};
+
+/// A rule of one species.
+struct SpeciesSide {
+    std::uint32_t species = 0;  ///< Its item.
+    Side side = Side::left;
+    SideSetting setting;
+};
+
+struct System {
+    std::string name;
+    Span span;
+    bool built_in = false;
+    std::optional<std::uint32_t> base;     ///< The system that it is derived from.
+    std::string doc;                       ///< What its doc comment says; may be empty.
+    std::string title, cite, about;        ///< Its texts; may be empty.
+    std::vector<Index> indices;            ///< Their families are quantities u[1], u[2], …
+    std::vector<Quantity> quantities;      ///< In order of writing.
+    std::vector<Definition> definitions;   ///< Each after those it reads.
+    std::vector<Formula> rates;            ///< One per quantity; empty nodes for parameters.
+    std::vector<std::uint32_t> rate_order; ///< Species items, each after those whose rate it reads.
+    std::vector<Invariant> invariants;
+    std::vector<SpeciesSide> sides;        ///< Later ones replace earlier ones.
+    Settings settings;
+
+    // A stage's items are its quantities, then `frozen`, then `speed`.
+    std::uint32_t frozen_item() const { return static_cast<std::uint32_t>(quantities.size()); }
+    std::uint32_t speed_item() const { return frozen_item() + 1; }
+    std::uint32_t item_count() const { return frozen_item() + 2; }
+    std::string_view item_name(std::uint32_t item) const;
+    bool is_species(std::uint32_t item) const {
+        return item < quantities.size() && quantities[item].is_species;
+    }
+    std::uint32_t species_count() const;
+};
+
+struct Stage {
+    std::string name;       ///< As written, or stage1, stage2, … by position.
+    Span span;
+    std::uint32_t system = 0;
+    std::vector<Formula> items;        ///< Starting value of every item.
+    std::vector<std::uint32_t> order;  ///< Items in an order in which each can be evaluated.
+    std::vector<bool> uniform;         ///< Per item: the same in all cells. Species never are.
+    std::int64_t iterations = 0;       ///< With a duration: the most steps it may take.
+    std::int64_t interval = 1;         ///< 0 where looks are at tenths of the duration.
+    Formula show;
+    StageTime time;
+    /// By species, in their order; empty where nothing is said of any side but the boundary.
+    std::vector<std::array<SideSetting, side_count>> sides;
+};
+
+/// A surface in space on which the grid lies.
+struct SurfaceSettings {
+    std::array<Formula, 3> position;  ///< Of numbers, coordinates and functions of numbers.
+    bool has_metric = true;           ///< False: cells count as squares all the same.
+    std::optional<double> unit;       ///< Length of one unit; empty: the mean cell has area 1.
+    Span span;
+};
+
+/// A domain of any shape: the cells of the grid that belong to it.
+struct MaskSettings {
+    Formula formula;  ///< Not 0 and not NaN in cells of the domain. Reads no item.
+    Span span;        ///< Of the expression.
+};
+
+/// Where a surface comes from on which cells are spread.
+enum class ModelShape : std::uint8_t { file, sphere, torus, box, creature, implicit };
+
+/// What becomes a cell.
+enum class ModelCellKind : std::uint8_t {
+    spread,    ///< Points spread evenly, each with its Voronoi region (Turk).
+    faces,     ///< The triangles of the model.
+    vertices,  ///< Its points.
+};
+
+/// How differences of neighbours are weighted.
+enum class ModelLaplacian : std::uint8_t {
+    finite_volumes,  ///< Length of the wall over distance, over the cell's area.
+    turk,            ///< Lengths of walls, so scaled that their sum is 4.
+};
+
+/// In which direction cells, and what grows over them, are stretched.
+struct DirectionSettings {
+    enum class Kind : std::uint8_t { axis, gradient, curvature_high, curvature_low, keys };
+    Kind kind = Kind::axis;
+    /// Of an axis its vector; of keys groups of a position and a vector.
+    std::vector<double> numbers;
+    std::optional<Formula> height;  ///< Of a gradient: of numbers and x, y and z.
+    double smoothing = 0;           ///< Standard deviation, in longest sides of the model.
+    Span span;
+};
+
+/// A surface in space whose cells are the domain: the file of a model, or a shape.
+struct ModelSettings {
+    ModelShape shape = ModelShape::file;
+    std::string path;             ///< Of a file.
+    std::vector<double> sizes;    ///< Of a torus (its two radii) or a box (its three sides).
+    std::optional<Formula> implicit;  ///< The surface is where this is 0.
+    ModelCellKind cells = ModelCellKind::spread;
+    std::int64_t count = 16384;   ///< Of cells that are spread.
+    ModelLaplacian laplacian = ModelLaplacian::finite_volumes;
+    std::optional<double> unit;   ///< Length of one unit; empty: the mean cell has area 1.
+    Axis up = Axis::y;            ///< The axis of the model that becomes y of the script.
+    std::optional<DirectionSettings> directions;
+    double stretch = 2;           ///< How many times as long as wide cells are along the directions.
+    Span span;                    ///< Of what names the model.
+    Span cells_span;              ///< Of the number of cells; empty where it is not written.
+    /// The largest sum of the weights of a cell's links: known when the cells are made.
+    double largest_weight = 12;
+};
+
+/// What is known of the cells of a model from places on it: distance(…) and keys(…), whose values are
+/// numbers.
+struct SurfaceValue {
+    Function function = Function::distance;
+    std::vector<double> numbers;  ///< As written.
+
+    friend bool operator==(const SurfaceValue&, const SurfaceValue&) = default;
+};
+
+struct DomainSettings {
+    Grid grid;                   ///< 64 × 64, periodic, unless said otherwise.
+    std::optional<ModelSettings> model;      ///< Then the grid is linked.
+    std::optional<MaskSettings> mask;        ///< Without one all cells of the grid.
+    std::optional<SurfaceSettings> surface;  ///< Without one the plane.
+    std::uint32_t seed = 1;
+    Precision precision = Precision::single;  ///< Of all numbers of a run.
+    bool fast = false;           ///< Steps are computed with fewer roundings (ir/contraction.h).
+    std::array<std::optional<SideSetting>, side_count> sides;  ///< Of all species.
+    Span grid_span;              ///< For messages about its size; empty when it is the default.
+};
+
+struct Program {
+    std::vector<System> systems;   ///< Built-in ones first.
+    std::vector<Stage> stages;
+    DomainSettings domain;
+    std::vector<std::string> texts;  ///< Texts in quotes: palette names, paths.
+    std::vector<SurfaceValue> surface_values;  ///< Each different one once.
+
+    const System& system_of(std::uint32_t stage) const { return systems[stages[stage].system]; }
+};
+
+/// Does a node of a formula of `stage` differ from cell to cell? `operand_differs` tells whether one of
+/// its operands does. What a stage lacks an answer for yet, its items, is taken to differ.
+bool differs_by_cell(const Node& node, bool operand_differs, const Program& program,
+                     std::uint32_t stage);
+
+/// The program as text, for `--dump program`: systems in use, stages, resolved formulas, orders,
+/// what varies.
+std::string print_program(const Program& program);
+
+}  // namespace cascade

@@ -1,0 +1,221 @@
+// Expressions where an operand is due: numbers, names in all their forms, texts, signs, brackets.
+#include "lang/syntax/expression_parser.h"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace cascade {
+
+namespace {
+
+// Literals that round to infinity in single precision (half a unit above the largest number), and
+// those that flush to zero, cannot be meant.
+constexpr double too_large = 0x1.ffffffp127;
+constexpr double smallest = 0x1p-126;
+
+}  // namespace
+
+ExpressionParser::Progress ExpressionParser::read_operand() {
+    if (!pending_.empty() && cursor_.take_if(TokenKind::newline) &&
+        (cursor_.begins_sentence() || cursor_.at_sentence_end())) {
+        cursor_.step_back();
+    }
+    const Token token = cursor_.peek();
+    switch (token.kind) {
+        case TokenKind::number: return read_number();
+        case TokenKind::name: return read_name();
+        case TokenKind::open_square: return read_bracketed();
+        case TokenKind::keyword_not: return read_not();
+        case TokenKind::prime: return read_text_in_primes();
+        case TokenKind::text: {
+            const std::string_view text = cursor_.text(cursor_.take());
+            push_operand(token.span, ast::Text{std::string(text.substr(1, text.size() - 2))});
+            return Progress::going_on;
+        }
+        case TokenKind::open_round:
+            push_bracket(PendingKind::group, cursor_.take(), {});
+            return Progress::going_on;
+        case TokenKind::minus: {
+            Pending negate;
+            negate.kind = PendingKind::unary;
+            negate.precedence = 7;
+            negate.unary = ast::UnaryOp::negate;
+            negate.token = cursor_.take();
+            pending_.push_back(negate);
+            return Progress::going_on;
+        }
+        case TokenKind::plus: {
+            const TokenKind before = cursor_.previous().kind;
+            const bool is_behind_operator = !pending_.empty() && wants_operand(before);
+            if (is_behind_operator && before != TokenKind::comma) break;
+            while (cursor_.take_if(TokenKind::plus)) {}
+            cursor_.error(token.span, "numbers have no sign '+'", "leave it out");
+            return Progress::going_on;
+        }
+        case TokenKind::garbage:  // The lexer has given a message.
+            cursor_.take();
+            push_operand(token.span, ast::Garbage{});
+            return Progress::going_on;
+        case TokenKind::close_round: {
+            const bool is_empty_call = !pending_.empty() &&
+                                       pending_.back().kind == PendingKind::call &&
+                                       cursor_.previous().kind == TokenKind::open_round;
+            return is_empty_call ? read_close_round() : missing_operand();
+        }
+        default: break;
+    }
+    return missing_operand();
+}
+
+ExpressionParser::Progress ExpressionParser::read_number() {
+    const Token token = cursor_.take();
+    const std::string_view text = cursor_.text(token);
+    double value = 0;
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool vanishes = value != 0 && std::abs(value) < smallest;
+    if (result.ec != std::errc() || value >= too_large || vanishes) {
+        cursor_.error(token.span, "number out of range",
+                      "numbers other than 0 are from 1.18e-38 to 3.4e38");
+        push_operand(token.span, ast::Garbage{});
+    } else {
+        push_operand(token.span, ast::Number{value});
+    }
+    return Progress::going_on;
+}
+
+/// name, name', stage.name, or the beginning of a call.
+ExpressionParser::Progress ExpressionParser::read_name() {
+    const Token token = cursor_.take();
+    const ast::Word name = cursor_.word(token);
+    if (cursor_.at(TokenKind::open_round)) {
+        push_bracket(PendingKind::call, cursor_.take(), token.span);
+        return Progress::going_on;
+    }
+    if (cursor_.at(TokenKind::prime)) {
+        const Token prime = cursor_.take();
+        push_operand(join(token.span, prime.span), ast::RateOf{name});
+        return Progress::going_on;
+    }
+    if (!cursor_.at(TokenKind::dot)) {
+        push_operand(token.span, ast::Name{name.text});
+        return Progress::going_on;
+    }
+    const Token dot = cursor_.take();
+    if (!cursor_.at(TokenKind::name)) {
+        if (cursor_.at(TokenKind::garbage)) return fail_silently();
+        return fail(join(token.span, dot.span),
+                    fmt::format("a name is missing after '{}.'", shortened(name.text)),
+                    "p of an earlier stage is written stage.p");
+    }
+    const Token part = cursor_.take();
+    push_operand(join(token.span, part.span), ast::Qualified{name, cursor_.word(part)});
+    return Progress::going_on;
+}
+
+/// [name]. What else stands in such brackets is passed over up to the closing one.
+ExpressionParser::Progress ExpressionParser::read_bracketed() {
+    const Token open = cursor_.take();
+    cursor_.skip_newlines();
+    const Token inner = cursor_.peek();
+    if (inner.kind == TokenKind::name && cursor_.kind(1) == TokenKind::open_square) {
+        return read_own_member();
+    }
+    if (inner.kind == TokenKind::name) {
+        const bool on_next_line = cursor_.kind(1) == TokenKind::newline;
+        if (cursor_.kind(on_next_line ? 2 : 1) == TokenKind::close_square) {
+            cursor_.take();
+            cursor_.skip_newlines();
+            const Token close = cursor_.take();
+            push_operand(join(open.span, close.span), ast::Bracketed{cursor_.word(inner)});
+            return Progress::going_on;
+        }
+    }
+    bool is_readable = true;
+    std::size_t depth = 1;
+    while (depth > 0) {
+        const bool line_ends = cursor_.at(TokenKind::newline) && cursor_.begins_sentence(1);
+        const bool text_ends = cursor_.at_sentence_end() && !cursor_.at(TokenKind::newline);
+        if (line_ends || text_ends) {
+            return fail(open.span, "this '[' is never closed", "a ']' is missing after the name");
+        }
+        is_readable = is_readable && !cursor_.at(TokenKind::garbage);
+        if (cursor_.at(TokenKind::open_square)) ++depth;
+        if (cursor_.at(TokenKind::close_square)) --depth;
+        cursor_.take();
+    }
+    const Span whole = join(open.span, cursor_.previous().span);
+    if (is_readable) {
+        cursor_.error(whole, "'[ ]' holds one name of this stage", "( ) groups an expression");
+    }
+    push_operand(whole, ast::Garbage{});
+    return Progress::going_on;
+}
+
+/// [name[index]]: the brackets around are open; the index follows.
+ExpressionParser::Progress ExpressionParser::read_own_member() {
+    const Token outer = cursor_.previous();
+    const Token name = cursor_.take();
+    push_operand(join(outer.span, name.span), ast::Bracketed{cursor_.word(name)});
+    push_bracket(PendingKind::index, cursor_.take(), outer.span);
+    pending_.back().is_own = true;
+    return Progress::going_on;
+}
+
+/// `not` binds loosely: in `a + not b` it would not take b alone.
+ExpressionParser::Progress ExpressionParser::read_not() {
+    constexpr std::uint8_t precedence = 3;
+    Pending logical_not;
+    logical_not.kind = PendingKind::unary;
+    logical_not.precedence = precedence;
+    logical_not.unary = ast::UnaryOp::logical_not;
+    logical_not.token = cursor_.take();
+    const bool is_misplaced = !pending_.empty() && !pending_.back().is_bracket() &&
+                              pending_.back().precedence > precedence;
+    if (is_misplaced) {
+        cursor_.error(logical_not.token.span,
+                      fmt::format("'not' cannot stand directly after {}",
+                                  cursor_.describe(pending_.back().token)),
+                      "put it in brackets: (not …)");
+    }
+    pending_.push_back(logical_not);
+    return Progress::going_on;
+}
+
+/// 'tan' instead of "tan".
+ExpressionParser::Progress ExpressionParser::read_text_in_primes() {
+    const bool is_text =
+        cursor_.kind(1) == TokenKind::name && cursor_.kind(2) == TokenKind::prime;
+    if (!is_text) return missing_operand();
+    const Span open = cursor_.take().span;
+    const Token word = cursor_.take();
+    const Span whole = join(open, cursor_.take().span);
+    cursor_.error(whole, "a text stands in double quotes",
+                  fmt::format("write \"{}\"", shortened(cursor_.text(word))));
+    push_operand(whole, ast::Garbage{});
+    return Progress::going_on;
+}
+
+/// Something that cannot begin an expression stands where one is due.
+ExpressionParser::Progress ExpressionParser::missing_operand() {
+    const Token before = cursor_.previous();
+    const Token here = cursor_.peek();
+    const bool ends = cursor_.at_sentence_end();
+    const bool closes =
+        here.kind == TokenKind::close_round || here.kind == TokenKind::close_square;
+    if (closes && open_brackets_ == 0) {
+        return fail(here.span, fmt::format("this '{}' closes nothing", cursor_.text(here)));
+    }
+    if (ends && pending_.empty() && before.kind != TokenKind::comma) {
+        return fail(before.span, owner_ + " is missing");
+    }
+    const bool is_open = before.kind == TokenKind::open_round || before.kind == TokenKind::comma;
+    if (ends && is_open && open_brackets_ > 0) return unclosed();
+    if (ends || closes) {
+        return fail(before.span, "an expression is missing after " + cursor_.describe(before));
+    }
+    return fail(here.span, "an expression is missing before " + cursor_.describe(here));
+}
+
+}  // namespace cascade

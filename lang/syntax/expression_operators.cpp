@@ -1,0 +1,276 @@
+// Expressions behind an operand: operators, commas, closing brackets, and the end.
+#include "lang/syntax/expression_parser.h"
+#include "lang/vocabulary/functions.h"
+
+#include <fmt/core.h>
+
+#include <optional>
+
+namespace cascade {
+
+namespace {
+
+struct BinaryToken {
+    ast::BinaryOp op;
+    std::uint8_t precedence;
+};
+
+/// Loosest 1, tightest 8; `not` is 3 and the sign 7.
+std::optional<BinaryToken> binary_of(TokenKind kind) {
+    switch (kind) {
+        case TokenKind::keyword_or: return {{ast::BinaryOp::logical_or, 1}};
+        case TokenKind::keyword_and: return {{ast::BinaryOp::logical_and, 2}};
+        case TokenKind::less: return {{ast::BinaryOp::less, 4}};
+        case TokenKind::less_equal: return {{ast::BinaryOp::less_equal, 4}};
+        case TokenKind::greater: return {{ast::BinaryOp::greater, 4}};
+        case TokenKind::greater_equal: return {{ast::BinaryOp::greater_equal, 4}};
+        case TokenKind::equal:
+        case TokenKind::assign: return {{ast::BinaryOp::equal, 4}};
+        case TokenKind::not_equal: return {{ast::BinaryOp::not_equal, 4}};
+        case TokenKind::plus: return {{ast::BinaryOp::add, 5}};
+        case TokenKind::minus: return {{ast::BinaryOp::subtract, 5}};
+        case TokenKind::star: return {{ast::BinaryOp::multiply, 6}};
+        case TokenKind::slash: return {{ast::BinaryOp::divide, 6}};
+        case TokenKind::caret: return {{ast::BinaryOp::power, 8}};
+        default: return std::nullopt;
+    }
+}
+
+}  // namespace
+
+ExpressionParser::Progress ExpressionParser::read_operator() {
+    const bool on_new_line = open_brackets_ > 0 && cursor_.take_if(TokenKind::newline);
+    const Token token = cursor_.peek();
+    if (open_brackets_ == 0 && token.kind == TokenKind::name && !end_word_.empty() &&
+        cursor_.at_name(end_word_)) {
+        return Progress::finished;
+    }
+    if (token.kind == TokenKind::assign) {  // Read on as the comparison that was meant.
+        cursor_.error(token.span, "'=' inside an expression", "write '==' to compare");
+    }
+    if (const auto binary = binary_of(token.kind)) {
+        push_binary(binary->op, binary->precedence);
+        return Progress::going_on;
+    }
+    switch (token.kind) {
+        case TokenKind::comma: return read_comma();
+        case TokenKind::close_round: return read_close_round();
+        case TokenKind::close_square: return read_close_round();
+        case TokenKind::open_square:
+            if (!begins_index()) break;
+            push_bracket(PendingKind::index, cursor_.take(), {});
+            return Progress::going_on;
+        case TokenKind::name:
+            if (open_brackets_ > 0 && cursor_.at_name("over")) return read_over();
+            break;
+        case TokenKind::dots:
+            if (open_brackets_ == 0) return Progress::finished;
+            break;
+        case TokenKind::garbage: return fail_silently();
+        case TokenKind::newline:
+        case TokenKind::semicolon:
+        case TokenKind::close_curly:
+        case TokenKind::end_of_text:
+            if (open_brackets_ == 0) return Progress::finished;
+            if (on_new_line) cursor_.step_back();
+            return unclosed();
+        default: break;
+    }
+    return unexpected_operator(on_new_line);
+}
+
+/// Does a '[' here stand directly behind a name, as in u[i]? Behind a blank it is a new operand.
+bool ExpressionParser::begins_index() const {
+    const Token& before = cursor_.previous();
+    return before.kind == TokenKind::name && before.span.end == cursor_.peek().span.begin;
+}
+
+/// u[…]: the index is complete. A prime behind it makes the member's rate.
+ExpressionParser::Progress ExpressionParser::close_index() {
+    const Token close = cursor_.take();
+    const Pending open = pending_.back();
+    pending_.pop_back();
+    --open_brackets_;
+    const Operand index = operands_.back();
+    operands_.pop_back();
+    const Operand base = operands_.back();
+    operands_.pop_back();
+    Span whole = join(base.outer, close.span);
+    if (open.is_own) {
+        cursor_.skip_newlines();
+        if (!cursor_.at(TokenKind::close_square)) {
+            return fail(open.detail, "this '[' is never closed",
+                        "the member of a family in this stage is written [u[i]]");
+        }
+        whole = join(whole, cursor_.take().span);
+    } else if (cursor_.at(TokenKind::prime)) {
+        ast::Expr& family = script_.expressions[base.id];
+        const auto* name = std::get_if<ast::Name>(&family.node);
+        if (name == nullptr) return unexpected_operator(false);
+        const Span prime = cursor_.take().span;
+        whole = join(whole, prime);
+        family.node = ast::RateOf{ast::Word{family.span, name->name}};
+    }
+    push_operand(whole, ast::Indexed{base.id, index.id});
+    return Progress::going_on;
+}
+
+/// sum(e over i): the word `over` is here, the operand is complete.
+ExpressionParser::Progress ExpressionParser::read_over() {
+    reduce_above(0);
+    const Token over = cursor_.peek();
+    const Pending open = pending_.back();
+    const std::string form = "write sum(e over i) or mean(e over domain)";
+    if (open.kind != PendingKind::call) {
+        return fail(over.span, "'over' stands inside a function's brackets", form);
+    }
+    if (open.argument_count > 0) {
+        return fail(over.span, "'over' stands behind one expression only", form);
+    }
+    cursor_.take();
+    cursor_.skip_newlines_in_brackets();
+    if (!cursor_.at(TokenKind::name)) {
+        if (cursor_.at(TokenKind::garbage)) return fail_silently();
+        return fail(over.span, "'over' names an index or the domain", form);
+    }
+    const ast::Word index = cursor_.word(cursor_.take());
+    cursor_.skip_newlines_in_brackets();
+    if (!cursor_.at(TokenKind::close_round)) {
+        if (cursor_.at(TokenKind::garbage)) return fail_silently();
+        return fail(index.span,
+                    fmt::format("a ')' is missing after 'over {}'", shortened(index.text)), form);
+    }
+    const Token close = cursor_.take();
+    pending_.pop_back();
+    --open_brackets_;
+    const Operand operand = operands_.back();
+    operands_.pop_back();
+    push_operand(join(open.detail, close.span),
+                 ast::Over{{open.detail, cursor_.text(open.detail)}, operand.id, index});
+    return Progress::going_on;
+}
+
+/// Closes the innermost bracket; a `]` in the place of a `)` does so with a message.
+ExpressionParser::Progress ExpressionParser::read_close_round() {
+    const Token close = cursor_.peek();
+    if (open_brackets_ == 0) {
+        return fail(close.span, fmt::format("this '{}' closes nothing", cursor_.text(close)));
+    }
+    const bool is_empty_call = expects_operand_;
+    reduce_above(0);
+    const Pending open = pending_.back();
+    if (open.kind == PendingKind::index) {
+        if (close.kind == TokenKind::close_square) return close_index();
+        return fail(open.token.span, "this '[' is never closed",
+                    "a ']' is missing before the ')'");
+    }
+    if (close.kind == TokenKind::close_square) {
+        cursor_.error({Severity::error,
+                       open.token.span,
+                       "this '(' is closed by ']'",
+                       "write ')' there",
+                       {{close.span, "the ']' is here"}}});
+    }
+    cursor_.take();
+    pending_.pop_back();
+    --open_brackets_;
+    if (open.kind == PendingKind::group) {
+        operands_.back().outer = join(open.token.span, close.span);
+        return Progress::going_on;
+    }
+    std::uint32_t count = open.argument_count;
+    if (!is_empty_call) {
+        arguments_.push_back(operands_.back().id);
+        operands_.pop_back();
+        ++count;
+    }
+    const auto first = static_cast<std::uint32_t>(script_.arguments.size());
+    script_.arguments.insert(script_.arguments.end(), arguments_.end() - count, arguments_.end());
+    arguments_.resize(arguments_.size() - count);
+    push_operand(join(open.detail, close.span),
+                 ast::Call{{open.detail, cursor_.text(open.detail)}, first, count});
+    return Progress::going_on;
+}
+
+ExpressionParser::Progress ExpressionParser::read_comma() {
+    if (open_brackets_ == 0) return Progress::finished;
+    reduce_above(0);
+    Pending& open = pending_.back();
+    if (open.kind == PendingKind::index) {
+        return fail(cursor_.peek().span, "a family has one index", "write u[i]");
+    }
+    if (open.kind == PendingKind::group) {
+        return fail(cursor_.peek().span, "',' separates the arguments of a function",
+                    "the name of a function is missing before '('");
+    }
+    cursor_.take();
+    arguments_.push_back(operands_.back().id);
+    operands_.pop_back();
+    ++open.argument_count;
+    expects_operand_ = true;
+    return Progress::going_on;
+}
+
+/// Neither an operator nor an end.
+ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_line) {
+    const Token token = cursor_.peek();
+    switch (token.kind) {
+        case TokenKind::prime:
+            return fail(token.span, "a prime stands directly after a name", "write p' for a rate");
+        case TokenKind::dot:
+            return fail(token.span, "'.' stands between the name of a stage and one of its names",
+                        "write stage.p");
+        case TokenKind::colon:
+        case TokenKind::dots:
+        case TokenKind::plus_assign:
+        case TokenKind::open_curly:
+            return fail(token.span,
+                        cursor_.describe(token) + " has no place inside an expression");
+        default: return missing_operator(on_new_line);
+    }
+}
+
+/// Two operands side by side.
+ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) {
+    const Token before = cursor_.previous();
+    const Token here = cursor_.peek();
+    if (on_new_line) {
+        cursor_.step_back();
+        return unclosed();
+    }
+    if (before.kind == TokenKind::garbage) return fail_silently();
+    const bool is_sentence = cursor_.begins_sentence();
+    if (is_sentence && open_brackets_ > 0) return unclosed();
+    if (is_sentence) {
+        cursor_.error(here.span,
+                      cursor_.describe(here) + " begins a second sentence on this line",
+                      "put ';' between them");
+        return Progress::finished;
+    }
+    if (cursor_.at_name("over")) {
+        return fail(here.span, "'over' stands inside a function's brackets",
+                    "write sum(e over i) or mean(e over domain)");
+    }
+    std::string hint;
+    const Span both = join(before.span, here.span);
+    const bool is_product = before.kind == TokenKind::number || here.kind == TokenKind::open_round;
+    const bool is_word_of_range = cursor_.at_name("in") || cursor_.at_name("step");
+    if (before.kind == TokenKind::name && here.kind == TokenKind::name &&
+        function_named(cursor_.text(before))) {
+        hint = fmt::format("write {}({})", cursor_.text(before), shortened(cursor_.text(here)));
+    } else if (is_word_of_range) {
+        hint = "a range stands behind the value of a parameter: p: 1 in 0 .. 2 step 0.1";
+    } else if (is_product && here.kind != TokenKind::keyword_not && both.end - both.begin <= 40) {
+        hint = fmt::format("write '{} * {}' to multiply", cursor_.text(before), cursor_.text(here));
+        if (here.kind == TokenKind::open_round) hint = "write '*' to multiply";
+    }
+    return fail(here.span, "an operator is missing before " + cursor_.describe(here), hint);
+}
+
+/// The mistake has been told by the lexer.
+ExpressionParser::Progress ExpressionParser::fail_silently() {
+    cursor_.skip_sentence(open_brackets_);
+    return Progress::failed;
+}
+
+}  // namespace cascade

@@ -1,0 +1,149 @@
+// Expressions: the loop, and what happens when an operator has all its operands.
+#include "lang/syntax/expression_parser.h"
+
+#include "core/check.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+namespace cascade {
+
+ast::Expression ExpressionParser::parse(const std::string& owner, std::string_view end_word) {
+    owner_ = owner;
+    end_word_ = end_word;
+    first_ = static_cast<ast::ExprId>(script_.expressions.size());
+    first_argument_ = static_cast<std::uint32_t>(script_.arguments.size());
+    pending_.clear();
+    operands_.clear();
+    arguments_.clear();
+    open_brackets_ = 0;
+    expects_operand_ = true;
+    const Span begin = cursor_.peek().span;
+    while (true) {
+        switch (expects_operand_ ? read_operand() : read_operator()) {
+            case Progress::going_on: break;
+            case Progress::finished: return finish();
+            case Progress::failed: return abandon(begin);
+        }
+    }
+}
+
+void ExpressionParser::push_operand(Span span, decltype(ast::Expr::node) node) {
+    operands_.push_back({static_cast<ast::ExprId>(script_.expressions.size()), span});
+    script_.expressions.push_back({span, std::move(node)});
+    expects_operand_ = false;
+}
+
+void ExpressionParser::push_bracket(PendingKind kind, Token bracket, Span name) {
+    Pending open;
+    open.kind = kind;
+    open.token = bracket;
+    open.detail = name;
+    pending_.push_back(open);
+    ++open_brackets_;
+    expects_operand_ = true;
+}
+
+/// Takes the operator at the cursor; what binds tighter on its left is complete now.
+void ExpressionParser::push_binary(ast::BinaryOp op, std::uint8_t precedence) {
+    constexpr std::uint8_t comparison = 4, power = 8;
+    Pending pending;
+    pending.kind = PendingKind::binary;
+    pending.precedence = precedence;
+    pending.binary = op;
+    pending.token = cursor_.take();
+    reduce_above(precedence);
+    const bool meets_equal = !pending_.empty() && pending_.back().kind == PendingKind::binary &&
+                             pending_.back().precedence == precedence;
+    if (meets_equal && precedence == comparison) {
+        pending.chain =
+            pending_.back().chain == Chain::none ? Chain::to_report : Chain::reported;
+        pending.detail = operands_.back().outer;
+    }
+    if (meets_equal && precedence != power) reduce();
+    pending_.push_back(pending);
+    expects_operand_ = true;
+}
+
+/// Reduces what is pending up to the next bracket and binds tighter than `precedence`.
+void ExpressionParser::reduce_above(std::uint8_t precedence) {
+    while (!pending_.empty() && !pending_.back().is_bracket() &&
+           pending_.back().precedence > precedence) {
+        reduce();
+    }
+}
+
+/// Turns the last pending operator and its operands into one operand.
+void ExpressionParser::reduce() {
+    const Pending pending = pending_.back();
+    pending_.pop_back();
+    const Operand right = operands_.back();
+    operands_.pop_back();
+    if (pending.kind == PendingKind::unary) {
+        push_operand(join(pending.token.span, right.outer), ast::Unary{pending.unary, right.id});
+        return;
+    }
+    CHECK(pending.kind == PendingKind::binary && !operands_.empty(), "brackets are not reduced");
+    const Operand left = operands_.back();
+    operands_.pop_back();
+    if (pending.chain == Chain::to_report) report_chain(pending, left, right);
+    push_operand(join(left.outer, right.outer), ast::Binary{pending.binary, left.id, right.id});
+}
+
+void ExpressionParser::report_chain(const Pending& comparison, const Operand& left,
+                                    const Operand& right) {
+    const Span whole = join(left.outer, right.outer);
+    std::string hint = "join two comparisons by 'and'";
+    constexpr std::size_t longest = 50;
+    const std::string_view text = cursor_.text(whole);
+    if (text.size() <= longest && text.find_first_of("\r\n#") == std::string_view::npos) {
+        hint = fmt::format("write '{} and {} {} {}'", cursor_.text(left.outer),
+                           cursor_.text(comparison.detail), cursor_.text(comparison.token),
+                           cursor_.text(right.outer));
+    }
+    cursor_.error(whole, "comparisons do not chain", hint);
+}
+
+ast::Expression ExpressionParser::finish() {
+    while (!pending_.empty()) reduce();
+    CHECK(operands_.size() == 1, "operators and operands of an expression come out even");
+    return {first_, operands_.back().id};
+}
+
+/// The expression could not be read: what there is of it says nothing to later stages.
+ast::Expression ExpressionParser::abandon(Span begin) {
+    auto& expressions = script_.expressions;
+    expressions.erase(expressions.begin() + first_, expressions.end());
+    script_.arguments.resize(first_argument_);
+    const Span end = cursor_.previous().span;
+    expressions.push_back({end.end >= begin.end ? join(begin, end) : begin, ast::Garbage{}});
+    return {first_, first_};
+}
+
+/// Gives the message and leaves the rest of the sentence.
+ExpressionParser::Progress ExpressionParser::fail(Span span, std::string message,
+                                                  std::string hint) {
+    cursor_.error(span, std::move(message), std::move(hint));
+    cursor_.skip_sentence(open_brackets_);
+    return Progress::failed;
+}
+
+/// The sentence ends, but a bracket is open: that one is to blame.
+ExpressionParser::Progress ExpressionParser::unclosed() {
+    for (std::size_t k = pending_.size(); k-- > 0;) {
+        if (!pending_[k].is_bracket()) continue;
+        // Behind a text that is never closed, nothing says that the bracket was forgotten too.
+        if (cursor_.lost_in_text(pending_[k].token, "")) break;
+        const bool is_index = pending_[k].kind == PendingKind::index;
+        cursor_.error(pending_[k].token.span,
+                      is_index ? "this '[' is never closed" : "this '(' is never closed",
+                      fmt::format("a '{}' is missing before the sentence ends",
+                                  is_index ? ']' : ')'));
+        break;
+    }
+    cursor_.skip_sentence();
+    return Progress::failed;
+}
+
+}  // namespace cascade

@@ -1,0 +1,101 @@
+// The parser of expressions: operator precedence with explicit stacks (E. W. Dijkstra's "shunting
+// yard", Mathematisch Centrum report MR 35, 1961), so that depth costs memory and no call frames.
+//
+// Loosest to tightest: or · and · not · comparisons · + - · * / · unary - · ^ (to the right).
+#pragma once
+
+#include "lang/syntax/ast.h"
+#include "lang/syntax/token_cursor.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade {
+
+/// Reads expressions at the cursor and appends their parts to a script.
+class ExpressionParser {
+public:
+    ExpressionParser(TokenCursor& cursor, ast::Script& script)
+        : cursor_(cursor), script_(script) {}
+
+    /// Reads one expression and leaves the cursor at what ends it: a line end, `;`, `}`, `,` or the
+    /// end of the text. Where it cannot be read, a message is given, the cursor goes to the end of
+    /// the sentence, and the expression is one Garbage. `owner` says in messages whose value is
+    /// missing where there is nothing: `the value of 'ka'`. Outside of brackets the expression
+    /// ends at `..` too, and at the word `end_word` where an operator could stand.
+    ast::Expression parse(const std::string& owner, std::string_view end_word = "");
+
+private:
+    enum class PendingKind : std::uint8_t { binary, unary, group, call, index };
+    /// A comparison whose left side is a comparison, such as the second of `0 < a < 4`.
+    enum class Chain : std::uint8_t { none, to_report, reported };
+    enum class Progress : std::uint8_t { going_on, finished, failed };
+
+    /// An operator or an open bracket that waits for what is right of it.
+    struct Pending {
+        PendingKind kind = PendingKind::group;
+        std::uint8_t precedence = 0;
+        Chain chain = Chain::none;
+        ast::BinaryOp binary{};
+        ast::UnaryOp unary{};
+        Token token;                       ///< The operator or the bracket.
+        Span detail;                       ///< Name of a call; middle operand of a chain.
+        std::uint32_t argument_count = 0;  ///< Of a call: complete ones so far.
+        bool is_own = false;               ///< Of an index: the inner bracket of [u[i]].
+        bool is_bracket() const {
+            return kind == PendingKind::group || kind == PendingKind::call ||
+                   kind == PendingKind::index;
+        }
+    };
+    /// A complete operand; `outer` is its place with the brackets around it.
+    struct Operand {
+        ast::ExprId id = 0;
+        Span outer;
+    };
+
+    Progress read_operand();
+    Progress read_name();
+    Progress read_number();
+    Progress read_bracketed();
+    Progress read_own_member();
+    Progress read_not();
+    Progress read_text_in_primes();
+    Progress missing_operand();
+
+    Progress read_operator();
+    Progress read_close_round();
+    Progress close_index();
+    Progress read_comma();
+    Progress read_over();
+    bool begins_index() const;
+    Progress unexpected_operator(bool on_new_line);
+    Progress missing_operator(bool on_new_line);
+    Progress unclosed();
+    Progress fail(Span span, std::string message, std::string hint = "");
+    Progress fail_silently();
+
+    void push_operand(Span span, decltype(ast::Expr::node) node);
+    void push_bracket(PendingKind kind, Token bracket, Span name);
+    void push_binary(ast::BinaryOp op, std::uint8_t precedence);
+    void reduce_above(std::uint8_t precedence);
+    void reduce();
+    void report_chain(const Pending& comparison, const Operand& left, const Operand& right);
+    ast::Expression finish();
+    ast::Expression abandon(Span begin);
+
+    TokenCursor& cursor_;
+    ast::Script& script_;
+    std::string owner_;
+    std::string_view end_word_;
+    ast::ExprId first_ = 0;
+    std::uint32_t first_argument_ = 0;
+    std::vector<Pending> pending_;
+    std::vector<Operand> operands_;
+    std::vector<ast::ExprId> arguments_;  ///< Complete arguments of the calls in `pending_`.
+    std::size_t open_brackets_ = 0;
+    bool expects_operand_ = true;
+};
+
+}  // namespace cascade

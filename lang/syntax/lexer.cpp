@@ -1,0 +1,409 @@
+// The lexer: one pass over the bytes of a source.
+#include "core/utf8.h"
+#include "lang/syntax/look_alikes.h"
+#include "lang/syntax/operator_spellings.h"
+#include "lang/syntax/token.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_name_part(char c) { return is_name_start(c) || is_digit(c); }
+bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+
+/// `0x10` of programs and `100x100` of screens; nothing for other words.
+std::optional<std::string> hint_of_other_number(std::string_view word) {
+    constexpr std::size_t longest = 18;
+    const std::size_t cross = word.find_first_of("xX");
+    if (cross == std::string_view::npos || cross + 1 == word.size() || word.size() > longest) {
+        return std::nullopt;
+    }
+    const std::string_view before = word.substr(0, cross), behind = word.substr(cross + 1);
+    std::uint64_t value = 0;
+    const auto [end, fault] =
+        std::from_chars(behind.data(), behind.data() + behind.size(), value, 16);
+    if (before == "0" && fault == std::errc() && end == behind.data() + behind.size()) {
+        return fmt::format("write {}", value);
+    }
+    const auto is_whole = [](std::string_view text) {
+        return !text.empty() && std::all_of(text.begin(), text.end(), is_digit);
+    };
+    std::string list(before);
+    for (std::string_view rest = behind; is_whole(before);) {
+        const std::size_t next = std::min(rest.find_first_of("xX"), rest.size());
+        if (!is_whole(rest.substr(0, next))) break;
+        list += fmt::format(", {}", rest.substr(0, next));
+        if (next == rest.size()) return fmt::format("write '{}'", list);
+        rest.remove_prefix(next + 1);
+    }
+    return std::nullopt;
+}
+
+class Lexer {
+public:
+    Lexer(SourceId source, const Sources& sources, Diagnostics& diagnostics,
+          std::vector<Span>* docs)
+        : source_(source), text_(sources[source].text()), diagnostics_(diagnostics),
+          docs_(docs) {}
+
+    std::vector<Token> run() {
+        report_unreadable_bytes();
+        if (text_.starts_with("\xef\xbb\xbf")) offset_ = 3;  // A byte order mark.
+        while (offset_ < text_.size()) {
+            if (tokens_.size() == most_tokens) {
+                tokens_.clear();
+                diagnostics_.error(span(0, 0), fmt::format("this script has more than {} words",
+                                                           most_tokens));
+                break;
+            }
+            read_token();
+        }
+        const auto end = static_cast<std::uint32_t>(text_.size());
+        tokens_.push_back({TokenKind::end_of_text, {source_, end, end}});
+        return std::move(tokens_);
+    }
+
+private:
+    char at(std::size_t offset) const { return offset < text_.size() ? text_[offset] : '\0'; }
+    Span span(std::size_t begin, std::size_t end) const {
+        return {source_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+    }
+    /// Ends the token that began at `begin`; reading goes on at `end`.
+    void push(TokenKind kind, std::size_t begin, std::size_t end) {
+        tokens_.push_back({kind, span(begin, end)});
+        offset_ = end;
+    }
+
+    void report_unreadable_bytes();
+    void report_run(std::size_t begin, std::size_t end);
+    bool is_unreadable(std::size_t offset) const {
+        return text_[offset] == '\0' || !decode_utf8(text_, offset).valid;
+    }
+    bool joins_a_name(std::size_t offset) const;
+
+    void read_token();
+    void read_line_end();
+    void skip_line() {
+        while (offset_ < text_.size() && !is_line_end(text_[offset_])) ++offset_;
+    }
+    void skip_comment();
+    void skip_foreign_comment();
+    void read_name();
+    void read_bad_name(std::size_t begin);
+    void read_number();
+    void read_text(std::size_t quote_size, std::string_view closing);
+    bool read_operator();
+    bool read_foreign(const ForeignOperator& foreign);
+    void read_look_alike(const LookAlike& look_alike);
+    void read_other();
+
+    SourceId source_;
+    std::string_view text_;
+    Diagnostics& diagnostics_;
+    std::vector<Span>* docs_;
+    std::vector<Token> tokens_;
+    std::size_t offset_ = 0;
+};
+
+/// One message for each run of bytes that no text holds, wherever they are: also in comments.
+void Lexer::report_unreadable_bytes() {
+    for (std::size_t offset = 0; offset < text_.size();) {
+        if (static_cast<unsigned char>(text_[offset] - 1) < 0x7f) {  // ASCII, not NUL.
+            ++offset;
+            continue;
+        }
+        if (!is_unreadable(offset)) {
+            offset += decode_utf8(text_, offset).size;
+            continue;
+        }
+        const std::size_t begin = offset;
+        const bool is_nul = text_[begin] == '\0';
+        while (offset < text_.size() && is_unreadable(offset) &&
+               (text_[offset] == '\0') == is_nul) {
+            ++offset;
+        }
+        report_run(begin, offset);
+    }
+}
+
+void Lexer::report_run(std::size_t begin, std::size_t end) {
+    const std::size_t count = end - begin;
+    if (text_[begin] == '\0') {
+        diagnostics_.error(span(begin, end),
+                           count == 1 ? std::string("a NUL byte (0x00) is not text")
+                                      : fmt::format("{} NUL bytes (0x00) are not text", count),
+                           "is this file a script?");
+        return;
+    }
+    constexpr std::size_t most_named = 4;
+    std::string bytes;
+    for (std::size_t k = begin; k < std::min(end, begin + most_named); ++k) {
+        bytes += fmt::format("{}0x{:02x}", k == begin ? "" : " ",
+                             static_cast<unsigned char>(text_[k]));
+    }
+    if (count > most_named) bytes += fmt::format(" and {} more", count - most_named);
+    diagnostics_.error(span(begin, end),
+                       fmt::format("{} {} not valid UTF-8",
+                                   (count == 1 ? "byte " : "bytes ") + bytes,
+                                   count == 1 ? "is" : "are"),
+                       "save the script as UTF-8");
+}
+
+/// Is there a character outside ASCII that a person would take for a letter of the name?
+bool Lexer::joins_a_name(std::size_t offset) const {
+    if (offset >= text_.size() || static_cast<unsigned char>(text_[offset]) < 0x80) return false;
+    const CodePoint point = decode_utf8(text_, offset);
+    return point.valid && !is_unprintable(point.value) && !find_look_alike(point.value);
+}
+
+void Lexer::read_token() {
+    const char c = text_[offset_];
+    if (c == ' ' || c == '\t') {
+        ++offset_;
+    } else if (is_line_end(c)) {
+        read_line_end();
+    } else if (c == '#') {
+        skip_comment();
+    } else if (is_name_start(c)) {
+        read_name();
+    } else if (is_digit(c) || (c == '.' && is_digit(at(offset_ + 1)))) {
+        read_number();
+    } else if (c == '"') {
+        read_text(1, "\"");
+    } else if (c == '/' && (at(offset_ + 1) == '/' || at(offset_ + 1) == '*')) {
+        skip_foreign_comment();
+    } else if (!read_operator()) {
+        read_other();
+    }
+}
+
+/// Several line ends in a row are one token, whatever blanks and comments are between them.
+void Lexer::read_line_end() {
+    const std::size_t size = text_.substr(offset_).starts_with("\r\n") ? 2 : 1;
+    if (!tokens_.empty() && tokens_.back().kind == TokenKind::newline) {
+        offset_ += size;
+    } else {
+        push(TokenKind::newline, offset_, offset_ + size);
+    }
+}
+
+void Lexer::skip_comment() {
+    const std::size_t begin = offset_;
+    skip_line();
+    const bool is_doc = at(begin + 1) == '#' && at(begin + 2) != '#';
+    if (docs_ != nullptr && is_doc) docs_->push_back(span(begin, offset_));
+}
+
+void Lexer::skip_foreign_comment() {
+    diagnostics_.error(span(offset_, offset_ + 2), "a comment begins with '#'", "write '#'");
+    const bool is_block = at(offset_ + 1) == '*';
+    const std::size_t end = is_block ? text_.find("*/", offset_ + 2) : std::string_view::npos;
+    if (end == std::string_view::npos) {
+        skip_line();
+    } else {
+        offset_ = end + 2;
+    }
+}
+
+void Lexer::read_name() {
+    std::size_t end = offset_;
+    while (is_name_part(at(end))) ++end;
+    if (joins_a_name(end)) return read_bad_name(offset_);
+    const std::string_view name = text_.substr(offset_, end - offset_);
+    TokenKind kind = TokenKind::name;
+    if (name == "and") kind = TokenKind::keyword_and;
+    if (name == "or") kind = TokenKind::keyword_or;
+    if (name == "not") kind = TokenKind::keyword_not;
+    push(kind, offset_, end);
+}
+
+/// A name with a letter of another alphabet.
+void Lexer::read_bad_name(std::size_t begin) {
+    std::string latin, first_wrong;
+    bool has_spelling = true;
+    std::size_t end = begin;
+    while (is_name_part(at(end)) || joins_a_name(end)) {
+        const CodePoint point = decode_utf8(text_, end);
+        const std::string_view letter = text_.substr(end, point.size);
+        end += point.size;
+        if (point.value < 0x80) {
+            latin += letter;
+            continue;
+        }
+        if (first_wrong.empty()) {
+            first_wrong = fmt::format("'{}' (U+{:04X})", letter,
+                                      static_cast<std::uint32_t>(point.value));
+        }
+        has_spelling = has_spelling && !latin_spelling(point.value).empty();
+        latin += latin_spelling(point.value);
+    }
+    has_spelling = has_spelling && end - begin <= 64;
+    std::string hint = has_spelling ? "write '" + latin + "'"
+                                    : "names are of a to z, A to Z, 0 to 9 and _";
+    const CodePoint first = decode_utf8(text_, begin);
+    const std::string_view sign = latin_spelling(first.value);
+    if (has_spelling && (sign == "lap" || sign == "grad")) {
+        // ∇² is one sign. What an operator is of stands in brackets.
+        const bool is_square = sign == "grad" && decode_utf8(text_, begin + first.size).value == U'²';
+        if (is_square) end = begin + first.size + decode_utf8(text_, begin + first.size).size;
+        const std::string operand = latin.substr(sign.size());
+        hint = fmt::format("write '{}({})'", is_square ? "lap" : sign,
+                           operand.empty() ? "…" : operand);
+    }
+    diagnostics_.error(span(begin, end), first_wrong + " is not a letter of a name",
+                       std::move(hint));
+    push(TokenKind::garbage, begin, end);
+}
+
+void Lexer::read_number() {
+    const std::size_t begin = offset_;
+    std::size_t end = begin;
+    while (is_digit(at(end))) ++end;
+    if (at(end) == '.' && at(end + 1) != '.') ++end;  // Two dots are a range: 1..3.
+    while (is_digit(at(end))) ++end;
+    if (at(end) == 'e' || at(end) == 'E') {
+        const std::size_t sign = at(end + 1) == '+' || at(end + 1) == '-' ? 1 : 0;
+        if (is_digit(at(end + 1 + sign))) {
+            end += 1 + sign;
+            while (is_digit(at(end))) ++end;
+        }
+    }
+    const std::size_t number_end = end;
+    while (is_name_part(at(end)) || (at(end) == '.' && is_digit(at(end + 1)))) ++end;
+    if (end == number_end) return push(TokenKind::number, begin, end);
+    const std::string_view tail = text_.substr(number_end, end - number_end);
+    std::string hint;
+    if (is_name_start(tail[0]) && tail[0] != '_' && end - begin <= 64) {
+        hint = fmt::format("write '{} * {}'", text_.substr(begin, number_end - begin), tail);
+    }
+    if (tail == "e" || tail == "E") hint = "an exponent has digits, as in 1e-3";
+    if (const auto number = hint_of_other_number(text_.substr(begin, end - begin))) hint = *number;
+    diagnostics_.error(span(begin, end),
+                       fmt::format("'{:.40}' is not a number", text_.substr(begin, end - begin)),
+                       hint);
+    push(TokenKind::garbage, begin, end);
+}
+
+/// A text in quotes; it ends on its line. Other languages' quotation marks come here with a message
+/// given: their text is garbage.
+void Lexer::read_text(std::size_t quote_size, std::string_view closing) {
+    const std::size_t begin = offset_;
+    bool readable = quote_size == 1;
+    std::size_t end = begin + quote_size;
+    while (end < text_.size() && !is_line_end(text_[end])) {
+        if (text_.substr(end).starts_with(closing)) {
+            end += closing.size();
+            return push(readable ? TokenKind::text : TokenKind::garbage, begin, end);
+        }
+        readable = readable && !is_unreadable(end);
+        end += decode_utf8(text_, end).size;
+    }
+    if (quote_size == 1) {
+        diagnostics_.error(span(begin, end), "this text is never closed",
+                           "a text ends with '\"' on its line");
+    }
+    push(TokenKind::garbage, begin, end);
+}
+
+bool Lexer::read_operator() {
+    const std::string_view rest = text_.substr(offset_);
+    for (const ForeignOperator& foreign : foreign_operators) {
+        if (rest.starts_with(foreign.spelling)) return read_foreign(foreign);
+    }
+    for (const Operator& known : operators) {
+        if (rest.starts_with(known.spelling)) {
+            push(known.kind, offset_, offset_ + known.spelling.size());
+            return true;
+        }
+    }
+    return rest.starts_with('!') && read_foreign(foreign_not);
+}
+
+bool Lexer::read_foreign(const ForeignOperator& foreign) {
+    const std::size_t end = offset_ + foreign.spelling.size();
+    diagnostics_.error(span(offset_, end),
+                       fmt::format("'{}' is not an operator of the language", foreign.spelling),
+                       std::string(foreign.hint));
+    push(foreign.meant, offset_, end);
+    return true;
+}
+
+void Lexer::read_look_alike(const LookAlike& look_alike) {
+    const std::size_t begin = offset_;
+    const CodePoint point = decode_utf8(text_, begin);
+    const std::string_view letter = text_.substr(begin, point.size);
+    const auto number = static_cast<std::uint32_t>(point.value);
+    if (look_alike.meant == TokenKind::newline) {  // A run of blanks is one mistake.
+        while (text_.substr(offset_).starts_with(letter)) offset_ += letter.size();
+        diagnostics_.error(span(begin, offset_),
+                           fmt::format("U+{:04X} is not a plain blank", number),
+                           "write a plain blank");
+        return;
+    }
+    const bool is_power = look_alike.meant == TokenKind::garbage;
+    diagnostics_.error(span(begin, begin + point.size),
+                       fmt::format("'{}' (U+{:04X}) has no meaning in the language", letter,
+                                   number),
+                       look_alike.meant == TokenKind::prime
+                           ? "write the apostrophe '"
+                           : fmt::format("write '{}'", look_alike.write));
+    if (look_alike.meant == TokenKind::text) {
+        const std::string_view closing = point.value == U'\u201e' ? "\u201c" : "\u201d";
+        const bool is_guillemet = point.value == U'\u00ab';
+        return read_text(point.size, is_guillemet ? "\u00bb" : closing);
+    }
+    if (is_power) {  // The parser reads on as if the power were not there.
+        offset_ += point.size;
+        return;
+    }
+    push(look_alike.meant, begin, begin + point.size);
+}
+
+/// Everything that is neither a name, a number nor an operator.
+void Lexer::read_other() {
+    const std::size_t begin = offset_;
+    std::size_t end = begin;
+    while (end < text_.size() && is_unreadable(end)) ++end;
+    if (end > begin) return push(TokenKind::garbage, begin, end);  // Reported already.
+    const CodePoint point = decode_utf8(text_, begin);
+    if (const LookAlike* look_alike = find_look_alike(point.value)) {
+        return read_look_alike(*look_alike);
+    }
+    if (joins_a_name(begin)) return read_bad_name(begin);
+    if (is_unprintable(point.value)) {
+        end = begin + point.size;
+        diagnostics_.error(span(begin, end),
+                           fmt::format("U+{:04X} is an invisible character without a meaning here",
+                                       static_cast<std::uint32_t>(point.value)),
+                           "take it out");
+        return push(TokenKind::garbage, begin, end);
+    }
+    while (end < text_.size() && text_[end] == text_[begin]) ++end;
+    std::string hint;
+    if (text_[begin] == '?') hint = "a choice is written if(condition, a, b)";
+    if (text_[begin] == '`') hint = "write ' for a rate";
+    if (text_[begin] == '\\') hint = "a line goes on inside ( ) and after an operator";
+    const std::string_view run = text_.substr(begin, std::min<std::size_t>(end - begin, 8));
+    diagnostics_.error(span(begin, end), fmt::format("'{}' has no meaning in the language", run),
+                       hint);
+    push(TokenKind::garbage, begin, end);
+}
+
+}  // namespace
+
+std::vector<Token> lex(SourceId source, const Sources& sources, Diagnostics& diagnostics,
+                       std::vector<Span>* docs) {
+    return Lexer(source, sources, diagnostics, docs).run();
+}
+
+}  // namespace cascade

@@ -1,0 +1,60 @@
+// How operators and brackets are spelled, and what people who know other languages write for them.
+#pragma once
+
+#include "lang/syntax/token.h"
+
+#include <string_view>
+
+namespace cascade {
+
+struct Operator {
+    std::string_view spelling;
+    TokenKind kind;
+};
+
+/// Longer ones before those they begin with.
+inline constexpr Operator operators[] = {
+    {"+=", TokenKind::plus_assign},   {"==", TokenKind::equal},
+    {"!=", TokenKind::not_equal},     {"<=", TokenKind::less_equal},
+    {">=", TokenKind::greater_equal}, {"..", TokenKind::dots},
+    {":", TokenKind::colon},
+    {";", TokenKind::semicolon},      {",", TokenKind::comma},
+    {".", TokenKind::dot},            {"'", TokenKind::prime},
+    {"(", TokenKind::open_round},     {")", TokenKind::close_round},
+    {"[", TokenKind::open_square},    {"]", TokenKind::close_square},
+    {"{", TokenKind::open_curly},     {"}", TokenKind::close_curly},
+    {"=", TokenKind::assign},         {"<", TokenKind::less},
+    {">", TokenKind::greater},        {"+", TokenKind::plus},
+    {"-", TokenKind::minus},          {"*", TokenKind::star},
+    {"/", TokenKind::slash},          {"^", TokenKind::caret},
+};
+
+/// Operators of other languages, and what they mean here.
+struct ForeignOperator {
+    std::string_view spelling;
+    TokenKind meant;
+    std::string_view hint;
+};
+
+inline constexpr ForeignOperator foreign_operators[] = {
+    {"===", TokenKind::equal, "write '=='"},
+    {"!==", TokenKind::not_equal, "write '!='"},
+    {"**", TokenKind::caret, "write '^' for a power"},
+    {"&&", TokenKind::keyword_and, "write 'and'"},
+    {"||", TokenKind::keyword_or, "write 'or'"},
+    {"<>", TokenKind::not_equal, "write '!='"},
+    {"=>", TokenKind::greater_equal, "write '>='"},
+    {"=<", TokenKind::less_equal, "write '<='"},
+    {":=", TokenKind::colon, "write ':' for a value, '=' for a definition"},
+    {"-=", TokenKind::plus_assign, "write '+=' and a minus sign in front of the term"},
+    {"*=", TokenKind::plus_assign, "there is only '+='"},
+    {"/=", TokenKind::plus_assign, "there is only '+='"},
+    {"&", TokenKind::keyword_and, "write 'and'"},
+    {"|", TokenKind::keyword_or, "write 'or'"},
+    {"%", TokenKind::garbage, "write mod(a, b) for a % b"},
+};
+
+/// Looked for when no operator of the language is there: `!=` is one.
+inline constexpr ForeignOperator foreign_not = {"!", TokenKind::keyword_not, "write 'not'"};
+
+}  // namespace cascade

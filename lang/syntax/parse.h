@@ -1,0 +1,40 @@
+// The parser: tokens to syntax tree.
+//
+// Sentences are read by plain recursive descent of fixed depth; expressions by operator precedence
+// with a stack of its own, so that neither 100,000 brackets nor 1,000,000 operands can overflow
+// anything. The grammar is in spec/grammar.md.
+#pragma once
+
+#include "core/diagnostics.h"
+#include "lang/syntax/ast.h"
+#include "lang/syntax/token.h"
+
+#include <optional>
+#include <string>
+
+namespace cascade {
+
+/// The largest script, in bytes; a larger one is refused with a message before it is read.
+inline constexpr std::size_t largest_script = 16u << 20;
+
+/// Parses a whole script. Faults go to `diagnostics`; reading goes on behind each, at the next
+/// sentence, so that one call finds them all.
+ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnostics);
+
+/// Parses a text that another script uses: its systems and functions, and what it uses itself, are
+/// added to `script`; its stages, domain and picture are left out.
+void parse_used(SourceId source, const Sources& sources, ast::Script& script,
+                Diagnostics& diagnostics);
+
+/// Parses a text that is one expression (`--show 'small.b - a'`) into the lists of `script`.
+std::optional<ast::Expression> parse_expression(SourceId source, const Sources& sources,
+                                                ast::Script& script, Diagnostics& diagnostics);
+
+/// Parses `[stage.]name=expression` (or with `:`), as `--set` takes it, into `script.overrides`.
+void parse_override(SourceId source, const Sources& sources, ast::Script& script,
+                    Diagnostics& diagnostics);
+
+/// The tree as text, indented, for `--dump ast`.
+std::string print_ast(const ast::Script& script, const Sources& sources);
+
+}  // namespace cascade

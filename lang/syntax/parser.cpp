@@ -1,0 +1,142 @@
+// The entries of the parser.
+#include "lang/syntax/parse.h"
+
+#include "lang/syntax/script_parser.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace cascade {
+
+namespace {
+
+/// False, with a message, for a text larger than any script.
+bool has_sane_size(SourceId source, const Sources& sources, Diagnostics& diagnostics) {
+    const std::size_t size = sources[source].text().size();
+    if (size <= largest_script) return true;
+    diagnostics.error({source, 0, 0},
+                      fmt::format("this script has {} bytes; at most {} can be read", size,
+                                  largest_script));
+    return false;
+}
+
+}  // namespace
+
+ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnostics) {
+    ast::Script script;
+    if (!has_sane_size(source, sources, diagnostics)) return script;
+    const std::size_t errors_before = diagnostics.error_count();
+    TokenCursor cursor(source, sources, diagnostics);
+    while (cursor.take_if(TokenKind::newline) || cursor.take_if(TokenKind::semicolon)) {
+    }
+    if (cursor.at_end()) {
+        if (diagnostics.error_count() == errors_before) {
+            diagnostics.error({source, 0, 0}, "this script is empty",
+                              "a script begins with 'system_name: turing_spots', for example");
+        }
+        return script;
+    }
+    script.expressions.reserve(cursor.token_count());
+    ScriptParser(cursor, script).parse_script();
+    // What could not be read may be what a doc comment belongs to.
+    if (diagnostics.error_count() == errors_before) cursor.report_lost_docs();
+    return script;
+}
+
+void parse_used(SourceId source, const Sources& sources, ast::Script& script,
+                Diagnostics& diagnostics) {
+    if (!has_sane_size(source, sources, diagnostics)) return;
+    const std::size_t errors_before = diagnostics.error_count();
+    const auto blocks_before = static_cast<std::ptrdiff_t>(script.blocks.size());
+    TokenCursor cursor(source, sources, diagnostics);
+    ScriptParser(cursor, script).parse_script();
+    if (diagnostics.error_count() == errors_before) cursor.report_lost_docs();
+    script.blocks.erase(
+        std::remove_if(script.blocks.begin() + blocks_before, script.blocks.end(),
+                       [](const ast::Block& block) {
+                           return block.kind != ast::BlockKind::system;
+                       }),
+        script.blocks.end());
+}
+
+std::optional<ast::Expression> parse_expression(SourceId source, const Sources& sources,
+                                                ast::Script& script, Diagnostics& diagnostics) {
+    if (!has_sane_size(source, sources, diagnostics)) return std::nullopt;
+    const std::size_t errors_before = diagnostics.error_count();
+    TokenCursor cursor(source, sources, diagnostics);
+    const auto expression = ScriptParser(cursor, script).parse_lone_expression();
+    return diagnostics.error_count() == errors_before ? expression : std::nullopt;
+}
+
+void parse_override(SourceId source, const Sources& sources, ast::Script& script,
+                    Diagnostics& diagnostics) {
+    if (!has_sane_size(source, sources, diagnostics)) return;
+    TokenCursor cursor(source, sources, diagnostics);
+    ScriptParser(cursor, script).parse_override();
+}
+
+/// Something follows what should be all. An expression that could not be read has its message.
+void ScriptParser::report_rest(const std::string& what, ast::Expression expression,
+                               const std::string& hint) {
+    cursor_.skip_newlines();
+    const auto& root = script_.expressions[expression.root].node;
+    if (cursor_.at_end() || std::holds_alternative<ast::Garbage>(root)) return;
+    cursor_.error(cursor_.peek().span,
+                  fmt::format("{} ends before {}", what, cursor_.describe(cursor_.peek())), hint);
+}
+
+std::optional<ast::Expression> ScriptParser::parse_lone_expression() {
+    cursor_.skip_newlines();
+    if (cursor_.at_end()) {
+        cursor_.error(cursor_.peek().span, "an expression is missing");
+        return std::nullopt;
+    }
+    const ast::Expression expression = expressions_.parse("the expression");
+    report_rest("one expression", expression, "");
+    return expression;
+}
+
+/// The word behind a '.', if there is one; false, with a message, if it is missing.
+bool ScriptParser::parse_word_behind_dot(ast::Word& word, const std::string& form) {
+    if (!cursor_.take_if(TokenKind::dot)) return true;
+    if (!cursor_.at(TokenKind::name)) {
+        cursor_.error(cursor_.previous().span, "a name is missing after '.'", form);
+        return false;
+    }
+    word = cursor_.word(cursor_.take());
+    return true;
+}
+
+/// name=value, stage.name=value, and the sides u.left=…, stage.u.left=…, each u also u[1]. Whether
+/// a.left is a side or the parameter of a stage is for the checker to say.
+void ScriptParser::parse_override() {
+    const std::string form = "write name=value or stage.name=value";
+    ast::Override change;
+    ast::Sentence& sentence = change.sentence;
+    cursor_.skip_newlines();
+    if (!cursor_.at(TokenKind::name)) {
+        if (cursor_.at(TokenKind::garbage)) return;
+        return cursor_.error(cursor_.peek().span, "the name of what to set is missing", form);
+    }
+    sentence.name = cursor_.word(cursor_.take());
+    if (!parse_index(sentence)) return;
+    if (sentence.index.empty() && cursor_.at(TokenKind::dot)) {
+        change.stage = sentence.name;
+        if (!parse_word_behind_dot(sentence.name, form) || !parse_index(sentence)) return;
+    }
+    if (!parse_word_behind_dot(sentence.side, form)) return;
+    const ast::Word& name = sentence.name;
+    if (!cursor_.take_if(TokenKind::assign) && !cursor_.take_if(TokenKind::colon)) {
+        if (cursor_.at(TokenKind::garbage)) return;
+        return cursor_.error(
+            name.span, fmt::format("'=' is missing after '{}'", shortened(name.text)), form);
+    }
+    change.sentence.values.push_back(
+        expressions_.parse("the value of '" + shortened(name.text) + "'"));
+    change.sentence.span = join(name.span, cursor_.previous().span);
+    report_rest("one value", change.sentence.values[0], form);
+    script_.overrides.push_back(std::move(change));
+}
+
+}  // namespace cascade

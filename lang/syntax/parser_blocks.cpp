@@ -1,0 +1,243 @@
+// Blocks: `system`, `stage`, `domain`, `picture`, and the stages of classic programs.
+#include "lang/syntax/script_parser.h"
+
+#include "core/near_name.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+ast::BlockKind kind_of_keyword(std::string_view keyword) {
+    if (keyword == "system") return ast::BlockKind::system;
+    if (keyword == "stage") return ast::BlockKind::stage;
+    return keyword == "domain" ? ast::BlockKind::domain : ast::BlockKind::picture;
+}
+
+}  // namespace
+
+void ScriptParser::parse_script() {
+    while (!cursor_.at_end()) parse_item();
+}
+
+void ScriptParser::parse_item() {
+    if (cursor_.take_if(TokenKind::newline) || cursor_.take_if(TokenKind::semicolon)) return;
+    if (cursor_.at(TokenKind::close_curly)) {
+        const Token close = cursor_.take();
+        if (forgiven_closings_ > 0) {
+            --forgiven_closings_;
+        } else {
+            cursor_.error(close.span, "this '}' closes nothing");
+        }
+        return;
+    }
+    if (cursor_.begins_block()) return parse_block(cursor_.text(cursor_.peek()));
+    if (begins_classic_stage()) return parse_classic_stage();
+    if (parse_function_or_use() || parse_misspelt_block()) return;
+    if (!in_classic_stage_) return parse_outside_sentence();
+    if (auto sentence = parse_sentence()) {
+        add_sentence(script_.blocks.back(), std::move(*sentence));
+    }
+}
+
+/// `System s {`: read as the block that is meant, so that nothing else seems to be missing.
+bool ScriptParser::parse_misspelt_block() {
+    if (!cursor_.at(TokenKind::name) || !has_shape_of_block(1)) return false;
+    const std::string meant = report_no_block(cursor_.word(cursor_.peek()));
+    if (meant.empty()) {
+        cursor_.skip_sentence();
+    } else {
+        parse_block(meant);
+    }
+    return true;
+}
+
+/// The block that begins here, with a keyword that may be misspelt.
+void ScriptParser::parse_block(std::string_view keyword) {
+    in_classic_stage_ = false;
+    outside_reported_ = false;
+    ast::Block block;
+    block.doc = docs_before();
+    block.keyword = cursor_.word(cursor_.take());
+    block.kind = kind_of_keyword(keyword);
+    if (block.kind == ast::BlockKind::system) {
+        parse_header_of_system(block);
+    } else if (block.kind == ast::BlockKind::stage) {
+        parse_header_of_stage(block);
+    } else {
+        parse_header_without_name();
+    }
+    parse_body(block);
+    script_.blocks.push_back(std::move(block));
+}
+
+/// NAME, or NAME: BASE.
+void ScriptParser::parse_header_of_system(ast::Block& block) {
+    if (cursor_.at(TokenKind::name)) {
+        block.name = cursor_.word(cursor_.take());
+    } else {
+        cursor_.error(block.keyword.span, "this system has no name", "write 'system NAME {'");
+        block.is_damaged = true;
+    }
+    if (!cursor_.at(TokenKind::colon)) return;
+    const Token colon = cursor_.take();
+    if (cursor_.at(TokenKind::name)) {
+        const ast::Word base = cursor_.word(cursor_.take());
+        if (!block.name.empty()) block.base = base;  // `system: NAME {` has had its message.
+    } else if (!cursor_.at(TokenKind::garbage)) {
+        cursor_.error(colon.span, "the name of a system is missing after ':'",
+                      "write 'system NAME: SYSTEM {'");
+    }
+}
+
+/// NAME: SYSTEM
+void ScriptParser::parse_header_of_stage(ast::Block& block) {
+    const std::string form = "write 'stage NAME: SYSTEM {'";
+    bool is_told = false;
+    if (cursor_.at(TokenKind::name)) {
+        block.name = cursor_.word(cursor_.take());
+    } else {
+        cursor_.error(block.keyword.span, "this stage has no name", form);
+        is_told = true;
+    }
+    const bool has_colon = cursor_.take_if(TokenKind::colon);
+    const std::string name = "'" + shortened(block.name.text) + "'";
+    if (cursor_.at(TokenKind::name)) {
+        if (!has_colon && !is_told) {
+            cursor_.error(block.name.span, fmt::format("':' is missing after {}", name), form);
+        }
+        block.base = cursor_.word(cursor_.take());
+    } else if (!is_told && !cursor_.at(TokenKind::garbage)) {
+        cursor_.error(has_colon ? cursor_.previous().span : block.name.span,
+                      fmt::format("stage {} does not say its system", name), form);
+        block.is_damaged = true;
+    }
+}
+
+/// `domain` and `picture` have neither.
+void ScriptParser::parse_header_without_name() {
+    const Token keyword = cursor_.previous();
+    if (!cursor_.at(TokenKind::name) && !cursor_.at(TokenKind::colon)) return;
+    const Token extra = cursor_.take();
+    cursor_.error(extra.span,
+                  fmt::format("{} has no place after {}", cursor_.describe(extra),
+                              cursor_.describe(keyword)),
+                  fmt::format("write '{} {{'", cursor_.text(keyword)));
+}
+
+/// { sentences }. Where one of the brackets is missing the block ends at the next block.
+void ScriptParser::parse_body(ast::Block& block) {
+    const Token header_end = cursor_.previous();
+    cursor_.skip_newlines();
+    const bool is_open = cursor_.at(TokenKind::open_curly);
+    const Token open = cursor_.peek();
+    if (is_open) {
+        cursor_.take();
+        add_docs(block.doc, docs_behind(block.keyword.span.begin));
+    } else if (cursor_.at(TokenKind::garbage)) {
+        block.is_damaged = true;
+        cursor_.skip_sentence();
+    } else {
+        // A header that ends too early has its message.
+        const bool is_told = block.is_damaged && !cursor_.at(TokenKind::name);
+        block.is_damaged = true;
+        if (!is_told) {
+            cursor_.error(header_end.span,
+                          fmt::format("'{{' is missing after {}", cursor_.describe(header_end)),
+                          "a block is written { sentences }");
+        }
+        // What is left of the header's line is no sentence.
+        if (header_end.kind != TokenKind::name || !cursor_.at(TokenKind::name)) {
+            cursor_.skip_sentence();
+        }
+    }
+    while (!cursor_.at_end() && !cursor_.begins_block() && !begins_classic_stage()) {
+        if (cursor_.take_if(TokenKind::close_curly)) return;
+        if (cursor_.take_if(TokenKind::newline) || cursor_.take_if(TokenKind::semicolon)) continue;
+        if (refuse_function_or_use()) continue;
+        if (auto sentence = parse_sentence()) {
+            add_sentence(block, std::move(*sentence));
+        } else {
+            block.is_damaged = true;
+        }
+    }
+    if (!is_open) return;
+    block.is_damaged = true;
+    if (!cursor_.lost_in_text(open, "}")) report_unclosed(open, block);
+}
+
+void ScriptParser::report_unclosed(const Token& open, const ast::Block& block) {
+    Diagnostic diagnostic;
+    diagnostic.span = open.span;
+    diagnostic.message = "this '{' is never closed";
+    const std::string name = block.name.empty() ? "" : " '" + shortened(block.name.text) + "'";
+    diagnostic.hint = fmt::format("{}{} ends with '}}'", block.keyword.text, name);
+    if (!cursor_.at_end()) {
+        diagnostic.notes.push_back({cursor_.peek().span, "the next block begins here"});
+        ++forgiven_closings_;  // If the block was meant to hold the next one, its '}' comes yet.
+    }
+    cursor_.error(std::move(diagnostic));
+}
+
+/// `system_name: SYSTEM`, and all sentences up to the next one or a block.
+void ScriptParser::parse_classic_stage() {
+    ast::Block block;
+    block.kind = ast::BlockKind::classic_stage;
+    block.doc = docs_before();
+    block.keyword = cursor_.word(cursor_.take());
+    in_classic_stage_ = true;
+    outside_reported_ = false;
+    parse_base_of_classic_stage(block);
+    add_docs(block.doc, docs_behind(block.keyword.span.begin));
+    script_.blocks.push_back(std::move(block));
+}
+
+void ScriptParser::parse_base_of_classic_stage(ast::Block& block) {
+    const std::string form = "write 'system_name: SYSTEM'";
+    const bool has_colon = cursor_.take_if(TokenKind::colon);
+    if (!has_colon && !cursor_.at(TokenKind::garbage)) {
+        cursor_.error(block.keyword.span, "':' is missing after 'system_name'", form);
+        cursor_.take_if(TokenKind::assign);
+    }
+    if (cursor_.at(TokenKind::name)) {
+        block.base = cursor_.word(cursor_.take());
+    } else if (has_colon && !cursor_.at(TokenKind::garbage)) {
+        const bool is_missing = cursor_.at_sentence_end();
+        cursor_.error(is_missing ? cursor_.previous().span : cursor_.peek().span,
+                      is_missing ? "the name of a system is missing"
+                                 : fmt::format("{} is not the name of a system",
+                                               cursor_.describe(cursor_.peek())),
+                      form);
+    }
+    if (cursor_.at_sentence_end()) return;
+    const bool is_told = !has_colon || block.base.empty() || cursor_.at(TokenKind::garbage);
+    if (!is_told) {
+        cursor_.error(cursor_.peek().span,
+                      fmt::format("{} has no place after the name of a system",
+                                  cursor_.describe(cursor_.peek())));
+    }
+    cursor_.skip_sentence();
+}
+
+/// A sentence that belongs to no stage is read, for its own faults, and forgotten.
+void ScriptParser::parse_outside_sentence() {
+    const bool is_name = cursor_.at(TokenKind::name);
+    const std::size_t errors_before = cursor_.error_count();
+    const auto sentence = parse_sentence();
+    if (!is_name || outside_reported_ || !sentence) return;
+    if (cursor_.error_count() != errors_before) return;
+    outside_reported_ = true;
+    const std::array<std::string, 1> beginning = {"system_name"};
+    const bool is_near = !nearest_name(sentence->name.text, beginning).empty();
+    cursor_.error(sentence->name.span,
+                  fmt::format("{} belongs to no stage",
+                              cursor_.describe({TokenKind::name, sentence->name.span})),
+                  is_near ? "did you mean 'system_name'?"
+                          : "a stage begins with 'system_name: SYSTEM'");
+}
+
+}  // namespace cascade

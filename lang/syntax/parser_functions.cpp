@@ -1,0 +1,125 @@
+// What stands at the top of a script beside its blocks: functions, and the files it uses.
+#include "lang/syntax/script_parser.h"
+
+#include <fmt/core.h>
+
+namespace cascade {
+
+namespace {
+
+constexpr const char* function_form = "write 'fn name(a, b) = expression'";
+
+}  // namespace
+
+bool ScriptParser::begins_use() const {
+    return cursor_.at_name("use") &&
+           (cursor_.kind(1) == TokenKind::name || cursor_.kind(1) == TokenKind::text);
+}
+
+bool ScriptParser::parse_function_or_use() {
+    if (begins_function()) {
+        parse_function();
+    } else if (begins_use()) {
+        parse_use();
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/// Inside a block neither has a place: told, and passed over.
+bool ScriptParser::refuse_function_or_use() {
+    if (!begins_function() && !begins_use()) return false;
+    const Token word = cursor_.take();
+    cursor_.error(word.span, fmt::format("{} stands outside of blocks", cursor_.describe(word)),
+                  "write it at the top of the script");
+    cursor_.skip_sentence();
+    return true;
+}
+
+/// fn NAME(a, b) = expression
+void ScriptParser::parse_function() {
+    ast::FunctionDefinition function;
+    function.doc = docs_before();
+    const Token keyword = cursor_.take();
+    function.name = cursor_.word(cursor_.take());
+    if (!parse_parameters(function)) return keep_damaged(std::move(function));
+    const std::string name = "'" + shortened(function.name.text) + "'";
+    if (cursor_.at(TokenKind::colon) || cursor_.at(TokenKind::equal)) {
+        const Token sign = cursor_.take();
+        cursor_.error(sign.span, "a function is written with '='", function_form);
+    } else if (!cursor_.take_if(TokenKind::assign)) {
+        if (!cursor_.at(TokenKind::garbage)) {
+            cursor_.error(function.name.span,
+                          fmt::format("'=' is missing after the function {}", name),
+                          function_form);
+        }
+        return keep_damaged(std::move(function));
+    }
+    function.body = parse_behind_operator("the value of the function " + name, "");
+    if (cursor_.at(TokenKind::dots) || cursor_.at(TokenKind::comma)) {
+        cursor_.error(cursor_.peek().span,
+                      fmt::format("{} has no place in a function",
+                                  cursor_.describe(cursor_.peek())),
+                      "its value is one expression");
+        cursor_.skip_sentence();
+    }
+    add_docs(function.doc, docs_behind(keyword.span.begin));
+    script_.functions.push_back(std::move(function));
+}
+
+/// A function that could not be read, with its message: calls of it are no faults of their own.
+void ScriptParser::keep_damaged(ast::FunctionDefinition function) {
+    const auto here = static_cast<ast::ExprId>(script_.expressions.size());
+    script_.expressions.push_back({function.name.span, ast::Garbage{}});
+    function.parameters.clear();
+    function.body = {here, here};
+    script_.functions.push_back(std::move(function));
+    cursor_.skip_sentence();
+}
+
+/// ( [ name { , name } ] ). False, with a message, if they cannot be read.
+bool ScriptParser::parse_parameters(ast::FunctionDefinition& function) {
+    const auto refuse = [&](Span span, const std::string& message) {
+        if (!cursor_.at(TokenKind::garbage)) cursor_.error(span, message, function_form);
+        return false;
+    };
+    const std::string name = "'" + shortened(function.name.text) + "'";
+    if (!cursor_.at(TokenKind::open_round)) {
+        return refuse(function.name.span, fmt::format("'(' is missing after {}", name));
+    }
+    const Token open = cursor_.take();
+    cursor_.skip_newlines_in_brackets();
+    if (cursor_.take_if(TokenKind::close_round)) return true;
+    while (true) {
+        if (!cursor_.at(TokenKind::name)) break;
+        function.parameters.push_back(cursor_.word(cursor_.take()));
+        cursor_.skip_newlines_in_brackets();
+        if (cursor_.take_if(TokenKind::close_round)) return true;
+        if (!cursor_.take_if(TokenKind::comma)) break;
+        cursor_.skip_newlines_in_brackets();
+    }
+    return refuse(cursor_.at_sentence_end() ? open.span : cursor_.peek().span,
+                  fmt::format("the parameters of {} are names with commas between them", name));
+}
+
+/// use "file.cascade"
+void ScriptParser::parse_use() {
+    const Token keyword = cursor_.take();
+    const Token file = cursor_.take();
+    cursor_.take_docs(keyword.span.begin, cursor_.peek().span.begin);
+    if (file.kind != TokenKind::text) {
+        cursor_.error(file.span, "the name of the file stands in quotes",
+                      fmt::format("write use \"{}.cascade\"", shortened(cursor_.text(file))));
+        return cursor_.skip_sentence();
+    }
+    const std::string_view text = cursor_.text(file);
+    script_.uses.push_back({file.span, std::string(text.substr(1, text.size() - 2))});
+    if (cursor_.at_sentence_end()) return;
+    cursor_.error(cursor_.peek().span,
+                  fmt::format("{} has no place after the name of a file",
+                              cursor_.describe(cursor_.peek())));
+    cursor_.skip_sentence();
+}
+
+}  // namespace cascade

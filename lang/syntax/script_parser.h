@@ -1,0 +1,91 @@
+// The parser of blocks and sentences.
+#pragma once
+
+#include "lang/syntax/ast.h"
+#include "lang/syntax/expression_parser.h"
+#include "lang/syntax/token_cursor.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace cascade {
+
+/// Reads one source into a script.
+class ScriptParser {
+public:
+    ScriptParser(TokenCursor& cursor, ast::Script& script)
+        : cursor_(cursor), script_(script), expressions_(cursor, script) {}
+
+    /// Everything up to the end of the text.
+    void parse_script();
+    /// `[stage.]name=expression`, the whole text.
+    void parse_override();
+    bool parse_word_behind_dot(ast::Word& word, const std::string& form);
+    /// The expression that is the whole text.
+    std::optional<ast::Expression> parse_lone_expression();
+
+private:
+    // Blocks (parser_blocks.cpp).
+    void parse_item();
+    void parse_block(std::string_view keyword);
+    bool parse_misspelt_block();
+    void parse_header_of_system(ast::Block& block);
+    void parse_header_of_stage(ast::Block& block);
+    void parse_header_without_name();
+    void parse_body(ast::Block& block);
+    void report_unclosed(const Token& open, const ast::Block& block);
+    void parse_classic_stage();
+    void parse_base_of_classic_stage(ast::Block& block);
+    void parse_outside_sentence();
+    bool begins_classic_stage() const { return cursor_.at_name("system_name"); }
+
+    // `fn` and `use` (parser_functions.cpp).
+    bool begins_function() const {
+        return cursor_.at_name("fn") && cursor_.kind(1) == TokenKind::name;
+    }
+    bool begins_use() const;
+    bool parse_function_or_use();
+    bool refuse_function_or_use();
+    void parse_function();
+    bool parse_parameters(ast::FunctionDefinition& function);
+    void keep_damaged(ast::FunctionDefinition function);
+    void parse_use();
+
+    // Sentences (parser_sentences.cpp).
+    std::optional<ast::Sentence> parse_sentence();
+    void parse_side(ast::Sentence& sentence);
+    static void add_sentence(ast::Block& block, ast::Sentence sentence);
+    void report_dot(const ast::Sentence& sentence);
+    bool parse_relation(ast::Sentence& sentence);
+    bool parse_rate_relation(ast::Sentence& sentence);
+    bool report_missing_colon(const ast::Sentence& sentence);
+    bool has_shape_of_block(std::size_t ahead) const;
+    std::string report_no_block(const ast::Word& word);
+    bool report_second_rate(const ast::Sentence& sentence);
+    bool take_paper_rate(ast::Sentence& sentence);
+    bool report_no_sentence();
+    void parse_values(ast::Sentence& sentence);
+    bool parse_index(ast::Sentence& sentence);
+    void parse_end_of_index(ast::Sentence& sentence);
+    void parse_range(ast::Sentence& sentence);
+    ast::Expression parse_behind_operator(const std::string& owner, std::string_view end_word);
+
+    /// The doc comments in front of the cursor's token that belong to what begins there.
+    std::string docs_before();
+    /// Those of what began at `begin` and has just been read, and behind it on its line.
+    std::string docs_behind(std::uint32_t begin);
+    static void add_docs(std::string& doc, const std::string& more);
+
+    void report_rest(const std::string& what, ast::Expression expression,
+                     const std::string& hint);
+
+    TokenCursor& cursor_;
+    ast::Script& script_;
+    ExpressionParser expressions_;
+    bool in_classic_stage_ = false;   ///< Sentences belong to the last block of the script.
+    bool outside_reported_ = false;   ///< One message serves a run of sentences outside of stages.
+    std::size_t forgiven_closings_ = 0;  ///< `}` that are left over by a block told to be unclosed.
+};
+
+}  // namespace cascade

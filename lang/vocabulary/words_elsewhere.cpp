@@ -1,0 +1,134 @@
+#include "lang/vocabulary/words_elsewhere.h"
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+
+namespace cascade {
+
+namespace {
+
+using Place = WordPlace;
+
+constexpr WordElsewhere rows[] = {
+    {Place::stage, "dt timestep time_step step_size delta_t tau",
+     "the length of a step is its speed: write 'speed: 0.1'"},
+    {Place::stage, "steps n_steps nsteps num_steps iters generations max_iter",
+     "write 'iterations: 1000'"},
+    {Place::stage, "time t_end tend t_max tmax end_time total_time final_time stop_time",
+     "write 'duration: 1000'"},
+    {Place::stage, "method integrator scheme stepper time_stepping", "write 'solver: rk4'"},
+    {Place::stage, "tol rtol atol abstol reltol", "write 'solver: rk45; tolerance: 0.001'"},
+    {Place::stage, "grid size width height resolution nx",
+     "it belongs in the domain: write 'domain { grid: 100, 100 }'"},
+    {Place::stage, "spacing dx h cell_size",
+     "it belongs in the domain: write 'domain { spacing: 0.5 }'"},
+    {Place::stage, "boundary bc boundaries boundary_condition boundary_conditions",
+     "it belongs in the domain: write 'domain { boundary: noflux }'"},
+    {Place::stage, "seed random_seed", "it belongs in the domain: write 'domain { seed: 1 }'"},
+    {Place::stage, "precision dtype",
+     "it belongs in the domain: write 'domain { precision: double }'"},
+    {Place::stage, "palette color colour colors colormap cmap",
+     "it belongs in the picture: write 'picture { color: palette(u, 0, 1, \"leopard\") }'"},
+
+    {Place::domain, "size width height resolution nx shape dimensions n",
+     "write 'grid: 100, 100' for the numbers of cells"},
+    {Place::domain, "length l lx side extent",
+     "a side is as long as its cells together: write 'grid: 100, 100; spacing: 0.5' for 50"},
+    {Place::domain, "dx dy h cell_size delta_x resolution_length", "write 'spacing: 0.5'"},
+    {Place::domain, "bc boundaries boundary_condition boundary_conditions edges borders",
+     "write 'boundary: noflux'"},
+    {Place::domain, "random_seed rng", "write 'seed: 1'"},
+    {Place::domain, "dtype float", "write 'precision: double'"},
+    {Place::domain, "model file obj", "write 'mesh: \"model.obj\"'"},
+    {Place::domain, "dt steps time iterations duration speed solver until interval",
+     "it belongs in a stage: write 'stage s: turing_spots { iterations: 1000 }'"},
+    {Place::domain, "palette color colour colors colormap cmap",
+     "it belongs in the picture: write 'picture { color: palette(u, 0, 1, \"leopard\") }'"},
+
+    {Place::picture, "palette colors colour colormap cmap",
+     "write 'color: palette(u, 0, 1, \"leopard\")'"},
+
+    {Place::boundary,
+     "neumann zero_flux zeroflux reflecting reflective insulating closed wall walls mirror",
+     "write 'noflux'"},
+    {Place::boundary, "wrap wrapped cyclic toroidal torus circular", "write 'periodic'"},
+    {Place::boundary, "dirichlet fixed absorbing zero",
+     "sides have values, boundaries have none: write 'sides: fixed(0)'"},
+    {Place::boundary, "flux", "sides have slopes, boundaries have none: write 'sides: flux(1)'"},
+
+    {Place::side, "neumann", "write 'flux(0)'"},
+    {Place::side, "zero_flux zeroflux reflecting reflective insulating closed wall mirror",
+     "write 'noflux'"},
+    {Place::side, "dirichlet absorbing zero constant value", "write 'fixed(0)'"},
+    {Place::side, "wrap cyclic toroidal torus", "write 'periodic'"},
+
+    {Place::function, "laplacian laplace del2 nabla2 lapl laplacien", "did you mean 'lap'?"},
+    {Place::function, "divergence", "did you mean 'div'?"},
+    {Place::function, "gradient nabla", "did you mean 'grad'?"},
+    {Place::function, "curl rot", "write 'dx(v) - dy(u)'"},
+    {Place::function, "minimum", "did you mean 'min'?"},
+    {Place::function, "maximum", "did you mean 'max'?"},
+    {Place::function, "ln", "did you mean 'log'?"},
+    {Place::function, "log10", "write 'log(u) / log(10)'"},
+    {Place::function, "log2", "write 'log(u) / log(2)'"},
+    {Place::function, "rand uniform rnd", "did you mean 'random'?"},
+    {Place::function, "randn gaussian_noise", "did you mean 'normal'?"},
+    {Place::function, "heaviside theta unit_step", "write 'step(0, u)'"},
+    {Place::function, "gaussian bump",
+     "write 'gauss(0.5, 0.5, 0.1)' for a bump; normal(0, 1) is noise"},
+    {Place::function, "circle sphere ball", "write 'disc(0.5, 0.5, 0.1)'"},
+    {Place::function, "rect rectangle square", "write 'box(0.5, 0.5, 0.2, 0.2)'"},
+    {Place::function, "fabs magnitude", "did you mean 'abs'?"},
+    {Place::function, "fmod remainder modulo", "did you mean 'mod'?"},
+    {Place::function, "arcsin", "did you mean 'asin'?"},
+    {Place::function, "arccos", "did you mean 'acos'?"},
+    {Place::function, "arctan", "did you mean 'atan'?"},
+    {Place::function, "sqr squared", "write 'u^2'"},
+    {Place::function, "sigmoid logistic", "write '1 / (1 + exp(-u))'"},
+    {Place::function, "lerp interpolate", "did you mean 'mix'?"},
+    {Place::function, "where select ifelse piecewise", "write 'if(u > v, u, v)'"},
+    {Place::function, "average avg", "write 'mean(u over domain)'"},
+    {Place::function, "integral integrate",
+     "write 'sum(u over domain)', on a plane times the size of a cell"},
+    {Place::function, "steady", "it stands alone behind 'until:'"},
+    {Place::function, "fixed flux", "it stands behind a side, as in u.left: fixed(1)"},
+
+    {Place::value, "time", "write 't'"},
+    {Place::value, "dt timestep time_step", "write 'speed'"},
+    {Place::value, "e euler", "write 'exp(1)'"},
+    {Place::value, "true", "write '1'"},
+    {Place::value, "false", "write '0'"},
+    {Place::value, "iteration frame tick", "write 'step'"},
+};
+
+bool is_same(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char left, char right) {
+        return std::tolower(static_cast<unsigned char>(left)) == right;
+    });
+}
+
+/// Is the word one of a row's?
+bool has_word(std::string_view words, std::string_view word) {
+    while (!words.empty()) {
+        const std::size_t end = std::min(words.find(' '), words.size());
+        if (is_same(word, words.substr(0, end))) return true;
+        words.remove_prefix(std::min(end + 1, words.size()));
+    }
+    return false;
+}
+
+}  // namespace
+
+std::span<const WordElsewhere> words_elsewhere() {
+    return rows;
+}
+
+std::string_view advice_about(std::string_view word, WordPlace place) {
+    const auto found = std::find_if(
+        std::begin(rows), std::end(rows),
+        [&](const WordElsewhere& row) { return row.place == place && has_word(row.words, word); });
+    return found == std::end(rows) ? std::string_view() : found->advice;
+}
+
+}  // namespace cascade

@@ -1,0 +1,115 @@
+#include "run/commands/dump.h"
+
+#include "ir/cell_kernel.h"
+#include "lang/equations/equations.h"
+#include "lang/lower/lower.h"
+#include "lang/syntax/parse.h"
+#include "lang/syntax/token.h"
+#if CASCADE_HAS_JIT
+#include "jit/jit.h"
+#endif
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::array<std::string_view, 9> kinds = {"tokens", "ast", "equations", "tex", "program",
+                                                   "plan", "ir", "llvm", "asm"};
+
+/// Steps are shown as they are taken.
+constexpr PlanOptions as_run{Bringing::cheaper, false, true};
+
+std::string dump_tokens(const Script& script) {
+    Diagnostics already_reported;
+    return print_tokens(lex(0, script.sources, already_reported), script.sources);
+}
+
+/// ", pass 2 of 3" where there are several.
+std::string pass_words(const StepPlan& plan, std::size_t pass) {
+    if (plan.passes.size() == 1) return "";
+    return fmt::format(", pass {} of {}", pass + 1, plan.passes.size());
+}
+
+std::string dump_ir(const Program& program) {
+    std::string text;
+    const auto section = [&](const Stage& stage, std::string_view what, const StepPlan& plan) {
+        for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
+            if (plan.passes[pass].bound.kernel.results.empty()) continue;
+            text += fmt::format("# stage '{}': {}{}\n{}\n", stage.name, what,
+                                pass_words(plan, pass), print(plan.passes[pass].bound.kernel));
+        }
+    };
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        const Stage& stage = program.stages[k];
+        section(stage, "values that are the same everywhere", plan_uniform_start(program, k));
+        section(stage, "values that vary", plan_start(program, k));
+        section(stage, "what no step changes", plan_lasting(program, k, as_run));
+        section(stage, "one step", plan_step(program, k, as_run));
+    }
+    return text;
+}
+
+/// The systems of the stages; without stages the script's own systems.
+std::string dump_equations(const Script& script, Notation notation) {
+    const Program& program = *script.program;
+    std::vector<bool> shown(program.systems.size(), false);
+    for (const Stage& stage : program.stages) shown[stage.system] = true;
+    std::vector<std::string_view> names;
+    for (std::size_t k = 0; k < program.systems.size(); ++k) {
+        const System& system = program.systems[k];
+        if (program.stages.empty() ? !system.built_in : shown[k]) names.push_back(system.name);
+    }
+    const auto equations = print_equations(script.tree, script.sources, names, notation,
+                                           EquationParts::all);
+    std::string text;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        if (!text.empty()) text += '\n';
+        if (notation == Notation::unicode) text += fmt::format("{}\n", names[k]);
+        text += equations[k];
+    }
+    return text;
+}
+
+Result<std::string> dump_code([[maybe_unused]] const Program& program,
+                              [[maybe_unused]] bool assembly) {
+#if CASCADE_HAS_JIT
+    std::string text;
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        const StepPlan plan = plan_step(program, k, as_run);
+        const Stencil stencil = program.domain.grid.stencil();
+        for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
+            const CellKernel& kernel = plan.passes[pass].bound.kernel;
+            auto code =
+                assembly ? dump_assembly(kernel, stencil, {}) : dump_llvm(kernel, stencil, {});
+            if (!code) return code;
+            text += fmt::format("{} stage '{}': one step{}\n{}\n", assembly ? '#' : ';',
+                                program.stages[k].name, pass_words(plan, pass), *code);
+        }
+    }
+    return text;
+#else
+    return failure("this build has no native compiler", "tokens, ast, program, plan and ir can be shown");
+#endif
+}
+
+}  // namespace
+
+std::span<const std::string_view> dump_kinds() { return kinds; }
+
+Result<std::string> dump(const Script& script, std::string_view kind) {
+    if (kind == "tokens") return dump_tokens(script);
+    if (kind == "ast") return print_ast(script.tree, script.sources);
+    if (!script.program) return failure("a wrong script has no program to show");
+    if (kind == "program") return print_program(*script.program);
+    if (kind == "equations") return dump_equations(script, Notation::unicode);
+    if (kind == "tex") return dump_equations(script, Notation::tex);
+    if (kind == "plan") return describe_plans(*script.program);
+    if (kind == "ir") return dump_ir(*script.program);
+    return dump_code(*script.program, kind == "asm");
+}
+
+}  // namespace cascade

@@ -1,0 +1,263 @@
+#include "run/commands/run_checks.h"
+
+#include "core/file.h"
+#include "core/quantities.h"
+#include "core/temporary_file.h"
+#include "export/bake.h"
+#include "render/draw.h"
+#include "run/pictures/frame_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+namespace cascade {
+
+std::vector<std::filesystem::path> outputs_of(const Script& script, const RunRequest& request) {
+    if (!request.outputs.empty()) return request.outputs;
+    const std::filesystem::path picture = output_stem(script) + ".png";
+    // A picture that is grown again is no output to be lost.
+    std::error_code error;
+    if (std::filesystem::equivalent(picture, script.file, error)) return {output_stem(script) + "-again.png"};
+    return {picture};
+}
+
+std::filesystem::path log_path(const RunRequest& request,
+                               const std::filesystem::path& first_output) {
+    if (!request.log.file.empty()) return request.log.file;
+    return std::filesystem::path(first_output).replace_extension(".csv");
+}
+
+std::vector<std::filesystem::path> turntable_paths(const std::filesystem::path& picture, int count) {
+    const std::size_t digits = std::max<std::size_t>(3, fmt::formatted_size("{}", count));
+    std::vector<std::filesystem::path> paths;
+    for (int k = 1; k <= count; ++k) {
+        std::filesystem::path path = picture;
+        std::filesystem::path name = picture.stem();
+        name += fmt::format("-{:0{}}", k, digits);
+        name += picture.extension();
+        paths.push_back(path.replace_filename(name));
+    }
+    return paths;
+}
+
+namespace {
+
+/// A file that a run writes, and which of the options asks for it.
+struct OutputFile {
+    std::filesystem::path path;
+    std::string_view what;
+};
+
+std::vector<OutputFile> files_of(const RunRequest& request,
+                                 std::span<const std::filesystem::path> outputs) {
+    std::vector<OutputFile> files;
+    const auto add = [&](std::span<const std::filesystem::path> paths, std::string_view what) {
+        for (const auto& path : paths) files.push_back({path, what});
+    };
+    for (const auto& output : outputs) {
+        const OutputKind kind = output_kind(output).value_or(OutputKind::picture);
+        if (kind == OutputKind::picture && request.turntable > 0) {
+            add(turntable_paths(output, request.turntable), "the picture");
+        } else if (request.model_files.is_baked(output)) {
+            add(baked_paths(output, request.picture.bump != 0), "the baked model");
+        } else {
+            add({&output, 1}, kind == OutputKind::picture ? "the picture" : "the model");
+        }
+    }
+    if (!request.sheet.empty()) files.push_back({request.sheet, "--sheet"});
+    if (!request.log.expressions.empty()) {
+        files.push_back({log_path(request, outputs[0]), "the log"});
+    }
+    if (!request.volume.empty()) files.push_back({request.volume, "--volume"});
+    return files;
+}
+
+}  // namespace
+
+Result<void> check_outputs(const RunRequest& request,
+                           std::span<const std::filesystem::path> outputs) {
+    std::vector<OutputFile> files = files_of(request, outputs);
+    std::set<std::filesystem::path> folders;
+    for (const OutputFile& file : files) {
+        if (auto good = check_writable(file.path); !good) return good;
+        folders.insert(file.path.parent_path());
+    }
+    for (const auto& folder : folders) remove_dead_temporaries(folder);
+    std::stable_sort(files.begin(), files.end(), [](const OutputFile& a, const OutputFile& b) {
+        return a.path.lexically_normal() < b.path.lexically_normal();
+    });
+    const auto twice =
+        std::adjacent_find(files.begin(), files.end(), [](const OutputFile& a, const OutputFile& b) {
+            return a.path.lexically_normal() == b.path.lexically_normal();
+        });
+    if (twice == files.end()) return {};
+    return failure(fmt::format("{} and {} are both to be written to {}", twice[0].what,
+                               twice[1].what, twice->path.string()));
+}
+
+Result<void> check_folders(const RunRequest& request) {
+    for (const auto& folder : {request.frames, request.save}) {
+        if (folder.empty()) continue;
+        if (auto made = make_folder(folder); !made) return made;
+        if (auto good = check_writable(folder / "run.json"); !good) return good;
+        remove_dead_temporaries(folder);
+    }
+    return {};
+}
+
+Result<void> check_picture_size(const DomainSettings& domain, const PictureRequest& picture,
+                                double memory, std::uint64_t memory_limit) {
+    constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+    Grid grid = domain.grid;
+    // What is drawn on a surface has a size of its own.
+    const bool is_drawn = domain.model || (domain.surface && !picture.flat);
+    if (is_drawn) grid = Grid{DrawOptions().width, DrawOptions().height};
+    else if (grid.depth > 1) grid = slice_grid(PlaneLayout(grid), picture.slice);
+    const std::int64_t pixels_per_cell = std::int64_t{picture.scale} * picture.scale;
+    const char* const hint = is_drawn ? "use a smaller --scale" : "use a smaller grid or --scale";
+    if (grid.cell_count() > most_pixels / pixels_per_cell) {
+        return failure(fmt::format("a picture of {} × {} {} at scale {} has more than {} pixels",
+                                   grid.width, grid.height, is_drawn ? "pixels" : "cells",
+                                   picture.scale, most_pixels),
+                       hint);
+    }
+    // Painted, and then enlarged.
+    const std::int64_t pixels_of_cell = pixels_per_cell > 1 ? 1 + pixels_per_cell : 1;
+    const auto pixels = static_cast<double>(grid.cell_count() * pixels_of_cell);
+    const double bytes = memory + pixels * sizeof(Colour);
+    if (memory_limit == 0 || bytes <= static_cast<double>(memory_limit)) return {};
+    return failure(fmt::format("with a picture at scale {} this run needs {}, but {} are the limit "
+                               "(--limit-memory)",
+                               picture.scale, with_unit(bytes, "B"),
+                               with_unit(static_cast<double>(memory_limit), "B")),
+                   hint);
+}
+
+namespace {
+
+/// A place to stop at that the run never comes to would let it run on to its end.
+void check_stop_at(Script& script, const StopAt& stop_at) {
+    const std::string text = fmt::format("{}:{}", stop_at.stage, stop_at.step);
+    Span span = option_span(script.sources, "--stop-at", text);
+    const auto length = static_cast<std::uint32_t>(stop_at.stage.size());
+    const auto stage =
+        find_stage_of_option(script, stop_at.stage, {span.source, span.begin, span.begin + length});
+    if (!stage) return;
+    if (*stage >= script.stage_count()) {
+        script.diagnostics.error(span, fmt::format("stage '{}' does not run", stop_at.stage),
+                                 "--until-stage ends the run before it");
+        return;
+    }
+    const std::int64_t iterations = script.program->stages[*stage].iterations;
+    if (stop_at.step <= iterations) return;
+    span.begin = length + 1;
+    script.diagnostics.error(span, fmt::format("stage '{}' has {} steps", stop_at.stage, iterations));
+}
+
+/// Says of options that they do not go with the domain or with each other.
+class OptionRefuser {
+public:
+    explicit OptionRefuser(Script& script) : script_(script) {}
+
+    void refuse_if(bool is_wrong, const std::string& option, std::string message, std::string hint) {
+        if (is_wrong) refuse(option, option, std::move(message), std::move(hint));
+    }
+    void refuse(const std::string& option, const std::string& value, std::string message,
+                std::string hint) {
+        script_.diagnostics.error(option_span(script_.sources, option, value), std::move(message),
+                                  std::move(hint));
+    }
+
+private:
+    Script& script_;
+};
+
+/// Outputs of rows and columns, which a model does not have.
+void check_on_model(OptionRefuser& options, const RunRequest& request) {
+    const std::string message = "the cells of a model have no rows and columns";
+    options.refuse_if(request.picture.flat, "--flat", message,
+                      "-o model.ply has the pattern without light");
+    options.refuse_if(request.picture.space_time, "--space-time", message,
+                      "--frames writes a picture each interval");
+    options.refuse_if(!request.sheet.empty(), "--sheet", message, "--show a draws another species");
+    options.refuse_if(!request.volume.empty(), "--volume", message,
+                      "-o model.vtp has all species for ParaView");
+    options.refuse_if(request.features, "--features", message, "");
+}
+
+/// How models are written, and which of the outputs are some.
+void check_model_files(OptionRefuser& options, const RunRequest& request) {
+    const ModelFileOptions& files = request.model_files;
+    bool has_picture = request.outputs.empty(), is_baked = false, is_tiled = false;
+    for (const auto& output : request.outputs) {
+        has_picture = has_picture || output_kind(output) == OutputKind::picture;
+        is_baked = is_baked || files.is_baked(output);
+        is_tiled = is_tiled || (output_kind(output) == OutputKind::model && !files.is_baked(output));
+    }
+    options.refuse_if(files.retile && !is_tiled, "--retile", "no model is written that it could tile",
+                      "-o NAME.ply, .obj, .glb or .vtp writes one");
+    options.refuse_if(files.bake > 0 && !is_baked, "--bake", "no model is written with its maps",
+                      "-o NAME.glb writes one");
+    options.refuse_if(request.turntable > 0 && !has_picture, "--turntable", "no picture is drawn",
+                      "-o NAME.png draws pictures NAME-001.png, …");
+}
+
+/// What only models have.
+void check_without_model(OptionRefuser& options, const RunRequest& request) {
+    const std::string message = "the domain is no model";
+    const std::string hint = "--mesh FILE, or mesh: \"FILE\" in the domain, makes it one";
+    for (const auto& output : request.outputs) {
+        if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
+        options.refuse("-o", output.string(), "only what grows on a model is written so, and " + message,
+                       hint);
+    }
+    options.refuse_if(request.model_files.retile, "--retile", message, hint);
+    options.refuse_if(request.model_files.bake > 0, "--bake", message, hint);
+    options.refuse_if(request.picture.bump != 0, "--bump", message, hint);
+    options.refuse_if(!request.simulation.cell_cache.empty(), "--cache", message, hint);
+}
+
+void check_on_plane(OptionRefuser& options, const RunRequest& request) {
+    const std::string message = "the domain is no surface";
+    const std::string hint = "surface: x, y, z in the domain makes one";
+    options.refuse_if(request.picture.flat, "--flat", message, hint);
+    options.refuse_if(request.picture.is_turned(), "--view", message, hint);
+    options.refuse_if(request.turntable > 0 || request.picture.view.is_turning, "--turntable",
+                      message, hint);
+}
+
+}  // namespace
+
+Result<void> check_request(Script& script, const RunRequest& request) {
+    const DomainSettings& domain = script.program->domain;
+    OptionRefuser options(script);
+    const std::int64_t rows = domain.grid.height * domain.grid.depth;
+    if (request.picture.space_time && rows != 1 && !domain.model) {
+        options.refuse("--space-time", "--space-time",
+                       fmt::format("a space-time picture is drawn of a grid of one row, not of {}",
+                                   rows),
+                       "for a plane, --frames writes a picture each interval");
+    }
+    std::error_code error;
+    options.refuse_if(is_called_like_a_movie(request.frames) &&
+                          !std::filesystem::is_directory(request.frames, error),
+                      "--frames", "frames are pictures in a folder, and this is called like a movie",
+                      how_to_make_a_movie(request.frames));
+    options.refuse_if(request.picture.slice != Slice{} && domain.grid.depth == 1, "--slice",
+                      "a plane has no slices", "grid: W, H, D makes a volume");
+    if (domain.model) {
+        check_on_model(options, request);
+        check_model_files(options, request);
+    } else {
+        check_without_model(options, request);
+        if (!domain.surface) check_on_plane(options, request);
+    }
+    if (request.stop_at) check_stop_at(script, *request.stop_at);
+    if (script.diagnostics.has_errors()) return failure("the request does not fit the script");
+    return {};
+}
+
+}  // namespace cascade

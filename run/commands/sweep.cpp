@@ -1,0 +1,414 @@
+#include "run/commands/sweep.h"
+
+#include "core/file.h"
+#include "core/parallel.h"
+#include "core/temporary_file.h"
+#include "run/commands/run.h"
+#include "run/domain/free_memory.h"
+#include "run/pictures/measured.h"
+#include "run/pictures/picture_remarks.h"
+#include "run/script/embedded_script.h"
+#include "run/stage/memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <system_error>
+#include <thread>
+
+namespace cascade {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto between_reports = std::chrono::milliseconds(100);
+
+/// One line, for a table.
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+void add_remark(SweepResult& result, const std::string& words) {
+    if (words.empty()) return;
+    result.remark += (result.remark.empty() ? "" : "; ") + one_line(words);
+}
+
+/// "feed=0.02,kill=0.05"; what cannot stand in a file's name becomes '_'.
+std::string folder_name(std::span<const Variation> varied, std::span<const std::string> values) {
+    std::string name;
+    for (std::size_t k = 0; k < varied.size(); ++k) {
+        name += fmt::format("{}{}={}", k > 0 ? "," : "", varied[k].name, values[k]);
+    }
+    std::replace(name.begin(), name.end(), '/', '_');
+    return name;
+}
+
+/// A run that is to be taken, or was.
+struct Run {
+    Overrides overrides;
+    std::vector<std::string> values;
+    std::string key;
+};
+
+class Sweeper {
+public:
+    Sweeper(const Script& script, const SweepRequest& request, SweepControl& control)
+        : script_(script), request_(request), control_(control) {}
+
+    tl::expected<SweepReport, SweepFault> run();
+
+private:
+    using Done = tl::expected<void, SweepFault>;
+
+    Done plan();
+    Done plan_run(std::size_t number);
+    Result<void> prepare_folders();
+    bool is_done(std::size_t number);
+    Result<void> choose_workers(const std::vector<std::size_t>& waiting);
+    void run_all(const std::vector<std::size_t>& waiting);
+    void work(const std::vector<std::size_t>& waiting, RunControl& control);
+    void take(std::size_t number, RunControl& control);
+    Result<void> run_stages(Script& script, Simulation& simulation, RunControl& control,
+                            SweepResult& result);
+    void watch(std::vector<std::unique_ptr<RunControl>>& controls);
+    void report();
+    void keep(std::size_t number, SweepResult result);
+    void give_up(SweepFault why);
+    Result<void> write_outputs();
+    Script load(const Run& run) const {
+        return load_script(script_.name, script_.text, script_.folder, run.overrides);
+    }
+
+    const Script& script_;
+    const SweepRequest& request_;
+    SweepControl& control_;
+    std::filesystem::path folder_;
+    SimulationOptions simulation_;    ///< Of every run: one thread, a shared compiler.
+    std::vector<Run> runs_;
+    std::vector<std::optional<SweepResult>> results_;
+    double waiting_runs_ = 0;        ///< How many there were to take.
+    double memory_of_a_run_ = 0;      ///< Bytes; every run checks its own again.
+    int workers_ = 1;
+    SweepReport report_;
+    Clock::time_point begun_;
+    bool is_alone_ = false;           ///< No thread was to be had: the caller's does the runs.
+
+    std::mutex mutex_;                ///< Guards what follows, and `results_` while runs go on.
+    std::condition_variable changed_;
+    std::size_t next_ = 0;
+    std::size_t working_ = 0;
+    double shares_done_ = 0;          ///< Of those runs, each 0 … 1.
+    std::optional<SweepFault> stopped_by_;
+};
+
+Sweeper::Done Sweeper::plan_run(std::size_t number) {
+    Run run;
+    run.values = values_of_run(request_.varied, number);
+    auto overrides = overrides_of_run(script_.overrides, request_.varied, run.values);
+    if (!overrides) return tl::unexpected(SweepFault{overrides.error(), std::nullopt});
+    run.overrides = std::move(*overrides);
+    Script script = load(run);
+    if (!script.program) {
+        return tl::unexpected(
+            SweepFault{{"a script of the sweep is wrong", ""}, std::move(script)});
+    }
+    run.key = key_of_run(script, request_.picture, request_.tile_side);
+    if (number == 0 && script.program->stages.empty()) {
+        return tl::unexpected(SweepFault{{"this script has no stage to run",
+                                          example_of_stage(*script.program)},
+                                         std::nullopt});
+    }
+    if (number == 0) {
+        if (auto painter = Painter::create(script, request_.picture); !painter) {
+            const bool in_script = script.diagnostics.has_errors();
+            SweepFault fault{painter.error(), std::nullopt};
+            if (in_script) fault.faults = std::move(script);
+            return tl::unexpected(std::move(fault));
+        }
+    }
+    if (number == 0) memory_of_a_run_ = memory_of(*script.program);
+    runs_.push_back(std::move(run));
+    return {};
+}
+
+Sweeper::Done Sweeper::plan() {
+    const auto count = count_runs(request_.varied);
+    if (!count) return tl::unexpected(SweepFault{count.error(), std::nullopt});
+    // The sheet is one picture in memory.
+    constexpr double most_pixels = 1 << 27;
+    const double pixels = static_cast<double>(*count) * request_.tile_side * request_.tile_side;
+    if (pixels > most_pixels) {
+        return tl::unexpected(SweepFault{
+            {fmt::format("a sheet of {} tiles of {} × {} pixels is too large", *count,
+                         request_.tile_side, request_.tile_side),
+             "make the tiles smaller with --tile"},
+            std::nullopt});
+    }
+    for (std::size_t number = 0; number < *count; ++number) {
+        if (auto planned = plan_run(number); !planned) return planned;
+    }
+    results_.resize(*count);
+    report_.runs = *count;
+    return {};
+}
+
+Result<void> Sweeper::prepare_folders() {
+    folder_ = request_.folder;
+    if (folder_.empty()) {
+        folder_ = output_stem(script_) + "_sweep";
+    }
+    if (auto made = make_folder(folder_ / "runs"); !made) return made;
+    for (const char* name : {"sheet.png", "features.csv", "runs/x.json"}) {
+        if (auto good = check_writable(folder_ / name); !good) return good;
+    }
+    for (const auto& folder : {folder_, folder_ / "runs"}) remove_dead_temporaries(folder);
+    return {};
+}
+
+/// Takes over what an earlier sweep has done.
+bool Sweeper::is_done(std::size_t number) {
+    if (request_.force) return false;
+    auto result = read_result(folder_ / "runs", runs_[number].key);
+    if (!result) return false;
+    const auto saved =
+        folder_ / "fields" / folder_name(request_.varied, runs_[number].values) / "run.json";
+    std::error_code error;
+    const bool has_fields = result->failed() || std::filesystem::exists(saved, error);
+    if (request_.fields && !has_fields) return false;
+    results_[number] = std::move(*result);
+    return true;
+}
+
+/// As many runs at once as there are threads for, and memory.
+Result<void> Sweeper::choose_workers(const std::vector<std::size_t>& waiting) {
+    const int threads =
+        request_.simulation.threads > 0 ? request_.simulation.threads : hardware_threads();
+    workers_ = std::min<int>(threads, static_cast<int>(waiting.size()));
+    double memory = static_cast<double>(available_memory());
+    if (request_.simulation.memory_limit > 0) {
+        const auto limit = static_cast<double>(request_.simulation.memory_limit);
+        memory = memory > 0 ? std::min(memory, limit) : limit;
+    }
+    if (memory > 0 && memory_of_a_run_ > 0) {
+        // One run that does not fit says so itself.
+        workers_ = std::max(1, std::min<int>(workers_, static_cast<int>(std::min(
+                                                           1e6, memory / memory_of_a_run_))));
+    }
+    simulation_ = request_.simulation;
+    simulation_.threads = 1;
+    if (simulation_.backend == BackendKind::interpreter) return {};
+    auto stepper = make_stepper(simulation_);
+    if (!stepper) return tl::unexpected(stepper.error());
+    simulation_.stepper = std::move(*stepper);
+    return {};
+}
+
+Result<void> Sweeper::run_stages(Script& script, Simulation& simulation, RunControl& control,
+                                 SweepResult& result) {
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        if (auto started = simulation.start_stage(k); !started) return started;
+        auto end = simulation.advance_stage(k, script.program->stages[k].iterations, control, {});
+        result.steps += simulation.state(k).steps;
+        if (!end) return tl::unexpected(end.error());
+        if (*end == StageEnd::cancelled) return {};
+        add_remark(result, simulation.remark_on(k));
+    }
+    return {};
+}
+
+/// One run, from its script to its result.
+void Sweeper::take(std::size_t number, RunControl& control) {
+    const Run& run = runs_[number];
+    Script script = load(run);
+    auto painter = Painter::create(script, request_.picture);
+    auto simulation = Simulation::create(script, simulation_);
+    if (!painter) return give_up({painter.error(), std::nullopt});
+    if (!simulation) {
+        const Failure why = simulation.error();
+        // Faults of the files that a script reads are told at their places.
+        if (!script.diagnostics.has_errors()) return give_up({why, std::nullopt});
+        return give_up({why, std::move(script)});
+    }
+    SweepResult result;
+    control.warn = [&](const std::string& warning) { add_remark(result, warning); };
+    const auto done = run_stages(script, **simulation, control, result);
+    control.warn = {};
+    if (control.cancel) return;
+    if (!done) {
+        result.remark = one_line(done.error().message);
+        return keep(number, std::move(result));
+    }
+    add_remark(result, remark_on_picture(*painter, **simulation));
+    result.features = measure_shown(*painter, **simulation);
+    result.tile = shrink(painter->canvas(**simulation), request_.tile_side);
+    if (request_.fields) {
+        const auto folder = folder_ / "fields" / folder_name(request_.varied, run.values);
+        if (auto saved = save_run(folder, script, **simulation); !saved) {
+            return give_up({saved.error(), std::nullopt});
+        }
+    }
+    keep(number, std::move(result));
+}
+
+void Sweeper::keep(std::size_t number, SweepResult result) {
+    if (auto written = write_result(folder_ / "runs", runs_[number].key, result); !written) {
+        return give_up({written.error(), std::nullopt});
+    }
+    const std::lock_guard lock(mutex_);
+    report_.steps += result.steps;
+    results_[number] = std::move(result);
+}
+
+/// What would befall every run (a full disk, no memory) ends the sweep.
+void Sweeper::give_up(SweepFault why) {
+    const std::lock_guard lock(mutex_);
+    if (!stopped_by_) stopped_by_ = std::move(why);
+    control_.cancel = true;
+}
+
+void Sweeper::work(const std::vector<std::size_t>& waiting, RunControl& control) {
+    double counted = 0;  // Of this run's share, what is in shares_done_ already.
+    control.report = [&](const Progress& progress) {
+        const double stage = progress.steps > 0 ? static_cast<double>(progress.step) /
+                                                      static_cast<double>(progress.steps)
+                                                : 1;
+        const double share = (progress.stage_number - 1 + stage) / progress.stage_count;
+        {
+            const std::lock_guard lock(mutex_);
+            shares_done_ += share - counted;
+            counted = share;
+        }
+        if (!is_alone_) return;
+        if (control_.cancel) control.cancel = true;
+        report();
+    };
+    while (true) {
+        std::size_t number = 0;
+        {
+            const std::lock_guard lock(mutex_);
+            if (next_ == waiting.size() || control_.cancel) break;
+            number = waiting[next_++];
+        }
+        counted = 0;
+        take(number, control);
+        const std::lock_guard lock(mutex_);
+        shares_done_ += 1 - counted;
+    }
+    const std::lock_guard lock(mutex_);
+    --working_;
+    changed_.notify_all();
+}
+
+/// The caller's thread passes a cancel on, and reports.
+void Sweeper::watch(std::vector<std::unique_ptr<RunControl>>& controls) {
+    std::unique_lock lock(mutex_);
+    while (working_ > 0) {
+        changed_.wait_for(lock, between_reports);
+        if (control_.cancel) {
+            for (auto& control : controls) control->cancel = true;
+        }
+        lock.unlock();
+        report();
+        lock.lock();
+    }
+}
+
+void Sweeper::report() {
+    if (!control_.report) return;
+    SweepProgress progress;
+    progress.runs = runs_.size();
+    {
+        const std::lock_guard lock(mutex_);
+        for (const auto& result : results_) progress.runs_done += result ? 1 : 0;
+        progress.share = waiting_runs_ > 0 ? shares_done_ / waiting_runs_ : 1;
+    }
+    const double elapsed = std::chrono::duration<double>(Clock::now() - begun_).count();
+    if (progress.share > 0.001) {
+        progress.seconds_left = elapsed * (1 - progress.share) / progress.share;
+    }
+    control_.report(progress);
+}
+
+void Sweeper::run_all(const std::vector<std::size_t>& waiting) {
+    if (waiting.empty()) return;
+    begun_ = Clock::now();
+    waiting_runs_ = static_cast<double>(waiting.size());
+    working_ = static_cast<std::size_t>(workers_);
+    std::vector<std::unique_ptr<RunControl>> controls;
+    std::vector<std::thread> threads;
+    for (int w = 0; w < workers_; ++w) {
+        controls.push_back(std::make_unique<RunControl>());
+        try {
+            threads.emplace_back([&, control = controls.back().get()] { work(waiting, *control); });
+        } catch (const std::system_error&) {
+            // No more threads are to be had: those that there are do the work, or this one alone.
+            const std::lock_guard lock(mutex_);
+            working_ -= static_cast<std::size_t>(workers_ - std::max(w, 1));
+            break;
+        }
+    }
+    if (threads.empty()) {
+        is_alone_ = true;
+        work(waiting, *controls[0]);
+    }
+    watch(controls);
+    for (std::thread& thread : threads) thread.join();
+    report_.seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+}
+
+Result<void> Sweeper::write_outputs() {
+    const auto sheet = folder_ / "sheet.png", table = folder_ / "features.csv";
+    std::vector<std::string> varied;
+    for (const Variation& variation : request_.varied) varied.push_back(text_of(variation));
+    const bool has_mask = script_.program && script_.program->domain.mask;
+    auto drawn = write_png(sheet,
+                           draw_sweep(results_, request_.varied, request_.picture, has_mask),
+                           request_.picture.png_depth(), embed_sweep(script_, request_.picture, varied));
+    if (!drawn) return drawn;
+    report_.written.push_back(sheet);
+    auto written = write_file(table, sweep_table(results_, request_.varied));
+    if (written) report_.written.push_back(table);
+    return written;
+}
+
+tl::expected<SweepReport, SweepFault> Sweeper::run() {
+    const auto fault = [](const Failure& why) {
+        return tl::unexpected(SweepFault{why, std::nullopt});
+    };
+    // The tiles of a sheet and what is measured of them are rows and columns.
+    if (script_.program->domain.model) {
+        return fault({"a sweep has no sheet for the cells of a model",
+                      "run it once for each value, with --set"});
+    }
+    if (auto planned = plan(); !planned) return tl::unexpected(std::move(planned.error()));
+    if (auto ready = prepare_folders(); !ready) return fault(ready.error());
+    std::vector<std::size_t> waiting;
+    for (std::size_t number = 0; number < runs_.size(); ++number) {
+        if (!is_done(number)) waiting.push_back(number);
+    }
+    report_.done_before = runs_.size() - waiting.size();
+    if (auto chosen = choose_workers(waiting); !chosen) return fault(chosen.error());
+    run_all(waiting);
+    for (const auto& result : results_) {
+        if (!result) ++report_.missing;
+        if (!result || !result->failed()) continue;
+        ++report_.failed;
+        if (report_.first_failure.empty()) report_.first_failure = result->remark;
+    }
+    if (auto written = write_outputs(); !written) return fault(written.error());
+    if (stopped_by_) return tl::unexpected(std::move(*stopped_by_));
+    return std::move(report_);
+}
+
+}  // namespace
+
+tl::expected<SweepReport, SweepFault> sweep(const Script& script, const SweepRequest& request,
+                                            SweepControl& control) {
+    return Sweeper(script, request, control).run();
+}
+
+}  // namespace cascade

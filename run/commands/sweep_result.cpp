@@ -1,0 +1,199 @@
+#include "run/commands/sweep_result.h"
+
+#include "core/file.h"
+#include "core/hash.h"
+#include "core/version.h"
+#include "lang/syntax/token.h"
+#include "picture/npy.h"
+#include "run/script/embedded_script.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::uint64_t largest_result = 1 << 20;
+
+std::uint64_t add_line(std::uint64_t hash, std::string_view text) {
+    return fnv1a("\n", fnv1a(text, hash));
+}
+
+std::uint64_t add_words(std::uint64_t hash, const Script& script) {
+    for (SourceId source = 0; source < script.sources.size(); ++source) {
+        Diagnostics already_reported;
+        for (const Token& token : lex(source, script.sources, already_reported)) {
+            const std::string_view text = token.kind == TokenKind::newline
+                                              ? std::string_view("\n")
+                                              : script.sources.text(token.span);
+            hash = fnv1a("\x1f", fnv1a(text, hash));
+        }
+    }
+    return hash;
+}
+
+/// Texts of a program are names of files, of palettes and others: what is a file counts with what
+/// is in it.
+std::uint64_t add_files(std::uint64_t hash, const Script& script) {
+    constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
+    const auto add = [&](const Result<std::string>& bytes) {
+        if (bytes) hash = add_line(hash, *bytes);
+    };
+    const GrantedFiles files(script.folder, script.overrides.reads);
+    for (const std::string& name : script.program->texts) add(files.read(name, largest_file));
+    const auto& model = script.program->domain.model;
+    if (!model || model->shape != ModelShape::file) return hash;
+    add(script.overrides.model_is_asked_for ? read_linked_file(model->path, largest_file)
+                                            : files.read(model->path, largest_file));
+    return hash;
+}
+
+nlohmann::json json_of(const SweepResult& result) {
+    nlohmann::json json = {{"cascade", version()},
+                           {"planes", result.tile.fields.size()},
+                           {"steps", result.steps},
+                           {"remark", result.remark},
+                           {"features", nullptr}};
+    if (result.failed()) return json;
+    json["features"] = nlohmann::json::object();
+    const auto values = measure::to_array(*result.features);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        auto& feature = json["features"][std::string(measure::feature_names()[k])];
+        feature = std::isfinite(values[k]) ? nlohmann::json(values[k]) : nlohmann::json(nullptr);
+    }
+    return json;
+}
+
+measure::Features features_of(const nlohmann::json& json) {
+    std::array<double, measure::feature_count> values{};
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const auto& value = json.at(std::string(measure::feature_names()[k]));
+        values[k] = value.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                    : value.get<double>();
+    }
+    return measure::from_array(values);
+}
+
+Grid flat_grid(std::int64_t width, std::int64_t height) {
+    Grid grid;
+    grid.width = width;
+    grid.height = height;
+    return grid;
+}
+
+/// All planes below each other.
+Field stacked(const Canvas& canvas) {
+    const PlaneLayout& layout = canvas.fields[0].layout();
+    const auto count = static_cast<std::int64_t>(canvas.fields.size());
+    Field all{PlaneLayout(flat_grid(layout.width, layout.height * count))};
+    for (std::int64_t p = 0; p < count; ++p) {
+        const Field& field = canvas.fields[static_cast<std::size_t>(p)];
+        for (std::int64_t j = 0; j < layout.height; ++j) {
+            std::copy_n(field.row(j), layout.width, all.row(p * layout.height + j));
+        }
+    }
+    return all;
+}
+
+std::optional<Canvas> unstacked(const std::filesystem::path& path, std::size_t planes) {
+    const auto array = read_npy(path);
+    const auto count = static_cast<std::int64_t>(planes);
+    if (!array || (count != 1 && count != 3) || array->rows % count != 0) return std::nullopt;
+    const Field all = to_field(*array);
+    Canvas canvas;
+    const std::int64_t height = array->rows / count;
+    for (std::int64_t p = 0; p < count; ++p) {
+        Field field{PlaneLayout(flat_grid(array->columns, height))};
+        for (std::int64_t j = 0; j < height; ++j) {
+            std::copy_n(all.row(p * height + j), array->columns, field.row(j));
+        }
+        canvas.fields.push_back(std::move(field));
+    }
+    return canvas;
+}
+
+/// Means of squares of `factor` × `factor` cells, at the far sides of what is left of them; cells
+/// outside of the domain (NaN) count for nothing.
+Field average(const Field& field, std::int64_t factor) {
+    const PlaneLayout& from = field.layout();
+    Field small{PlaneLayout(
+        flat_grid((from.width + factor - 1) / factor, (from.height + factor - 1) / factor))};
+    for (std::int64_t j = 0; j < small.layout().height; ++j) {
+        for (std::int64_t i = 0; i < small.layout().width; ++i) {
+            const std::int64_t right = std::min((i + 1) * factor, from.width);
+            const std::int64_t bottom = std::min((j + 1) * factor, from.height);
+            double sum = 0, inside = 0;
+            for (std::int64_t y = j * factor; y < bottom; ++y) {
+                for (std::int64_t x = i * factor; x < right; ++x) {
+                    const float value = field.at(x, y);
+                    if (!std::isfinite(value)) continue;
+                    sum += value;
+                    inside += 1;
+                }
+            }
+            small.at(i, j) = inside > 0 ? static_cast<float>(sum / inside)
+                                        : std::numeric_limits<float>::quiet_NaN();
+        }
+    }
+    return small;
+}
+
+}  // namespace
+
+std::string key_of_run(const Script& script, const PictureRequest& picture, int tile_side) {
+    std::uint64_t hash = add_line(fnv1a("sweep 1"), version());
+    hash = add_files(add_words(hash, script), script);
+    hash = add_line(hash, overrides_to_json(script.overrides));
+    PictureRequest shown;  // Colours and their range are chosen when the sheet is drawn.
+    shown.show = picture.show;
+    shown.slice = picture.slice;
+    hash = add_line(add_line(hash, to_json(shown)), fmt::format("{}", tile_side));
+    return fmt::format("{:016x}", hash);
+}
+
+Result<void> write_result(const std::filesystem::path& folder, const std::string& key,
+                          const SweepResult& result) {
+    if (!result.tile.fields.empty()) {
+        auto done = write_npy(folder / (key + ".npy"), stacked(result.tile));
+        if (!done) return done;
+    }
+    const std::string text =
+        json_of(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+    return write_file(folder / (key + ".json"), text + "\n");
+}
+
+std::optional<SweepResult> read_result(const std::filesystem::path& folder,
+                                       const std::string& key) {
+    const auto text = read_file(folder / (key + ".json"), largest_result);
+    if (!text) return std::nullopt;
+    // The library reports by exception; none leaves this function.
+    try {
+        const auto json = nlohmann::json::parse(*text);
+        SweepResult result;
+        result.steps = json.at("steps").get<std::int64_t>();
+        result.remark = json.at("remark").get<std::string>();
+        if (json.at("features").is_null()) return result;
+        result.features = features_of(json.at("features"));
+        auto tile = unstacked(folder / (key + ".npy"), json.at("planes").get<std::size_t>());
+        if (!tile) return std::nullopt;
+        result.tile = std::move(*tile);
+        return result;
+    } catch (const nlohmann::json::exception&) {
+        return std::nullopt;
+    }
+}
+
+Canvas shrink(const Canvas& canvas, int side) {
+    const PlaneLayout& layout = canvas.fields[0].layout();
+    const std::int64_t factor = (std::max(layout.width, layout.height) + side - 1) / side;
+    Canvas small;
+    for (const Field& field : canvas.fields) small.fields.push_back(average(field, factor));
+    return small;
+}
+
+}  // namespace cascade

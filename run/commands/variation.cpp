@@ -1,0 +1,169 @@
+#include "run/commands/variation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace cascade {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+    while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+    return text;
+}
+
+template <typename Number>
+std::optional<Number> read_all(std::string_view text) {
+    Number number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || stop != end) return std::nullopt;
+    return number;
+}
+
+/// "0.02" or "1/400".
+std::optional<double> read_number(std::string_view text) {
+    const std::size_t slash = text.find('/');
+    const auto above = read_all<double>(trimmed(text.substr(0, slash)));
+    if (slash == std::string_view::npos || !above) return above;
+    const auto below = read_all<double>(trimmed(text.substr(slash + 1)));
+    if (!below || *below == 0) return std::nullopt;
+    return *above / *below;
+}
+
+Failure wrong(std::string_view text, const std::string& why) {
+    return {fmt::format("'{}' says not what to vary: {}", text, why),
+            "write NAME=LOW..HIGH:COUNT or NAME=VALUE,VALUE, as in feed=0.02..0.06:9"};
+}
+
+/// `count` numbers from low to high, each short enough to be read.
+std::vector<std::string> spread(double low, double high, std::int64_t count) {
+    std::vector<std::string> values;
+    for (std::int64_t k = 0; k < count; ++k) {
+        const double share =
+            count == 1 ? 0 : static_cast<double>(k) / static_cast<double>(count - 1);
+        const double value = low + (high - low) * share;
+        // What is 0 but for rounding is 0.
+        const double least = 1e-12 * std::max(std::abs(low), std::abs(high));
+        values.push_back(fmt::format("{:.10g}", std::abs(value) < least ? 0.0 : value));
+    }
+    return values;
+}
+
+/// Splits at commas that stand in no brackets.
+std::vector<std::string> split_list(std::string_view text) {
+    std::vector<std::string> values(1);
+    int depth = 0;
+    for (const char c : text) {
+        depth += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
+        if (c == ',' && depth == 0) {
+            values.emplace_back();
+        } else {
+            values.back() += c;
+        }
+    }
+    for (std::string& value : values) value = std::string(trimmed(value));
+    return values;
+}
+
+/// A value that stands twice in a list; empty where none does.
+std::string listed_twice(std::vector<std::string> values) {
+    std::sort(values.begin(), values.end());
+    const auto twice = std::adjacent_find(values.begin(), values.end());
+    return twice == values.end() ? "" : *twice;
+}
+
+}  // namespace
+
+Result<Variation> parse_variation(std::string_view text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string_view::npos) return tl::unexpected(wrong(text, "there is no '='"));
+    Variation variation;
+    variation.name = std::string(trimmed(text.substr(0, equals)));
+    const std::string_view values = trimmed(text.substr(equals + 1));
+    if (variation.name.empty()) return tl::unexpected(wrong(text, "there is no name"));
+    const std::size_t dots = values.find("..");
+    if (dots == std::string_view::npos) {
+        variation.values = split_list(values);
+        const auto is_empty = [](const std::string& value) { return value.empty(); };
+        if (std::any_of(variation.values.begin(), variation.values.end(), is_empty)) {
+            return tl::unexpected(wrong(text, "a value is missing"));
+        }
+        return variation;
+    }
+    const std::size_t colon = values.rfind(':');
+    if (colon == std::string_view::npos || colon < dots) {
+        return tl::unexpected(wrong(text, "behind a range stands ':' and how many values"));
+    }
+    const auto low = read_number(trimmed(values.substr(0, dots)));
+    const auto high = read_number(trimmed(values.substr(dots + 2, colon - dots - 2)));
+    const auto count = read_all<std::int64_t>(trimmed(values.substr(colon + 1)));
+    if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high)) {
+        return tl::unexpected(wrong(text, "the ends of a range are numbers"));
+    }
+    if (!count || *count < 1 || *count > static_cast<std::int64_t>(most_runs)) {
+        return tl::unexpected(
+            wrong(text, fmt::format("a range has 1 to {} values", most_runs)));
+    }
+    variation.values = spread(*low, *high, *count);
+    return variation;
+}
+
+std::string text_of(const Variation& variation) {
+    return fmt::format("{}={}", variation.name, fmt::join(variation.values, ","));
+}
+
+Result<std::size_t> count_runs(std::span<const Variation> varied) {
+    std::size_t runs = 1;
+    for (std::size_t k = 0; k < varied.size(); ++k) {
+        for (std::size_t other = 0; other < k; ++other) {
+            if (varied[other].name == varied[k].name) {
+                return failure(fmt::format("'{}' is varied twice", varied[k].name),
+                               "list all its values in one --vary");
+            }
+        }
+        if (const std::string twice = listed_twice(varied[k].values); !twice.empty()) {
+            return failure(fmt::format("'{}' stands twice in the values of '{}'", twice,
+                                       varied[k].name));
+        }
+        if (varied[k].values.size() > most_runs / runs) {
+            return failure(fmt::format("these are more than {} runs", most_runs),
+                           "vary less, or in larger steps");
+        }
+        runs *= varied[k].values.size();
+    }
+    return runs;
+}
+
+std::vector<std::string> values_of_run(std::span<const Variation> varied, std::size_t number) {
+    std::vector<std::string> values;
+    for (const Variation& variation : varied) {
+        values.push_back(variation.values[number % variation.values.size()]);
+        number /= variation.values.size();
+    }
+    return values;
+}
+
+Result<Overrides> overrides_of_run(const Overrides& base, std::span<const Variation> varied,
+                                   std::span<const std::string> values) {
+    Overrides overrides = base;
+    for (std::size_t k = 0; k < varied.size(); ++k) {
+        if (varied[k].name != "seed") {
+            overrides.sets.push_back(fmt::format("{}={}", varied[k].name, values[k]));
+            continue;
+        }
+        overrides.seed = read_all<std::uint32_t>(values[k]);
+        if (!overrides.seed) {
+            return failure(fmt::format("'{}' is not a seed", values[k]),
+                           "seeds are whole numbers from 0 to 4294967295");
+        }
+    }
+    return overrides;
+}
+
+}  // namespace cascade

@@ -1,0 +1,37 @@
+#include "run/domain/creased_mesh.h"
+
+#include "mesh/normals.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+Vector3 single(const Vector3d& a) {
+    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
+
+}  // namespace
+
+DrawnMesh creased_mesh(const SurfaceMesh& surface) {
+    CornerNormals corners = corner_normals(surface);
+    const MeshFacts facts = facts_of(surface);
+    const Vector3d box = facts.high - facts.low;
+    DrawnMesh drawn;
+    drawn.middle = (facts.low + facts.high) * 0.5;
+    drawn.scale = 1 / std::max({box.x, box.y, box.z});
+    // A point is as many positions as it has normals.
+    drawn.mesh.positions.reserve(corners.points.size());
+    drawn.mesh.normals.reserve(corners.points.size());
+    for (std::size_t k = 0; k < corners.points.size(); ++k) {
+        const Vector3d place = surface.points[corners.points[k]] - drawn.middle;
+        drawn.mesh.positions.push_back(single(place * drawn.scale));
+        drawn.mesh.normals.push_back(single(corners.normals[k]));
+    }
+    drawn.mesh.triangles = std::move(corners.numbers);
+    return drawn;
+}
+
+}  // namespace cascade

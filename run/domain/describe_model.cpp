@@ -1,0 +1,126 @@
+#include "run/domain/describe_model.h"
+
+#include "core/counted.h"
+#include "core/quantities.h"
+#include "mesh/make_mesh.h"
+#include "mesh/model_file.h"
+#include "run/domain/free_memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cascade {
+
+namespace {
+
+/// What a closed surface of one piece can be bent into.
+std::string kind_of(const MeshFacts& facts) {
+    if (facts.boundaries > 0) {
+        return counted(facts.boundaries, "boundary", "boundaries");
+    }
+    if (facts.pieces > 1) return "closed";
+    const std::int64_t holes = 1 - facts.euler_characteristic / 2;
+    if (holes == 0) return "closed like a sphere";
+    if (holes == 1) return "closed like a torus";
+    return fmt::format("closed with {} holes", holes);
+}
+
+void describe_mesh(const MadeMesh& made, std::vector<std::string>& lines) {
+    const MeshFacts facts = facts_of(made.mesh);
+    lines.push_back(fmt::format("{}, {}, {}", counted(facts.points, "point"),
+                                counted(facts.triangles, "triangle"),
+                                counted(facts.pieces, "piece")));
+    lines.push_back(fmt::format("{}, Euler characteristic {}", kind_of(facts),
+                                facts.euler_characteristic));
+    const Vector3d size = facts.high - facts.low;
+    lines.push_back(fmt::format("size {:.4g} × {:.4g} × {:.4g}, area {:.4g}", size.x, size.y, size.z,
+                                facts.area));
+    std::string kept;
+    for (const PointAttribute& attribute : made.mesh.attributes) {
+        kept += (kept.empty() ? "" : ", ") + attribute.name;
+    }
+    if (!made.mesh.texture.empty()) lines.push_back("texture coordinates");
+    if (!kept.empty()) lines.push_back("attributes " + kept);
+    for (const std::string& repair : made.repairs) lines.push_back("repaired: " + repair);
+}
+
+struct Spread {
+    double mean = 0;
+    double deviation = 0;  ///< In percent of the mean.
+};
+
+Spread spread_of(const std::vector<double>& values) {
+    double sum = 0, squares = 0;
+    for (const double value : values) {
+        sum += value;
+        squares += value * value;
+    }
+    const auto count = static_cast<double>(values.size());
+    const double mean = sum / count;
+    return {mean, 100 * std::sqrt(std::max(0.0, squares / count - mean * mean)) / mean};
+}
+
+Result<void> check_memory_of_cells(const SurfaceMesh& mesh, const CellOptions& options) {
+    const double needed = memory_of_cells(mesh, options);
+    const auto free = static_cast<double>(available_memory());
+    if (free == 0 || needed <= free) return {};
+    return failure(fmt::format("{} need about {}, but {} are free",
+                               counted(count_cells(mesh, options), "cell"), with_unit(needed, "B"),
+                               with_unit(free, "B")),
+                   "use fewer cells");
+}
+
+Result<void> describe_cells(const SurfaceMesh& mesh, const CellOptions& options, Team& team,
+                            const std::atomic<bool>& cancel, std::vector<std::string>& lines) {
+    if (Result<void> fits = check_memory_of_cells(mesh, options); !fits) return fits;
+    const Result<SurfaceCells> cells = make_cells(mesh, options, team, cancel);
+    if (!cells) return tl::unexpected(cells.error());
+    if (cancel) return {};
+    const Spread areas = spread_of(cells->areas);
+    lines.push_back(fmt::format("{} of mean area {:.4g}, deviation {:.1f} %, {:.2f} walls each",
+                                counted(cells->areas.size(), "cell"), areas.mean, areas.deviation,
+                                static_cast<double>(cells->walls.size()) /
+                                    static_cast<double>(cells->areas.size())));
+    std::vector<double> nearest;
+    for (std::size_t cell = 0; cell < cells->areas.size(); ++cell) {
+        const auto walls = cells->walls_of(cell);
+        if (walls.empty()) continue;
+        nearest.push_back(std::min_element(walls.begin(), walls.end(), [](const auto& a, const auto& b) {
+                              return a.distance < b.distance;
+                          })->distance);
+    }
+    if (!nearest.empty()) {
+        const Spread distances = spread_of(nearest);
+        lines.push_back(fmt::format("the nearest neighbour {:.4g} away, deviation {:.1f} %",
+                                    distances.mean, distances.deviation));
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> describe_model(const std::filesystem::path& path,
+                                                const ReadAccess& access,
+                                                const std::optional<CellOptions>& cells, Team& team,
+                                                const std::atomic<bool>& cancel) {
+    Result<PolygonSoup> soup = read_model(path, access);
+    if (!soup) return tl::unexpected(soup.error());
+    const Result<MadeMesh> made = make_mesh(*std::move(soup));
+    if (!made) {
+        return failure(fmt::format("'{}': {}", path.string(), made.error().message),
+                       made.error().hint);
+    }
+    std::vector<std::string> lines;
+    describe_mesh(*made, lines);
+    if (!cells) return lines;
+    const Result<void> described = describe_cells(made->mesh, *cells, team, cancel, lines);
+    if (!described) {
+        return failure(fmt::format("'{}': {}", path.string(), described.error().message),
+                       described.error().hint);
+    }
+    return lines;
+}
+
+}  // namespace cascade

@@ -1,0 +1,83 @@
+#include "run/domain/domain_mask.h"
+
+#include "ir/word_format.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace cascade {
+
+namespace {
+
+/// Bits of the cells around one, whose own value is that of (i, j, k).
+std::uint32_t bits_around(const Plane<float>& inside, std::int64_t i, std::int64_t j, std::int64_t k) {
+    const std::int64_t reach = inside.layout().has_halo_slices() ? 1 : 0;
+    std::uint32_t bits = 0;
+    for (std::int64_t dz = -reach; dz <= reach; ++dz) {
+        for (std::int64_t dy = -1; dy <= 1; ++dy) {
+            for (std::int64_t dx = -1; dx <= 1; ++dx) {
+                if (inside.at(i + dx, j + dy, k + dz) == 0) continue;
+                bits |= std::uint32_t{1} << (dx + 1 + 3 * (dy + 1) + 9 * (dz + 1));
+            }
+        }
+    }
+    return bits;
+}
+
+}  // namespace
+
+DomainMask make_domain_mask(const Field& values, const Grid& grid) {
+    const PlaneLayout& layout = values.layout();
+    DomainMask mask;
+    mask.inside = Mask(layout);
+    mask.neighbourhood = Field(layout, values.precision());
+    Plane<float> inside(layout);
+    values.visit([&](const auto& plane) {
+        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+            for (std::int64_t i = 0; i < layout.width; ++i) {
+                const auto value = plane.row(row)[i];
+                const bool is_inside = std::isnormal(value) || std::isinf(value);
+                inside.row(row)[i] = is_inside ? 1 : 0;
+                mask.inside.row(row)[i] = is_inside ? 1 : 0;
+                mask.cells += is_inside ? 1 : 0;
+            }
+        }
+    });
+    fill_halo(inside.origin(), layout, grid.boundary);
+    mask.neighbourhood.visit([&]<typename Number>(Plane<Number>& words) {
+        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+            const std::int64_t j = row % layout.height, k = row / layout.height;
+            for (std::int64_t i = 0; i < layout.width; ++i) {
+                const WordOf<Number> bits = bits_around(inside, i, j, k);
+                std::memcpy(words.row(row) + i, &bits, sizeof bits);
+            }
+        }
+    });
+    return mask;
+}
+
+Mask still_cells(const DomainMask& mask, const Mask* frozen) {
+    const PlaneLayout& layout = mask.inside.layout();
+    Mask still(layout);
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+        for (std::int64_t i = 0; i < layout.width; ++i) {
+            const bool is_frozen = frozen != nullptr && frozen->row(row)[i] != 0;
+            still.row(row)[i] = is_frozen || mask.inside.row(row)[i] == 0 ? 1 : 0;
+        }
+    }
+    return still;
+}
+
+Field with_outside(const Field& field, const DomainMask& mask, float value) {
+    Field copy = field.clone();
+    copy.visit([&](auto& plane) {
+        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+            for (std::int64_t i = 0; i < plane.layout().width; ++i) {
+                if (mask.inside.row(row)[i] == 0) plane.row(row)[i] = value;
+            }
+        }
+    });
+    return copy;
+}
+
+}  // namespace cascade

@@ -1,0 +1,66 @@
+#include "run/domain/field_values.h"
+
+#include "core/check.h"
+#include "core/floating_point.h"
+
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+namespace cascade {
+
+namespace {
+
+/// The first value inside the mask that no other beats; NaN if one is NaN.
+template <typename Beats>
+double extreme(const Field& field, const DomainMask* mask, const Beats& beats) {
+    return field.visit([&](const auto& plane) -> double {
+        std::optional<double> best;
+        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+            for (std::int64_t i = 0; i < plane.layout().width; ++i) {
+                if (mask && mask->inside.row(row)[i] == 0) continue;
+                const double value = plane.row(row)[i];
+                if (std::isnan(value)) return value;
+                if (!best || beats(value, *best)) best = value;
+            }
+        }
+        CHECK(best, "a domain has a cell");
+        return *best;
+    });
+}
+
+}  // namespace
+
+Mask to_mask(const Field& field) {
+    const PlaneLayout& layout = field.layout();
+    Mask mask(layout);
+    const FlushDenormals environment;
+    field.visit([&](const auto& plane) {
+        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+            for (std::int64_t i = 0; i < layout.width; ++i) mask.row(row)[i] = plane.row(row)[i] != 0;
+        }
+    });
+    return mask;
+}
+
+double smallest(const Field& field, const DomainMask* mask) {
+    return extreme(field, mask, [](double value, double least) { return value < least; });
+}
+
+double largest_value(const Field& field, const DomainMask* mask) {
+    return extreme(field, mask, [](double value, double most) { return value > most; });
+}
+
+bool is_same_everywhere(const Field& field) {
+    return field.visit([](const auto& plane) {
+        const auto* first = plane.row(0);
+        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+            for (std::int64_t i = 0; i < plane.layout().width; ++i) {
+                if (std::memcmp(plane.row(row) + i, first, sizeof *first) != 0) return false;
+            }
+        }
+        return true;
+    });
+}
+
+}  // namespace cascade

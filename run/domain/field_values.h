@@ -1,0 +1,20 @@
+// What the values of a field are, seen together.
+#pragma once
+
+#include "core/plane.h"
+#include "run/domain/domain_mask.h"
+
+namespace cascade {
+
+/// 1 where the value is not 0 (NaN counts as not 0, as everywhere in the language).
+Mask to_mask(const Field& field);
+
+/// The smallest value of a field's cells inside the mask; NaN if one is NaN.
+double smallest(const Field& field, const DomainMask* mask);
+/// The largest.
+double largest_value(const Field& field, const DomainMask* mask);
+
+/// Do all cells hold the same word?
+bool is_same_everywhere(const Field& field);
+
+}  // namespace cascade

@@ -1,0 +1,122 @@
+#include "run/domain/input_files.h"
+
+#include "core/check.h"
+#include "core/printable.h"
+#include "picture/grey_picture.h"
+#include "picture/npy.h"
+#include "run/domain/surface_values.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <set>
+#include <string>
+
+namespace cascade {
+
+namespace {
+
+/// What `parse` makes of a file that the script names.
+template <typename Parse>
+auto read_granted(const Script& script, const std::string& name, std::uint64_t largest,
+                  const Parse& parse) -> decltype(parse(std::string_view())) {
+    const auto bytes = GrantedFiles(script.folder, script.overrides.reads).read(name, largest);
+    if (!bytes) return tl::unexpected(bytes.error());
+    auto parsed = parse(*bytes);
+    if (parsed) return parsed;
+    return failure(fmt::format("cannot read '{}': {}", short_name(name), parsed.error().message),
+                   parsed.error().hint);
+}
+
+void read_one(Script& script, const Node& node, InputFiles& files) {
+    const std::string& name = script.program->texts[node.index];
+    const Grid& grid = script.program->domain.grid;
+    const Precision precision = script.program->domain.precision;
+    const auto array = read_granted(script, name, largest_npy_file, [&](std::string_view bytes) {
+        return parse_npy(bytes, precision);
+    });
+    if (!array) {
+        script.diagnostics.error(node.span, array.error().message, array.error().hint);
+    } else if (!fits(*array, grid)) {
+        script.diagnostics.error(
+            node.span,
+            array->slices == 1 && grid.depth == 1
+                ? fmt::format("'{}' has {} rows and {} columns, but the grid has {} and {}", name,
+                              array->rows, array->columns, grid.height, grid.width)
+                : fmt::format("'{}' has {} slices, {} rows and {} columns, but the grid has {}, "
+                              "{} and {}",
+                              name, array->slices, array->rows, array->columns, grid.depth,
+                              grid.height, grid.width),
+            array->slices == 1
+                ? fmt::format("a grid of {}, {} would fit", array->columns, array->rows)
+                : fmt::format("a grid of {}, {}, {} would fit", array->columns, array->rows,
+                              array->slices));
+    } else {
+        files.add(SlotSource::Kind::file, node.index, to_field(*array, precision));
+    }
+}
+
+/// The pixels of a PNG; nothing with a diagnostic.
+std::optional<GreyPicture> read_picture(Script& script, const Node& node) {
+    const std::string& name = script.program->texts[node.index];
+    auto picture = read_granted(script, name, largest_picture_file, parse_grey_picture);
+    if (picture) return *std::move(picture);
+    script.diagnostics.error(node.span, picture.error().message, picture.error().hint);
+    return std::nullopt;
+}
+
+void read_image(Script& script, const Node& node, InputFiles& files) {
+    const Grid& grid = script.program->domain.grid;
+    const auto picture = read_picture(script, node);
+    if (!picture) return;
+    const Field plane = to_field(resized(*picture, grid.width, grid.height), grid);
+    files.add(SlotSource::Kind::image, node.index, plane.converted(script.program->domain.precision));
+}
+
+/// What the model has in its points, or in a picture painted on it.
+void read_of_model(Script& script, const Node& node, SlotSource::Kind kind, const ModelCells& model,
+                   InputFiles& files) {
+    const Precision precision = script.program->domain.precision;
+    Result<Field> plane;
+    if (kind == SlotSource::Kind::attribute) {
+        plane = attribute_plane(script.program->texts[node.index], model, precision);
+    } else {
+        const auto picture = read_picture(script, node);
+        if (!picture) return;
+        plane = painted_plane(*picture, model, precision);
+    }
+    if (!plane) return script.diagnostics.error(node.span, plane.error().message, plane.error().hint);
+    files.add(kind, node.index, *std::move(plane));
+}
+
+}  // namespace
+
+Result<InputFiles> read_input_files(Script& script, const ModelCells* model) {
+    InputFiles files;
+    // A text is looked up, and its fault told, once.
+    std::set<std::pair<SlotSource::Kind, std::uint32_t>> known;
+    const auto read_of = [&](const Formula& formula) {
+        for (const Node& node : formula.nodes) {
+            if (node.kind != NodeKind::call || !reads_file(node.function)) continue;
+            const Node& text = formula.nodes[node.operands[0]];
+            const SlotSource::Kind kind = slot_of_text(node.function);
+            if (!known.insert({kind, text.index}).second) continue;
+            if (kind == SlotSource::Kind::file) {
+                read_one(script, text, files);
+            } else if (kind == SlotSource::Kind::image) {
+                read_image(script, text, files);
+            } else {
+                CHECK(model != nullptr, "only scripts on models read what points and textures have");
+                read_of_model(script, text, kind, *model, files);
+            }
+        }
+    };
+    if (script.program->domain.mask) read_of(script.program->domain.mask->formula);
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        for (const Formula& formula : script.program->stages[k].items) read_of(formula);
+    }
+    if (script.diagnostics.has_errors()) return failure("the script's files cannot be used");
+    return files;
+}
+
+}  // namespace cascade

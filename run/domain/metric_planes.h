@@ -1,0 +1,20 @@
+// The surface that a domain lies on, as operators and pictures need it.
+#pragma once
+
+#include "core/plane.h"
+#include "core/result.h"
+#include "lang/program/program.h"
+#include "surface/parameter_surface.h"
+
+#include <vector>
+
+namespace cascade {
+
+/// The function of a domain's surface. It refers to `surface`.
+SurfaceFunction function_of(const SurfaceSettings& surface);
+
+/// A plane for each MetricPlane, in their order; none where the domain has no surface or its cells
+/// count as squares all the same. Fails, naming the place, where the surface is singular.
+Result<std::vector<Field>> metric_planes(const Program& program);
+
+}  // namespace cascade

@@ -1,0 +1,17 @@
+// The C header beside the object file of a compiled stage.
+#pragma once
+
+#include "lang/program/program.h"
+#include "run/emit_c/c_stage.h"
+
+#include <string>
+
+namespace cascade {
+
+/// A header, complete by itself, of plain C99: a struct that holds the stage's planes and numbers, and
+/// functions that lay it out in memory, compute the starting values and take steps. Its comment
+/// documents all tables. `script` is the name of the file it comes from.
+std::string c_header(const Program& program, std::uint32_t stage, const CStage& compiled,
+                     const std::string& script);
+
+}  // namespace cascade

@@ -1,0 +1,363 @@
+#include "run/emit_c/c_stage.h"
+
+#include "lang/lower/lower.h"
+#include "run/emit_c/c_tables.h"
+#include "run/emit_c/placeholders.h"
+#include "run/stage/bound_kernel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace cascade {
+
+namespace {
+
+using PlaneRef = StepProblem::PlaneRef;
+
+/// A number of C that reads back the same.
+std::string c_number(double value) {
+    const std::string text = fmt::format("{:.17g}", value);
+    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+}
+
+std::string list(const std::vector<std::string>& values) {
+    return fmt::format("{}", fmt::join(values, ", "));
+}
+
+std::string_view c_kind(ReductionKind kind) {
+    switch (kind) {
+        case ReductionKind::sum: return "sum";
+        case ReductionKind::mean: return "mean";
+        case ReductionKind::least: return "least";
+        case ReductionKind::largest: return "largest";
+    }
+    return "";
+}
+
+/// Everything a pass of a plan reads and writes, as expressions of C.
+struct PassText {
+    std::string kernel;
+    std::vector<std::string> fields, masks, uniforms, results;
+    std::vector<std::string> before;  ///< Statements in front of the kernel …
+    std::vector<std::string> behind;  ///< … and behind it.
+};
+
+class Describer {
+public:
+    explicit Describer(const CStageRequest& request)
+        : request_(request),
+          program_(request.program),
+          k_(request.stage),
+          stage_(program_.stages[k_]),
+          system_(program_.system_of(k_)),
+          tables_(request, result_) {}
+
+    Result<CStage> describe() {
+        result_.name = request_.name;
+        describe_step();
+        describe_start();
+        describe_sides();
+        note_settings();
+        if (!fault_.empty()) return failure(fault_);
+        return std::move(result_);
+    }
+
+private:
+    std::string register_text(const PlaneRef& plane) const {
+        if (plane.in_register == old_register) return fmt::format("s->species[{}]", plane.number);
+        if (plane.in_register == new_register) return fmt::format("s->next[{}]", plane.number);
+        return fmt::format("s->scratch[{}]",
+                           (plane.in_register - 2) * system_.species_count() + plane.number);
+    }
+    /// The rules at the sides of a plane that is read at neighbours and is no species of a step.
+    std::string rules_of(const SlotSource& source) {
+        if (source.kind == SlotSource::Kind::item && source.stage != k_ &&
+            program_.system_of(source.stage).is_species(source.item) &&
+            !program_.stages[source.stage].sides.empty()) {
+            fault_ = fmt::format("stage '{}' reads {} at its neighbours, whose sides are rules of "
+                                 "that stage, which are not compiled with this one",
+                                 stage_.name, tables_.item_path(source.stage, source.item));
+        }
+        return request_.name + "_boundary";
+    }
+    std::string species_rules(std::size_t species) const {
+        if (stage_.sides.empty()) return request_.name + "_boundary";
+        return fmt::format("s->sides[{}]", species);
+    }
+    std::string fill(const std::string& plane, const std::string& rules) const {
+        return fmt::format("{}_fill_halo({}, {});", request_.name, plane, rules);
+    }
+    std::string reduction(std::uint32_t aggregate, ReductionKind kind, const std::string& plane) {
+        result_.reduces = true;
+        return fmt::format("aggregates[{}] = {}_reduce(s, {}_{}, {});", aggregate, request_.name,
+                           request_.name, c_kind(kind), plane);
+    }
+
+    /// The statements of a pass.
+    std::string write(const PassText& pass) const {
+        std::string text = "    {\n";
+        const auto line = [&](const std::string& statement) { text += "        " + statement + "\n"; };
+        for (const std::string& statement : pass.before) line(statement);
+        const auto array = [&](std::string_view type, std::string_view name,
+                               const std::vector<std::string>& values) {
+            if (!values.empty()) line(fmt::format("{} {}[] = {{{}}};", type, name, list(values)));
+            return std::string(values.empty() ? "NULL" : name);
+        };
+        const std::string fields = array("const float *const", "fields", pass.fields);
+        const std::string masks = array("const unsigned char *const", "masks", pass.masks);
+        const std::string uniforms = array("const float", "uniforms", pass.uniforms);
+        const std::string results = array("float *const", "results", pass.results);
+        line(fmt::format("{}_compute({}, {}, {}, {}, {});", request_.name, pass.kernel, fields,
+                         masks, uniforms, results));
+        for (const std::string& statement : pass.behind) line(statement);
+        return text + "    }\n";
+    }
+
+    // The starting values, and the values of sides: plans that read planes as they are.
+
+    /// Statements of a plan; `result(k)` is the plane of result k.
+    template <typename ResultPlane>
+    std::string plan_text(const StepPlan& plan, const ResultPlane& result) {
+        std::string text;
+        std::set<std::uint32_t> with_halo;
+        for (const Pass& pass : plan.passes) {
+            for (std::size_t slot = 0; slot < pass.bound.fields.size(); ++slot) {
+                const SlotSource& source = pass.bound.fields[slot];
+                if (source.kind == SlotSource::Kind::temporary &&
+                    pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) {
+                    with_halo.insert(source.item);
+                }
+            }
+        }
+        if (plan.aggregates > 0) text += fmt::format("    float aggregates[{}];\n", plan.aggregates);
+        for (const Pass& pass : plan.passes) {
+            PassText lines;
+            lines.kernel = tables_.kernel(pass.bound.kernel);
+            for (const Reduction& each : pass.reductions) {
+                lines.before.push_back(
+                    reduction(each.aggregate, each.kind, tables_.plane(each.operand)));
+            }
+            for (const PassTarget& target : pass.targets) {
+                if (target.kind == PassTarget::Kind::result) {
+                    lines.results.push_back(result(target.index));
+                    continue;
+                }
+                lines.results.push_back(tables_.temporary(target.index));
+                if (with_halo.contains(target.index)) {
+                    lines.behind.push_back(fill(lines.results.back(), request_.name + "_boundary"));
+                }
+            }
+            add_reads(pass, lines);
+            for (const SlotSource& source : pass.bound.uniforms) {
+                lines.uniforms.push_back(start_uniform(source));
+            }
+            text += write(lines);
+        }
+        return plan.aggregates > 0 ? "    {\n" + text + "    }\n" : text;
+    }
+
+    /// Planes that passes read and do not change; the halo of those that are read at neighbours is
+    /// filled in front of the pass.
+    void add_reads(const Pass& pass, PassText& lines) {
+        for (std::size_t slot = 0; slot < pass.bound.fields.size(); ++slot) {
+            const SlotSource& source = pass.bound.fields[slot];
+            lines.fields.push_back(tables_.plane(source));
+            if (source.kind == SlotSource::Kind::temporary) continue;
+            if (!pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) continue;
+            lines.before.push_back(fill(lines.fields.back(), rules_of(source)));
+        }
+        for (const SlotSource& source : pass.bound.masks) {
+            lines.masks.push_back(tables_.mask(source));
+        }
+    }
+
+    std::string start_uniform(const SlotSource& source) {
+        if (source.kind == SlotSource::Kind::item) {
+            return tables_.number(source);
+        }
+        if (source.kind == SlotSource::Kind::aggregate) {
+            return fmt::format("aggregates[{}]", source.item);
+        }
+        return "0";  // The step and the time when a stage starts.
+    }
+
+    void describe_start() {
+        const StepPlan plan = plan_start(program_, k_);
+        std::vector<std::string> taken;
+        result_.start += plan_text(plan, [&](std::uint32_t number) {
+            const std::uint32_t item = plan.results[number];
+            const SlotSource source{SlotSource::Kind::item, k_, item};
+            if (!stage_.uniform[item]) return tables_.plane(source);
+            // The same in all cells: one of them is asked.
+            const std::string plane = tables_.temporary(plan.temporaries + taken.size());
+            taken.push_back(fmt::format("    {} = {}[0];\n", tables_.number(source), plane));
+            return plane;
+        });
+        for (const std::string& line : taken) result_.start += line;
+        for (const SlotSource& mask : std::vector<SlotSource>(tables_.masks())) {
+            if (mask.stage != k_) continue;
+            result_.start += fmt::format("    {}_make_mask({}, {});\n", request_.name,
+                                         tables_.plane(mask), tables_.mask(mask));
+        }
+    }
+
+    /// Once all starting values are there.
+    void describe_sides() {
+        for (std::size_t species = 0; species < stage_.sides.size(); ++species) {
+            for (std::size_t side = 0; side < side_count; ++side) {
+                const SideSetting& setting = stage_.sides[species][side];
+                if (!takes_value(setting.kind)) continue;
+                const StepPlan plan = plan_view(program_, setting.value, k_);
+                const std::string rule = fmt::format("s->sides[{}][{}]", species, side);
+                std::string plane;
+                const std::string text = plan_text(plan, [&](std::uint32_t) {
+                    plane = plan.is_uniform
+                                ? tables_.temporary(plan.temporaries)
+                                : fmt::format("s->side_planes[{}]", result_.side_planes++);
+                    return plane;
+                });
+                result_.start += text;
+                result_.start += fmt::format("    {}.value = {}[0];\n", rule, plane);
+                if (plan.is_uniform) continue;
+                result_.start += fmt::format("    {}\n    {}.values = {};\n",
+                                             fill(plane, request_.name + "_boundary"), rule, plane);
+            }
+        }
+    }
+
+    // A step: the sweeps of its scheme, bound as a run binds them.
+
+    void describe_step() {
+        std::vector<StepPlan> plans;
+        for (const SweepForm& form : request_.scheme.forms) {
+            plans.push_back(plan_sweep(program_, k_, form));
+        }
+        std::vector<const Pass*> passes;
+        for (const Sweep& sweep : request_.scheme.sweeps) {
+            for (const Pass& pass : plans[sweep.form].passes) passes.push_back(&pass);
+        }
+        const Placeholders places(program_, k_);
+        const auto no_kernel = [](const CellKernel&) { return KernelPointer(); };
+        const StepProblem problem =
+            bind_scheme(request_.scheme, plans, {}, no_kernel, places.context(), system_, k_);
+        result_.scratch_registers = problem.registers - 2;
+        result_.step_aggregates = problem.aggregates;
+        for (std::size_t species = 0; species < system_.species_count(); ++species) {
+            if (!problem.species_needs_halo[species]) continue;
+            result_.step += fmt::format(
+                "    {}\n", fill(fmt::format("s->species[{}]", species), species_rules(species)));
+        }
+        for (std::size_t number = 0; number < passes.size(); ++number) {
+            result_.step += step_pass(problem, number, *passes[number]);
+        }
+    }
+
+    std::string step_pass(const StepProblem& problem, std::size_t number, const Pass& pass) {
+        const StepProblem::Pass& bound = problem.passes[number];
+        PassText lines;
+        lines.kernel = tables_.kernel(pass.bound.kernel);
+        const auto plane = [&](const PlaneRef& ref, const SlotSource& source) {
+            return ref.kind == PlaneRef::Kind::species ? register_text(ref) : tables_.plane(source);
+        };
+        for (std::size_t k = 0; k < bound.reductions.size(); ++k) {
+            lines.before.push_back(
+                reduction(bound.reductions[k].aggregate, bound.reductions[k].kind,
+                          plane(bound.reductions[k].operand, pass.reductions[k].operand)));
+        }
+        for (std::size_t slot = 0; slot < bound.fields.size(); ++slot) {
+            const SlotSource& source = pass.bound.fields[slot];
+            lines.fields.push_back(plane(bound.fields[slot], source));
+            if (bound.fields[slot].kind == PlaneRef::Kind::fixed &&
+                pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) {
+                lines.before.push_back(fill(lines.fields.back(), rules_of(source)));
+            }
+        }
+        for (const SlotSource& source : pass.bound.masks) {
+            lines.masks.push_back(tables_.mask(source));
+        }
+        for (std::uint32_t slot = 0; slot < pass.bound.uniforms.size(); ++slot) {
+            lines.uniforms.push_back(step_uniform(bound, slot, pass.bound.uniforms[slot]));
+        }
+        for (const StepProblem::Result& result : bound.results) {
+            if (result.plane.kind == PlaneRef::Kind::temporary) {
+                lines.results.push_back(tables_.temporary(result.plane.number));
+                if (result.needs_halo) {
+                    lines.behind.push_back(fill(lines.results.back(), request_.name + "_boundary"));
+                }
+                continue;
+            }
+            lines.results.push_back(register_text(result.plane));
+            if (result.needs_halo && is_read_at_neighbours_later(problem, number, result.plane)) {
+                lines.behind.push_back(fill(lines.results.back(), species_rules(result.plane.number)));
+            }
+        }
+        return write(lines);
+    }
+
+    /// In the same step; the next one fills the halo of its old values itself.
+    bool is_read_at_neighbours_later(const StepProblem& problem, std::size_t number,
+                                     const PlaneRef& plane) const {
+        for (std::size_t later = number + 1; later < problem.passes.size(); ++later) {
+            for (const PlaneRef& field : problem.passes[later].fields) {
+                if (field.kind == PlaneRef::Kind::species && field.number == plane.number &&
+                    field.in_register == plane.in_register) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    std::string step_uniform(const StepProblem::Pass& bound, std::uint32_t slot,
+                             const SlotSource& source) {
+        using Kind = StepProblem::ChangingUniform::Kind;
+        for (const StepProblem::ChangingUniform& changing : bound.changing) {
+            if (changing.slot != slot) continue;
+            switch (changing.kind) {
+                case Kind::step: return "(float)s->steps";
+                case Kind::draw: return fmt::format("{}_draw(s->steps)", request_.name);
+                case Kind::aggregate: return fmt::format("aggregates[{}]", changing.number);
+                case Kind::time:
+                    if (changing.value == 0) return "(float)t";
+                    return fmt::format("(float)(t + {}_rounded({} * length))", request_.name,
+                                       c_number(changing.value));
+                case Kind::coefficient:
+                    if (changing.times_step) {
+                        return fmt::format("(float)({} * length)", c_number(changing.value));
+                    }
+                    return fmt::format("(float){}", c_number(changing.value));
+            }
+        }
+        return tables_.number(source);
+    }
+
+    /// Speed and frozen, which the functions around the statements read.
+    void note_settings() {
+        if (stage_.uniform[system_.speed_item()]) {
+            result_.speed = tables_.number_place({SlotSource::Kind::item, k_, system_.speed_item()});
+        }
+        const std::uint32_t frozen = system_.frozen_item();
+        if (stage_.uniform[frozen] && request_.numbers[k_][frozen] != 0.0F) {
+            result_.frozen = tables_.number_place({SlotSource::Kind::item, k_, frozen});
+        }
+    }
+
+    const CStageRequest& request_;
+    const Program& program_;
+    std::uint32_t k_;
+    const Stage& stage_;
+    const System& system_;
+    CStage result_;
+    CTables tables_;
+    std::string fault_;
+};
+
+}  // namespace
+
+Result<CStage> describe_c_stage(const CStageRequest& request) {
+    return Describer(request).describe();
+}
+
+}  // namespace cascade

@@ -1,0 +1,177 @@
+#include "run/emit_c/c_tables.h"
+
+#include "lang/lower/lower.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace cascade {
+
+namespace {
+
+/// A name as a part of a C identifier in capitals: u[2] is U_2.
+std::string capitals(std::string_view name) {
+    std::string text;
+    for (const char c : name) {
+        if (c == ']') continue;
+        const auto letter = static_cast<unsigned char>(c);
+        text += std::isalnum(letter) ? static_cast<char>(std::toupper(letter)) : '_';
+    }
+    return text;
+}
+
+/// Adds to a table, under an identifier that no other entry of it has.
+template <typename Entry>
+void add_entry(std::vector<Entry>& table, Entry entry, std::string_view name) {
+    const std::string wanted = capitals(name);
+    entry.identifier = wanted;
+    const auto is_taken = [&] {
+        return std::any_of(table.begin(), table.end(), [&](const Entry& other) {
+            return other.identifier == entry.identifier;
+        });
+    };
+    for (int number = 2; is_taken(); ++number) entry.identifier = fmt::format("{}_{}", wanted, number);
+    table.push_back(std::move(entry));
+}
+
+/// Number of a source among the known ones; `add` enters it where it is new.
+template <typename Add>
+std::size_t place_of(std::vector<SlotSource>& known, const SlotSource& source, const Add& add) {
+    for (std::size_t k = 0; k < known.size(); ++k) {
+        if (known[k].kind == source.kind && known[k].stage == source.stage &&
+            known[k].item == source.item) {
+            return k;
+        }
+    }
+    known.push_back(source);
+    add();
+    return known.size() - 1;
+}
+
+}  // namespace
+
+CTables::CTables(const CStageRequest& request, CStage& stage)
+    : request_(request),
+      program_(request.program),
+      system_(program_.system_of(request.stage)),
+      stage_(stage) {
+    const Stage& source = program_.stages[request.stage];
+    const StepPlan early = plan_uniform_start(program_, request.stage);
+    for (std::uint32_t item = 0; item < system_.item_count(); ++item) {
+        if (system_.is_species(item)) {
+            species_.push_back(item);
+            add_entry(stage_.species, {std::string(), item_path(request.stage, item), false},
+                      system_.item_name(item));
+        }
+        const bool is_early =
+            std::find(early.results.begin(), early.results.end(), item) != early.results.end();
+        if (source.uniform[item] && !is_early) late_.push_back(item);
+    }
+    for (const auto& settings : source.sides) {
+        auto& kinds = stage_.sides.emplace_back();
+        for (std::size_t side = 0; side < side_count; ++side) kinds[side] = settings[side].kind;
+    }
+}
+
+std::string CTables::item_path(std::uint32_t stage, std::uint32_t item) const {
+    return fmt::format("{} of stage '{}'", program_.system_of(stage).item_name(item),
+                       program_.stages[stage].name);
+}
+
+std::string CTables::item_name(const SlotSource& source) const {
+    const std::string_view item = program_.system_of(source.stage).item_name(source.item);
+    if (source.stage == request_.stage) return std::string(item);
+    return fmt::format("{}_{}", program_.stages[source.stage].name, item);
+}
+
+bool CTables::is_late(std::uint32_t item) const {
+    return std::find(late_.begin(), late_.end(), item) != late_.end();
+}
+
+std::size_t CTables::number_place(const SlotSource& source) {
+    return place_of(numbers_, source, [&] {
+        const auto value = request_.numbers[source.stage][source.item];
+        CNumber entry;
+        entry.meaning = item_path(source.stage, source.item);
+        entry.value = value.value_or(0.0F);
+        entry.is_given = !value && (source.stage != request_.stage || !is_late(source.item));
+        add_entry(stage_.numbers, entry, item_name(source));
+    });
+}
+
+std::string CTables::number(const SlotSource& source) {
+    return fmt::format("s->numbers[{}]", number_place(source));
+}
+
+void CTables::add_plane(const SlotSource& source) {
+    CPlane plane;
+    std::string name;
+    switch (source.kind) {
+        case SlotSource::Kind::file:
+        case SlotSource::Kind::image:
+            plane.meaning = fmt::format("\"{}\"", program_.texts[source.item]);
+            name = fmt::format("file{}", planes_.size());
+            plane.data = add_data(request_.files.plane(source.kind, source.item));
+            break;
+        case SlotSource::Kind::metric:
+            plane.meaning = "how the cells lie on the surface";
+            name = fmt::format("metric{}", source.item);
+            plane.data = add_data(request_.metric[source.item]);
+            break;
+        default:
+            plane.meaning = item_path(source.stage, source.item);
+            plane.is_given = source.stage != request_.stage;
+            name = item_name(source);
+    }
+    add_entry(stage_.planes, plane, name);
+}
+
+std::string CTables::plane(const SlotSource& source) {
+    const bool is_own = source.kind == SlotSource::Kind::item && source.stage == request_.stage;
+    if (source.kind == SlotSource::Kind::temporary) return temporary(source.item);
+    if (is_own && system_.is_species(source.item)) {
+        const auto place = std::find(species_.begin(), species_.end(), source.item);
+        return fmt::format("s->species[{}]", place - species_.begin());
+    }
+    return fmt::format("s->planes[{}]", place_of(planes_, source, [&] { add_plane(source); }));
+}
+
+std::string CTables::mask(const SlotSource& source) {
+    const std::size_t place = place_of(masks_, source, [&] {
+        add_entry(stage_.masks,
+                  {std::string(), item_path(source.stage, source.item),
+                   source.stage != request_.stage},
+                  item_name(source));
+    });
+    return fmt::format("s->masks[{}]", place);
+}
+
+std::string CTables::temporary(std::size_t number) {
+    stage_.temporaries = std::max(stage_.temporaries, static_cast<std::uint32_t>(number) + 1);
+    return fmt::format("s->temporaries[{}]", number);
+}
+
+std::string CTables::kernel(const CellKernel& kernel) {
+    for (const CKernel& known : stage_.kernels) {
+        if (known.kernel.code == kernel.code && known.kernel.results == kernel.results) {
+            return known.name;
+        }
+    }
+    const std::string name = fmt::format("{}_kernel{}", request_.name, stage_.kernels.size() + 1);
+    stage_.kernels.push_back({name, kernel});
+    return name;
+}
+
+std::string CTables::add_data(const Field& field) {
+    CData data{fmt::format("{}_data{}", request_.name, stage_.data.size() + 1), {}};
+    const PlaneLayout& layout = field.layout();
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+        data.values.insert(data.values.end(), field.row(row), field.row(row) + layout.width);
+    }
+    stage_.data.push_back(std::move(data));
+    return stage_.data.back().name;
+}
+
+}  // namespace cascade

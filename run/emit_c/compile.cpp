@@ -1,0 +1,175 @@
+#include "run/emit_c/compile.h"
+
+#include "core/near_name.h"
+#include "lang/lower/lower.h"
+#include "run/domain/metric_planes.h"
+#include "run/emit_c/c_header.h"
+#include "run/emit_c/c_stage.h"
+#if CASCADE_HAS_JIT
+#include "jit/jit.h"
+#endif
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <charconv>
+
+namespace cascade {
+
+namespace {
+
+/// Marks parameters as varying, so that the kernel takes a plane for each.
+Result<void> make_per_cell(Program& program, std::uint32_t k,
+                           const std::vector<std::string>& names) {
+    const System& system = program.system_of(k);
+    std::vector<std::string> known;
+    for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+        if (!system.is_species(item)) known.emplace_back(system.item_name(item));
+    }
+    for (const std::string& name : names) {
+        bool found = false;
+        for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+            if (system.item_name(item) != name || system.is_species(item)) continue;
+            program.stages[k].uniform[item] = false;
+            found = true;
+        }
+        if (found) continue;
+        const std::string near = nearest_name(name, known);
+        return failure(fmt::format("--per-cell: '{}' is not a parameter of {}", name, system.name),
+                       near.empty() ? "" : fmt::format("did you mean '{}'?", near));
+    }
+    return {};
+}
+
+/// A C identifier of a text: other characters become '_', a leading digit gets one before it.
+std::string c_identifier(const std::string& text) {
+    std::string name;
+    for (const char c : text) {
+        const auto letter = static_cast<unsigned char>(c);
+        name += letter < 128 && std::isalnum(letter) != 0 ? c : '_';
+    }
+    if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front()))) name.insert(0, "_");
+    return name;
+}
+
+/// The scheme of a step. Steps of one length alone can be compiled. `asked_solver`: the solver is that
+/// of --solver, which lets some choose their steps.
+Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
+                            std::optional<std::uint32_t> stages, bool asked_solver) {
+    const Stage& stage = program.stages[k];
+    const std::string name(name_of(stage.time.solver));
+    if (is_adaptive(stage.time.solver)) {
+        return failure(fmt::format("stage '{}' is solved by {}, which chooses its steps as it runs, "
+                                   "but compiled steps are of one length",
+                                   stage.name, name),
+                       "--solver rk4 takes such steps");
+    }
+    if (is_semi_implicit(stage.time.solver)) {
+        return failure(fmt::format("stage '{}' is solved by {}, which takes waves of the whole grid and no "
+                                   "cells",
+                                   stage.name, name),
+                       "--solver rkl1 --stages 7 compiles long steps");
+    }
+    if (stage.time.automatic_speed) {
+        return failure(fmt::format("stage '{}' chooses its steps as it runs, but compiled steps are "
+                                   "of one length",
+                                   stage.name),
+                       asked_solver
+                           ? fmt::format("--set {}.solver={} keeps its speed", stage.name, name)
+                           : fmt::format("--set {}.speed=… is that length", stage.name));
+    }
+    if (is_stabilised(stage.time.solver) && !stages) {
+        return failure(fmt::format("stage '{}' is solved by {}, which chooses its stages as it runs, "
+                                   "but a compiled step has a number of them",
+                                   stage.name, name),
+                       "--stages N says how many: an odd number");
+    }
+    if (stages && !is_stabilised(stage.time.solver)) {
+        return failure(fmt::format("--stages: {} has no stages to choose; rkl1 and rkl2 have", name));
+    }
+    const std::uint32_t speed = program.system_of(k).speed_item();
+    if (!stage.uniform[speed] && !takes_speed_by_cell(stage.time.solver)) {
+        return failure(fmt::format("{} cannot take the speed of stage '{}', which varies by cell",
+                                   name, stage.name));
+    }
+    return make_scheme(stage.time.solver, program.system_of(k).species_count(),
+                       takes_speed_by_cell(stage.time.solver), stages.value_or(3));
+}
+
+/// What the header cannot describe is refused.
+Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
+    if (program.domain.model) {
+        return failure("a stage on a model is not compiled to an object file",
+                       "'cascade run' compiles it in memory; --grid makes its domain a plane");
+    }
+    if (program.domain.precision != Precision::single) {
+        return failure("a stage in double precision is not compiled to an object file",
+                       "'cascade run' compiles it in memory; --precision single is compiled");
+    }
+    if (program.domain.model) {
+        return failure("a stage on a model is not compiled to an object file",
+                       "'cascade run' compiles it in memory");
+    }
+    for (const auto& sides : program.stages[stage].sides) {
+        for (std::size_t side = 0; side < side_count; ++side) {
+            if (!takes_value(sides[side].kind)) continue;
+            if (!plan_side(program, sides[side], static_cast<Side>(side), stage).changes) continue;
+            return failure(fmt::format("stage '{}' has a side whose value changes with time, which is "
+                                       "not compiled to an object file",
+                                       program.stages[stage].name),
+                           "'cascade run' compiles it in memory");
+        }
+    }
+    if (program.domain.model) {
+        return failure("a stage on a model is not compiled to an object file",
+                       "'cascade run' compiles it in memory");
+    }
+    if (program.domain.mask) {
+        return failure("a domain with a mask is not compiled to an object file",
+                       "'cascade run' compiles it in memory");
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<CompiledStep> compile_step(Script& script, const CompileRequest& request) {
+    Program program = *script.program;
+    if (program.stages.empty()) return failure("this script has no stage to compile");
+    if (!request.target.empty()) program.domain.fast = script.overrides.fast;
+    const auto stage = find_stage(program, request.stage.value_or("1"));
+    if (!stage) return tl::unexpected(stage.error());
+    if (auto fits = check_header_knows(program, *stage); !fits) return tl::unexpected(fits.error());
+    const auto numbers = known_numbers(program, *stage);
+    if (auto good = make_per_cell(program, *stage, request.per_cell); !good) {
+        return tl::unexpected(good.error());
+    }
+    const auto scheme = fixed_scheme(program, *stage, request.stages,
+                                      script.overrides.solver.has_value());
+    if (!scheme) return tl::unexpected(scheme.error());
+    const auto files = read_input_files(script, nullptr);
+    if (!files) return tl::unexpected(files.error());
+    const auto metric = metric_planes(program);
+    if (!metric) return tl::unexpected(metric.error());
+    const std::string name = c_identifier(
+        request.function_name.empty()
+            ? output_stem(script) + "_" +
+                  program.stages[*stage].name
+            : request.function_name);
+    auto compiled =
+        describe_c_stage({program, *stage, numbers, *files, *metric, *scheme, name});
+    if (!compiled) return tl::unexpected(compiled.error());
+#if CASCADE_HAS_JIT
+    ObjectContent content;
+    for (const CKernel& each : compiled->kernels) content.functions.push_back({each.name, each.kernel});
+    for (CData& each : compiled->data) content.numbers.push_back({each.name, std::move(each.values)});
+    auto object = compile_object(content, program.domain.grid.stencil(), request.target);
+    if (!object) return tl::unexpected(object.error());
+    const std::string file = script.file.filename().string();
+    return CompiledStep{std::move(*object), c_header(program, *stage, *compiled, file)};
+#else
+    return failure("this build has no native compiler");
+#endif
+}
+
+}  // namespace cascade

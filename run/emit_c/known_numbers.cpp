@@ -1,0 +1,54 @@
+#include "run/emit_c/known_numbers.h"
+
+#include "ir/interpreter.h"
+#include "lang/lower/lower.h"
+#include "run/emit_c/placeholders.h"
+#include "run/stage/plan_runner.h"
+
+#include <algorithm>
+
+namespace cascade {
+
+namespace {
+
+/// Does a formula read a number that is not known?
+bool reads_unknown(const Formula& formula, std::uint32_t stage, const KnownNumbers& numbers,
+                   const Program& program) {
+    return std::any_of(formula.nodes.begin(), formula.nodes.end(), [&](const Node& node) {
+        const bool is_own = node.kind == NodeKind::own;
+        if (!is_own && node.kind != NodeKind::earlier) return false;
+        const std::uint32_t of = is_own ? stage : node.stage;
+        return program.stages[of].uniform[node.index] && !numbers[of][node.index];
+    });
+}
+
+}  // namespace
+
+KnownNumbers known_numbers(const Program& program, std::uint32_t last) {
+    KnownNumbers numbers;
+    Placeholders places(program, last);
+    const auto interpreter = make_interpreter();
+    const Grid one{1, 1, Boundary::periodic};
+    Team team(1);
+    const auto compile = [&](const CellKernel& kernel) {
+        return *interpreter->compile(kernel, one.stencil());
+    };
+    for (std::uint32_t k = 0; k <= last; ++k) {
+        const Stage& stage = program.stages[k];
+        const StepPlan plan = plan_uniform_start(program, k);
+        const auto values = run_plan(plan, compile, places.context(), one, team);
+        auto& known = numbers.emplace_back(stage.items.size());
+        std::vector<std::optional<float>> computed(stage.items.size());
+        for (std::size_t r = 0; r < values.size(); ++r) {
+            computed[plan.results[r]] = values[r].at(0, 0);
+            places.states()[k].numbers[plan.results[r]] = values[r].at(0, 0);
+        }
+        // In the order in which each can be evaluated, so what an item reads has been looked at.
+        for (const std::uint32_t item : stage.order) {
+            if (!reads_unknown(stage.items[item], k, numbers, program)) known[item] = computed[item];
+        }
+    }
+    return numbers;
+}
+
+}  // namespace cascade

@@ -1,0 +1,205 @@
+#include "run/pictures/cell_picture.h"
+
+#include "core/check.h"
+#include "picture/srgb.h"
+#include "surface/blur_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cascade {
+
+namespace {
+
+/// A sample that meets the surface at a smaller slant than this is taken for one that meets it so.
+constexpr float least_cosine = 0.1F;
+
+/// The variance of the filter itself along a direction, in cell spacings: s² / 2 times the average of
+/// (d / s)² under its weights, where s is two spacings.
+constexpr double filter_variance = 2 * (1.0 / 28) / 0.15;
+
+bool is_finite(const Colour& colour) {
+    return std::isfinite(colour[0]) && std::isfinite(colour[1]) && std::isfinite(colour[2]);
+}
+
+Colour light_in(const PlaceColour& function, std::span<const float> values,
+                const SurfacePlace& place) {
+    Colour colour = function(values, place);
+    if (!is_finite(colour)) colour = colour_of_nan;
+    for (float& channel : colour) channel = light_of(std::clamp(channel, 0.0F, 1.0F));
+    return colour;
+}
+
+Colour mix(const Colour& a, const Colour& b, float part) {
+    Colour result{};
+    for (std::size_t k = 0; k < 3; ++k) result[k] = a[k] + (b[k] - a[k]) * part;
+    return result;
+}
+
+/// Of each cell the light that comes back and how far it stands out, in filter radii.
+struct CellState {
+    static constexpr std::size_t size = 4;  ///< Red, green, blue, height.
+};
+
+/// Level 0 are the cells as they are; level k ≥ 1 together with the filter has the standard
+/// deviation 2^k / 2 spacings, that of a sample 2^k spacings wide.
+using Levels = std::vector<std::vector<float>>;
+
+/// The level for a square of a side in spacings.
+float level_of(float side) {
+    return side > 1 ? static_cast<float>(std::log2(static_cast<double>(side))) : 0.0F;
+}
+
+/// Adds all levels up to the highest one to level 0.
+void add_levels(const SurfaceCells& cells, float highest, Levels& levels, Team& team) {
+    // A blur as wide as the surface is enough: √cells spacings.
+    const double widest = std::log2(static_cast<double>(cells.places.size())) / 2;
+    const double count = std::ceil(std::min<double>(highest, widest));
+    double variance = 0;
+    for (int k = 1; k <= count; ++k) {
+        const double wanted = std::exp2(2 * k) / 4 - filter_variance;
+        levels.push_back(levels.back());
+        blur_cells(cells, std::sqrt(wanted - variance), CellState::size, levels.back(), team);
+        variance = wanted;
+    }
+}
+
+/// What one picture needs.
+class Shader {
+public:
+    Shader(const PaintedCells& look, const CellFilter& filter, const TriangleMesh& mesh,
+           const Levels& levels, float spacing)
+        : look_(look), filter_(filter), mesh_(mesh), levels_(levels), spacing_(spacing) {}
+
+    /// What the colour of a cell is: that of the filtered values, as it is seen from near.
+    Colour light_of_cell(const SurfacePlace& place) const {
+        std::vector<CellShare> shares;
+        filter_.shares(place, shares);
+        return own_light(shares, place);
+    }
+
+    Look operator()(const Sight& sight) const {
+        const SurfacePlace place = {
+            sight.hit.triangle,
+            {1 - static_cast<double>(sight.hit.u) - static_cast<double>(sight.hit.v),
+             static_cast<double>(sight.hit.u), static_cast<double>(sight.hit.v)}};
+        const float level =
+            std::min(level_of(side_of(sight)), static_cast<float>(levels_.size() - 1));
+        if (look_.heights.empty()) {
+            std::vector<CellShare> shares;
+            filter_.shares(place, shares);
+            return {light(shares, place, level), {}};
+        }
+        std::vector<SlopedShare> shares;
+        filter_.sloped_shares(place, shares);
+        return {light(shares, place, level), tilt(shares, level)};
+    }
+
+private:
+    /// Of the square on the surface for which a sample stands, in spacings.
+    float side_of(const Sight& sight) const {
+        const auto& [a, b, c] = mesh_.triangles[sight.hit.triangle];
+        const Vector3 facet = unit(cross(mesh_.positions[b] - mesh_.positions[a],
+                                         mesh_.positions[c] - mesh_.positions[a]));
+        const float cosine = std::max(least_cosine, std::abs(dot(facet, sight.direction)));
+        return sight.width / spacing_ / std::sqrt(cosine);
+    }
+
+    template <typename Share>
+    Colour light(const std::vector<Share>& shares, const SurfacePlace& place, float level) const {
+        const auto below = static_cast<std::size_t>(level);
+        const Colour sharper = below == 0 ? own_light(shares, place) : level_light(shares, below);
+        const float part = level - static_cast<float>(below);
+        return part > 0 ? mix(sharper, level_light(shares, below + 1), part) : sharper;
+    }
+
+    template <typename Share>
+    Colour own_light(const std::vector<Share>& shares, const SurfacePlace& place) const {
+        std::vector<float> values(look_.channels);
+        for (const Share& share : shares) {
+            const float* of_cell = &look_.values[share.cell * look_.channels];
+            for (std::size_t k = 0; k < values.size(); ++k) values[k] += share.weight * of_cell[k];
+        }
+        return light_in(look_.colour, values, place);
+    }
+
+    template <typename Share>
+    Colour level_light(const std::vector<Share>& shares, std::size_t level) const {
+        Colour sum{0, 0, 0};
+        for (const Share& share : shares) {
+            const float* state = &levels_[level][share.cell * CellState::size];
+            for (std::size_t k = 0; k < 3; ++k) sum[k] += share.weight * state[k];
+        }
+        return sum;
+    }
+
+    Vector3 tilt(const std::vector<SlopedShare>& shares, float level) const {
+        const auto below = static_cast<std::size_t>(level);
+        const float part = level - static_cast<float>(below);
+        Vector3 slope = slope_at(shares, below);
+        if (part > 0) slope = slope * (1 - part) + slope_at(shares, below + 1) * part;
+        return std::isfinite(dot(slope, slope)) ? -slope : Vector3{};
+    }
+
+    Vector3 slope_at(const std::vector<SlopedShare>& shares, std::size_t level) const {
+        Vector3 slope;
+        for (const SlopedShare& share : shares) {
+            slope = slope + share.slope * levels_[level][share.cell * CellState::size + 3];
+        }
+        return slope;
+    }
+
+    const PaintedCells& look_;
+    const CellFilter& filter_;
+    const TriangleMesh& mesh_;
+    const Levels& levels_;
+    float spacing_;
+};
+
+/// The widest square for which a sample of the picture can stand, in the unit of what is drawn.
+float widest_side(const TriangleMesh& mesh, const DrawOptions& options) {
+    const Camera camera(mesh, options.view, options.width, options.height);
+    float farthest = 0;
+    for (const Vector3& p : mesh.positions) farthest = std::max(farthest, length(p - camera.eye()));
+    return camera.pixel() * farthest / static_cast<float>(options.samples) /
+           std::sqrt(least_cosine);
+}
+
+}  // namespace
+
+CellScene::CellScene(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team)
+    : cells_(cells), drawn_(creased_mesh(mesh)), caster_(drawn_.mesh), filter_(mesh, cells, team) {
+    spacing_ = static_cast<float>(cell_spacing(cells) * drawn_.scale);
+}
+
+Image CellScene::draw(const PaintedCells& look, DrawOptions options, Team& team) const {
+    const std::size_t count = cells_.places.size();
+    CHECK(look.values.size() == count * look.channels, "each cell has values of all channels");
+    CHECK(look.heights.empty() || look.heights.size() == count, "each cell has a height");
+    options.round_shadows = true;
+    const float highest = level_of(widest_side(drawn_.mesh, options) / spacing_);
+    Levels levels(1);
+    const Shader shader(look, filter_, drawn_.mesh, levels, spacing_);
+    if (highest > 0 || !look.heights.empty()) {
+        std::vector<float>& states = levels[0];
+        states.resize(count * CellState::size);
+        team.run([&](int thread) {
+            const RowRange part = split_rows(static_cast<std::int64_t>(count), thread, team.size());
+            for (auto cell = static_cast<std::size_t>(part.begin);
+                 cell < static_cast<std::size_t>(part.end); ++cell) {
+                float* state = &states[cell * CellState::size];
+                if (highest > 0) {
+                    const Colour light = shader.light_of_cell(cells_.places[cell]);
+                    std::copy(light.begin(), light.end(), state);
+                }
+                if (look.heights.empty()) continue;
+                state[3] = static_cast<float>(static_cast<double>(look.heights[cell]) /
+                                              filter_.radius());
+            }
+        });
+    }
+    add_levels(cells_, highest, levels, team);
+    return cascade::draw(drawn_.mesh, caster_, shader, options, team);
+}
+
+}  // namespace cascade

@@ -1,0 +1,93 @@
+#include "run/pictures/frame_folder.h"
+
+#include "run/script/embedded_script.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string_view>
+#include <system_error>
+
+namespace cascade {
+
+namespace {
+
+bool are_digits(std::string_view text, std::size_t least) {
+    return text.size() >= least && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// Is a name of the form that frame_name() makes?
+bool is_frame_name(std::string_view name) {
+    if (!name.ends_with(".png")) return false;
+    name.remove_suffix(4);
+    const std::size_t first = name.find('-'), last = name.rfind('-');
+    return first != std::string_view::npos && first < last &&
+           are_digits(name.substr(0, first), 4) && are_digits(name.substr(last + 1), 7);
+}
+
+std::filesystem::path file_name(const std::string& script) {
+    return std::filesystem::path(script).filename();
+}
+
+}  // namespace
+
+bool is_called_like_a_movie(const std::filesystem::path& path) {
+    constexpr std::array<std::string_view, 9> endings = {".mp4", ".gif", ".webm", ".mov", ".avi",
+                                                         ".mkv", ".apng", ".ogv", ".m4v"};
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+std::string how_to_make_a_movie(const std::filesystem::path& path) {
+    const std::string stem = path.stem().string();
+    return fmt::format("for a movie write --frames {0}, then ffmpeg -framerate 10 -pattern_type glob "
+                       "-i '{0}/*.png' -pix_fmt yuv420p {1}",
+                       stem, path.filename().string());
+}
+
+std::string frame_name(std::size_t number, const std::string& stage, std::int64_t step) {
+    return fmt::format("{:04}-{}-{:07}.png", number, stage, step);
+}
+
+Result<std::vector<std::filesystem::path>> earlier_frames(const std::filesystem::path& folder,
+                                                          const Script& script, bool is_resumed) {
+    std::vector<std::filesystem::path> frames;
+    std::error_code error;
+    // A folder that is not there, or cannot be read, is told by whoever writes into it.
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        if (is_frame_name(entry->path().filename().string())) frames.push_back(entry->path());
+    }
+    std::sort(frames.begin(), frames.end());
+    if (is_resumed && !frames.empty()) {
+        return failure(fmt::format("the folder '{}' holds frames of an earlier run", folder.string()),
+                       "name another one with --frames: those of a run that goes on have their own "
+                       "numbers");
+    }
+    for (const auto& frame : frames) {
+        const auto drawn = read_embedded_script(frame);
+        if (drawn && file_name(drawn->name) == file_name(script.name)) continue;
+        return failure(fmt::format("the folder '{}' holds frames that {} did not draw, as {}",
+                                   folder.string(), script.name, frame.filename().string()),
+                       "name another one with --frames, or remove them");
+    }
+    return frames;
+}
+
+std::size_t remove_stale_frames(std::span<const std::filesystem::path> earlier,
+                                std::span<const std::filesystem::path> written) {
+    std::set<std::filesystem::path> fresh;
+    for (const auto& path : written) fresh.insert(path.filename());
+    std::size_t removed = 0;
+    for (const auto& path : earlier) {
+        std::error_code error;
+        if (!fresh.contains(path.filename()) && std::filesystem::remove(path, error)) ++removed;
+    }
+    return removed;
+}
+
+}  // namespace cascade

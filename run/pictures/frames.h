@@ -1,0 +1,60 @@
+// Frames: what is looked at each interval, kept until the range that all of them share is known.
+#pragma once
+
+#include "core/result.h"
+#include "run/pictures/painter.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// Keeps the values of frames in an unnamed temporary file (a long run's frames may not fit into
+/// memory), and draws them at the end.
+class FrameRecorder {
+public:
+    /// `folder` is where pictures will go; empty for a space-time picture alone, whose rows are
+    /// small and stay in memory.
+    static Result<FrameRecorder> create(const std::filesystem::path& folder, bool space_time);
+
+    /// Keeps one frame. A full disk is remembered and told by failure().
+    void record(const Canvas& canvas, const std::string& stage, std::int64_t step);
+    std::optional<Failure> failure() const { return failure_; }
+
+    /// Draws every frame as NUMBER-STAGE-STEP.png with one range for all.
+    Result<std::vector<std::filesystem::path>> write(const Painter& painter, PngDepth depth,
+                                                     const PngTexts& texts);
+
+    /// The rows of a one-row grid below each other, the first frame on top.
+    Image space_time(const Painter& painter) const;
+
+private:
+    struct Frame {
+        std::string stage;
+        std::int64_t step = 0;
+        std::size_t planes = 1;
+        bool has_relief = false;   ///< In one more plane.
+    };
+    struct CloseFile {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+
+    bool keep(const Field& field);
+    Result<Canvas> read_back(const Frame& frame);
+
+    std::filesystem::path folder_;
+    bool keep_rows_ = false;
+    std::unique_ptr<std::FILE, CloseFile> file_;
+    std::vector<Frame> frames_;
+    std::vector<Canvas> rows_;
+    PlaneLayout layout_;
+    Spread values_;  ///< Of all frames together.
+    std::optional<Failure> failure_;
+};
+
+}  // namespace cascade

@@ -1,0 +1,20 @@
+// From the fields of a run to what measure/ takes.
+#pragma once
+
+#include "core/plane.h"
+#include "measure/features.h"
+#include "run/pictures/painter.h"
+#include "run/simulation/simulation.h"
+
+namespace cascade {
+
+measure::Samples to_samples(const Field& field, const Grid& grid);
+
+/// The number that a picture shows, in all cells (also of a volume). A colour is no number: then what
+/// the stage shows by default (its `show`, or its last species).
+Field shown_number(Painter& painter, const Simulation& simulation);
+
+/// Its features.
+measure::Features measure_shown(Painter& painter, const Simulation& simulation);
+
+}  // namespace cascade

@@ -1,0 +1,146 @@
+#include "run/pictures/model_files.h"
+
+#include "export/bake.h"
+#include "export/cell_writer.h"
+#include "export/model_writer.h"
+#include "export/point_values.h"
+#include "export/refine.h"
+#include "run/pictures/model_picture.h"
+#include "surface/blur_cells.h"
+#include "surface/retile.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <new>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+// Between points colours are linear: this far apart, in spacings of cells, they follow the filter, which
+// reaches over two.
+constexpr double colour_distance = 0.75;
+constexpr std::size_t most_triangles = std::size_t{1} << 23;
+
+static_assert(ModelFileOptions::most_texels == BakeOptions::largest_texture);
+
+std::string in_lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+}  // namespace
+
+std::optional<OutputKind> output_kind(const std::filesystem::path& path) {
+    const std::string ending = in_lower_case(path.extension().string());
+    if (ending == ".png") return OutputKind::picture;
+    if (ending == ".npz") return OutputKind::cells;
+    if (ending == ".vtp" && in_lower_case(path.stem().extension().string()) == ".cells") {
+        return OutputKind::cells;
+    }
+    if (is_model_ending(path)) return OutputKind::model;
+    return std::nullopt;
+}
+
+bool ModelFileOptions::is_baked(const std::filesystem::path& path) const {
+    return bake > 0 && in_lower_case(path.extension().string()) == ".glb";
+}
+
+ModelFileWriter::ModelFileWriter(const ModelCells& model, const ModelLook& look,
+                                 std::vector<Channel> channels, const ModelFileOptions& options,
+                                 PngTexts texts)
+    : model_(model), turned_back_(model.up == Axis::y ? SurfaceMesh() : model.mesh_of_file()),
+      mesh_(model.up == Axis::y ? model.mesh : turned_back_), look_(look),
+      channels_(std::move(channels)), options_(options), texts_(std::move(texts)),
+      team_(hardware_threads()) {}
+
+ModelFileWriter::~ModelFileWriter() = default;
+
+const CellFilter& ModelFileWriter::filter() {
+    if (!filter_) filter_ = std::make_unique<CellFilter>(mesh_, model_.cells, team_);
+    return *filter_;
+}
+
+Result<std::vector<std::filesystem::path>> ModelFileWriter::write(
+    const std::filesystem::path& path) {
+    Result<void> written;
+    try {
+        if (output_kind(path) == OutputKind::cells) written = write_cells(path);
+        else if (options_.is_baked(path)) return write_maps(path);
+        else written = options_.retile ? write_retiled(path) : write_refined(path);
+    } catch (const std::bad_alloc&) {
+        return failure("cannot write '" + path.string() + "': there is not enough memory");
+    }
+    if (!written) return tl::unexpected(written.error());
+    return std::vector{path};
+}
+
+Result<void> ModelFileWriter::write_cells(const std::filesystem::path& path) {
+    std::vector<Colour> colours;
+    for (std::size_t k = 0; k < model_.count(); ++k) {
+        colours.push_back(look_.colour_of(k, model_.cells.places[k]));
+    }
+    return cascade::write_cells(path, mesh_, model_.cells, {colours, channels_});
+}
+
+Result<void> ModelFileWriter::write_refined(const std::filesystem::path& path) {
+    if (!refined_) {
+        refined_ = std::make_unique<RefinedMesh>(refined(
+            mesh_, colour_distance * cell_spacing(model_.cells), most_triangles));
+    }
+    const PaintedCells painted = {look_.channels, look_.values, look_.colour, {}};
+    return write_model(path, refined_->mesh,
+                       {colours_at(refined_->places, filter(), painted, team_),
+                        values_at(refined_->places, filter(), channels_, team_)});
+}
+
+/// Points that are cells have their values and not an average of those around.
+Result<void> ModelFileWriter::write_retiled(const std::filesystem::path& path) {
+    const std::size_t count = model_.count();
+    if (!retiled_) {
+        const std::atomic<bool> never = false;
+        auto made = retile(mesh_, model_.cells.places, never);
+        if (!made) return tl::unexpected(made.error());
+        retiled_ = std::make_unique<Retiled>(*std::move(made));
+    }
+    const std::size_t points = retiled_->mesh.points.size();
+    std::vector<float> values(look_.channels * points), of_cells(count);
+    for (std::size_t c = 0; c < look_.channels; ++c) {
+        for (std::size_t k = 0; k < count; ++k) of_cells[k] = look_.values[look_.channels * k + c];
+        const PointAttribute whole = attribute_of(*retiled_, "", of_cells);
+        for (std::size_t p = 0; p < points; ++p) values[look_.channels * p + c] = whole.values[p];
+    }
+    const std::vector<SurfacePlace> of_points = places_of_points(mesh_);
+    std::vector<Colour> colours;
+    for (std::size_t p = 0; p < points; ++p) {
+        const SurfacePlace& place = p < count ? model_.cells.places[p]
+                                              : of_points[retiled_->kept[p - count].old_point];
+        colours.push_back(look_.colour(
+            std::span(values).subspan(look_.channels * p, look_.channels), place));
+    }
+    std::vector<Channel> channels;
+    for (const Channel& channel : channels_) {
+        channels.push_back(attribute_of(*retiled_, channel.name, channel.values));
+    }
+    return write_model(path, retiled_->mesh, {colours, channels});
+}
+
+Result<std::vector<std::filesystem::path>> ModelFileWriter::write_maps(
+    const std::filesystem::path& path) {
+    BakeOptions options;
+    options.width = options.height = options_.bake;
+    const PaintedCells painted = {look_.channels, look_.values, look_.colour, look_.heights};
+    const std::atomic<bool> never = false;
+    const auto baked = bake(mesh_, filter(), painted, options, team_, never);
+    if (!baked) return tl::unexpected(baked.error());
+    for (const std::string& warning : baked->warnings) warnings_.push_back(warning);
+    if (auto done = write_baked(path, mesh_, *baked, texts_); !done) {
+        return tl::unexpected(done.error());
+    }
+    return baked_paths(path, !look_.heights.empty());
+}
+
+}  // namespace cascade

@@ -1,0 +1,53 @@
+// What has grown on a model, as numbers and colours at its cells, and drawn.
+#pragma once
+
+#include "core/palette.h"
+#include "picture/image.h"
+#include "render/camera.h"
+#include "run/domain/model_cells.h"
+#include "run/pictures/cell_picture.h"
+#include "run/pictures/painter.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace cascade {
+
+/// What a canvas shows on the cells of a model: a number each, or red, green and blue.
+struct ModelLook {
+    std::size_t channels = 1;
+    std::vector<float> values;   ///< `channels` a cell, cell after cell.
+    PlaceColour colour;
+    std::vector<float> heights;  ///< One a cell, in lengths of the model; empty: none.
+
+    /// `range` and `palette` are those of numbers.
+    ModelLook(const ModelCells& model, const Canvas& canvas, ValueRange range, const Palette& palette);
+
+    /// Sets the heights: a number stands out by its place in the range times `bump` times the model's
+    /// longest side.
+    void raise(const ModelCells& model, const Field& number, ValueRange range, float bump);
+    /// What is seen of cell k, which lies at `place`.
+    Colour colour_of(std::size_t k, const SurfacePlace& place) const {
+        return colour(std::span(values).subspan(k * channels, channels), place);
+    }
+};
+
+/// Draws one model again and again.
+class ModelDrawer {
+public:
+    /// Throws std::bad_alloc.
+    explicit ModelDrawer(std::shared_ptr<const ModelCells> model);
+
+    Image draw(const ModelLook& look, const DrawOptions& options) const;
+    const ModelCells& model() const { return *model_; }
+    const CellFilter& filter() const { return scene_.filter(); }
+
+private:
+    std::shared_ptr<const ModelCells> model_;
+    mutable Team team_;   ///< Of one picture at a time.
+    CellScene scene_;
+};
+
+}  // namespace cascade

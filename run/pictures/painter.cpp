@@ -1,0 +1,175 @@
+#include "run/pictures/painter.h"
+
+#include "core/near_name.h"
+#include "lang/check/check.h"
+#include "lang/syntax/parse.h"
+#include "run/domain/metric_planes.h"
+#include "run/pictures/model_picture.h"
+#include "run/pictures/surface_picture.h"
+
+#include <fmt/format.h>
+
+namespace cascade {
+
+namespace {
+
+/// A field as it is painted: in binary32, and of a volume the slice that the request shows.
+Field shown(Field field, const PictureRequest& request) {
+    if (field.precision() != Precision::single) field = field.converted(Precision::single);
+    return field.layout().depth > 1 ? cut(field, request.slice) : std::move(field);
+}
+
+/// The same of a copy that is NaN outside of the mask.
+Field as_shown(const Field& field, const DomainMask* mask, const PictureRequest& request) {
+    return shown(mask ? with_outside(field, *mask, nothing_outside) : field.clone(), request);
+}
+
+}  // namespace
+
+const Field* Canvas::number() const {
+    if (!is_colour()) return &fields[0];
+    return relief.empty() ? nullptr : &relief;
+}
+
+Result<Painter> Painter::create(Script& script, const PictureRequest& request) {
+    Painter painter;
+    painter.script_ = &script;
+    painter.request_ = request;
+    painter.palette_ = find_palette(request.palette);
+    if (!painter.palette_) {
+        std::vector<std::string> names;
+        for (const Palette& palette : palettes()) names.emplace_back(palette.name);
+        const std::string near = nearest_name(request.palette, names);
+        return failure(fmt::format("there is no palette '{}'", request.palette),
+                       near.empty() ? fmt::format("the palettes are {}", fmt::join(names, ", "))
+                                    : fmt::format("did you mean '{}'?", near));
+    }
+    if (request.show.empty()) return painter;
+
+    const SourceId source = script.sources.add("<--show>", request.show);
+    painter.show_ =
+        parse_expression(source, script.sources, script.tree, script.diagnostics);
+    if (painter.show_) {
+        check_view(script.tree, *painter.show_, script.final_stage(), script.stage_count() - 1,
+                   *script.program, script.sources, script.diagnostics);
+    }
+    if (script.diagnostics.has_errors()) return failure("the expression of --show is wrong");
+    return painter;
+}
+
+std::optional<Formula> Painter::formula_for(std::uint32_t stage, std::uint32_t last_stage) {
+    const auto expression = show_ ? show_ : picture_expression(script_->tree);
+    if (!expression) return std::nullopt;
+    // Faults were reported when the script was loaded; here a name may just not have a value yet.
+    Diagnostics unspoken;
+    return check_view(script_->tree, *expression, stage, last_stage, *script_->program,
+                      script_->sources, unspoken);
+}
+
+Canvas Painter::values(const Simulation& simulation) {
+    const std::uint32_t stage = simulation.shown_stage().value_or(0);
+    std::uint32_t last_stage = stage;
+    while (last_stage + 1 < simulation.program().stages.size() &&
+           simulation.state(last_stage + 1).started) {
+        ++last_stage;
+    }
+    const bool asked = show_ || picture_expression(script_->tree);
+    const auto formula = formula_for(stage, last_stage);
+    if (!formula) fell_back_ = fell_back_ || asked;
+    return {simulation.evaluate(formula ? *formula : simulation.program().stages[stage].show,
+                                stage)};
+}
+
+Canvas Painter::canvas(const Simulation& simulation) {
+    Canvas canvas = values(simulation);
+    model_ = simulation.model();
+    for (Field& field : canvas.fields) field = shown(std::move(field), request_);
+    if (model_ && request_.bump != 0 && canvas.is_colour()) {
+        const std::uint32_t stage = simulation.shown_stage().value_or(0);
+        auto usual = simulation.evaluate(simulation.program().stages[stage].show, stage);
+        if (usual.size() == 1) canvas.relief = shown(std::move(usual[0]), request_);
+    }
+    if (const DomainMask* mask = simulation.mask()) {
+        outside_ = as_shown(Field(PlaneLayout(simulation.grid())), mask, request_);
+    }
+    return canvas;
+}
+
+ValueRange Painter::range_of(const Canvas& canvas, std::optional<ValueRange> range) const {
+    if (request_.range) return *request_.range;
+    if (range) return *range;
+    const Field* number = canvas.number();
+    return number != nullptr ? automatic_range(spread_of(*number)) : ValueRange();
+}
+
+Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range) const {
+    const ValueRange used = range_of(canvas, range);
+    Image image = canvas.is_colour()
+                      ? paint(canvas.fields[0], canvas.fields[1], canvas.fields[2])
+                      : paint(canvas.fields[0], used, *palette_);
+    if (!outside_.empty()) clear_where_nan(image, outside_);
+    return image;
+}
+
+ModelLook Painter::look(const Canvas& canvas, std::optional<ValueRange> range) const {
+    const ValueRange used = range_of(canvas, range);
+    ModelLook look(*model_, canvas, used, *palette_);
+    if (request_.bump != 0 && canvas.number() != nullptr) {
+        look.raise(*model_, *canvas.number(), used, request_.bump);
+    }
+    return look;
+}
+
+Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) const {
+    if (!drawer_) drawer_ = std::make_shared<const ModelDrawer>(model_);
+    DrawOptions options;
+    options.width *= request_.scale;
+    options.height *= request_.scale;
+    options.view = request_.view;
+    options.view.up = {0, 1, 0};  // Models are turned upright when they are read.
+    return drawer_->draw(look(canvas, range), options);
+}
+
+Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) const {
+    if (model_) return on_model(canvas, range);
+    Image flat = texture(canvas, range);
+    const DomainSettings& domain = script_->program->domain;
+    if (!domain.surface || request_.flat) return enlarge(std::move(flat), request_.scale);
+    DrawOptions options;
+    options.width *= request_.scale;
+    options.height *= request_.scale;
+    options.view = request_.view;
+    const Boundaries& sides = domain.grid.boundary;
+    Team team(hardware_threads());
+    return draw_on_surface(function_of(*domain.surface), flat,
+                           sides.x == Boundary::periodic, sides.y == Boundary::periodic, options,
+                           team);
+}
+
+Image draw_sheet(const Simulation& simulation, const PictureRequest& request) {
+    const Program& program = simulation.program();
+    const Palette& palette = *find_palette(request.palette);
+    std::vector<Panel> panels;
+    std::size_t columns = 1;
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        if (!simulation.state(k).started) continue;
+        const System& system = program.system_of(k);
+        std::size_t in_stage = 0;
+        for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+            if (!system.is_species(item)) continue;
+            const Field field =
+                as_shown(simulation.state(k).field(item), simulation.mask(), request);
+            const ValueRange range = request.range.value_or(automatic_range(spread_of(field)));
+            Image image = paint(field, range, palette);
+            if (simulation.mask()) clear_where_nan(image, field);
+            panels.push_back({fmt::format("{}.{} {:.4g}..{:.4g}", program.stages[k].name,
+                                          system.item_name(item), range.low, range.high),
+                              enlarge(std::move(image), request.scale)});
+            ++in_stage;
+        }
+        columns = std::max(columns, in_stage);
+    }
+    return make_sheet(panels, static_cast<int>(columns));
+}
+
+}  // namespace cascade

@@ -1,0 +1,195 @@
+#include "run/script/embedded_script.h"
+
+#include "core/file.h"
+#include "core/json_size.h"
+#include "core/version.h"
+#include "run/script/script_folder.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <limits>
+#include <stdexcept>
+
+namespace cascade {
+
+namespace {
+
+constexpr const char* key_name = "Cascade name";
+constexpr const char* key_script = "Cascade script";
+constexpr const char* key_overrides = "Cascade overrides";
+constexpr const char* key_seed = "Cascade seed";
+constexpr const char* key_picture = "Cascade picture";
+constexpr const char* key_sweep = "Cascade sweep";
+
+/// A number of the stored overrides. One that cannot be meant is refused, not bent.
+std::int64_t whole_number(const nlohmann::json& json, std::int64_t most) {
+    if (!json.is_number_integer() || json < 0 || json > most) throw std::out_of_range("number");
+    return json.get<std::int64_t>();
+}
+
+/// The list of a sheet's chunk; empty where it is not one of texts.
+std::vector<std::string> texts_of(const std::string& text) {
+    if (!is_small_json(text)) return {};
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    if (!json.is_array()) return {};
+    std::vector<std::string> texts;
+    for (const auto& each : json) {
+        if (!each.is_string()) return {};
+        texts.push_back(each.get<std::string>());
+    }
+    return texts;
+}
+
+}  // namespace
+
+std::string overrides_to_json(const Overrides& overrides) {
+    nlohmann::json json = nlohmann::json::object();
+    if (!overrides.sets.empty()) json["set"] = overrides.sets;
+    if (overrides.grid) {
+        json["grid"] = {overrides.grid->width, overrides.grid->height};
+        if (overrides.grid->depth > 1) json["grid"].push_back(overrides.grid->depth);
+    }
+    if (overrides.seed) json["seed"] = *overrides.seed;
+    if (overrides.steps) json["steps"] = *overrides.steps;
+    if (overrides.until_stage) json["until_stage"] = *overrides.until_stage;
+    if (!overrides.used.empty()) json["used"] = overrides.used;
+    if (overrides.solver) json["solver"] = *overrides.solver;
+    if (overrides.precision) json["precision"] = name_of(*overrides.precision);
+    if (overrides.fast) json["fast"] = true;
+    if (overrides.model) json["mesh"] = portable_path(*overrides.model);
+    if (overrides.cells) json["cells"] = *overrides.cells;
+    if (overrides.up) json["up"] = name_of(*overrides.up);
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+Result<Overrides> overrides_from_json(const std::string& text) {
+    constexpr const char* unreadable = "the stored overrides cannot be read";
+    constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
+    if (!is_small_json(text)) return failure(unreadable);
+    // The library reports by exception; none leaves this function.
+    try {
+        const auto json = nlohmann::json::parse(text);
+        if (!json.is_object()) return failure(unreadable);
+        Overrides overrides;
+        if (json.contains("set")) json.at("set").get_to(overrides.sets);
+        if (json.contains("grid")) {
+            const nlohmann::json& grid = json.at("grid");
+            overrides.grid = {whole_number(grid.at(0), largest), whole_number(grid.at(1), largest),
+                              grid.size() > 2 ? whole_number(grid.at(2), largest) : 1};
+        }
+        if (json.contains("seed")) {
+            overrides.seed = static_cast<std::uint32_t>(
+                whole_number(json.at("seed"), std::numeric_limits<std::uint32_t>::max()));
+        }
+        if (json.contains("steps")) overrides.steps = whole_number(json.at("steps"), largest);
+        if (json.contains("until_stage")) {
+            overrides.until_stage = json.at("until_stage").get<std::string>();
+        }
+        if (json.contains("used")) json.at("used").get_to(overrides.used);
+        if (json.contains("solver")) overrides.solver = json.at("solver").get<std::string>();
+        if (json.contains("precision")) {
+            overrides.precision = precision_of_name(json.at("precision").get<std::string>());
+            if (!overrides.precision) return failure(unreadable);
+        }
+        if (json.contains("fast")) json.at("fast").get_to(overrides.fast);
+        if (json.contains("mesh")) overrides.model = json.at("mesh").get<std::string>();
+        if (json.contains("cells")) overrides.cells = json.at("cells").get<std::string>();
+        if (json.contains("up")) {
+            overrides.up = axis_of_name(json.at("up").get<std::string>());
+            if (!overrides.up) return failure(unreadable);
+        }
+        return overrides;
+    } catch (const std::exception&) {
+        return failure(unreadable);
+    }
+}
+
+Overrides merge(Overrides base, const Overrides& changes) {
+    base.sets.insert(base.sets.end(), changes.sets.begin(), changes.sets.end());
+    if (changes.grid) base.grid = changes.grid;
+    base.grid_is_one_number = changes.grid_is_one_number;
+    if (changes.seed) base.seed = changes.seed;
+    if (changes.steps) base.steps = changes.steps;
+    if (changes.solver) base.solver = changes.solver;
+    if (changes.precision) base.precision = changes.precision;
+    base.fast = base.fast || changes.fast;
+    if (changes.until_stage) base.until_stage = changes.until_stage;
+    if (changes.cells) base.cells = changes.cells;
+    if (changes.model) {
+        // A picture knows of its model no more than a name: where it lies now, the user says.
+        const bool is_same_model = base.model &&
+                                   std::filesystem::path(*base.model).filename() ==
+                                       std::filesystem::path(*changes.model).filename();
+        base.model = changes.model;
+        base.model_is_asked_for = changes.model_is_asked_for;
+        base.grid.reset();
+        if (!is_same_model) base.up.reset();
+    } else if (changes.grid) {
+        base.model.reset();
+        base.cells.reset();
+        base.up.reset();
+    }
+    if (changes.up) base.up = changes.up;
+    base.reads = changes.reads;
+    return base;
+}
+
+PngTexts embed_script(const Script& script, const PictureRequest& picture) {
+    return {
+        {"Software", fmt::format("Cascade {}", version())},
+        {key_name, portable_path(script.name)},
+        {key_script, script.text},
+        {key_overrides, overrides_to_json(script.overrides)},
+        {key_seed, fmt::format("{}", script.program->domain.seed)},
+        {key_picture, to_json(picture)},
+    };
+}
+
+PngTexts embed_sweep(const Script& script, const PictureRequest& picture,
+                     const std::vector<std::string>& varied) {
+    PngTexts texts = embed_script(script, picture);
+    texts[key_sweep] =
+        nlohmann::json(varied).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return texts;
+}
+
+Result<EmbeddedScript> parse_embedded_script(std::string_view bytes, const std::string& file) {
+    auto texts = parse_png_texts(bytes);
+    if (!texts) {
+        return failure(fmt::format("cannot read '{}': {}", file, texts.error().message),
+                       texts.error().hint);
+    }
+    const auto script = texts->find(key_script);
+    if (script == texts->end()) {
+        return failure(fmt::format("{}: this picture carries no Cascade script", file),
+                       "only pictures that 'cascade run' wrote can be run again");
+    }
+    auto overrides = overrides_from_json(
+        texts->contains(key_overrides) ? texts->at(key_overrides) : std::string("{}"));
+    if (!overrides) {
+        return failure(fmt::format("{}: {}", file, overrides.error().message));
+    }
+    EmbeddedScript embedded;
+    embedded.name = texts->contains(key_name) ? texts->at(key_name) : file;
+    embedded.text = script->second;
+    embedded.overrides = std::move(*overrides);
+    if (texts->contains(key_picture)) embedded.picture_options = texts->at(key_picture);
+    if (texts->contains(key_sweep)) embedded.varied = texts_of(texts->at(key_sweep));
+    if (!embedded.picture_options.empty()) {
+        const auto picture = picture_request_from_json(embedded.picture_options);
+        if (!picture) {
+            return failure(fmt::format("{}: {}", file, picture.error().message));
+        }
+    }
+    return embedded;
+}
+
+Result<EmbeddedScript> read_embedded_script(const std::filesystem::path& path) {
+    constexpr std::uint64_t largest_picture = std::uint64_t{1} << 30;
+    const auto bytes = read_plain_file(path, largest_picture);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return parse_embedded_script(*bytes, path.string());
+}
+
+}  // namespace cascade

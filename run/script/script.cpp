@@ -1,0 +1,317 @@
+#include "run/script/script.h"
+
+#include "core/file.h"
+#include "core/near_name.h"
+#include "ir/multiply_add.h"
+#include "lang/check/check.h"
+#include "lang/check/unread_stages.h"
+#include "lang/program/models.h"
+#include "lang/syntax/parse.h"
+#include "picture/image.h"
+#include "run/script/embedded_script.h"
+#include "run/script/used_files.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+
+namespace cascade {
+
+std::string Script::messages(bool colour) const {
+    RenderStyle style;
+    style.colour = colour;
+    return render(diagnostics, sources, style);
+}
+
+std::uint32_t Script::stage_count() const {
+    const auto& stages = program->stages;
+    for (std::uint32_t k = 0; k < stages.size(); ++k) {
+        if (overrides.until_stage && stages[k].name == *overrides.until_stage) return k + 1;
+    }
+    return static_cast<std::uint32_t>(stages.size());
+}
+
+std::uint32_t Script::final_stage() const {
+    const std::uint32_t count = stage_count();
+    for (std::uint32_t k = count; k-- > 0;) {
+        if (program->stages[k].iterations > 0) return k;
+    }
+    return count - 1;
+}
+
+std::string example_of_stage(const Program& program) {
+    const std::string_view system =
+        program.systems.empty() ? "turing_spots" : std::string_view(program.systems.back().name);
+    return fmt::format("add 'stage spots: {} {{ }}'", system);
+}
+
+std::string output_stem(const Script& script) {
+    std::filesystem::path file = script.file.lexically_normal();
+    if (!file.has_filename()) file = file.parent_path();
+    const std::string stem = file.stem().string();
+    return stem.empty() || stem == "." || stem == ".." || stem.starts_with("<") ? "cascade" : stem;
+}
+
+Span option_span(Sources& sources, const std::string& option, const std::string& value) {
+    const SourceId id = sources.add(fmt::format("<{}>", option), value);
+    return {id, 0, static_cast<std::uint32_t>(value.size())};
+}
+
+Result<std::uint32_t> find_stage(const Program& program, const std::string& asked) {
+    std::vector<std::string> names;
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        if (program.stages[k].name == asked) return k;
+        names.push_back(program.stages[k].name);
+    }
+    std::uint32_t number = 0;
+    const char* const end = asked.data() + asked.size();
+    const auto parsed = std::from_chars(asked.data(), end, number);
+    if (parsed.ec == std::errc() && parsed.ptr == end && number >= 1 && number <= names.size()) {
+        return number - 1;
+    }
+    return failure(fmt::format("no stage is called '{}'", asked),
+                   fmt::format("the stages are {}", fmt::join(names, ", ")));
+}
+
+std::optional<std::uint32_t> find_stage_of_option(Script& script, const std::string& name,
+                                                  Span span) {
+    std::vector<std::string> names;
+    for (const Stage& stage : script.program->stages) names.push_back(stage.name);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) return static_cast<std::uint32_t>(found - names.begin());
+    Diagnostic diagnostic;
+    diagnostic.span = span;
+    diagnostic.message = fmt::format("no stage is called '{}'", name);
+    const std::string near = nearest_name(name, names);
+    if (!near.empty()) diagnostic.hint = fmt::format("did you mean '{}'?", near);
+    diagnostic.notes.push_back(
+        {std::nullopt, fmt::format("the stages are {}", fmt::join(names, ", "))});
+    script.diagnostics.add(std::move(diagnostic));
+    return std::nullopt;
+}
+
+namespace {
+
+void apply_grid(Script& script) {
+    if (!script.overrides.grid) return;
+    DomainSettings& domain = script.program->domain;
+    if (domain.model && !script.overrides.model) {
+        script.diagnostics.warning(domain.model->span,
+                                   "the grid asked for takes the place of this model");
+    }
+    if (domain.model) domain.grid = Grid{};  // Its rows say nothing of a plane.
+    domain.model.reset();
+    const auto [width, height, depth] = *script.overrides.grid;
+    const std::string value = depth == 1 ? fmt::format("{}x{}", width, height)
+                                         : fmt::format("{}x{}x{}", width, height, depth);
+    const Span span = option_span(script.sources, "--grid", value);
+    constexpr std::int64_t most_cells = std::int64_t{1} << 31;
+    script.program->domain.grid_span = span;
+    if (width < 1 || height < 1 || depth < 1) {
+        script.diagnostics.error(span, depth == 1 ? "a grid has at least one column and one row"
+                                                  : "a grid has at least one cell along each axis");
+    } else if (width == 1 && height == 1 && depth == 1) {
+        script.diagnostics.error(span, "a grid of one cell has no neighbours",
+                                 "patterns need at least two cells");
+    } else if (width > most_cells / height || width * height > most_cells / depth) {
+        script.diagnostics.error(span, "a grid of more than 2147483648 cells is too large");
+    } else {
+        Grid& grid = script.program->domain.grid;
+        const bool was_a_line = grid.height == 1 && grid.depth == 1;
+        if (script.overrides.grid_is_one_number && !was_a_line) {
+            script.diagnostics.warning(
+                span, fmt::format("this is a line of {} cells", width),
+                fmt::format("for a square write --grid {}x{}", width, width));
+        }
+        grid.width = width;
+        grid.height = height;
+        grid.depth = depth;
+    }
+}
+
+/// A number of cells, or what becomes a cell.
+void set_cells(ModelSettings& model, const std::string& cells, Span span, Diagnostics& diagnostics) {
+    model.cells_span = span;
+    if (cells == "faces" || cells == "vertices") {
+        model.cells = cells == "faces" ? ModelCellKind::faces : ModelCellKind::vertices;
+        return;
+    }
+    constexpr std::int64_t most = std::int64_t{1} << 28;
+    std::int64_t count = 0;
+    const auto [end, fault] = std::from_chars(cells.data(), cells.data() + cells.size(), count);
+    if (fault != std::errc() || end != cells.data() + cells.size() || count < 1 || count > most) {
+        return diagnostics.error(span, "cells are a number from 1 to 268435456, faces or vertices",
+                                 "as in --cells 64000");
+    }
+    model.cells = ModelCellKind::spread;
+    model.count = count;
+}
+
+void apply_model(Script& script) {
+    DomainSettings& domain = script.program->domain;
+    const Overrides& overrides = script.overrides;
+    if (overrides.model) {
+        ModelSettings model = domain.model.value_or(ModelSettings{});
+        // The unit of a surface is a length of that surface, and stays with a script's model alone.
+        model.span = option_span(script.sources, "--mesh", *overrides.model);
+        model.implicit.reset();
+        model.sizes.clear();
+        model.up = ModelSettings().up;
+        if (const auto shape = shape_named(*overrides.model)) {
+            model.shape = *shape;
+        } else {
+            model.shape = ModelShape::file;
+            model.path = *overrides.model;
+        }
+        if (overrides.grid) {
+            script.diagnostics.error(model.span, "a run has a model or a grid, not both",
+                                     "--cells is the number of cells on a model");
+        }
+        if (domain.mask) {
+            script.diagnostics.warning(domain.mask->span, "a model has no mask: this is left aside");
+        }
+        set_model(*script.program, std::move(model));
+    }
+    if (overrides.cells) {
+        const Span span = option_span(script.sources, "--cells", *overrides.cells);
+        if (!domain.model) {
+            script.diagnostics.error(span, "only a run on a model spreads cells", "--mesh names one");
+            return;
+        }
+        ModelSettings model = *std::move(domain.model);
+        set_cells(model, *overrides.cells, span, script.diagnostics);
+        set_model(*script.program, std::move(model));
+    }
+    if (overrides.up) {
+        if (!domain.model) {
+            script.diagnostics.error(
+                option_span(script.sources, "--up", std::string(name_of(*overrides.up))),
+                "only a model has an axis that points upwards", "--mesh names one");
+            return;
+        }
+        domain.model->up = *overrides.up;
+    }
+    check_on_domain(*script.program, script.diagnostics);
+}
+
+/// What the processor has no instruction for is left aside.
+void apply_fast(Script& script) {
+    if (!script.overrides.fast) return;
+    script.program->domain.fast = has_multiply_add();
+    if (script.program->domain.fast) return;
+    script.diagnostics.warning(option_span(script.sources, "--fast", ""),
+                               "this processor does not multiply and add in one operation: --fast changes nothing");
+}
+
+void apply_solver(Script& script) {
+    if (!script.overrides.solver) return;
+    const Span span = option_span(script.sources, "--solver", *script.overrides.solver);
+    if (const auto solver = solver_of(*script.overrides.solver)) {
+        change_solver(*script.program, *solver, span, script.diagnostics);
+    } else {
+        script.diagnostics.error(span, "there is no such solver");
+    }
+}
+
+void apply_steps(Script& script) {
+    if (!script.overrides.steps) return;
+    for (Stage& stage : script.program->stages) {
+        stage.iterations = std::min(stage.iterations, *script.overrides.steps);
+    }
+}
+
+void check_until_stage(Script& script) {
+    if (!script.overrides.until_stage) return;
+    const std::string& name = *script.overrides.until_stage;
+    find_stage_of_option(script, name, option_span(script.sources, "--until-stage", name));
+}
+
+/// The picture block, and whether every stage is of any use.
+void check_views(Script& script) {
+    if (script.program->stages.empty()) return;
+    const std::uint32_t stage = script.final_stage();
+    const std::uint32_t last = script.stage_count() - 1;
+    // A run cut short by --until-stage may lack stages that the picture names; that is no fault of
+    // the script, so only a whole run is checked here.
+    if (last + 1 != script.program->stages.size()) return;
+    const auto expression = picture_expression(script.tree);
+    if (!expression) {
+        return warn_of_unread_stages(*script.program, stage, nullptr, script.diagnostics);
+    }
+    const auto formula = check_view(script.tree, *expression, stage, last, *script.program,
+                                    script.sources, script.diagnostics);
+    if (formula && formula->nodes.back().type != ValueType::colour) {
+        script.diagnostics.error(formula->nodes.back().span, "'color' must be a colour",
+                                 "use rgb(…) or palette(value, low, high, \"name\")");
+    }
+    if (formula) warn_of_unread_stages(*script.program, stage, &*formula, script.diagnostics);
+}
+
+}  // namespace
+
+Script load_script(std::string name, std::string text, std::filesystem::path folder,
+                   Overrides overrides) {
+    Script script;
+    script.name = std::move(name);
+    script.file = script.name;
+    script.text = std::move(text);
+    script.folder = folder.empty() ? "." : std::move(folder);
+    script.overrides = std::move(overrides);
+
+    const SourceId source = script.sources.add(script.name, script.text);
+    script.tree = parse(source, script.sources, script.diagnostics);
+    load_used_files(script);
+    for (const std::string& set : script.overrides.sets) {
+        const SourceId id = script.sources.add("<--set>", set);
+        parse_override(id, script.sources, script.tree, script.diagnostics);
+    }
+    script.program = check(script.tree, script.sources, script.diagnostics);
+    if (!script.program) return script;
+
+    DomainSettings& domain = script.program->domain;
+    domain.seed = script.overrides.seed.value_or(domain.seed);
+    domain.precision = script.overrides.precision.value_or(domain.precision);
+    apply_fast(script);
+    apply_grid(script);
+    apply_solver(script);
+    apply_model(script);
+    apply_steps(script);
+    check_coarse_starts(*script.program, script.diagnostics);
+    check_until_stage(script);
+    if (!script.diagnostics.has_errors()) check_views(script);
+    if (script.diagnostics.has_errors()) script.program.reset();
+    return script;
+}
+
+Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides) {
+    constexpr std::uint64_t largest_picture = std::uint64_t{1} << 30;
+    constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+    // Pictures may be larger than any script. Of a pipe or a device no more is read than a script has.
+    const bool is_picture = first_bytes(path, signature.size()) == signature;
+    auto bytes = read_file(path, is_picture ? largest_picture : largest_script);
+    if (!bytes) {
+        std::error_code unknown;
+        const auto size = std::filesystem::file_size(path, unknown);
+        if (unknown || is_picture || size <= largest_script) return tl::unexpected(bytes.error());
+        return failure(fmt::format("{}: this script has {} bytes; the largest allowed has {}",
+                                   path.string(), size, largest_script),
+                       "is it really a Cascade script?");
+    }
+    if (!bytes->starts_with(signature)) {
+        return LoadedFile{load_script(path.string(), std::move(*bytes), path.parent_path(),
+                                      std::move(overrides)),
+                          ""};
+    }
+    auto embedded = parse_embedded_script(*bytes, path.string());
+    if (!embedded) return tl::unexpected(embedded.error());
+    Overrides merged = merge(embedded->overrides, overrides);
+    LoadedFile file{load_script(embedded->name, std::move(embedded->text), path.parent_path(),
+                                std::move(merged)),
+                    std::move(embedded->picture_options), std::move(embedded->varied)};
+    file.script.file = path;
+    return file;
+}
+
+}  // namespace cascade

@@ -1,0 +1,16 @@
+// Values of sides that change with time: what their formulas read, along the side.
+#pragma once
+
+#include "core/parallel.h"
+#include "lang/lower/lower.h"
+#include "run/stage/bound_kernel.h"
+#include "solvers/changing_side.h"
+
+namespace cascade {
+
+/// The value of a side of species number `species`, ready to be computed for any moment. What no
+/// moment changes is computed here, from the present state.
+ChangingSide bind_side(const SidePlans& plans, std::uint32_t species, Side side,
+                       const Compile& compile, const BindingContext& context, Team& team);
+
+}  // namespace cascade

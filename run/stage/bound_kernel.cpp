@@ -1,0 +1,364 @@
+#include "run/stage/bound_kernel.h"
+
+#include "core/check.h"
+
+#include <algorithm>
+
+namespace cascade {
+
+const Field& plane_of(const SlotSource& source, const BindingContext& context) {
+    if (is_of_text(source.kind)) return context.files.plane(source.kind, source.item);
+    if (source.kind == SlotSource::Kind::metric) return context.metric[source.item];
+    if (source.kind == SlotSource::Kind::model) {
+        const auto plane = static_cast<ModelPlane>(source.item);
+        return is_made_when_read(plane) ? context.surface_values->plane(plane)
+                                        : context.model->planes[source.item];
+    }
+    if (source.kind == SlotSource::Kind::surface_value) {
+        return context.surface_values->value(source.item);
+    }
+    if (source.kind == SlotSource::Kind::neighbourhood) return context.mask->neighbourhood;
+    if (source.kind == SlotSource::Kind::lasting) {
+        return context.states[source.stage].lasting[source.item];
+    }
+    return context.states[source.stage].field(source.item);
+}
+
+namespace {
+
+/// The halo is no part of a field's value: whoever reads neighbours fills it.
+void fill_halo_of(const Field& field, const SideRules& sides) {
+    fill_halo(const_cast<Field&>(field), sides);
+}
+
+/// Over how many cells means are taken; 0: over all.
+std::int64_t cells_inside(const BindingContext& context) {
+    if (context.grid.linked) return static_cast<std::int64_t>(context.model->count());
+    return context.mask ? context.mask->cells : 0;
+}
+
+/// Does it ask for a component of a gradient on a model?
+bool reads_gradients(const CellKernel& kernel) {
+    return std::any_of(kernel.code.begin(), kernel.code.end(), [](const Instruction& instruction) {
+        const Op op = instruction.op;
+        return op == Op::gradient_x || op == Op::gradient_y || op == Op::gradient_z;
+    });
+}
+
+/// Binds the slots of a plan's passes.
+class Binder {
+public:
+    Binder(const StepPlan& plan, const BindingContext& context, const System* system,
+           std::uint32_t stage, const SweepForm* form = nullptr, const Sweep* sweep = nullptr,
+           std::vector<double> read_at = {})
+        : plan_(plan),
+          context_(context),
+          system_(system),
+          stage_(stage),
+          form_(form),
+          sweep_(sweep),
+          read_at_(std::move(read_at)) {
+        if (system_ != nullptr) {
+            problem_.sides = context_.states[stage_].sides;
+            problem_.changing_sides = context_.states[stage_].changing_sides;
+            problem_.species_needs_halo.assign(context_.states[stage_].species.size(), false);
+        }
+        temporary_needs_halo_.assign(plan_.temporaries, false);
+        for (const Pass& pass : plan_.passes) find_halos(pass);
+    }
+
+    /// Which species are read at neighbours. Other plans of the same step may need more.
+    std::vector<bool>& species_needs_halo() { return problem_.species_needs_halo; }
+    /// By register of the scheme: is it read at neighbours by any sweep?
+    void set_halo_registers(const std::vector<bool>& registers) { halo_registers_ = registers; }
+
+    StepProblem bind(const Compile& compile) {
+        problem_.grid = context_.grid;
+        problem_.cells_inside = cells_inside(context_);
+        problem_.precision = context_.precision;
+        if (context_.grid.linked) problem_.links = &context_.model->links;
+        problem_.temporaries = plan_.temporaries;
+        problem_.aggregates = plan_.aggregates;
+        for (const Pass& pass : plan_.passes) {
+            if (reads_gradients(pass.bound.kernel)) context_.model->need_gradients();
+            problem_.passes.push_back(bind_pass(pass));
+            problem_.passes.back().kernel = compile(pass.bound.kernel);
+        }
+        return std::move(problem_);
+    }
+
+private:
+    using PlaneRef = StepProblem::PlaneRef;
+
+    bool is_species(const SlotSource& source) const {
+        return system_ != nullptr && source.kind == SlotSource::Kind::item &&
+               source.stage == stage_ && system_->is_species(source.item);
+    }
+
+    PlaneRef bind_plane(const SlotSource& source) const {
+        PlaneRef plane;
+        if (source.kind == SlotSource::Kind::temporary) {
+            plane.kind = PlaneRef::Kind::temporary;
+            plane.number = source.item;
+        } else if (is_species(source)) {
+            plane.kind = PlaneRef::Kind::species;
+            plane.number =
+                static_cast<std::uint32_t>(context_.states[stage_].species_of_item[source.item]);
+            plane.in_register = register_of(plane.number);
+        } else if (source.kind == SlotSource::Kind::input) {
+            plane.kind = PlaneRef::Kind::species;
+            plane.number =
+                static_cast<std::uint32_t>(context_.states[stage_].species_of_item[source.item]);
+            plane.in_register = source.stage == 0 ? register_of(plane.number)
+                                                  : sweep_->inputs[source.stage];
+        } else {
+            plane.cells = plane_of(source, context_).address();
+        }
+        return plane;
+    }
+
+    /// Where rates read a species.
+    std::uint32_t register_of(std::uint32_t species) const {
+        if (sweep_ == nullptr) return old_register;
+        return species < sweep_->renewed ? new_register : sweep_->inputs[0];
+    }
+
+    /// Of a plane that is read at neighbours and does not change.
+    SideRules sides_of(const SlotSource& source) const {
+        if (source.kind == SlotSource::Kind::lasting) {
+            return context_.states[source.stage].lasting_boundaries[source.item];
+        }
+        if (source.kind == SlotSource::Kind::item) {
+            const StageState& state = context_.states[source.stage];
+            const int species = state.species_of_item[source.item];
+            if (species >= 0 && !state.sides.empty()) {
+                return state.sides[static_cast<std::size_t>(species)];
+            }
+        }
+        return context_.grid.boundary;
+    }
+
+    void find_halos(const Pass& pass) {
+        for (std::size_t slot = 0; slot < pass.bound.fields.size(); ++slot) {
+            if (context_.grid.linked) continue;  // Links need no halo.
+            if (!pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) continue;
+            const PlaneRef plane = bind_plane(pass.bound.fields[slot]);
+            switch (plane.kind) {
+                case PlaneRef::Kind::species:
+                    problem_.species_needs_halo[plane.number] = true;
+                    break;
+                case PlaneRef::Kind::temporary: temporary_needs_halo_[plane.number] = true; break;
+                case PlaneRef::Kind::fixed:
+                    fill_halo_of(plane_of(pass.bound.fields[slot], context_),
+                                 sides_of(pass.bound.fields[slot]));
+                    break;
+            }
+        }
+    }
+
+    StepProblem::Pass bind_pass(const Pass& pass) const {
+        StepProblem::Pass bound;
+        for (const Reduction& reduction : pass.reductions) {
+            bound.reductions.push_back(
+                {reduction.kind, bind_plane(reduction.operand), reduction.aggregate});
+        }
+        for (const SlotSource& source : pass.bound.fields) {
+            bound.fields.push_back(bind_plane(source));
+        }
+        for (const SlotSource& source : pass.bound.masks) {
+            bound.masks.push_back(context_.states[source.stage].frozen.origin());
+        }
+        for (const SlotSource& source : pass.bound.uniforms) bind_uniform(source, bound);
+        for (const PassTarget& target : pass.targets) bound.results.push_back(bind_result(target));
+        return bound;
+    }
+
+    void bind_uniform(const SlotSource& source, StepProblem::Pass& bound) const {
+        const auto slot = static_cast<std::uint32_t>(bound.uniforms.size());
+        using Kind = StepProblem::ChangingUniform::Kind;
+        double value = 0;
+        switch (source.kind) {
+            case SlotSource::Kind::item:
+                value = context_.states[source.stage].numbers[source.item];
+                break;
+            case SlotSource::Kind::lasting:
+                value = context_.states[source.stage].lasting_numbers[source.item];
+                break;
+            case SlotSource::Kind::step: bound.changing.push_back({Kind::step, slot, 0, 0, false}); break;
+            case SlotSource::Kind::draw: bound.changing.push_back({Kind::draw, slot, 0, 0, false}); break;
+            case SlotSource::Kind::aggregate:
+                bound.changing.push_back({Kind::aggregate, slot, source.item, 0, false});
+                break;
+            case SlotSource::Kind::time:
+                bound.changing.push_back({Kind::time, slot, 0, sweep_ ? sweep_->time : 0, false});
+                break;
+            case SlotSource::Kind::time_step:
+                value = context_.states[stage_].time.clock.step;
+                bound.changing.push_back({Kind::coefficient, slot, 0, 1, true});
+                break;
+            case SlotSource::Kind::coefficient: {
+                const Sweep::Coefficient& coefficient = sweep_->coefficients[source.item];
+                bound.changing.push_back(
+                    {Kind::coefficient, slot, 0, coefficient.value, coefficient.times_step});
+                break;
+            }
+            default: CHECK(false, "a uniform is one number for all cells");
+        }
+        bound.uniforms.push_back(value);
+    }
+
+    StepProblem::Result bind_result(const PassTarget& target) const {
+        StepProblem::Result result;
+        result.plane.number = target.index;
+        if (target.kind == PassTarget::Kind::temporary) {
+            result.plane.kind = PlaneRef::Kind::temporary;
+            result.needs_halo = temporary_needs_halo_[target.index];
+            result.boundary = target.boundary;
+            return result;
+        }
+        result.plane.kind = PlaneRef::Kind::species;
+        result.plane.in_register = new_register;
+        if (form_ != nullptr) {
+            // Output after output, each of all species that are written.
+            const std::size_t written =
+                form_->species.empty() ? problem_.species_needs_halo.size() : form_->species.size();
+            result.plane.in_register = sweep_->outputs[target.index / written];
+            result.read_at = read_at_[target.index / written];
+            const auto position = static_cast<std::uint32_t>(target.index % written);
+            result.plane.number = form_->species.empty() ? position : form_->species[position];
+            result.needs_halo = problem_.species_needs_halo[result.plane.number] &&
+                                halo_registers_[result.plane.in_register];
+            return result;
+        }
+        result.needs_halo = system_ != nullptr && problem_.species_needs_halo[target.index];
+        return result;
+    }
+
+    const StepPlan& plan_;
+    const BindingContext& context_;
+    const System* system_;  ///< None: no species is a register.
+    std::uint32_t stage_;
+    const SweepForm* form_;   ///< Of a sweep; none for a plan that is no part of a scheme.
+    const Sweep* sweep_;
+    std::vector<double> read_at_;  ///< When rates read each output of the sweep.
+    StepProblem problem_;
+    std::vector<bool> temporary_needs_halo_;
+    std::vector<bool> halo_registers_;
+};
+
+/// Registers that rates are evaluated at: those of stages, the old step and the new one, which is
+/// the next old one. Kept rates and errors are read in the own cell only.
+std::vector<bool> halo_registers(const Scheme& scheme) {
+    std::vector<bool> registers(scheme.registers, false);
+    registers[old_register] = registers[new_register] = true;
+    for (const Sweep& sweep : scheme.sweeps) registers[sweep.inputs[0]] = true;
+    return registers;
+}
+
+/// Are the rates at the end of a step those at the start of the next one to the bit? Not where they
+/// read the number of the step or its length.
+bool rates_go_on(const StepPlan& plan) {
+    for (const Pass& pass : plan.passes) {
+        for (const SlotSource& source : pass.bound.uniforms) {
+            if (source.kind == SlotSource::Kind::step || source.kind == SlotSource::Kind::draw ||
+                source.kind == SlotSource::Kind::time_step) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
+namespace {
+
+/// When rates read what a sweep writes at neighbours: at the moment of the next sweep of which it
+/// is the input. What stays in the new step is read when the next step begins.
+std::vector<double> moments_of_outputs(const Scheme& scheme, std::size_t number) {
+    const std::span<const Sweep> later(scheme.sweeps.begin() + number + 1, scheme.sweeps.end());
+    std::vector<double> moments;
+    for (const std::uint32_t output : scheme.sweeps[number].outputs) {
+        const auto reads = [&](const Sweep& sweep) { return sweep.inputs[0] == output; };
+        const auto writes = [&](const Sweep& sweep) {
+            return std::find(sweep.outputs.begin(), sweep.outputs.end(), output) !=
+                   sweep.outputs.end();
+        };
+        const bool stays = output == new_register && std::none_of(later.begin(), later.end(), writes);
+        const auto reader = std::find_if(later.begin(), later.end(), reads);
+        moments.push_back(stays || reader == later.end() ? StepProblem::Result::next_step
+                                                         : reader->time);
+    }
+    return moments;
+}
+
+}  // namespace
+
+StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context,
+                      const System& system, std::uint32_t stage) {
+    return Binder(plan, context, &system, stage).bind(compile);
+}
+
+StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
+                        const StepPlan& before, const Compile& compile, const BindingContext& context,
+                        const System& system, std::uint32_t stage) {
+    std::vector<Binder> binders;
+    StepProblem whole;
+    whole.grid = context.grid;
+    whole.cells_inside = cells_inside(context);
+    whole.precision = context.precision;
+    if (context.grid.linked) whole.links = &context.model->links;
+    whole.registers = scheme.registers;
+    whole.error_register = scheme.error_register;
+    whole.sides = context.states[stage].sides;
+    whole.changing_sides = context.states[stage].changing_sides;
+    whole.species_needs_halo.assign(context.states[stage].species.size(), false);
+    std::vector<const Sweep*> sweeps;
+    const auto add = [&](const StepPlan& plan, const SweepForm* form, const Sweep* sweep,
+                         std::vector<double> read_at) {
+        Binder& binder = binders.emplace_back(plan, context, &system, stage, form, sweep,
+                                              std::move(read_at));
+        sweeps.push_back(sweep);
+        for (std::size_t k = 0; k < whole.species_needs_halo.size(); ++k) {
+            if (binder.species_needs_halo()[k]) whole.species_needs_halo[k] = true;
+        }
+    };
+    if (!before.passes.empty()) add(before, nullptr, nullptr, {});
+    for (std::size_t n = 0; n < scheme.sweeps.size(); ++n) {
+        const Sweep& sweep = scheme.sweeps[n];
+        add(plans[sweep.form], &scheme.forms[sweep.form], &sweep, moments_of_outputs(scheme, n));
+    }
+    const std::vector<bool> with_halo = halo_registers(scheme);
+    for (std::size_t n = 0; n < binders.size(); ++n) {
+        binders[n].species_needs_halo() = whole.species_needs_halo;
+        binders[n].set_halo_registers(with_halo);
+        StepProblem part = binders[n].bind(compile);
+        whole.temporaries = std::max(whole.temporaries, part.temporaries);
+        whole.aggregates = std::max(whole.aggregates, part.aggregates);
+        if (sweeps[n] != nullptr) part.passes.front().filter = sweeps[n]->filter;
+        for (StepProblem::Pass& pass : part.passes) whole.passes.push_back(std::move(pass));
+    }
+    if (scheme.first_rate_register != 0) {
+        const StepPlan& first = plans[scheme.sweeps[0].form];
+        if (rates_go_on(first)) {
+            whole.first_rate_passes = first.passes.size();
+            whole.first_rate_register = scheme.first_rate_register;
+            whole.last_rate_register = scheme.last_rate_register;
+        }
+    }
+    return whole;
+}
+
+StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context) {
+    return Binder(plan, context, nullptr, 0).bind(compile);
+}
+
+std::string species_name(const System& system, std::size_t species) {
+    std::size_t number = 0;
+    for (const Quantity& quantity : system.quantities) {
+        if (quantity.is_species && number++ == species) return quantity.name;
+    }
+    CHECK(false, "the species exists");
+}
+
+}  // namespace cascade

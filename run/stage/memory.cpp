@@ -1,0 +1,138 @@
+#include "run/stage/memory.h"
+
+#include "core/plane.h"
+#include "core/quantities.h"
+#include "core/resample.h"
+#include "lang/calculus/derivative.h"
+#include "lang/calculus/diffusion.h"
+#include "lang/lower/lower.h"
+#include "run/domain/free_memory.h"
+#include "run/stage/stage_time.h"
+#include "solvers/advance.h"
+#include "solvers/error_estimate.h"
+#include "solvers/scheme.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+namespace cascade {
+
+std::string describe_sides(const Grid& grid) {
+    std::string sides = fmt::format("{} × {}", grid.width, grid.height);
+    if (grid.depth > 1) sides += fmt::format(" × {}", grid.depth);
+    return sides;
+}
+
+namespace {
+
+/// Planes that live as long as a stage is run: temporaries of passes, the registers besides the old
+/// step, and the kept copy of the species.
+std::uint64_t planes_while_running(const Program& program, std::uint32_t k, StagePlans& plans) {
+    const Stage& stage = program.stages[k];
+    const std::uint32_t species = program.system_of(k).species_count();
+    Scheme scheme = make_scheme(stage.time.solver, species, steps_by_item(stage));
+    if (stage.time.automatic_speed && scheme.error_register == 0) {
+        scheme = with_error_estimate(std::move(scheme));
+    }
+    std::uint32_t temporaries = plans.start(k).temporaries;
+    for (const SweepForm& form : scheme.forms) {
+        temporaries = std::max(temporaries, plans.sweep(k, form).temporaries);
+    }
+    // What no step changes is kept beside them, and computed with temporaries of its own.
+    const StepPlan& lasting = plans.lasting(k);
+    temporaries = std::max(temporaries, lasting.temporaries) + lasting.result_count;
+    const DomainSettings& domain = program.domain;
+    Schedule schedule;
+    schedule.judges_all = judges_all_steps(stage);
+    const bool keeps = keeps_copy(schedule, species, domain.grid, domain.precision);
+    std::uint64_t planes = temporaries + std::uint64_t{scheme.registers - (keeps ? 0 : 1)} * species;
+    if (!is_semi_implicit(stage.time.solver)) return planes;
+    // Factors of diffusion that change are written to planes.
+    for (const SpeciesDiffusion& diffusion : diffusion_of(program, k)) {
+        planes += std::count_if(diffusion.begin(), diffusion.end(), [&](const Formula& factor) {
+            return !factor.nodes.empty() && changes_in_time(program, k, factor);
+        });
+    }
+    return planes;
+}
+
+/// The elements of a plane and of those of the coarser grids that live beside it: of the one that is
+/// run and of the one before it.
+std::int64_t plane_size(const Program& program) {
+    const Grid& grid = program.domain.grid;
+    std::int64_t size = PlaneLayout(grid).size(), coarse = 0;
+    for (const Stage& stage : program.stages) {
+        if (stage.time.coarse == 1) continue;
+        const std::int64_t pair = PlaneLayout(coarser(grid, 2)).size() +
+                                  (stage.time.coarse > 2 ? PlaneLayout(coarser(grid, 4)).size() : 0);
+        coarse = std::max(coarse, pair);
+    }
+    return size + coarse;
+}
+
+/// Planes that choosing steps and stages takes for a moment: what bounds are computed in, or an
+/// eigenvalue is estimated with (two planes of each species and four vectors in double precision).
+std::uint64_t planes_to_choose(const Program& program, std::uint32_t stage) {
+    const StageTime& time = program.stages[stage].time;
+    if (!is_stabilised(time.solver) && !(time.automatic_speed && !is_adaptive(time.solver))) return 0;
+    const auto bound = jacobian_bound(program, stage);
+    if (!bound) return std::uint64_t{10} * program.system_of(stage).species_count();
+    const Formula* const formulas[] = {&bound->whole, &bound->reaction};
+    const StepPlan plan = plan_view(program, formulas, stage);
+    return std::uint64_t{plan.temporaries} + plan.result_count;
+}
+
+}  // namespace
+
+double memory_of(const Program& program) {
+    StagePlans plans(program, {Bringing::cheaper, false, true});
+    return memory_of(program, plans);
+}
+
+double memory_of(const Program& program, StagePlans& plans) {
+    // Every species, its last look at whether it has settled, and every varying parameter, of all stages:
+    // later stages and pictures may read any of them.
+    std::uint64_t planes = 4;
+    for (const Stage& stage : program.stages) {
+        const System& system = program.systems[stage.system];
+        for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+            if (system.is_species(item)) {
+                planes += stage.time.steady ? 2 : 1;
+            } else if (!stage.uniform[item]) {
+                planes += 1;
+            }
+        }
+    }
+    std::uint64_t while_running = 0;
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        while_running = std::max(while_running, planes_while_running(program, k, plans) +
+                                                    planes_to_choose(program, k));
+    }
+    planes += while_running;
+    if (program.domain.surface) planes += metric_plane_count;
+    if (program.domain.mask) planes += 2;  // One of words, one of bytes.
+    return static_cast<double>(planes) * static_cast<double>(plane_size(program)) *
+           static_cast<double>(bytes_of(program.domain.precision));
+}
+
+Result<void> check_memory(const Grid& grid, double needed, std::uint64_t limit) {
+    const auto fails = [&](double bytes, std::string_view what) {
+        const std::string who = grid.linked
+                                    ? "the cells of this model need"
+                                    : fmt::format("a grid of {} cells needs", describe_sides(grid));
+        return failure(fmt::format("{} {} for this script, but {} {}", who, with_unit(needed, "B"),
+                                   with_unit(bytes, "B"), what),
+                       grid.linked ? "use fewer cells" : "use a smaller grid");
+    };
+    if (limit > 0 && needed > static_cast<double>(limit)) {
+        return fails(static_cast<double>(limit), "are the limit (--limit-memory)");
+    }
+    const auto free = static_cast<double>(available_memory());
+    if (free > 0 && needed > free) return fails(free, "are free");
+    return {};
+}
+
+}  // namespace cascade

@@ -1,0 +1,35 @@
+#include "run/stage/plan_runner.h"
+
+#include <array>
+#include <span>
+#include <utility>
+
+namespace cascade {
+
+PlanRunner::PlanRunner(StepPlan plan, Compile compile)
+    : plan_(std::move(plan)), compile_(std::move(compile)) {}
+
+std::vector<Field>& PlanRunner::run(const BindingContext& context, Team& team) {
+    // Values may lie elsewhere than in the last run.
+    problem_ = bind_plan(plan_, compile_, context);
+    if (!runner_) {
+        runner_.emplace(problem_);
+        for (std::uint32_t k = 0; k < plan_.result_count; ++k) {
+            results_.emplace_back(PlaneLayout(context.grid), context.precision);
+        }
+    }
+    std::vector<void*> cells;
+    for (Field& result : results_) cells.push_back(result.address());
+    const std::array<std::span<void* const>, 2> registers{std::span<void* const>(), cells};
+    runner_->run_once(team, registers, {context.steps, context.t, 0, context.t});
+    return results_;
+}
+
+std::vector<Field> run_plan(const StepPlan& plan, const Compile& compile,
+                            const BindingContext& context, const Grid& on, Team& team) {
+    BindingContext here = context;
+    here.grid = on;
+    return std::move(PlanRunner(plan, compile).run(here, team));
+}
+
+}  // namespace cascade

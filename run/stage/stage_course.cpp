@@ -1,0 +1,156 @@
+#include "run/stage/stage_course.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cascade {
+
+namespace {
+
+/// When there are so many moments, every other one is forgotten.
+constexpr std::size_t most_moments = 40;
+/// Rows are left out where there are more cells.
+constexpr std::int64_t most_cells = 1 << 15;
+
+/// A pattern is growing where deviation and range of every species have risen from tenth to tenth over
+/// the last three tenths of its age, over the last one by this part at least: going on for as long
+/// again would make it half as strong again, or more. Fronts that fill a plane and patterns that
+/// coarsen keep their range; waves and pulses do not rise in all species for so long.
+constexpr double least_growth = 0.05;
+
+/// A pattern is fading where the deviation of each species is at most this part of the largest
+/// magnitude that the species has had, …
+constexpr double small_rest = 1e-3;
+/// … at most this part of its largest deviation …
+constexpr double part_of_before = 0.1;
+/// … and has fallen by this part over the last tenth of its age.
+constexpr double least_fall = 0.05;
+
+Spread spread_of(const Field& field, const Mask* inside, std::int64_t every_row) {
+    return field.visit([&](const auto& plane) {
+        return cascade::spread_of([&](const auto& take) {
+            const PlaneLayout& layout = plane.layout();
+            for (std::int64_t row = 0; row < layout.row_count(); row += every_row) {
+                const auto* cells = plane.row(row);
+                const std::uint8_t* counts = inside != nullptr ? inside->row(row) : nullptr;
+                for (std::int64_t i = 0; i < layout.width; ++i) {
+                    if (counts == nullptr || counts[i] != 0) take(double{cells[i]});
+                }
+            }
+        });
+    });
+}
+
+bool are_even(std::span<const Spread> spreads) {
+    return std::all_of(spreads.begin(), spreads.end(),
+                       [](const Spread& spread) { return spread.is_even(); });
+}
+
+double range(const Spread& spread) { return spread.largest - spread.smallest; }
+
+}  // namespace
+
+bool StageCourse::is_due(std::int64_t step) const {
+    return moments_.empty() || step >= last().step + steps_between_;
+}
+
+void StageCourse::look(std::int64_t step, double age, std::span<const Field> species,
+                       const Mask* inside) {
+    if (species.empty()) return;
+    if (!moments_.empty() && last().step >= step) moments_.pop_back();
+    if (moments_.size() >= most_moments) {
+        // The first one stays: it is how the stage began.
+        std::size_t kept = 1;
+        for (std::size_t k = 2; k < moments_.size(); k += 2) moments_[kept++] = std::move(moments_[k]);
+        moments_.resize(kept);
+        steps_between_ = std::max<std::int64_t>(1, step / static_cast<std::int64_t>(most_moments / 2));
+    }
+    const PlaneLayout& layout = species[0].layout();
+    const std::int64_t every_row =
+        std::max<std::int64_t>(1, layout.width * layout.row_count() / most_cells);
+    Moment moment{step, age, {}, false};
+    for (const Field& field : species) moment.species.push_back(spread_of(field, inside, every_row));
+    moment.is_even = are_even(moment.species);
+    // Something small may stand between the rows.
+    if (moment.is_even && every_row > 1) {
+        for (std::size_t k = 0; k < species.size() && moment.is_even; ++k) {
+            moment.is_even = spread_of(species[k], inside, 1).is_even();
+        }
+    }
+    moments_.push_back(std::move(moment));
+}
+
+const Moment& StageCourse::even_since() const {
+    std::size_t k = moments_.size() - 1;
+    while (k > 0 && moments_[k - 1].is_even) --k;
+    return moments_[k];
+}
+
+double StageCourse::largest_seen(std::size_t species, double (Spread::*what)() const) const {
+    double largest = 0;
+    for (const Moment& moment : moments_) {
+        largest = std::max(largest, (moment.species[species].*what)());
+    }
+    return largest;
+}
+
+double StageCourse::greatest_contrast() const {
+    double greatest = 0;
+    for (std::size_t k = 0; k < last().species.size(); ++k) {
+        const double magnitude = largest_seen(k, &Spread::magnitude);
+        if (magnitude > 0) greatest = std::max(greatest, largest_seen(k, &Spread::deviation) / magnitude);
+    }
+    return greatest;
+}
+
+/// The moment nearest to a part of the present age.
+const Moment& StageCourse::at_age(double part) const {
+    const double age = part * last().age;
+    return *std::min_element(moments_.begin(), moments_.end(), [&](const Moment& a, const Moment& b) {
+        return std::abs(a.age - age) < std::abs(b.age - age);
+    });
+}
+
+double StageCourse::growth(std::size_t species) const {
+    const Moment& before = at_age(0.9);
+    const double ratio = last().species[species].deviation() / before.species[species].deviation();
+    const double tenths = 10 * (last().age - before.age) / last().age;
+    return std::pow(ratio, 1 / tenths) - 1;
+}
+
+bool StageCourse::is_growing(std::size_t species) const {
+    const std::array<const Moment*, 4> course = {&at_age(0.7), &at_age(0.8), &at_age(0.9), &last()};
+    for (std::size_t k = 1; k < course.size(); ++k) {
+        // Between looks that are too far apart nothing is known.
+        if (course[k]->step <= course[k - 1]->step) return false;
+        const Spread& before = course[k - 1]->species[species];
+        const Spread& now = course[k]->species[species];
+        if (!(now.deviation() > before.deviation() && range(now) > range(before))) return false;
+    }
+    const Spread& before = course[2]->species[species];
+    const double tenths = 10 * (last().age - course[2]->age) / last().age;
+    const double least = std::pow(1 + least_growth, tenths);
+    return last().species[species].deviation() >= least * before.deviation() &&
+           range(last().species[species]) >= least * range(before);
+}
+
+Trend StageCourse::trend() const {
+    if (moments_.size() < 2 || last().is_even || !(last().age > 0)) return Trend::none;
+    const Moment& before = at_age(0.9);
+    if (before.step == last().step) return Trend::none;
+    bool grows = true, fades = true, differs = false;
+    for (std::size_t k = 0; k < last().species.size(); ++k) {
+        const Spread& now = last().species[k];
+        if (now.is_even()) continue;
+        differs = true;
+        grows = grows && is_growing(k);
+        fades = fades && now.deviation() <= small_rest * largest_seen(k, &Spread::magnitude) &&
+                now.deviation() <= part_of_before * largest_seen(k, &Spread::deviation) &&
+                now.deviation() <= (1 - least_fall) * before.species[k].deviation();
+    }
+    if (!differs) return Trend::none;
+    return grows ? Trend::growing : fades ? Trend::fading : Trend::none;
+}
+
+}  // namespace cascade

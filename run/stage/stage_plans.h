@@ -1,0 +1,39 @@
+// The plans of a program's stages. Each is made when it is first asked for, and once.
+#pragma once
+
+#include "lang/lower/lower.h"
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace cascade {
+
+class StagePlans {
+public:
+    /// `program` must outlive the plans.
+    StagePlans(const Program& program, const PlanOptions& options)
+        : program_(program),
+          options_(options),
+          starts_(program.stages.size()),
+          lasting_(program.stages.size()),
+          sweeps_(program.stages.size()) {}
+
+    const PlanOptions& options() const { return options_; }
+    /// Of the starting values.
+    const StepPlan& start(std::uint32_t stage);
+    /// Of what no step changes.
+    const StepPlan& lasting(std::uint32_t stage);
+    /// Of a sweep of the rates.
+    const StepPlan& sweep(std::uint32_t stage, const SweepForm& form);
+
+private:
+    const Program& program_;
+    PlanOptions options_;
+    std::vector<std::optional<StepPlan>> starts_, lasting_;
+    std::vector<std::deque<std::pair<SweepForm, StepPlan>>> sweeps_;  ///< By stage.
+};
+
+}  // namespace cascade

@@ -1,0 +1,108 @@
+#include "run/stage/stage_remarks.h"
+
+#include "core/with_commas.h"
+#include "run/stage/bound_kernel.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace cascade {
+
+namespace {
+
+/// Of more species than these the first are named.
+constexpr std::size_t most_named = 4;
+/// A stage whose cells once differed by this part of a species' largest value had a pattern, and not
+/// just noise to grow one from.
+constexpr double contrast_of_a_pattern = 0.05;
+
+/// "u = 1, v = 0".
+std::string values_of(const System& system, const Moment& moment) {
+    std::string text;
+    for (std::size_t k = 0; k < moment.species.size() && k < most_named; ++k) {
+        text += fmt::format("{}{} = {:.4g}", k > 0 ? ", " : "", species_name(system, k),
+                            moment.species[k].mean);
+    }
+    return text + (moment.species.size() > most_named ? ", …" : "");
+}
+
+std::string describe_even(const System& system, const StageCourse& course) {
+    const std::string values = values_of(system, course.last());
+    const Moment& since = course.even_since();
+    bool is_the_same = true;
+    for (const Spread& spread : course.last().species) is_the_same = is_the_same && spread.squares == 0;
+    // A parameter that differs from cell to cell leaves a trace.
+    if (since.step == course.first().step && is_the_same) {
+        return fmt::format("ended even ({}): nothing tells one cell from another; noise or a spot in "
+                           "a starting value would", values);
+    }
+    const std::string step = with_commas(since.step);
+    if (since.step == course.first().step) {
+        return fmt::format("ended even ({}): nothing has grown", values);
+    }
+    if (course.greatest_contrast() >= contrast_of_a_pattern) {
+        return fmt::format("died out: it is even since step {} or before ({})", step, values);
+    }
+    return fmt::format("ended even ({}): the differences it began with faded, and nothing has grown; "
+                       "it is even since step {} or before", values, step);
+}
+
+/// The species whose deviation rises fastest.
+std::string describe_growth(const System& system, const StageCourse& course) {
+    std::size_t fastest = 0;
+    double growth = 0;
+    for (std::size_t k = 0; k < course.last().species.size(); ++k) {
+        if (!(course.growth(k) > growth)) continue;
+        fastest = k;
+        growth = course.growth(k);
+    }
+    return fmt::format("was still growing when it ended: the deviation of {} rose by {:.0f} % in the "
+                       "last tenth, to {:.2g}; with more steps it becomes another picture",
+                       species_name(system, fastest), 100 * growth,
+                       course.last().species[fastest].deviation());
+}
+
+std::string describe_fading(const System& system, const StageCourse& course) {
+    std::string rest;
+    for (std::size_t k = 0; k < course.last().species.size() && k < most_named; ++k) {
+        const Spread& spread = course.last().species[k];
+        rest += fmt::format("{}{} {:.2g} about {:.3g}", k > 0 ? ", " : "", species_name(system, k),
+                            spread.deviation(), spread.mean);
+    }
+    return fmt::format("is dying out: the deviations left are small and falling ({})", rest);
+}
+
+std::string describe_until(const Stage& stage, const StageState& state) {
+    if (!stage.time.steady) {
+        return fmt::format("took {} steps and 'until' has not ended it", with_commas(state.steps));
+    }
+    return fmt::format("took {} steps and has not settled as 'until: steady({:.4g})' asks",
+                       with_commas(state.steps), *stage.time.steady);
+}
+
+}  // namespace
+
+std::string describe_end(const Stage& stage, const System& system, const StageState& state,
+                         bool is_last) {
+    if (!state.done || state.steps == 0) return {};
+    const auto about = [&](const std::string& words) {
+        return fmt::format("stage '{}' {}", stage.name, words);
+    };
+    const std::uint32_t frozen = system.frozen_item();
+    if (stage.uniform[frozen] && state.numbers[frozen] != 0) {
+        return about("is frozen in all cells: nothing in it changes");
+    }
+    const StageCourse& course = state.course;
+    if (course.empty() || course.last().step != state.steps) return {};
+    if (course.ended_even()) return about(describe_even(system, course));
+    if ((stage.time.until || stage.time.steady) && !state.condition_met) {
+        return about(describe_until(stage, state));
+    }
+    const Trend trend = is_last && !state.condition_met ? course.trend() : Trend::none;
+    if (trend == Trend::growing) return about(describe_growth(system, course));
+    if (trend == Trend::fading) return about(describe_fading(system, course));
+    return {};
+}
+
+}  // namespace cascade

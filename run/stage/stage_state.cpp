@@ -1,0 +1,28 @@
+#include "run/stage/stage_state.h"
+
+#include <fmt/format.h>
+
+namespace cascade {
+
+StageState empty_state(const System& system) {
+    StageState state;
+    state.numbers.assign(system.item_count(), 0);
+    state.fields.resize(system.item_count());
+    state.species_of_item.assign(system.item_count(), -1);
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        if (!system.is_species(item)) continue;
+        state.species_of_item[item] = static_cast<int>(state.species.size());
+        state.species.emplace_back();
+    }
+    return state;
+}
+
+std::string describe_place(const Stage& stage, const StageState& state) {
+    const std::string step = fmt::format("step {}", state.steps);
+    if (stage.time.open_end) return step;
+    if (!stage.time.has_duration()) return fmt::format("{} of {}", step, stage.iterations);
+    if (!stage.time.duration) return fmt::format("{}, t = {:.6g}", step, state.t);
+    return fmt::format("{}, t = {:.6g} of {:.6g}", step, state.t, *stage.time.duration);
+}
+
+}  // namespace cascade

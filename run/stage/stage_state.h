@@ -1,0 +1,55 @@
+// The values of one stage, and how far it has come.
+#pragma once
+
+#include "core/plane.h"
+#include "core/side.h"
+#include "lang/program/program.h"
+#include "run/stage/stage_course.h"
+#include "solvers/changing_side.h"
+#include "solvers/stage_clock.h"
+#include "solvers/steady.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// Values of one stage's items.
+struct StageState {
+    bool started = false;
+    bool done = false;                  ///< All its steps are taken, or it has ended before.
+    bool condition_met = false;         ///< Its `until` has ended it.
+    std::int64_t steps = 0;             ///< Complete steps.
+    double t = 0;                       ///< The time then; 0 where speed varies by cell.
+    TimeState time;                     ///< What steps of other lengths go on from.
+    SteadyWatch watch;                  ///< The last look of `until: steady(…)`.
+    StageCourse course;                 ///< Since it began, or went on from a saved run.
+    std::vector<double> numbers;        ///< Of the run's precision, per item; meaningful where it is uniform.
+    std::vector<Field> fields;          ///< Per item; empty where uniform, and for species.
+    std::vector<Field> species;         ///< In order of the species' items.
+    std::vector<int> species_of_item;   ///< Per item; −1 for parameters.
+    Mask frozen;                        ///< Only where `frozen` varies.
+    /// What no step changes, while steps are taken (plan_lasting): planes where it varies …
+    std::vector<Field> lasting;
+    std::vector<double> lasting_numbers; ///< … and numbers where it does not.
+    std::vector<Boundaries> lasting_boundaries;  ///< How the halo of each plane is filled.
+    std::vector<SideRules> sides;       ///< By species; empty where the boundary holds for all.
+    std::vector<Field> side_values;     ///< What the rules of sides point to.
+    std::vector<ChangingSide> changing_sides;  ///< Those with values that change with time.
+
+    /// The plane of an item that varies (a species or a varying parameter).
+    const Field& field(std::uint32_t item) const {
+        const int index = species_of_item[item];
+        return index >= 0 ? species[static_cast<std::size_t>(index)] : fields[item];
+    }
+};
+
+/// A state with room for all items of a system, without a plane of any.
+StageState empty_state(const System& system);
+
+/// How far a stage has come: "step 300 of 7000", "step 312, t = 4.5 of 30", or "step 312" where only
+/// `until` ends it.
+std::string describe_place(const Stage& stage, const StageState& state);
+
+}  // namespace cascade

@@ -1,0 +1,266 @@
+#include "run/stage/stage_time.h"
+
+#include "lang/calculus/derivative.h"
+#include "lang/calculus/time_parts.h"
+#include "solvers/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// Where nothing says how long a stage takes, steps of chosen length are no longer than a part of
+/// this.
+constexpr double usual_duration = 10000;
+constexpr double most_of_duration = 0.05, most_of_duration_without_bound = 0.001;
+/// The first step is so much of Euler's longest; the estimate of errors knows of none before it.
+constexpr double first_part = 0.25;
+/// Steps of so much of Euler's longest, and of the duration, gain nothing from being shorter.
+constexpr double least_part = 0.01, least_of_duration = 1e-6;
+/// Explicit steps are cheap beside the estimate of their error, which is made of one in so many at most,
+constexpr std::int64_t most_stretch = 64, most_stretch_with_jumps = 8;
+/// and so often in the stage's time; more often where bounds or errors change.
+constexpr double stretches_of_duration = 50;
+constexpr double same_bounds = 1.25, small_error = 0.5;
+/// Stages change where that saves so much: their temporaries are made anew.
+constexpr double worth_other_stages = 1.1;
+/// What is not known to be reaction or diffusion is taken for diffusion in the main.
+constexpr double share_of_reaction = 0.02;
+
+}  // namespace
+
+bool steps_by_item(const Stage& stage) {
+    return takes_speed_by_cell(stage.time.solver) && !stage.time.automatic_speed &&
+           !stage.time.has_duration();
+}
+
+bool judges_all_steps(const Stage& stage) {
+    return stage.time.chooses_steps() && (is_adaptive(stage.time.solver) || takes_long_steps(stage.time.solver));
+}
+
+double duration_of(const Stage& stage, const System& system, const StageState& state) {
+    if (stage.time.duration) return *stage.time.duration;
+    if (!stage.time.duration_in_steps) return std::numeric_limits<double>::infinity();
+    return static_cast<double>(*stage.time.duration_in_steps) *
+           state.numbers[system.speed_item()];
+}
+
+StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& state,
+                       StageTools tools)
+    : stage_(program.stages[stage]),
+      state_(state),
+      tools_(std::move(tools)),
+      species_(static_cast<std::uint32_t>(state.species.size())) {
+    const System& system = program.system_of(stage);
+    uniform_speed_ = stage_.uniform[system.speed_item()];
+    speed_ = uniform_speed_ ? state.numbers[system.speed_item()] : 1;
+    duration_ = duration_of(stage_, system, state);
+    if (chooses()) {
+        if (const auto bound = jacobian_bound(program, stage)) {
+            const Formula* const formulas[] = {&bound->whole, &bound->reaction};
+            bounds_by_rule_ = tools_.numbers(formulas);
+            jumps_ = bound->jumps;
+        }
+    }
+    if (stage_.time.chooses_steps()) forcing_ = forcing(program, stage);
+    state_.time.clock.precision = program.domain.precision;
+    // A stage whose time is known goes on as it was.
+    if (state_.steps > 0 && state_.time.control.step > 0) return;
+    state_.time = {};
+    state_.time.clock.precision = program.domain.precision;
+    state_.time.clock.step = uniform_speed_ ? speed_ : 0;
+    state_.time.control.step = speed_;
+    state_.time.stages = is_stabilised(stage_.time.solver) ? 3 : 0;
+    state_.t = state_.time.clock.at(state_.steps);
+    if (chooses_by_error()) set_first_step();
+    if (program.domain.model) state_.time.stages = substeps(program, stage);
+    if (state_.steps == 0 && stage_.time.steady) state_.watch.begin(state_.species);
+}
+
+/// Are steps or stages chosen by the state of the species?
+bool StageTimer::chooses() const { return is_stabilised(stage_.time.solver) || chooses_by_error(); }
+
+bool StageTimer::chooses_by_error() const {
+    return stage_.time.automatic_speed && !is_adaptive(stage_.time.solver);
+}
+
+Forcing StageTimer::forcing(const Program& program, std::uint32_t stage) const {
+    if (!std::isfinite(duration_) || duration_ <= 0) return {};
+    std::vector<std::vector<double>> values;
+    for (const Formula& part : parts_of_time(program, stage)) {
+        values.push_back(tools_.over_time(part, duration_));
+    }
+    return Forcing(values, duration_);
+}
+
+void StageTimer::set_first_step() {
+    TimeState& time = state_.time;
+    look_at_bounds(state_.steps, time);
+    time.control.step = longest_step(time.bounded_at >= 0);
+    if (time.bounds.whole > 0) {
+        time.control.step = std::min(time.control.step, first_part * 2 / time.bounds.whole);
+    }
+}
+
+/// Cells of a model have links of different weights, and the largest decide which steps are stable: a
+/// script that is stable on the plane has to be so there. Explicit Euler is stable up to 2 over the largest
+/// eigenvalue.
+std::uint32_t StageTimer::substeps(const Program& program, std::uint32_t stage) const {
+    constexpr double safety = 0.95;
+    const bool is_split = stage_.time.solver == Solver::euler && !stage_.time.automatic_speed &&
+                          uniform_speed_;
+    if (!is_split) return state_.time.stages;
+    double decay = 0;
+    if (const auto bound = jacobian_bound(program, stage)) {
+        const Formula* const formulas[] = {&bound->whole, &bound->reaction};
+        const std::vector<double> bounds = tools_.numbers(formulas)();
+        decay = bounds[0] - bounds[1];
+    }
+    if (!std::isfinite(decay)) return state_.time.stages;
+    const double parts = std::ceil(speed_ * decay / (2 * safety));
+    return parts > 1 && parts <= most_substeps ? static_cast<std::uint32_t>(parts) : 0;
+}
+
+const StepProblem& StageTimer::problem() {
+    return problem_of(state_.time.stages, judges_all_steps(stage_));
+}
+
+const StepProblem& StageTimer::problem_of(std::uint32_t stages, bool is_judged) {
+    const std::pair key(stages, is_judged);
+    const auto known = problems_.find(key);
+    if (known != problems_.end()) return known->second;
+    const bool is_split = stage_.time.solver == Solver::euler && stages > 1;
+    Scheme scheme = is_split ? make_substeps(stages)
+                             : make_scheme(stage_.time.solver, species_, steps_by_item(stage_), stages);
+    if (is_judged && scheme.error_register == 0) scheme = with_error_estimate(std::move(scheme));
+    return problems_.emplace(key, tools_.bind(scheme)).first->second;
+}
+
+RateBounds StageTimer::bounds() const {
+    if (bounds_by_rule_) {
+        const std::vector<double> bounds = bounds_by_rule_();
+        if (std::isfinite(bounds[0]) && std::isfinite(bounds[1])) return {bounds[0], bounds[1], jumps_};
+    }
+    const double whole = tools_.estimate();
+    // What is explicit may be as fast as all of it: advection is no diffusion.
+    if (is_semi_implicit(stage_.time.solver)) return {whole, whole, jumps_};
+    return {whole, share_of_reaction * whole, jumps_};
+}
+
+/// Stages for steps of a given length.
+StepChoice StageTimer::choose_stages_at(std::int64_t step, TimeState& time) {
+    state_.steps = step;
+    state_.t = time.clock.at(step);
+    time.stages = choose_stages(stage_.time.solver, bounds(), speed_);
+    return {speed_, &problem_of(time.stages, false), nullptr};
+}
+
+double StageTimer::expected_duration() const {
+    return std::isfinite(duration_) ? duration_ : usual_duration;
+}
+
+double StageTimer::longest_step(bool is_bounded) const {
+    return (is_bounded ? most_of_duration : most_of_duration_without_bound) * expected_duration();
+}
+
+/// Where bounds are not finite they are as good as unknown, and looked at again in the next step.
+void StageTimer::look_at_bounds(std::int64_t step, TimeState& time) {
+    time.bounds = bounds();
+    time.bounded_at = step;
+    if (std::isfinite(time.bounds.whole) && std::isfinite(time.bounds.reaction)) return;
+    time.bounds = {0, 0, jumps_};
+    time.bounded_at = -1;
+}
+
+StepChoice StageTimer::choose_by_error(std::int64_t step, TimeState& time, bool rejected) {
+    state_.steps = step;
+    state_.t = time.clock.at(step);
+    const Solver solver = stage_.time.solver;
+    const bool is_long = takes_long_steps(solver);
+    const bool by_rule = bounds_by_rule_ != nullptr;
+    const std::int64_t renewal = by_rule && !is_long ? 1 : choose_every(solver, by_rule);
+    const RateBounds before = time.bounds;
+    const bool is_old = time.bounded_at < 0 || step - time.bounded_at >= renewal;
+    if (is_old || (rejected && time.bounded_at != step)) look_at_bounds(step, time);
+
+    const double longest = longest_step(time.bounded_at >= 0);
+    const double by_time = forcing_.longest_step(state_.t);
+    const double wanted =
+        std::min({time.control.step, longest, stage_.time.largest_step.value_or(longest), by_time});
+    SafeStep safe = safe_step(solver, time.bounds, wanted);
+    if (is_stabilised(solver) && time.stages >= least_stages(solver)) {
+        const double same = std::min(stable_step(solver, time.bounds, time.stages), wanted);
+        if (safe.length * time.stages <= worth_other_stages * same * safe.stages) safe = {same, time.stages};
+    }
+    time.stages = safe.stages;
+    time.least_step = least_of_duration * expected_duration();
+    if (time.bounds.whole > 0) time.least_step = std::min(time.least_step, least_part * 2 / time.bounds.whole);
+    time.stretch = is_long ? 1 : stretch_after(before, time, rejected, safe.length, by_time);
+    time.next_judged = step + time.stretch;
+    return {safe.length, &problem_of(time.stages, is_long), &problem_of(time.stages, true)};
+}
+
+/// The number of steps to the next estimate of an error.
+std::int64_t StageTimer::stretch_after(const RateBounds& before, const TimeState& time, bool rejected,
+                                       double length, double longest) const {
+    if (rejected || time.bounded_at < 0) return 1;
+    const double low = std::min(before.whole, time.bounds.whole);
+    const double high = std::max(before.whole, time.bounds.whole);
+    const bool is_calm = high <= same_bounds * low && time.control.error_before <= small_error;
+    const std::int64_t wanted = is_calm ? 2 * time.stretch : time.stretch / 2;
+    const double by_time =
+        std::min(std::min(expected_duration() / stretches_of_duration, longest) / length, 1e9);
+    const std::int64_t most = std::min(time.bounds.jumps ? most_stretch_with_jumps : most_stretch,
+                                       static_cast<std::int64_t>(by_time));
+    return std::max<std::int64_t>(1, std::min(wanted, most));
+}
+
+bool StageTimer::has_ended(double t) {
+    state_.t = t;
+    if (stage_.time.until) return tools_.is_true(*stage_.time.until);
+    // Steps of different length in different cells are counted, not timed.
+    const double age = uniform_speed_ ? t : static_cast<double>(state_.steps);
+    return state_.watch.settled(state_.species, age, *stage_.time.steady, tools_.inside);
+}
+
+Schedule StageTimer::schedule(std::int64_t last_step, std::int64_t interval) {
+    Schedule schedule;
+    schedule.first_step = state_.steps;
+    schedule.last_step = last_step;
+    schedule.time = state_.time;
+    schedule.end_time = duration_;
+    schedule.interval = interval;
+    if (stage_.time.until || stage_.time.steady) {
+        schedule.check = stage_.time.steps_between_looks();
+        schedule.ends = [this](std::int64_t step, double t, std::span<const Field>) {
+            state_.steps = step;
+            state_.condition_met = has_ended(t);
+            return state_.condition_met;
+        };
+    }
+    if (stage_.time.chooses_steps()) {
+        schedule.tolerance = stage_.time.step_tolerance();
+        schedule.largest_step = stage_.time.largest_step.value_or(schedule.largest_step);
+        schedule.longest_step = [this](double t) { return forcing_.longest_step(t); };
+        schedule.judges_all = judges_all_steps(stage_);
+        schedule.error_order = order_of_estimate(stage_.time.solver);
+    }
+    if (chooses_by_error()) {
+        if (!schedule.judges_all) schedule.judged = &problem_of(state_.time.stages, true);
+        schedule.choose = [this](std::int64_t step, TimeState& time, bool rejected) {
+            return choose_by_error(step, time, rejected);
+        };
+    } else if (chooses()) {
+        schedule.choose_every = choose_every(stage_.time.solver, bounds_by_rule_ != nullptr);
+        schedule.choose = [this](std::int64_t step, TimeState& time, bool) {
+            return choose_stages_at(step, time);
+        };
+    }
+    return schedule;
+}
+
+}  // namespace cascade

@@ -1,0 +1,95 @@
+#include "run/stage/step_work.h"
+
+#include "core/check.h"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+namespace cascade {
+
+namespace {
+
+/// Which plane it is: its kind, its number, its register, or where it lies.
+using PlaneKey = std::tuple<int, std::uint32_t, std::uint32_t, const void*>;
+
+PlaneKey key_of(const StepProblem::PlaneRef& plane) {
+    using Kind = StepProblem::PlaneRef::Kind;
+    const bool is_species = plane.kind == Kind::species, is_fixed = plane.kind == Kind::fixed;
+    return {static_cast<int>(plane.kind), is_fixed ? 0 : plane.number,
+            is_species ? plane.in_register : 0, is_fixed ? plane.cells : nullptr};
+}
+
+/// Links of a cell, on average.
+double links_of(const StepProblem& problem) {
+    if (problem.links == nullptr) return 0;
+    constexpr std::int64_t slice = PlaneLayout::row_pad;
+    const std::int64_t slices = (problem.grid.width + slice - 1) / slice * problem.grid.height;
+    const std::uint32_t* const starts = with_number(
+        problem.precision, [&](auto zero) { return problem.links->table<decltype(zero)>().starts; });
+    return static_cast<double>(slice * starts[slices]) /
+           static_cast<double>(problem.grid.cell_count());
+}
+
+class WorkCounter {
+public:
+    WorkCounter(const StepProblem& problem, const KnownKernels& kernels)
+        : problem_(problem),
+          kernels_(kernels),
+          word_(problem.precision == Precision::single ? sizeof(float) : sizeof(double)) {
+        work_.links = links_of(problem);
+    }
+
+    StepWork count() {
+        for (const StepProblem::Pass& pass : problem_.passes) add(pass);
+        const auto cells = static_cast<double>(problem_.grid.cell_count());
+        work_.passes = problem_.passes.size();
+        work_.working_set = cells * (static_cast<double>(touched_.size()) * word_ +
+                                     static_cast<double>(masks_.size()) + link_bytes_);
+        return work_;
+    }
+
+private:
+    void add(const StepProblem::Pass& pass) {
+        for (const StepProblem::Reduction& reduction : pass.reductions) add(reduction);
+        if (pass.filter) work_.has_waves = true;
+        const auto known = kernels_.find(pass.kernel.get());
+        CHECK(known != kernels_.end(), "the kernels of a problem are known");
+        const KernelCost cost = cost_of(known->second, problem_.grid.stencil(), work_.links);
+        work_.cost += cost;
+        // Two slots may be one plane.
+        std::set<PlaneKey> read;
+        for (const auto& field : pass.fields) read.insert(key_of(field));
+        touched_.insert(read.begin(), read.end());
+        for (const auto& result : pass.results) touched_.insert(key_of(result.plane));
+        masks_.insert(pass.masks.begin(), pass.masks.end());
+        work_.bytes += static_cast<double>(read.size() + pass.results.size()) * word_ +
+                       static_cast<double>(pass.masks.size()) + cost.link_bytes;
+        link_bytes_ = std::max(link_bytes_, cost.link_bytes);
+    }
+
+    /// A tree over the cells: each is loaded once and joins the others once.
+    void add(const StepProblem::Reduction& reduction) {
+        work_.cost.operations += 1;
+        work_.cost.loads += 1;
+        work_.cost.load_bytes += word_;
+        work_.bytes += word_;
+        touched_.insert(key_of(reduction.operand));
+    }
+
+    const StepProblem& problem_;
+    const KnownKernels& kernels_;
+    double word_;  ///< Bytes.
+    double link_bytes_ = 0;  ///< Of a cell, of the pass that reads most.
+    std::set<PlaneKey> touched_;
+    std::set<const std::uint8_t*> masks_;
+    StepWork work_;
+};
+
+}  // namespace
+
+StepWork work_of(const StepProblem& problem, const KnownKernels& kernels) {
+    return WorkCounter(problem, kernels).count();
+}
+
+}  // namespace cascade

@@ -1,0 +1,66 @@
+#include "run/stage/time_account.h"
+
+#include <ctime>
+#include <numeric>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+double processor_seconds() {
+    timespec now = {};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+TimeAccount::TimeAccount() : before_(processor_seconds()), since_(Clock::now()) {}
+
+TimeAccount::Scope::Scope(TimeAccount* account, Spent what, std::optional<std::uint32_t> stage)
+    : account_(account) {
+    if (account_ == nullptr) return;
+    account_->settle();
+    if (!stage) stage = account_->stage_;
+    what_ = std::exchange(account_->what_, what);
+    stage_ = std::exchange(account_->stage_, stage);
+}
+
+TimeAccount::Scope::~Scope() {
+    if (account_ == nullptr) return;
+    account_->settle();
+    account_->what_ = what_;
+    account_->stage_ = stage_;
+}
+
+TimeAccount::Stage& TimeAccount::stage(std::uint32_t number) {
+    if (number >= stages_.size()) stages_.resize(number + 1);
+    return stages_[number];
+}
+
+void TimeAccount::settle() {
+    const Clock::time_point now = Clock::now();
+    const double passed = std::chrono::duration<double>(now - std::exchange(since_, now)).count();
+    auto& seconds = stage_ ? stage(*stage_).seconds : outside_;
+    seconds[static_cast<std::size_t>(what_)] += passed;
+}
+
+double TimeAccount::seconds(Spent what) {
+    settle();
+    const auto at = static_cast<std::size_t>(what);
+    double sum = outside_[at];
+    for (const Stage& stage : stages_) sum += stage.seconds[at];
+    return sum;
+}
+
+double TimeAccount::seconds() {
+    settle();
+    double sum = std::accumulate(outside_.begin(), outside_.end(), 0.0);
+    for (const Stage& stage : stages_) {
+        sum = std::accumulate(stage.seconds.begin(), stage.seconds.end(), sum);
+    }
+    return sum;
+}
+
+}  // namespace cascade
