@@ -7,6 +7,7 @@
 #include "app/option_values.h"
 #include "app/progress_display.h"
 #include "app/time_table.h"
+#include "core/counted.h"
 
 #include <fmt/format.h>
 
@@ -54,7 +55,9 @@ void tell_written(const RunReport& report, const RunRequest& request, Console& c
         }
     }
     if (frames > 0) {
-        console.print(fmt::format("wrote {} pictures in {}\n", frames, request.frames.string()));
+        console.print(fmt::format("wrote {} in {}\n",
+                                  counted(static_cast<std::int64_t>(frames), "picture"),
+                                  request.frames.string()));
     }
 }
 

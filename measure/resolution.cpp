@@ -30,26 +30,43 @@ double correlation_along(const Samples& samples, const Spread& spread, std::size
     return pairs > 0 ? products / pairs / (spread.squares / spread.count) : 1;
 }
 
-}  // namespace
-
-double unresolved_wavelength(const Samples& samples) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+/// Do neighbours differ so much that waves may be that short?
+bool may_be_unresolved(const Samples& samples) {
     const Spread spread = spread_of([&](const auto& take) {
         for (const double value : samples.values) take(value);
     });
-    if (spread.is_even()) return none;
+    if (spread.is_even()) return false;
     double least = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (samples.cells[axis] > 1) {
             least = std::min(least, correlation_along(samples, spread, axis));
         }
     }
-    if (least > close_correlation) return none;
+    return least <= close_correlation;
+}
+
+}  // namespace
+
+double unresolved_wavelength(const Samples& samples) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (!may_be_unresolved(samples)) return none;
     const Spectrum spectrum = radial_spectrum(samples);
     const double cells = peak_wavelength(spectrum) / samples.spacing;
     // Below two cells there is only the chequerboard, of which others tell.
     const bool is_short = cells > 2 && cells < fewest_cells_a_wave && peak_share(spectrum) >= regular_share;
     return is_short ? cells : none;
+}
+
+double unresolved_part(const Samples& samples) {
+    if (!may_be_unresolved(samples)) return 0;
+    const Spectrum spectrum = radial_spectrum(samples);
+    const double longest = 1 / (fewest_cells_a_wave * samples.spacing);  // As a wave number.
+    double whole = 0, part = 0;
+    for (std::size_t ring = 0; ring < spectrum.power.size(); ++ring) {
+        whole += spectrum.power[ring];
+        if (static_cast<double>(ring) * spectrum.ring_width > longest) part += spectrum.power[ring];
+    }
+    return whole > 0 ? part / whole : 0;
 }
 
 }  // namespace cascade::measure

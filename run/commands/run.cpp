@@ -455,6 +455,13 @@ Result<RunReport> Runner::run() {
     if (!request_.resume.empty()) remark_on_resumed();
     if (report_.status == RunStatus::finished && report_.steps > 0) {
         remark(remark_on_picture(*painter_, *simulation_));
+        // A sheet draws numbers.
+        if (request_.sheet.empty()) remark(remark_on_look(*painter_, *simulation_));
+        if (frames_ && frames_->holds_starts_alone()) {
+            remark(fmt::format(
+                "{} nothing but starting values: 'interval' is longer than each stage",
+                request_.frames.empty() ? "the space-time picture shows" : "the frames show"));
+        }
     }
     if (request_.features) {
         const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);

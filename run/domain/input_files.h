@@ -22,6 +22,13 @@ public:
     void add(Kind kind, std::uint32_t text, Field plane) { planes_[{kind, text}] = std::move(plane); }
     const Field& plane(Kind kind, std::uint32_t text) const { return planes_.at({kind, text}); }
 
+    /// Calls `look` with the text and the plane of each that is of a kind.
+    template <typename Look>
+    void each_of(Kind kind, const Look& look) const {
+        for (const auto& [name, plane] : planes_) {
+            if (name.first == kind) look(name.second, plane);
+        }
+    }
     /// The same files, a plane made of each.
     template <typename Make>
     InputFiles mapped(const Make& make) const {

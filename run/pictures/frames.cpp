@@ -2,6 +2,7 @@
 
 #include "run/pictures/frame_folder.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace cascade {
@@ -51,6 +52,11 @@ void FrameRecorder::record(const Canvas& canvas, const std::string& stage, std::
         for (const Field& field : canvas.fields) copy.fields.push_back(field.clone());
         rows_.push_back(std::move(copy));
     }
+}
+
+bool FrameRecorder::holds_starts_alone() const {
+    return std::all_of(frames_.begin(), frames_.end(),
+                       [](const Frame& frame) { return frame.step == 0; });
 }
 
 bool FrameRecorder::keep(const Field& field) {

@@ -25,6 +25,8 @@ public:
     /// Keeps one frame. A full disk is remembered and told by failure().
     void record(const Canvas& canvas, const std::string& stage, std::int64_t step);
     std::optional<Failure> failure() const { return failure_; }
+    /// Is there no frame of a stage that has taken a step?
+    bool holds_starts_alone() const;
 
     /// Draws every frame as NUMBER-STAGE-STEP.png with one range for all.
     Result<std::vector<std::filesystem::path>> write(const Painter& painter, PngDepth depth,

@@ -2,6 +2,7 @@
 
 #include "measure/resolution.h"
 #include "run/pictures/measured.h"
+#include "run/stage/nodes_of_rates.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +15,11 @@ namespace {
 
 /// A spectrum of more cells would cost as much as many steps.
 constexpr std::int64_t most_cells_of_spectrum = std::int64_t{1} << 20;
+/// A species whose deviation is so many times that at the start owes its pattern to the stage.
+constexpr double made_by_the_stage = 3;
+/// From this part of a pattern's variance on, the grid has made it. White noise has 0.8 there in a
+/// plane.
+constexpr double mostly_unresolved = 0.7;
 /// As many levels as a picture of 8 bits has.
 constexpr double levels = 256;
 
@@ -33,12 +39,29 @@ std::string describe_range(const Spread& values, ValueRange range) {
     return {};
 }
 
+constexpr const char* is_one_colour = "the picture is of one colour";
+
+/// Red, green and blue are clamped to 0 … 1 when they are drawn.
+std::string describe_clamped(const Canvas& canvas) {
+    const bool is_even =
+        std::all_of(canvas.fields.begin(), canvas.fields.end(), [](const Field& field) {
+            const Spread values = spread_of(field);
+            return values.count > 0 &&
+                   std::clamp(values.largest, 0.0, 1.0) - std::clamp(values.smallest, 0.0, 1.0) <
+                       1 / levels;
+        });
+    if (!is_even) return {};
+    return fmt::format(
+        "{}: what differs in red, green and blue lies beyond 0 … 1, or within one level of it",
+        is_one_colour);
+}
+
 std::string describe_even(const Canvas& canvas) {
     const bool is_even = std::all_of(canvas.fields.begin(), canvas.fields.end(), [](const Field& field) {
         return spread_of(field).is_even();
     });
     if (!is_even) return {};
-    if (canvas.is_colour()) return "the picture is of one colour";
+    if (canvas.is_colour()) return is_one_colour;
     if (spread_of(canvas.fields[0]).count == 0) {
         return "the picture is of one colour: what it shows is infinite or not a number in all cells";
     }
@@ -46,14 +69,47 @@ std::string describe_even(const Canvas& canvas) {
                        spread_of(canvas.fields[0]).mean);
 }
 
-std::string describe_waves(Painter& painter, const Simulation& simulation) {
+/// Has the stage made what there is? Its neighbours act on each other, no chance does, and every
+/// species that is not even differs far more between cells than when the stage began.
+bool made_its_pattern(const Simulation& simulation, std::uint32_t k) {
+    const Stage& stage = simulation.program().stages[k];
+    const System& system = simulation.program().system_of(k);
+    const auto is_chance = [](const Node& node) {
+        return node.kind == NodeKind::call && is_random(node.function);
+    };
+    const auto is_neighbours = [](const Node& node) {
+        return node.kind == NodeKind::call && differentiates(node.function);
+    };
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        if (!system.is_species(item) && !stage.uniform[item]) return false;
+    }
+    if (holds_in_rates(system, is_chance) || !holds_in_rates(system, is_neighbours)) return false;
+    const StageCourse& course = simulation.state(k).course;
+    for (std::size_t s = 0; s < course.last().species.size(); ++s) {
+        const Spread& last = course.last().species[s];
+        if (!last.is_even() &&
+            last.deviation() < made_by_the_stage * course.first().species[s].deviation())
+            return false;
+    }
+    return true;
+}
+
+std::string describe_waves(Painter& painter, const Simulation& simulation, std::uint32_t stage) {
     if (simulation.model() || simulation.grid().cell_count() > most_cells_of_spectrum) return {};
-    const double cells = measure::unresolved_wavelength(
-        to_samples(shown_number(painter, simulation), simulation.grid()));
-    if (std::isnan(cells)) return {};
-    return fmt::format("the waves of the pattern are {:.2g} cells long: with fewer than {:.0f} the grid "
-                       "shapes them as much as the equations do",
-                       cells, measure::fewest_cells_a_wave);
+    const measure::Samples samples =
+        to_samples(shown_number(painter, simulation), simulation.grid());
+    const double cells = measure::unresolved_wavelength(samples);
+    const char* const why = "the grid shapes them as much as the equations do";
+    if (!std::isnan(cells)) {
+        return fmt::format(
+            "the waves of the pattern are {:.2g} cells long: with fewer than {:.0f} {}", cells,
+            measure::fewest_cells_a_wave, why);
+    }
+    if (!made_its_pattern(simulation, stage)) return {};
+    const double part = measure::unresolved_part(samples);
+    if (part < mostly_unresolved) return {};
+    return fmt::format("{:.0f} % of the pattern is waves of fewer than {:.0f} cells: {}",
+                       100 * part, measure::fewest_cells_a_wave, why);
 }
 
 }  // namespace
@@ -70,7 +126,23 @@ std::string remark_on_picture(Painter& painter, const Simulation& simulation) {
     }
     if (!simulation.remark_on(*stage).empty()) return {};
     std::string remark = describe_even(canvas);
-    return remark.empty() ? describe_waves(painter, simulation) : remark;
+    if (remark.empty() && canvas.is_colour()) remark = describe_clamped(canvas);
+    return remark.empty() ? describe_waves(painter, simulation, *stage) : remark;
+}
+
+std::string remark_on_look(Painter& painter, const Simulation& simulation) {
+    const PictureRequest& request = painter.request();
+    const bool has_palette = request.palette != PictureRequest().palette;
+    if (!(has_palette || request.range) || !simulation.shown_stage()) return {};
+    const Canvas canvas = painter.canvas(simulation);
+    // The range is that of heights, too.
+    if (canvas.number() != nullptr) return {};
+    const char* const options = !request.range ? "--palette changes"
+                                : has_palette  ? "--palette and --range change"
+                                               : "--range changes";
+    return fmt::format(
+        "{} nothing: the script's picture is made of colours; --show draws a number instead",
+        options);
 }
 
 }  // namespace cascade

@@ -89,6 +89,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     self.team = std::make_unique<Team>(self.is_small() ? 1 : self.threads);
     self.states.resize(self.program->stages.size());
     if (auto made = self.make_surface_values(options); !made) return tl::unexpected(made.error());
+    if (options.control != nullptr) self.warn_of_even_pictures(*options.control);
     if (auto found = self.find_mask(options.control); !found) return tl::unexpected(found.error());
     return simulation;
 }
@@ -218,8 +219,12 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
 }
 
 std::string Simulation::remark_on(std::uint32_t k) const {
-    return describe_end(self_->stage(k), self_->program->system_of(k), self_->states[k],
-                        k == self_->script->final_stage());
+    const std::string remark = describe_end(self_->stage(k), self_->program->system_of(k),
+                                            self_->states[k], k == self_->script->final_stage());
+    if (!remark.empty() || !self_->has_stood_still(k)) return remark;
+    return fmt::format(
+        "stage '{}' ended as it began: its rates are 0 in all cells{}", self_->stage(k).name,
+        self_->grid.height == 1 && !self_->model ? "; on a line derivatives along y are 0" : "");
 }
 
 void Simulation::keep_with(std::function<bool()> is_due, std::function<void()> keep) {

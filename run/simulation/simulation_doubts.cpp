@@ -2,6 +2,7 @@
 // finite.
 #include "core/spread.h"
 #include "run/simulation/simulation_implementation.h"
+#include "run/stage/nodes_of_rates.h"
 #include "run/stage/result_doubts.h"
 #include "solvers/chequerboard.h"
 #include "solvers/field_norms.h"
@@ -24,17 +25,6 @@ constexpr std::int64_t most_steps = 8, least_steps = 4;
 /// Into so many shorter ones a step is divided for a look. Not two: what has the period of a step
 /// is often of half a step's, too.
 constexpr std::int64_t shorter_steps = 3;
-
-/// Does a rate, or what it is made of, hold a node of that kind?
-template <typename Test>
-bool holds_in_rates(const System& system, const Test& test) {
-    const auto holds = [&](const Formula& formula) {
-        return std::any_of(formula.nodes.begin(), formula.nodes.end(), test);
-    };
-    return std::any_of(system.rates.begin(), system.rates.end(), holds) ||
-           std::any_of(system.definitions.begin(), system.definitions.end(),
-                       [&](const Definition& definition) { return holds(definition.formula); });
-}
 
 bool draws_random_numbers(const System& system) {
     return holds_in_rates(system, [](const Node& node) {
@@ -298,6 +288,23 @@ double Simulation::Implementation::decay_along(std::uint32_t k, const std::vecto
         }
     }
     return squares > 0 ? -products / squares / step : 0;
+}
+
+bool Simulation::Implementation::has_stood_still(std::uint32_t k) const {
+    const StageState& state = states[k];
+    const StageCourse& course = state.course;
+    if (!state.done || course.empty() || course.last().step != state.steps) return false;
+    const auto is_same = [](const Spread& a, const Spread& b) {
+        return a.mean == b.mean && a.squares == b.squares && a.smallest == b.smallest &&
+               a.largest == b.largest;
+    };
+    const auto& first = course.first().species;
+    if (!std::equal(first.begin(), first.end(), course.last().species.begin(), is_same))
+        return false;
+    const std::vector<Field> rates = evaluate(plan_rates(*program, k), k);
+    return std::all_of(rates.begin(), rates.end(), [&](const Field& rate) {
+        return moments(rate, counted()).root_mean_square == 0;
+    });
 }
 
 bool Simulation::Implementation::is_sure(std::uint32_t k, FlickerReport& report) {

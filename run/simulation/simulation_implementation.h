@@ -210,6 +210,10 @@ struct Simulation::Implementation {
     StabilityEstimate stability_at_start(std::uint32_t k);
     /// Does a species alternate from cell to cell, because of its steps or of its rate?
     std::optional<std::string> find_chequerboard(std::uint32_t k, bool flickers) const;
+    /// Has a stage that has ended the values that it began with, because its rates are 0
+    /// everywhere?
+    bool has_stood_still(std::uint32_t k) const;
+
     // Values that are not numbers, and where nobody sees it (simulation_undefined.cpp).
 
     std::vector<UndefinedWatch> watched_in_steps(std::uint32_t k) const;
@@ -225,6 +229,8 @@ struct Simulation::Implementation {
     /// To be called whenever `until` is looked at.
     void look_at_until(std::uint32_t k) const;
     void warn_of_undefined_mask(const RunControl& control);
+    /// Pictures that a script reads and that have one level alone.
+    void warn_of_even_pictures(const RunControl& control) const;
 
     /// The cells that count where a mask or a model says so.
     const Mask* counted() const { return mask ? &mask->inside : model ? &model->inside : nullptr; }

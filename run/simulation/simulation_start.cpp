@@ -98,6 +98,9 @@ Result<void> Simulation::Implementation::find_mask(const RunControl* control) {
         run_plan(plan_mask(*program), interpreted(grid), context(0), grid, *team);
     if (control != nullptr && control->warn) warn_of_undefined_mask(*control);
     mask = make_domain_mask(values[0], grid);
+    if (mask->cells == grid.cell_count() && control != nullptr && control->warn) {
+        control->warn("the mask of the domain leaves no cell out: it is nowhere 0");
+    }
     if (mask->cells > 0) return {};
     script->diagnostics.error(program->domain.mask->span, "no cell is inside the mask",
                               "cells where it is not 0 belong to the domain");

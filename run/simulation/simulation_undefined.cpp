@@ -1,6 +1,7 @@
 // Values that are not numbers where no species would ever show it: in parameters, comparisons,
 // bounds, conditions and the mask.
 #include "lang/calculus/lost_numbers.h"
+#include "picture/image.h"
 #include "run/simulation/simulation_implementation.h"
 
 #include <algorithm>
@@ -156,6 +157,17 @@ void Simulation::Implementation::look_at_until(std::uint32_t k) const {
     if (listener == nullptr || !listener->warn || until_is_told) return;
     if (!until_watch) until_watch = watched_in_until(k);
     until_is_told = warn_of_lost(k, *until_watch, *listener);
+}
+
+void Simulation::Implementation::warn_of_even_pictures(const RunControl& control) const {
+    if (!control.warn) return;
+    files.each_of(SlotSource::Kind::image, [&](std::uint32_t text, const Field& plane) {
+        const Spread levels = spread_of(plane);
+        if (levels.smallest != levels.largest) return;
+        control.warn(fmt::format(
+            "image(\"{}\") is {:.4g} in all cells{}", program->texts[text], levels.mean,
+            levels.mean == 1 ? ": is it all transparent? What is transparent lies on white" : ""));
+    });
 }
 
 void Simulation::Implementation::warn_of_undefined_mask(const RunControl& control) {

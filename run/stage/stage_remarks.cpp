@@ -27,13 +27,16 @@ std::string values_of(const System& system, const Moment& moment) {
     return text + (moment.species.size() > most_named ? ", …" : "");
 }
 
-std::string describe_even(const System& system, const StageCourse& course) {
+std::string describe_even(const Stage& stage, const System& system, const StageCourse& course) {
     const std::string values = values_of(system, course.last());
     const Moment& since = course.even_since();
     bool is_the_same = true;
     for (const Spread& spread : course.last().species) is_the_same = is_the_same && spread.squares == 0;
-    // A parameter that differs from cell to cell leaves a trace.
-    if (since.step == course.first().step && is_the_same) {
+    bool parameters_are = true;
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        parameters_are = parameters_are && (system.is_species(item) || stage.uniform[item]);
+    }
+    if (since.step == course.first().step && is_the_same && parameters_are) {
         return fmt::format("ended even ({}): nothing tells one cell from another; noise or a spot in "
                            "a starting value would", values);
     }
@@ -74,6 +77,12 @@ std::string describe_fading(const System& system, const StageCourse& course) {
 }
 
 std::string describe_until(const Stage& stage, const StageState& state) {
+    if (stage.time.steps_between_looks() > state.steps) {
+        return fmt::format(
+            "took {} steps and never looked at 'until', which it does every {} steps, as 'check' "
+            "says",
+            with_commas(state.steps), with_commas(stage.time.steps_between_looks()));
+    }
     if (!stage.time.steady) {
         return fmt::format("took {} steps and 'until' has not ended it", with_commas(state.steps));
     }
@@ -95,7 +104,7 @@ std::string describe_end(const Stage& stage, const System& system, const StageSt
     }
     const StageCourse& course = state.course;
     if (course.empty() || course.last().step != state.steps) return {};
-    if (course.ended_even()) return about(describe_even(system, course));
+    if (course.ended_even()) return about(describe_even(stage, system, course));
     if ((stage.time.until || stage.time.steady) && !state.condition_met) {
         return about(describe_until(stage, state));
     }

@@ -57,5 +57,19 @@ TEST(Resolution, NoiseAndEvenFieldsHaveNoWavelength) {
         sampled([](double x, double y) { return x == 40 && y == 30 ? 1.0 : 0.0; }))));
 }
 
+TEST(Resolution, ThePartOfShortWavesIsMeasured) {
+    std::uint32_t state = 1;
+    EXPECT_NEAR(unresolved_part(sampled([&](double, double) {
+                    state = state * 1664525 + 1013904223;
+                    return static_cast<double>(state >> 8) / (1 << 24);
+                })),
+                1 - std::numbers::pi / 16, 0.03);
+    EXPECT_NEAR(
+        unresolved_part(sampled([](double x, double y) { return wave(x, 3) + wave(y, 20); })), 0.5,
+        1e-6);
+    EXPECT_EQ(unresolved_part(sampled([](double x, double) { return wave(x, 24); })), 0);
+    EXPECT_EQ(unresolved_part(sampled([](double, double) { return 7.0; })), 0);
+}
+
 }  // namespace
 }  // namespace cascade::measure

@@ -231,26 +231,169 @@ struct Told {
 };
 
 constexpr Told told[] = {
-    {"growth that anti-diffusion does not bring", "system s { u: random(0, 0.1); u' = -0.01 * lap(u) - u; u >= 0-1; u <= 1 }\n"
-     "stage a: s { iterations: 500; speed: 0.5 }", "died out"},
-    {"all that is shown is infinite", "system s { u: sx + 1; u' = 0.1 * lap(u) }\n"
-     "stage a: s { iterations: 50; show: exp(1000 * u) }", "infinite or not a number in all cells"},
-    {"none of what is shown is a number", "system s { u: sx; u' = 0.1 * lap(u) }\n"
-     "stage a: s { iterations: 50; show: log(u - 5) }", "infinite or not a number in all cells"},
-    {"a front that has passed", "system s { u: disc(0.5, 0.5, 0.1); u' = 0.2 * lap(u) + u * (1 - u) }\n"
-     "stage a: s { iterations: 3000; speed: 0.5 }", "(u = 1)"},
-    {"values at their bound", "system s { u: random(0.5, 0.4); u' = u; u <= 1; u >= 0 }\n"
-     "stage a: s { iterations: 500; speed: 0.5 }", "(u = 1)"},
-    {"a pulse between two fixed steps", "system s { u: 0; u' = exp(-((t - 50.5) / 0.05)^2) * 20 }\n"
-     "stage a: s { iterations: 100 }", "ended even"},
-    {"a mixture without noise", "stage a: cahn_hilliard { c: 0.5; iterations: 500; speed: 0.02 }", "ended even"},
+    {"growth that anti-diffusion does not bring",
+     "system s { u: random(0, 0.1); u' = -0.01 * lap(u) - u; u >= 0-1; u <= 1 }\n"
+     "stage a: s { iterations: 500; speed: 0.5 }",
+     "died out"},
+    {"all that is shown is infinite",
+     "system s { u: sx + 1; u' = 0.1 * lap(u) }\n"
+     "stage a: s { iterations: 50; show: exp(1000 * u) }",
+     "infinite or not a number in all cells"},
+    {"none of what is shown is a number",
+     "system s { u: sx; u' = 0.1 * lap(u) }\n"
+     "stage a: s { iterations: 50; show: log(u - 5) }",
+     "infinite or not a number in all cells"},
+    {"a front that has passed",
+     "system s { u: disc(0.5, 0.5, 0.1); u' = 0.2 * lap(u) + u * (1 - u) }\n"
+     "stage a: s { iterations: 3000; speed: 0.5 }",
+     "(u = 1)"},
+    {"values at their bound",
+     "system s { u: random(0.5, 0.4); u' = u; u <= 1; u >= 0 }\n"
+     "stage a: s { iterations: 500; speed: 0.5 }",
+     "(u = 1)"},
+    {"a pulse between two fixed steps",
+     "system s { u: 0; u' = exp(-((t - 50.5) / 0.05)^2) * 20 }\n"
+     "stage a: s { iterations: 100 }",
+     "ended even"},
+    {"a mixture without noise", "stage a: cahn_hilliard { c: 0.5; iterations: 500; speed: 0.02 }",
+     "ended even"},
     {"a stage that is frozen everywhere", "stage a: turing_spots { iterations: 1000; frozen: 1 }",
      "is frozen in all cells: nothing in it changes"},
-    {"a condition beyond reach", "stage a: turing_spots { until: max(b over domain) > 100; iterations: 3000; ka: 0.05 }",
+    {"a condition beyond reach",
+     "stage a: turing_spots { until: max(b over domain) > 100; iterations: 3000; ka: 0.05 }",
      "'until' has not ended it"},
-    {"noise that has just begun to grow", "system s { u: random(0, 0.001); u' = 0.2 * lap(u) + 0.02 * u - u^3 }\n"
-     "stage a: s { iterations: 150 }", "still growing"},
+    {"an 'until' that is never looked at",
+     "stage a: turing_spots { until: max(b over domain) > 5; check: 5000; iterations: 3000; ka: "
+     "0.05 }",
+     "never looked at 'until', which it does every 5,000 steps"},
+    {"steps of no length", "stage a: turing_spots { iterations: 300; speed: 1e-30 }",
+     "ended even (a = 4, b = 4): nothing has grown"},
+    {"the wrong sign of diffusion",
+     "system s { u: random(0.5, 0.1); d: -0.02; u' = d*lap(u) + u*(1 - u)*(u - 0.5); u >= 0; u <= "
+     "1 }\n"
+     "stage a: s { iterations: 3000 }",
+     "% of the pattern is waves of fewer than 4 cells"},
+    {"aggregation into single cells",
+     "system s { n: random(1, 0.1); c: 1; n' = lap(n) - div(20*n*grad(c)); c' = lap(c) + n - c; n "
+     ">= 0; n <= 20 }\n"
+     "stage a: s { speed: 0.05; iterations: 2000 }",
+     "% of the pattern is waves of fewer than 4 cells"},
+    {"colours beyond white",
+     "stage a: turing_spots { iterations: 3000; ka: 0.05 }\n"
+     "picture { color: rgb(100 + b, 100 + b, 128) }",
+     "red, green and blue lies beyond 0 … 1"},
+    {"a palette whose range is beside the values",
+     "stage a: turing_spots { iterations: 3000; ka: 0.05 }\n"
+     "picture { color: palette(b, 50, 90, \"tan\") }",
+     "the picture is of one colour"},
+    {"a picture that reads nothing",
+     "stage a: turing_spots { iterations: 3000; ka: 0.05 }\n"
+     "picture { color: rgb(0.5, 0.2, 0.1) }",
+     "the picture is of one colour"},
+    {"what is shown is a constant", "stage a: turing_spots { iterations: 3000; ka: 0.05; show: 3 }",
+     "what it shows is 3 in all cells"},
+    {"a spot beside the domain",
+     "system s { u: disc(32, 32, 5); u' = 0.1*lap(u) }\nstage a: s { iterations: 100 }",
+     "nothing tells one cell"},
+    {"a lattice without a seed in the domain",
+     "system s { u: lattice(3, 0.01); u' = 0.1*lap(u) }\nstage a: s { iterations: 100 }",
+     "nothing tells one cell"},
+    {"a threshold that no draw reaches",
+     "system s { u: random(0, 1/2) > 0.5; u' = 0.1*lap(u) }\nstage a: s { iterations: 100 }",
+     "nothing tells one cell"},
+    {"bounds above each other",
+     "system s { u: random(0.5, 0.5); u' = 0.1*lap(u); u >= 1; u <= 0 }\nstage a: s { iterations: "
+     "100 }",
+     "(u = 0)"},
+    {"starting values beyond a bound",
+     "system s { u: random(5, 1); u' = 0.1*lap(u); u <= 1 }\nstage a: s { iterations: 100 }",
+     "(u = 1)"},
+    {"a stage that goes on from another chemistry",
+     "stage one: turing_spots { iterations: 3000; ka: 0.05 }\n"
+     "stage two: gray_scott { u: one.a/8; v: 0; iterations: 1000 }",
+     "stage 'two' died out"},
+    {"noise that has just begun to grow",
+     "system s { u: random(0, 0.001); u' = 0.2 * lap(u) + 0.02 * u - u^3 }\n"
+     "stage a: s { iterations: 150 }",
+     "still growing"},
 };
+
+TEST_F(SilentResults, AStageThatEndsAsItBegan) {
+    const std::string rates =
+        "system s { u: 0.5 + random(0, 0.3); u' = 0.1*dyy(u) + 0.05*dxy(u) - dy(u) }\n";
+    EXPECT_THAT(words_of(rates + "domain { grid: 100 }\nstage a: s { iterations: 300 }\n"),
+                ElementsAre("stage 'a' ended as it began: its rates are 0 in all cells; on a line "
+                            "derivatives along "
+                            "y are 0"));
+    EXPECT_THAT(
+        words_of(rates + "domain { grid: 100, 3 }\nstage a: s { speed: 0.1; iterations: 300 }\n"),
+        IsEmpty());
+    EXPECT_THAT(words_of("system s { u: x; k: 0; u' = k*lap(u) }\ndomain { grid: 8, 8 }\n"
+                         "stage a: s { iterations: 30 }\n"),
+                ElementsAre("stage 'a' ended as it began: its rates are 0 in all cells"));
+}
+
+/// Noise that the stage has not made is meant, or has not been smoothed yet.
+TEST_F(SilentResults, NoiseThatIsMeant) {
+    for (const char* script :
+         {"system s { u: noise(0.001); u' = 0.01*lap(u) }\nstage a: s { iterations: 10 }\n",
+          "system s { u: random(0.5, 0.1); u' = u*(1 - u)*(u - 0.5) }\nstage a: s { iterations: "
+          "300 }\n",
+          "system s { u: 0; u' = 0.01*lap(u) - 0.5*u + normal(0, 1) }\nstage a: s { iterations: "
+          "300 }\n",
+          "system s { k: random(0, 1); u: 0; u' = 0.01*lap(u) + 0.1*(k - u) }\nstage a: s { "
+          "iterations: 300 }\n"}) {
+        EXPECT_THAT(words_of(std::string("domain { grid: 48, 48 }\n") + script), IsEmpty())
+            << script;
+    }
+}
+
+TEST_F(SilentResults, APaletteForAPictureOfColours) {
+    const std::string text =
+        "domain { grid: 24, 24 }\nstage s: turing_spots { iterations: 4000 }\n"
+        "picture { color: rgb(b/8, 0.1, 0.2) }\n";
+    RunRequest wanted = request();
+    EXPECT_THAT(words_of(text, wanted), IsEmpty());
+    wanted.picture.palette = "viridis";
+    EXPECT_THAT(words_of(text, wanted),
+                ElementsAre("--palette changes nothing: the script's picture is made of "
+                            "colours; --show draws a number instead"));
+    wanted.picture.range = ValueRange{0, 8};
+    EXPECT_THAT(words_of(text, wanted),
+                ElementsAre(StartsWith("--palette and --range change nothing")));
+    wanted.picture.show = "b";
+    EXPECT_THAT(words_of(text, wanted), IsEmpty());
+}
+
+TEST_F(SilentResults, FramesOfStartsAlone) {
+    const std::string text =
+        "domain { grid: 24, 24 }\nstage s: turing_spots { iterations: 4000; interval: ";
+    RunRequest wanted = request();
+    wanted.frames = path("film");
+    EXPECT_THAT(
+        words_of(text + "10000 }\n", wanted),
+        ElementsAre(
+            "the frames show nothing but starting values: 'interval' is longer than each stage"));
+    EXPECT_THAT(words_of(text + "4000 }\n", wanted), IsEmpty());
+}
+
+TEST_F(SilentResults, PicturesAndMasksOfOneLevel) {
+    Image grey;
+    grey.width = grey.height = 5;
+    grey.pixels.assign(25, Colour{1.0F / 255, 1.0F / 255, 1.0F / 255});
+    ASSERT_TRUE(write_png(path("dark.png"), grey, PngDepth::eight, {}));
+    const std::string run = "stage s: turing_spots { iterations: 3000; ka: 0.05 }\n";
+    const auto warnings_of = [&](const std::string& mask) {
+        warnings_.clear();
+        Script script = load("domain { grid: 24, 24; mask: " + mask + " }\n" + run);
+        run_well(script, request());
+        return warnings_;
+    };
+    EXPECT_THAT(warnings_of("image(\"dark.png\")"),
+                ElementsAre("image(\"dark.png\") is 0.003922 in all cells",
+                            "the mask of the domain leaves no cell out: it is nowhere 0"));
+    EXPECT_THAT(warnings_of("disc(0.5, 0.5, 0.4)"), IsEmpty());
+}
 
 TEST_F(SilentResults, OneTrueLineEach) {
     for (const Told& each : told) {
