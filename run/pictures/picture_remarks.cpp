@@ -2,7 +2,7 @@
 
 #include "measure/resolution.h"
 #include "run/pictures/measured.h"
-#include "run/stage/nodes_of_rates.h"
+#include "lang/program/nodes_of_rates.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // finite.
 #include "core/spread.h"
 #include "run/simulation/simulation_implementation.h"
-#include "run/stage/nodes_of_rates.h"
+#include "lang/program/nodes_of_rates.h"
 #include "run/stage/result_doubts.h"
 #include "solvers/chequerboard.h"
 #include "solvers/field_norms.h"
