@@ -2,7 +2,6 @@
 
 #include "measure/resolution.h"
 #include "run/pictures/measured.h"
-#include "lang/program/nodes_of_rates.h"
 
 #include <fmt/format.h>
 
@@ -15,8 +14,6 @@ namespace {
 
 /// A spectrum of more cells would cost as much as many steps.
 constexpr std::int64_t most_cells_of_spectrum = std::int64_t{1} << 20;
-/// A species whose deviation is so many times that at the start owes its pattern to the stage.
-constexpr double made_by_the_stage = 3;
 /// From this part of a pattern's variance on, the grid has made it. White noise has 0.8 there in a
 /// plane.
 constexpr double mostly_unresolved = 0.7;
@@ -69,31 +66,6 @@ std::string describe_even(const Canvas& canvas) {
                        spread_of(canvas.fields[0]).mean);
 }
 
-/// Has the stage made what there is? Its neighbours act on each other, no chance does, and every
-/// species that is not even differs far more between cells than when the stage began.
-bool made_its_pattern(const Simulation& simulation, std::uint32_t k) {
-    const Stage& stage = simulation.program().stages[k];
-    const System& system = simulation.program().system_of(k);
-    const auto is_chance = [](const Node& node) {
-        return node.kind == NodeKind::call && is_random(node.function);
-    };
-    const auto is_neighbours = [](const Node& node) {
-        return node.kind == NodeKind::call && differentiates(node.function);
-    };
-    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
-        if (!system.is_species(item) && !stage.uniform[item]) return false;
-    }
-    if (holds_in_rates(system, is_chance) || !holds_in_rates(system, is_neighbours)) return false;
-    const StageCourse& course = simulation.state(k).course;
-    for (std::size_t s = 0; s < course.last().species.size(); ++s) {
-        const Spread& last = course.last().species[s];
-        if (!last.is_even() &&
-            last.deviation() < made_by_the_stage * course.first().species[s].deviation())
-            return false;
-    }
-    return true;
-}
-
 std::string describe_waves(Painter& painter, const Simulation& simulation, std::uint32_t stage) {
     if (simulation.model() || simulation.grid().cell_count() > most_cells_of_spectrum) return {};
     const measure::Samples samples =
@@ -105,7 +77,7 @@ std::string describe_waves(Painter& painter, const Simulation& simulation, std::
             "the waves of the pattern are {:.2g} cells long: with fewer than {:.0f} {}", cells,
             measure::fewest_cells_a_wave, why);
     }
-    if (!made_its_pattern(simulation, stage)) return {};
+    if (!simulation.made_its_pattern(stage)) return {};
     const double part = measure::unresolved_part(samples);
     if (part < mostly_unresolved) return {};
     return fmt::format("{:.0f} % of the pattern is waves of fewer than {:.0f} cells: {}",

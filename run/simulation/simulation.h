@@ -88,6 +88,11 @@ public:
     /// think, and of a stage that has not ended.
     std::string remark_on(std::uint32_t stage) const;
 
+    /// Is the pattern there is the stage's own work? Its neighbours act on each other, no chance
+    /// and no parameter that varies acts on them, and every species that is not even differs far
+    /// more between cells than when the stage began.
+    bool made_its_pattern(std::uint32_t stage) const;
+
     /// From now on, while steps are taken: where `is_due` says so, which is asked some fifty times a second,
     /// `keep` is called at a complete step, and the simulation's states are what a run can go on from with
     /// the same bits. What is done on coarser grids before a stage's first step is not kept.

@@ -1,8 +1,8 @@
 // What the result of a stage says about itself: signs that it is wrong although all values are
 // finite.
 #include "core/spread.h"
-#include "run/simulation/simulation_implementation.h"
 #include "lang/program/nodes_of_rates.h"
+#include "run/simulation/simulation_implementation.h"
 #include "run/stage/result_doubts.h"
 #include "solvers/chequerboard.h"
 #include "solvers/field_norms.h"
@@ -22,6 +22,8 @@ namespace {
 constexpr std::int64_t most_copied_bytes = std::int64_t{64} << 20;
 /// So many more steps are taken for a look, but no more than a quarter of those before.
 constexpr std::int64_t most_steps = 8, least_steps = 4;
+/// A species whose deviation is so many times that at the start owes its pattern to the stage.
+constexpr double made_by_the_stage = 3;
 /// Into so many shorter ones a step is divided for a look. Not two: what has the period of a step
 /// is often of half a step's, too.
 constexpr std::int64_t shorter_steps = 3;
@@ -305,6 +307,25 @@ bool Simulation::Implementation::has_stood_still(std::uint32_t k) const {
     return std::all_of(rates.begin(), rates.end(), [&](const Field& rate) {
         return moments(rate, counted()).root_mean_square == 0;
     });
+}
+
+bool Simulation::made_its_pattern(std::uint32_t k) const {
+    const Stage& stage = program().stages[k];
+    const System& system = program().system_of(k);
+    const auto is_of_neighbours = [](const Node& node) {
+        return node.kind == NodeKind::call && differentiates(node.function);
+    };
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        if (!system.is_species(item) && !stage.uniform[item]) return false;
+    }
+    if (draws_random_numbers(system) || !holds_in_rates(system, is_of_neighbours)) return false;
+    const StageCourse& course = state(k).course;
+    if (course.empty()) return false;
+    const auto is_made = [](const Spread& first, const Spread& last) {
+        return last.is_even() || last.deviation() >= made_by_the_stage * first.deviation();
+    };
+    const auto& first = course.first().species;
+    return std::equal(first.begin(), first.end(), course.last().species.begin(), is_made);
 }
 
 bool Simulation::Implementation::is_sure(std::uint32_t k, FlickerReport& report) {

@@ -1,8 +1,8 @@
 // Values that are not numbers where no species would ever show it: in parameters, comparisons,
 // bounds, conditions and the mask.
 #include "lang/calculus/lost_numbers.h"
-#include "picture/image.h"
 #include "run/simulation/simulation_implementation.h"
+#include "solvers/field_norms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,9 @@
 namespace cascade {
 
 namespace {
+
+/// Less than the deviation of a picture in which one of 2²⁶ pixels differs by a level of 8 bits.
+constexpr double one_level = 1e-7;
 
 /// Calls `is_found(value)` for the cells that count, in order; the first for which it is true.
 template <typename Test>
@@ -162,11 +165,13 @@ void Simulation::Implementation::look_at_until(std::uint32_t k) const {
 void Simulation::Implementation::warn_of_even_pictures(const RunControl& control) const {
     if (!control.warn) return;
     files.each_of(SlotSource::Kind::image, [&](std::uint32_t text, const Field& plane) {
-        const Spread levels = spread_of(plane);
-        if (levels.smallest != levels.largest) return;
-        control.warn(fmt::format(
-            "image(\"{}\") is {:.4g} in all cells{}", program->texts[text], levels.mean,
-            levels.mean == 1 ? ": is it all transparent? What is transparent lies on white" : ""));
+        const FieldMoments levels = moments(plane);
+        if (levels.deviation > one_level) return;
+        control.warn(fmt::format("image(\"{}\") is {:.4g} in all cells{}", program->texts[text],
+                                 levels.mean,
+                                 levels.mean > 1 - one_level
+                                     ? ": is it all transparent? What is transparent lies on white"
+                                     : ""));
     });
 }
 
