@@ -8,6 +8,7 @@
 #include "app/progress_display.h"
 #include "app/time_table.h"
 #include "core/counted.h"
+#include "run/script/script_folder.h"
 
 #include <fmt/format.h>
 
@@ -35,11 +36,17 @@ std::optional<LoadedFile> load_for_run(const Options& options, const Console& co
     if (given) {
         saved->file = given->script.file;
         if (given->script.text != saved->text) {
-            console.fail({fmt::format("{} is not the script of the run saved in {}",
+            console.fail({fmt::format("{} has another text than the script of the run saved in {}",
                                       options.scripts[0], options.run.resume.string()),
-                          "a saved run carries its script: leave SCRIPT out"});
+                          "a saved run goes on with its own script: leave SCRIPT out"});
             return std::nullopt;
         }
+    }
+    const auto edited = find_edited_script(options.run.resume, saved->name, saved->text);
+    if (!given && edited) {
+        console.warn(fmt::format("{} has another text than the saved run, which goes on with its own; what "
+                                 "that reads is looked for in {} and where --allow-read says",
+                                 edited->string(), options.run.resume.string()));
     }
     return LoadedFile{std::move(*saved), ""};
 }

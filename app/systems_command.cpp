@@ -10,6 +10,7 @@
 #include "lang/print/system_listing.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -75,19 +76,17 @@ Failure unknown_system(std::string_view name) {
             near.empty() ? "'cascade systems' lists them" : fmt::format("did you mean '{}'?", near)};
 }
 
-/// A list of those of the library that all words are found in. False if there is none.
-bool print_matches(const std::vector<std::string>& words, Console& console) {
-    bool found = false;
+/// Those of the library in which all words are found.
+std::vector<std::string> matches(const std::vector<std::string>& words) {
+    std::vector<std::string> names;
     for (const LibraryText& text : library_texts()) {
         const LibraryNote note = note_of(text);
-        const bool matches = std::all_of(words.begin(), words.end(), [&](const std::string& word) {
-            return note.mentions(word);
-        });
-        if (!matches) continue;
-        print_line(text.system_name(), note.about, console);
-        found = true;
+        const bool mentions_all =
+            std::all_of(words.begin(), words.end(),
+                        [&](const std::string& word) { return note.mentions(word); });
+        if (mentions_all) names.emplace_back(text.system_name());
     }
-    return found;
+    return names;
 }
 
 bool is_script_path(const std::string& word) {
@@ -100,6 +99,19 @@ bool is_script_path(const std::string& word) {
 
 namespace {
 
+/// Of a word that no system mentions: which ones mention its longest beginning, of four letters or more.
+std::string hint_by_beginning(const std::string& word) {
+    constexpr std::size_t fewest_letters = 4, most_named = 6;
+    for (std::size_t letters = word.size(); letters-- > fewest_letters;) {
+        const std::string beginning = word.substr(0, letters);
+        const std::vector<std::string> names = matches({beginning});
+        if (names.empty() || names.size() > most_named) continue;
+        return fmt::format("'{}' is mentioned by {}; 'cascade systems' lists all", beginning,
+                           fmt::join(names, ", "));
+    }
+    return "'cascade systems' lists them";
+}
+
 /// `cascade systems [WORDS]`
 int search_library(const std::vector<std::string>& words, Console& console) {
     if (words.size() == 1) {
@@ -108,10 +120,15 @@ int search_library(const std::vector<std::string>& words, Console& console) {
             return exit_status::success;
         }
     }
-    if (print_matches(words, console)) return exit_status::success;
+    const std::vector<std::string> found = matches(words);
+    for (const std::string& name : found) {
+        print_line(name, note_of(*find_library_text(name)).about, console);
+    }
+    if (!found.empty()) return exit_status::success;
     Failure failure = unknown_system(words.front());
     failure.message += ", and none mentions it";
     if (words.size() > 1) failure.message = "no system mentions all these words";
+    else if (nearest_name(words.front(), library_names()).empty()) failure.hint = hint_by_beginning(words.front());
     console.fail(failure);
     return exit_status::wrong_use;
 }

@@ -54,7 +54,15 @@ run 0 run --resume half -q -o resumed.png
 run 0 run --resume half -q --save all
 cmp all/small.b.npy kept/small.b.npy || fail "a resumed run has other bits"
 run 2 run explodes.cascade --resume half
-says err 'is not the script of the run saved in half'
+says err 'has another text than the script of the run saved in half'
+run 2 run --resume half --set small.ka=1/50
+says err '--steps, --until-stage and --allow-read can change, and --mesh'
+run 0 run --resume half -o resumed.png
+grep -q 'another text' err && fail "the script of the saved run is as it was"
+mkdir edited && cp -r half edited/half && sed 's/^/ /' spots.cascade >edited/spots.cascade
+(cd edited && "$CASCADE" run --resume half -o resumed.png >../out 2>../err) || fail "an edited script stops the resumed run"
+says err 'spots.cascade has another text than the saved run, which goes on with its own'
+cmp -s edited/resumed.png resumed.png || fail "an edited script changes the resumed run"
 
 # Wrong scripts: 2, and nothing is written.
 rm -f wrong.png
@@ -112,6 +120,8 @@ says out '∂a/∂t = ka (16 − a b) + diff_a ∇²a'
 says out 'A. M. Turing, Philosophical Transactions'
 run 0 systems PEARSON science
 grep -q '^gray_scott ' out && ! grep -q '^turing_spots' out || fail "systems by word"
+run 64 systems zebrafish
+says err "'zebra' is mentioned by "
 run 64 systems brusselater
 says err "did you mean 'brusselator'?"
 run 0 systems explodes.cascade

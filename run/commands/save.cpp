@@ -177,7 +177,8 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
     if (!changes.sets.empty() || changes.grid || changes.seed || changes.solver || changes.precision ||
         changes.fast || changes.cells || changes.up) {
         return failure("a resumed run keeps its grid, seed, precision, rounding, parameters and solver",
-                       "only --steps and --until-stage can change");
+                       "--steps, --until-stage and --allow-read can change, and --mesh where the "
+                       "same model lies elsewhere now");
     }
     try {
         auto overrides = overrides_from_json(json->at("overrides").dump());

@@ -104,8 +104,10 @@ void apply_grid(Script& script) {
     if (domain.model) domain.grid = Grid{};  // Its rows say nothing of a plane.
     domain.model.reset();
     const auto [width, height, depth] = *script.overrides.grid;
-    const std::string value = depth == 1 ? fmt::format("{}x{}", width, height)
-                                         : fmt::format("{}x{}x{}", width, height, depth);
+    const bool is_one_number = script.overrides.grid_is_one_number;
+    const std::string value = is_one_number ? fmt::format("{}", width)
+                              : depth == 1  ? fmt::format("{}x{}", width, height)
+                                            : fmt::format("{}x{}x{}", width, height, depth);
     const Span span = option_span(script.sources, "--grid", value);
     constexpr std::int64_t most_cells = std::int64_t{1} << 31;
     script.program->domain.grid_span = span;
@@ -120,7 +122,7 @@ void apply_grid(Script& script) {
     } else {
         Grid& grid = script.program->domain.grid;
         const bool was_a_line = grid.height == 1 && grid.depth == 1;
-        if (script.overrides.grid_is_one_number && !was_a_line) {
+        if (is_one_number && !was_a_line) {
             script.diagnostics.warning(
                 span, fmt::format("this is a line of {} cells", width),
                 fmt::format("for a square write --grid {}x{}", width, width));

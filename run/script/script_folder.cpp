@@ -3,7 +3,9 @@
 #include "core/granted_files.h"
 #include "lang/syntax/parse.h"
 
-#include <array>
+#include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace cascade {
 
@@ -15,20 +17,47 @@ std::string portable_path(const std::string& path) {
     return leads_down ? path : normal.filename().string();
 }
 
-fs::path find_script_folder(const fs::path& saved, const std::string& name,
-                            const std::string& text) {
-    struct Place {
-        fs::path folder;
-        std::string name;
-    };
+namespace {
+
+/// A file that has the name of a saved run's script.
+struct Namesake {
+    fs::path folder;
+    std::string name, text;
+};
+
+/// In the current folder, and in the one that the saved run lies in.
+std::vector<Namesake> namesakes(const fs::path& saved, const std::string& name) {
     const fs::path here = fs::path(portable_path(name));
     const fs::path above = (saved / "..").lexically_normal();
-    for (const Place& place : {Place{".", here.string()}, Place{above, here.filename().string()}}) {
-        if (place.name.empty()) continue;
-        const auto found = GrantedFiles(place.folder, {}).read(place.name, largest_script);
-        if (found && *found == text) return (place.folder / place.name).parent_path();
+    std::vector<Namesake> found;
+    for (Namesake each : {Namesake{".", here.string(), ""}, Namesake{above, here.filename().string(), ""}}) {
+        if (each.name.empty()) continue;
+        auto text = GrantedFiles(each.folder, {}).read(each.name, largest_script);
+        if (!text) continue;
+        each.text = *std::move(text);
+        found.push_back(std::move(each));
+    }
+    return found;
+}
+
+}  // namespace
+
+fs::path find_script_folder(const fs::path& saved, const std::string& name,
+                            const std::string& text) {
+    for (const Namesake& each : namesakes(saved, name)) {
+        if (each.text == text) return (each.folder / each.name).parent_path();
     }
     return saved;
+}
+
+std::optional<fs::path> find_edited_script(const fs::path& saved, const std::string& name,
+                                           const std::string& text) {
+    const std::vector<Namesake> found = namesakes(saved, name);
+    const bool is_unchanged = std::any_of(found.begin(), found.end(), [&](const Namesake& each) {
+        return each.text == text;
+    });
+    if (found.empty() || is_unchanged) return std::nullopt;
+    return (found.front().folder / found.front().name).lexically_normal();
 }
 
 }  // namespace cascade

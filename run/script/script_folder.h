@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace cascade {
@@ -16,5 +17,10 @@ std::string portable_path(const std::string& path);
 /// itself. A folder that a saved run names is not trusted: it would grant the right to read there.
 std::filesystem::path find_script_folder(const std::filesystem::path& saved,
                                          const std::string& name, const std::string& text);
+
+/// Where one looks for it, is there a file of that name, but none with that text? The first of such.
+std::optional<std::filesystem::path> find_edited_script(const std::filesystem::path& saved,
+                                                        const std::string& name,
+                                                        const std::string& text);
 
 }  // namespace cascade
