@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace cascade::checking {
 
@@ -207,7 +209,9 @@ void ExpressionChecker::apply(Function function, const Operands& operands, std::
     }
     if (parts_.back().faulty) return;
     check_types(node);
-    if (!parts_.back().faulty) fold_constants(node);
+    if (parts_.back().faulty) return;
+    check_angle(node);
+    fold_constants(node);
 }
 
 void ExpressionChecker::need(std::uint32_t part, ValueType type) {
@@ -269,7 +273,36 @@ void ExpressionChecker::check_palette(const Node& node) {
         if (hint.empty()) hint = "palettes are " + list_names(names);
         return fault(text.span, fmt::format("there is no palette '{}'", name), std::move(hint));
     }
+    const Part &low = parts_[node.operands[1]], &high = parts_[node.operands[2]];
+    if (low.constant && high.constant && low.value == high.value) {
+        warn(node.span,
+             fmt::format("both ends of the palette are {:.4g}: it has nothing between them",
+                         low.value),
+             "palette(value, low, high, \"name\")");
+    }
     formula_.nodes.back().type = ValueType::colour;
+}
+
+/// An angle that is a whole number beyond a full turn is mostly one of degrees.
+void ExpressionChecker::check_angle(const Node& node) {
+    const bool is_stripe = node.function == Function::stripe && node.operand_count == 3;
+    if (node.function != Function::diffuse && node.function != Function::tensor && !is_stripe)
+        return;
+    const std::uint32_t last = node.operands[node.operand_count - 1u];
+    const Part& angle = parts_[last];
+    const bool is_odd = angle.constant && std::abs(angle.value) > 2 * std::numbers::pi &&
+                        angle.value == std::floor(angle.value);
+    if (!is_odd) return;
+    warn(formula_.nodes[last].span,
+         fmt::format("{:.4g} radians are {:.3g} turns", angle.value,
+                     angle.value / (2 * std::numbers::pi)),
+         fmt::format("{0:.4g} degrees are {0:.4g} * pi / 180", angle.value));
+}
+
+void ExpressionChecker::warn(Span span, std::string message, std::string hint) {
+    Diagnostic diagnostic{Severity::warning, span, std::move(message), std::move(hint), {}};
+    add_call(work_, diagnostic);
+    work_.diagnostics.add(std::move(diagnostic));
 }
 
 /// The first value of noise and lattices is a length; the octaves of noise are counted now.
@@ -321,11 +354,8 @@ void ExpressionChecker::fold_constants(const Node& node) {
             std::isnan(*value)   ? "it is not defined for these numbers"
             : std::isinf(*value) ? "it is infinite for these numbers"
                                  : fmt::format("{:.3g} is infinite in single precision, which ends at 3.4e38", *value);
-        Diagnostic diagnostic{Severity::warning, node.span,
-                              fmt::format("{} has no finite value here", info(node.function).spelling),
-                              hint, {}};
-        add_call(work_, diagnostic);
-        work_.diagnostics.add(std::move(diagnostic));
+        warn(node.span, fmt::format("{} has no finite value here", info(node.function).spelling),
+             hint);
     }
     parts_.back() = {false, true, *value};
 }

@@ -72,6 +72,8 @@ private:
     void check_types(const Node& node);
     void check_choice(Node& node, std::uint32_t a, std::uint32_t b);
     void check_palette(const Node& node);
+    void check_angle(const Node& node);
+    void warn(Span span, std::string message, std::string hint);
     void check_lattice(Node& node);
     bool check_vectors(const Node& node);
     void check_operator(const Node& node);

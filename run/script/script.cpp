@@ -3,6 +3,7 @@
 #include "core/file.h"
 #include "core/near_name.h"
 #include "ir/multiply_add.h"
+#include "lang/check/chance.h"
 #include "lang/check/check.h"
 #include "lang/check/unread_stages.h"
 #include "lang/program/models.h"
@@ -230,6 +231,20 @@ void check_until_stage(Script& script) {
     find_stage_of_option(script, name, option_span(script.sources, "--until-stage", name));
 }
 
+void check_chance(Script& script) {
+    const Program& program = *script.program;
+    warn_of_draws_by_step(program, script.diagnostics);
+    // The cells of a model are spread by chance, too.
+    const bool is_for_nothing = script.overrides.seed && !program.stages.empty() &&
+                                !program.domain.model && !draws_random_numbers(program);
+    if (!is_for_nothing) return;
+    const Span span =
+        option_span(script.sources, "--seed", fmt::format("{}", *script.overrides.seed));
+    script.diagnostics.warning(span,
+                               "nothing in this script is random, so no seed changes its result",
+                               "random(0, 0.01) in a starting value would be");
+}
+
 /// The picture block, and whether every stage is of any use.
 void check_views(Script& script) {
     if (script.program->stages.empty()) return;
@@ -282,6 +297,7 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
     apply_steps(script);
     check_coarse_starts(*script.program, script.diagnostics);
     check_until_stage(script);
+    check_chance(script);
     if (!script.diagnostics.has_errors()) check_views(script);
     if (script.diagnostics.has_errors()) script.program.reset();
     return script;

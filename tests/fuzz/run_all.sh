@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# run_all.sh MINUTES: all fuzzers share MINUTES, one after the other, and go on from what they found before
+# run_all.sh MINUTES: all fuzzers share MINUTES, one after the other, and continue from what they found before
 # (build/corpora/NAME); then the tests run under the sanitizers of addresses, undefined behaviour and
 # threads, as often as MINUTES allow and at least once, their random parts with new seeds.
-# What fails is an input crash-…, timeout-… or oom-… in build/corpora, or a test with its seed.
+# Failures: an input crash-…, timeout-… or oom-… in build/corpora, or a test and its seed.
 #
-#     FUZZERS="picture kept" tests/fuzz/run_all.sh 10    those alone
-#     SANITIZERS="thread" …                              those presets alone; "" for none
+#     FUZZERS="picture kept" tests/fuzz/run_all.sh 10    only these
+#     SANITIZERS="thread" …                              only these presets; "" for none
 set -eu
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 minutes=${1:?how many minutes?}
@@ -32,7 +32,7 @@ if [ ${#fuzzers[@]} -gt 0 ]; then
         note "$name, $seconds s, $(find "$corpus" -type f | wc -l) inputs known"
         log=build/corpora/$name.log
         if build/fuzz/tests/fuzz/"$name"_fuzzer "${options[@]}" -print_funcs=0 -max_len=4096 \
-            -timeout=10 -max_total_time="$seconds" -print_final_stats=1 \
+            -timeout=10 -malloc_limit_mb=256 -max_total_time="$seconds" -print_final_stats=1 \
             -artifact_prefix=build/corpora/ "${seeds[@]}" >"$log" 2>&1; then
             grep -E 'number_of_executed_units|average_exec_per_sec' "$log"
         else

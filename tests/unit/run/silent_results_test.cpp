@@ -132,8 +132,28 @@ TEST_F(SilentResults, AGridThatIsALine) {
     line.grid_is_one_number = true;
     EXPECT_THAT(words_of(text, request(), line),
                 ElementsAre("this is a line of 100 cells | for a square write --grid 100x100"));
+    EXPECT_THAT(load(text, line).messages(false), HasSubstr("\n    1 | 100\n"));
     // Another line in place of one.
     EXPECT_THAT(words_of("domain { grid: 60 }\n" + text, request(), line), IsEmpty());
+}
+
+TEST_F(SilentResults, ASeedOfNothingRandom) {
+    Overrides seeded;
+    seeded.seed = 5;
+    const auto messages = [&](const std::string& text) {
+        return load(text, seeded).messages(false);
+    };
+    const std::string system = "system s { k: 0.1; u: disc(0.5, 0.5, 0.2); u' = k*lap(u) }\n";
+    EXPECT_THAT(messages(system + "stage a: s { }\n"),
+                HasSubstr("<--seed>:1:1: warning: nothing in this script is random, so no seed "
+                          "changes its result"));
+    for (const char* random :
+         {"stage a: s { k: random(0.1, 0.01) }\n",
+          "stage a: s { }\ndomain { mask: noise(0.1) > 0 }\n",
+          "stage a: s { u.left: fixed(random(0, 1)) }\ndomain { boundary: noflux }\n",
+          "domain { surface: sphere; cells: 500 }\nstage a: s { }\n"}) {
+        EXPECT_EQ(messages(system + random), "") << random;
+    }
 }
 
 TEST_F(SilentResults, AStageThatNobodyReads) {
