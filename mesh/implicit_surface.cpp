@@ -2,7 +2,7 @@
 
 #include "mesh/centred_lattice.h"
 #include "mesh/edge_pairs.h"
-#include "mesh/even_triangles.h"
+#include "mesh/isotropic_remesh.h"
 
 #include <fmt/format.h>
 
@@ -306,7 +306,7 @@ Result<SurfaceMesh> implicit_surface(const ImplicitFunction& function, const Imp
         if (progress) progress(std::min(0.99, 0.5 + 0.06 * ++round));
         return projector.bring_back(points, normals);
     };
-    if (Result<void> fine = make_even(*mesh, request.edge, bring_back, cancel); !fine) {
+    if (Result<void> fine = isotropic_remesh(*mesh, request.edge, bring_back, cancel); !fine) {
         return tl::unexpected(fine.error());
     }
     if (cancel) return failure("the surface was given up");

@@ -2,7 +2,6 @@
 #include "mesh/creature.h"
 #include "mesh/normals.h"
 
-#include "mesh/even_triangles.h"
 #include "unit/mesh/measures.h"
 
 namespace cascade {
