@@ -54,13 +54,14 @@ private:
         Operators result = nothing();
         if (node.kind == NodeKind::own && node.index == species_) result.own = builder_.number(1);
         if (node.kind != NodeKind::call) return result;
+        const Derivative derivative = derivative_of(node.function);
+        if (derivative.order == 2 && !derivative.is_mixed()) {
+            return along_axis(found_[node.operands[0]], derivative.first);
+        }
         switch (node.function) {
             case Function::lap:
             case Function::div: return laplacian(found_[node.operands[0]]);
             case Function::grad: return found_[node.operands[0]];
-            case Function::dxx: return along_axis(found_[node.operands[0]], 0);
-            case Function::dyy: return along_axis(found_[node.operands[0]], 1);
-            case Function::dzz: return along_axis(found_[node.operands[0]], 2);
             case Function::diffuse: return directed(node);
             default: break;
         }
@@ -94,9 +95,9 @@ private:
         return result;
     }
 
-    Operators along_axis(const Operators& of, std::size_t axis) const {
+    Operators along_axis(const Operators& of, int axis) const {
         Operators result = nothing();
-        result.terms[laplacian_powers + axis] = of.own;
+        result.terms[laplacian_powers + static_cast<std::size_t>(axis)] = of.own;
         return result;
     }
 
@@ -130,9 +131,7 @@ private:
 };
 
 bool draws(const Node& node) {
-    if (node.kind != NodeKind::call) return false;
-    const Places places = info(node.function).places;
-    return places == Places::noisy || places == Places::rates;
+    return node.kind == NodeKind::call && is_random(node.function);
 }
 
 bool any_node(const Formula& formula, const auto& test) {

@@ -7,33 +7,20 @@
 #include <utility>
 
 namespace cascade {
-namespace {
-
-bool is_comparison(Function function) {
-    return Function::less <= function && function <= Function::not_equal;
-}
-
-}  // namespace
-
 /// Can it make a NaN of finite numbers?
 bool LostNumbers::makes_nan(const Node& node) const {
     const auto second = [&]() -> const Node& { return flat_.builder()[node.operands[1]]; };
-    switch (node.function) {
-        case Function::sqrt:
-        case Function::log:
-        case Function::asin:
-        case Function::acos:
-            return true;
-        case Function::divide:
-        case Function::mod:
-            return second().kind != NodeKind::number;
-        case Function::power:
-        case Function::pow:
+    switch (info(node.function).behaviour) {
+        case Behaviour::plain:
+        case Behaviour::jumps:
+        case Behaviour::chooses: return false;
+        case Behaviour::partial: return true;
+        case Behaviour::divides: return second().kind != NodeKind::number;
+        case Behaviour::raises:
             return second().kind != NodeKind::number ||
                    second().number != std::floor(second().number);
-        default:
-            return false;
     }
+    return false;
 }
 
 void LostNumbers::know_all_parts() {

@@ -45,11 +45,12 @@ std::optional<PartId> SlopeRules::diffusion_gain(const Node& node) {
                 sum(metric(MetricPlane::flow_11), metric(MetricPlane::flow_22));
             return product(number(4), builder_.divide(trace, metric(MetricPlane::area)));
         }
-        case Function::dxx:
-        case Function::dyy:
-        case Function::dzz: return number(along_axis);
         case Function::diffuse: break;
-        default: return std::nullopt;
+        default: {
+            const Derivative derivative = derivative_of(node.function);
+            const bool decays = derivative.order == 2 && !derivative.is_mixed();
+            return decays ? std::optional(number(along_axis)) : std::nullopt;
+        }
     }
     const PartId a1 = node.operands[1], a2 = node.operands[2];
     if (!has_metric_) {
@@ -68,19 +69,14 @@ std::optional<PartId> SlopeRules::diffusion_gain(const Node& node) {
 /// Of the other operators, and of aggregates.
 std::optional<PartId> SlopeRules::other_gain(const Node& node) {
     const double h = grid_.spacing;
-    switch (node.function) {
-        case Function::dx: return product(number(0.5), gradient_gain(0));
-        case Function::dy: return product(number(0.5), gradient_gain(1));
-        case Function::dz: return product(number(0.5), gradient_gain(2));
-        case Function::dxy:
-        case Function::dxz:
-        case Function::dyz: return number(1 / (h * h));
-        case Function::domain_mean:
-        case Function::domain_min:
-        case Function::domain_max: return number(1);
-        case Function::domain_sum: return number(static_cast<double>(grid_.cell_count()));
-        default: return std::nullopt;
+    const Derivative derivative = derivative_of(node.function);
+    if (derivative.order == 1) {
+        return product(number(0.5), gradient_gain(static_cast<std::size_t>(derivative.first)));
     }
+    if (derivative.is_mixed()) return number(1 / (h * h));
+    if (!info(node.function).is_aggregate) return std::nullopt;
+    const bool adds = node.function == Function::domain_sum;
+    return number(adds ? static_cast<double>(grid_.cell_count()) : 1);
 }
 
 /// a11, a12 and a22 of tensor(a1, a2, theta).

@@ -7,32 +7,6 @@
 
 namespace cascade {
 
-namespace {
-
-/// Does the function jump as its operand n passes some value?
-bool jumps_by(Function function, std::size_t n) {
-    switch (function) {
-        case Function::logical_or:
-        case Function::logical_and:
-        case Function::logical_not:
-        case Function::less:
-        case Function::less_equal:
-        case Function::greater:
-        case Function::greater_equal:
-        case Function::equal:
-        case Function::not_equal:
-        case Function::step:
-        case Function::sign:
-        case Function::floor:
-        case Function::ceil:
-        case Function::round: return true;
-        case Function::if_: return n == 0;
-        default: return false;
-    }
-}
-
-}  // namespace
-
 SlopeRules::SlopeRules(FormulaBuilder& builder, const Program& program)
     : builder_(builder),
       grid_(program.domain.grid),

@@ -139,20 +139,6 @@ void report_unknown_function(Workspace& work, const ast::Word& name,
                            std::move(hint));
 }
 
-/// Of derivatives along the axes of the grid: on a surface these are no straight lines.
-bool is_grid_derivative(Function function) {
-    switch (function) {
-        case Function::dz:
-        case Function::dxx:
-        case Function::dyy:
-        case Function::dzz:
-        case Function::dxy:
-        case Function::dxz:
-        case Function::dyz: return true;
-        default: return false;
-    }
-}
-
 bool ExpressionChecker::belongs_here(Function function, Span span) {
     const FunctionInfo& row = info(function);
     const Place place = scope_.place;
@@ -163,7 +149,7 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
         return false;
     };
     const bool varies = row.is_aggregate || varies_by_cell(function);
-    if (place == Place::position && !fold(function, std::vector<double>(most_operands, 1.0))) {
+    if (place == Place::position && !is_elementary(function)) {
         return refuse("a surface is made of numbers, sx, sy and functions of numbers");
     }
     if (place == Place::mask && (row.is_aggregate || differentiates(function))) {
@@ -172,7 +158,8 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
     if (place == Place::mask && needs_model(function)) {
         return refuse("a mask is that of a plane; it belongs to the cells of a model");
     }
-    if (work_.on_surface && is_grid_derivative(function)) {
+    const bool is_derivative = row.kind == FunctionKind::derivative;
+    if (work_.on_surface && is_derivative && !includes(row.domains, Domains::surface)) {
         return refuse("second derivatives by name have no meaning on a surface; lap and div have");
     }
     if (place == Place::constant && varies) {
@@ -228,25 +215,22 @@ void ExpressionChecker::check_types(const Node& node) {
     const auto& operands = node.operands;
     if (check_vectors(node)) return;
     if (differentiates(node.function)) return check_operator(node);
-    switch (node.function) {
-        case Function::if_:
-            need(operands[0], ValueType::number);
-            return check_choice(formula_.nodes.back(), operands[1], operands[2]);
-        case Function::mix:
-            need(operands[2], ValueType::number);
-            return check_choice(formula_.nodes.back(), operands[0], operands[1]);
-        case Function::palette: return check_palette(node);
-        case Function::field:
-        case Function::image:
-        case Function::attr:
-        case Function::uvimage: return need(operands[0], ValueType::text);
-        case Function::noise:
-        case Function::lattice:
-        case Function::diamond: check_lattice(formula_.nodes.back()); break;
+    switch (info(node.function).kind) {
+        case FunctionKind::choice: {
+            const bool is_if = node.function == Function::if_;
+            need(operands[is_if ? 0 : 2], ValueType::number);
+            return check_choice(formula_.nodes.back(), operands[is_if ? 1 : 0],
+                                operands[is_if ? 2 : 1]);
+        }
+        case FunctionKind::text: return need(operands[0], ValueType::text);
+        case FunctionKind::pattern: check_lattice(formula_.nodes.back()); break;
+        case FunctionKind::colour:
+            if (node.function == Function::palette) return check_palette(node);
+            formula_.nodes.back().type = ValueType::colour;
+            break;
         default: break;
     }
     for (std::size_t i = 0; i < node.operand_count; ++i) need(operands[i], ValueType::number);
-    if (node.function == Function::rgb) formula_.nodes.back().type = ValueType::colour;
 }
 
 void ExpressionChecker::check_choice(Node& node, std::uint32_t a, std::uint32_t b) {
@@ -336,7 +320,7 @@ void ExpressionChecker::fold_constants(const Node& node) {
         values[i] = part.value;
     }
     // Numbers are flushed to zero where a float is denormal, so such a divisor is zero as well.
-    const bool divides = node.function == Function::divide || node.function == Function::mod;
+    const bool divides = info(node.function).behaviour == Behaviour::divides;
     if (divides && parts_[node.operands[1]].constant &&
         std::abs(values[1]) < static_cast<double>(FLT_MIN)) {
         return fault(formula_.nodes[node.operands[1]].span, "division by zero");

@@ -27,11 +27,7 @@ bool ExpressionChecker::check_vectors(const Node& node) {
     const auto is_geometric = [](ValueType type) {
         return type == ValueType::vector || type == ValueType::tensor;
     };
-    const bool is_arithmetic =
-        node.function == Function::add || node.function == Function::subtract ||
-        node.function == Function::multiply || node.function == Function::divide ||
-        node.function == Function::negate;
-    if (!is_arithmetic) return false;
+    if (info(node.function).kind != FunctionKind::arithmetic) return false;
     const ValueType left = type_of(0);
     if (node.function == Function::negate) {
         if (left != ValueType::vector) return false;

@@ -2,6 +2,8 @@
 // their depth nor their length matters.
 #include "lang/equations/equation_formula.h"
 
+#include "lang/vocabulary/functions.h"
+
 #include <algorithm>
 #include <array>
 #include <span>
@@ -49,10 +51,6 @@ constexpr Prefix prefixes[] = {
     {"grad", "∇", "\\nabla "},
     {"div", "∇·", "\\nabla \\cdot "},
 };
-
-/// Derivatives, by the directions they are taken in.
-constexpr std::string_view derivatives[] = {"dx",  "dy",  "dz",  "dxx", "dyy",
-                                            "dzz", "dxy", "dxz", "dyz"};
 
 template <typename Row, std::size_t count>
 const Row* find(const Row (&rows)[count], std::string_view function) {
@@ -271,8 +269,8 @@ private:
                                       both("|²", "\\right|^2")},
                                      a_power, least);
             }
-            if (std::find(std::begin(derivatives), std::end(derivatives), function) !=
-                std::end(derivatives)) {
+            const auto known = function_named(function);
+            if (known && info(*known).kind == FunctionKind::derivative) {
                 return write_derivative(function.substr(1), operands[0], least);
             }
         }

@@ -99,9 +99,7 @@ private:
     ValueId draw_of_cell(ValueId draw);
     ValueId white(ValueId strength, const Draw& draw);
     Value call(const Node& node, const Cursor& cursor);
-    Value colour_call(const Node& node, const Cursor& cursor);
-    ValueId operation(Function function, ValueId a, ValueId b);
-    ValueId elementary(Function function, ValueId a);
+    ValueId elementary(Function function, ValueId a, ValueId b, ValueId c);
     Value palette(const Node& node, const Cursor& cursor);
 
     const Program& program_;

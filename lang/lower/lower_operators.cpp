@@ -35,17 +35,12 @@ ValueId PassLowering::stencil(PartId id) {
     const PartId operand = part.operands[part.operand_count - 1];
     if (graph_[operand].is_uniform) return builder_.number(0);
     if (graph_.is_linked()) return over_links(part);
+    const auto [order, first, second] = derivative_of(part.node.function);
+    if (order == 1) return difference(operand, first);
+    if (order == 2 && first == second) return second_difference(operand, first);
+    if (order == 2) return cross_difference(operand, first, second);
     switch (part.node.function) {
         case Function::lap: return laplacian(operand);
-        case Function::dx: return difference(operand, 0);
-        case Function::dy: return difference(operand, 1);
-        case Function::dz: return difference(operand, 2);
-        case Function::dxx: return second_difference(operand, 0);
-        case Function::dyy: return second_difference(operand, 1);
-        case Function::dzz: return second_difference(operand, 2);
-        case Function::dxy: return cross_difference(operand, 0, 1);
-        case Function::dxz: return cross_difference(operand, 0, 2);
-        case Function::dyz: return cross_difference(operand, 1, 2);
         case Function::grad2: return squared_gradient(operand);
         case Function::advect: return advection(part);
         case Function::diffuse: return anisotropic(part);
@@ -58,14 +53,15 @@ ValueId PassLowering::stencil(PartId id) {
 ValueId PassLowering::over_links(const Part& part) {
     const PartId operand = part.operands[part.operand_count - 1];
     const std::uint32_t slot = slot_of_plane(operand);
+    if (const Derivative derivative = derivative_of(part.node.function); derivative.order == 1) {
+        constexpr std::array gradients{Op::gradient_x, Op::gradient_y, Op::gradient_z};
+        return builder_.over_links(gradients[static_cast<std::size_t>(derivative.first)], slot);
+    }
     switch (part.node.function) {
         case Function::lap:
             if (part.operand_count == 1) return builder_.laplacian(slot);
             return scaled(builder_.link_flow({slot_of_plane(part.operands[0]), slot}), 0.5);
         case Function::grad2: return scaled(builder_.over_links(Op::link_squares, slot), 0.5);
-        case Function::dx: return builder_.over_links(Op::gradient_x, slot);
-        case Function::dy: return builder_.over_links(Op::gradient_y, slot);
-        case Function::dz: return builder_.over_links(Op::gradient_z, slot);
         default: break;
     }
     CHECK(false, "lowering: operators without a meaning on a model are refused");

@@ -36,25 +36,6 @@ bool is_same(const Part& a, const Part& b) {
 
 }  // namespace
 
-bool is_stencil(Function function) {
-    switch (function) {
-        case Function::lap:
-        case Function::dx:
-        case Function::dy:
-        case Function::dz:
-        case Function::dxx:
-        case Function::dyy:
-        case Function::dzz:
-        case Function::dxy:
-        case Function::dxz:
-        case Function::dyz:
-        case Function::grad2:
-        case Function::advect:
-        case Function::diffuse: return true;
-        default: return false;
-    }
-}
-
 bool PartGraph::is_uniform(const Part& part) const {
     bool operand_differs = false;
     for (std::uint32_t k = 0; k < part.operand_count; ++k) {

@@ -68,8 +68,6 @@ enum class Extent : std::uint8_t {
 
 /// The plane that has a built-in value on a model; nothing of t and step.
 std::optional<ModelPlane> model_plane_of(Builtin builtin);
-/// Is it an operator that reads its last operand at neighbours? (`div` reads at faces instead.)
-bool is_stencil(Function function);
 
 /// What counts as lasting: what no step changes, or all but t and step.
 enum class Lasting : std::uint8_t { parameters, state };

@@ -8,40 +8,12 @@ namespace cascade::lowering {
 
 namespace {
 
-/// About how many operations of a kernel a function takes.
-int cost_of(Function function) {
-    switch (function) {
-        case Function::add:
-        case Function::subtract:
-        case Function::multiply:
-        case Function::negate:
-        case Function::abs:
-        case Function::if_:
-        case Function::less:
-        case Function::less_equal:
-        case Function::greater:
-        case Function::greater_equal:
-        case Function::equal:
-        case Function::not_equal:
-        case Function::logical_and:
-        case Function::logical_or:
-        case Function::logical_not:
-        case Function::step: return 1;
-        case Function::power:  // By a small whole number, most often.
-        case Function::min:
-        case Function::max:
-        case Function::divide:
-        case Function::sqrt: return 4;
-        default: return 20;
-    }
-}
-
 bool is_number(const Part& part) { return part.node.type == ValueType::number; }
 
 }  // namespace
 
 int operations_of(const Part& part) {
-    return part.node.kind == NodeKind::call ? cost_of(part.node.function) : 4;
+    return part.node.kind == NodeKind::call ? info(part.node.function).cost : 4;
 }
 
 Axes::Axes(const Grid& grid) {
@@ -91,20 +63,11 @@ Offsets with_stand_ins(Offsets offsets) {
 }
 
 Offsets stencil_offsets(const Part& stencil, const Axes& axes) {
-    switch (stencil.node.function) {
-        case Function::dx: return axes.pair(0);
-        case Function::dy: return axes.pair(1);
-        case Function::dz: return axes.pair(2);
-        case Function::dxx: return own_cell | axes.pair(0);
-        case Function::dyy: return own_cell | axes.pair(1);
-        case Function::dzz: return own_cell | axes.pair(2);
-        case Function::dxy: return axes.diagonal(0, 1);
-        case Function::dxz: return axes.diagonal(0, 2);
-        case Function::dyz: return axes.diagonal(1, 2);
-        case Function::diffuse:
-            return own_cell | axes.pair(0) | axes.pair(1) | axes.diagonal(0, 1);
-        default: return axes.crosswise();
-    }
+    const auto [order, first, second] = derivative_of(stencil.node.function);
+    if (order == 1) return axes.pair(first);
+    if (order == 2) return first == second ? own_cell | axes.pair(first) : axes.diagonal(first, second);
+    if (!stencil.calls(Function::diffuse)) return axes.crosswise();
+    return own_cell | axes.pair(0) | axes.pair(1) | axes.diagonal(0, 1);
 }
 
 PassPlanner::PassPlanner(const PartGraph& graph, std::span<const PartId> roots, Bringing bringing,

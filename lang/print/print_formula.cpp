@@ -10,28 +10,6 @@ namespace cascade {
 
 namespace {
 
-/// From loosest to tightest, as in the grammar.
-int precedence(Function function) {
-    switch (function) {
-        case Function::logical_or: return 1;
-        case Function::logical_and: return 2;
-        case Function::logical_not: return 3;
-        case Function::less:
-        case Function::less_equal:
-        case Function::greater:
-        case Function::greater_equal:
-        case Function::equal:
-        case Function::not_equal: return 4;
-        case Function::add:
-        case Function::subtract: return 5;
-        case Function::multiply:
-        case Function::divide: return 6;
-        case Function::negate: return 7;
-        case Function::power: return 8;
-        default: return 9;
-    }
-}
-
 /// A part to be written inside an operator that needs at least this precedence.
 struct Part {
     std::uint32_t node = 0;
@@ -80,7 +58,7 @@ private:
     }
 
     void write_operator(const Node& node, int least) {
-        const int own = precedence(node.function);
+        const int own = info(node.function).precedence;
         const bool brackets = own < least;
         if (brackets) text_ += "(";
         if (brackets) push(std::string_view(")"));

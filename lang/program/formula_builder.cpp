@@ -28,7 +28,7 @@ Node call_node(Function function, std::initializer_list<PartId> operands) {
 
 PartId FormulaBuilder::part(Node node) {
     // Two equal draws of random numbers are two draws.
-    const bool is_draw = node.kind == NodeKind::call && info(node.function).places == Places::noisy;
+    const bool is_draw = node.kind == NodeKind::call && is_random(node.function);
     const Key key{node.kind,  node.function, node.type,          std::bit_cast<std::uint64_t>(node.number),
                   node.index, node.stage,    node.operand_count, node.operands};
     const auto next = static_cast<PartId>(nodes_.size());

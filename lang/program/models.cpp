@@ -13,13 +13,8 @@ constexpr std::int64_t cells_of_row = 512;
 
 /// Why an operator is refused on a model; "" for those that have a meaning.
 std::string_view reason_against(Function function) {
+    if (includes(info(function).domains, Domains::model)) return "";
     switch (function) {
-        case Function::dxx:
-        case Function::dyy:
-        case Function::dzz:
-        case Function::dxy:
-        case Function::dxz:
-        case Function::dyz: return "a model has no second derivatives by name; lap(e) has a meaning there";
         case Function::advect:
             return "a flow on a model has no columns and rows to go along; "
                    "vx * dx(e) + vy * dy(e) + vz * dz(e) is carried by central differences";
@@ -34,7 +29,7 @@ std::string_view reason_against(Function function) {
         case Function::image:
             return "rows and columns of a picture have no meaning on a model; "
                    "uvimage(\"f.png\") is a picture painted on it";
-        default: return "";
+        default: return "a model has no second derivatives by name; lap(e) has a meaning there";
     }
 }
 

@@ -7,29 +7,18 @@ namespace cascade {
 
 namespace {
 
-constexpr bool is_operator(std::string_view spelling) {
-    const char first = spelling.front();
-    const bool is_word = first >= 'a' && first <= 'z';
-    return !is_word || spelling == "or" || spelling == "and" || spelling == "not";
-}
-
-constexpr bool is_aggregate(std::string_view spelling) {
-    return spelling.ends_with(" over domain");
-}
-
-constexpr auto any = Places::any;
-constexpr auto cells = Places::cells;
-constexpr auto rates = Places::rates;
-constexpr auto values = Places::values;
-constexpr auto noisy = Places::noisy;
-constexpr auto picture = Places::picture;
+constexpr int cost_of_spatial = 20;
 
 constexpr FunctionInfo function_table[] = {
-#define CASCADE_FUNCTION(id, spelling, arity, places, meaning) \
-    {spelling, arity, places, meaning, is_operator(spelling), \
-     is_aggregate(spelling)},
+#define CASCADE_OPERATOR(id, spelling, arity, precedence, kind, behaviour, cost, meaning) \
+    {spelling,    arity,        precedence,           FunctionKind::kind, \
+     Places::any, Domains::all, Behaviour::behaviour, cost,               meaning},
+#define CASCADE_NUMERIC(id, spelling, arity, kind, behaviour, cost, meaning) \
+    CASCADE_OPERATOR(id, spelling, arity, FunctionInfo::of_a_name, kind, behaviour, cost, meaning)
+#define CASCADE_SPATIAL(id, spelling, arity, kind, places, domains, meaning)   \
+    {spelling,       arity,            FunctionInfo::of_a_name, FunctionKind::kind, \
+     Places::places, Domains::domains, Behaviour::plain,        cost_of_spatial,    meaning},
 #include "lang/vocabulary/functions.def"
-#undef CASCADE_FUNCTION
 };
 
 }  // namespace
@@ -52,45 +41,12 @@ std::optional<Builtin> builtin_named(std::string_view name) {
     return static_cast<Builtin>(found - builtin_names.begin());
 }
 
-bool is_random(Function function) {
-    switch (function) {
-        case Function::random:
-        case Function::normal:
-        case Function::white:
-        case Function::noise:
-        case Function::lattice:
-        case Function::diamond: return true;
-        default: return false;
-    }
-}
-
-bool varies_by_cell(Function function) {
-    const Places places = info(function).places;
-    return places != Places::any && places != Places::picture;
-}
-
-bool reads_file(Function function) {
-    switch (function) {
-        case Function::field:
-        case Function::image:
-        case Function::attr:
-        case Function::uvimage: return true;
-        default: return false;
-    }
-}
-
-bool needs_model(Function function) {
-    switch (function) {
-        case Function::attr:
-        case Function::uvimage:
-        case Function::distance:
-        case Function::keys: return true;
-        default: return false;
-    }
-}
-
-bool differentiates(Function function) {
-    return Function::lap <= function && function <= Function::div;
+Derivative derivative_of(Function function) {
+    const FunctionInfo& row = info(function);
+    if (row.kind != FunctionKind::derivative) return {};
+    const auto axis = [&](std::size_t letter) { return row.spelling[letter] - 'x'; };
+    const int order = static_cast<int>(row.spelling.size()) - 1;  // Without its d.
+    return {order, axis(1), axis(row.spelling.size() - 1)};
 }
 
 }  // namespace cascade

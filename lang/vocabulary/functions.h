@@ -1,6 +1,8 @@
 // The functions, operators and built-in names of the language, and what each is.
 #pragma once
 
+#include "lang/vocabulary/domains.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -11,17 +13,21 @@ namespace cascade {
 
 /// The functions and operators of functions.def.
 enum class Function : std::uint8_t {
-#define CASCADE_FUNCTION(id, spelling, arity, places, meaning) id,
+#define CASCADE_FUNCTION(id, ...) id,
 #include "lang/vocabulary/functions.def"
-#undef CASCADE_FUNCTION
 };
 
 inline constexpr std::size_t function_count = 0
-#define CASCADE_FUNCTION(id, spelling, arity, places, meaning) +1
+#define CASCADE_FUNCTION(...) +1
 #include "lang/vocabulary/functions.def"
-#undef CASCADE_FUNCTION
     ;
 
+// The columns of functions.def, which says what each word means.
+enum class FunctionKind : std::uint8_t {
+    logic, comparison, arithmetic, elementary, choice,
+    derivative, stencil, flux, draw, pattern, shape, text, landmarks, aggregate, colour,
+};
+enum class Behaviour : std::uint8_t { plain, jumps, chooses, partial, divides, raises };
 enum class Places : std::uint8_t { any, cells, rates, values, noisy, picture };
 
 /// How many values a function takes: one number, one of two, or groups of values.
@@ -53,31 +59,71 @@ using Operands = std::array<std::uint32_t, most_operands>;
 struct FunctionInfo {
     std::string_view spelling;
     Arity arity;
+    int precedence;  ///< Of operators; of functions that of a name.
+    FunctionKind kind;
     Places places;
+    Domains domains;
+    Behaviour behaviour;
+    int cost;
     std::string_view meaning;
-    bool is_operator;   ///< Spelled between or before its operands.
-    bool is_aggregate;  ///< Spelled `mean over domain`, written mean(e over domain).
+
+    bool is_operator = precedence < of_a_name;  ///< Spelled between or before its operands.
+    bool is_aggregate = kind == FunctionKind::aggregate;
+
+    static constexpr int of_a_name = 9;
 };
 const FunctionInfo& info(Function function);
 
 /// The function of a name that is called; nothing for operators and unknown names.
 std::optional<Function> function_named(std::string_view name);
 
-/// Whether the function draws random numbers.
-bool is_random(Function function);
-
-/// Whether the value differs from cell to cell whatever the operands are.
-bool varies_by_cell(Function function);
-
-/// Does it read what a text names (a file, an attribute of a model), which lies in a plane of its own?
-bool reads_file(Function function);
-
-/// Is it about places on the surface of a model, which a plane does not have?
-bool needs_model(Function function);
-
+/// Does it make a number of numbers alone? Those are the rows of elementary.def.
+inline bool is_elementary(Function function) {
+    return info(function).kind <= FunctionKind::choice;
+}
+inline bool is_comparison(Function function) {
+    return info(function).kind == FunctionKind::comparison;
+}
+/// Does it draw random numbers?
+inline bool is_random(Function function) {
+    const FunctionKind kind = info(function).kind;
+    return kind == FunctionKind::draw || kind == FunctionKind::pattern;
+}
+/// Does it read its last operand at neighbours? (`div` reads at faces instead.)
+inline bool is_stencil(Function function) {
+    const FunctionKind kind = info(function).kind;
+    return kind == FunctionKind::derivative || kind == FunctionKind::stencil;
+}
 /// Is it an operator of derivatives, or a vector that one takes? Such a function differs from cell
 /// to cell only where an operand does.
-bool differentiates(Function function);
+inline bool differentiates(Function function) {
+    return is_stencil(function) || info(function).kind == FunctionKind::flux;
+}
+/// Does the value differ from cell to cell, for some operands or for all?
+inline bool varies_by_cell(Function function) {
+    const FunctionKind kind = info(function).kind;
+    return kind >= FunctionKind::derivative && kind <= FunctionKind::landmarks;
+}
+/// Does it read what a text names (a file, an attribute of a model), which lies in a plane of its own?
+inline bool reads_file(Function function) { return info(function).kind == FunctionKind::text; }
+/// Is it about places on the surface of a model, which a plane does not have?
+inline bool needs_model(Function function) { return info(function).domains == Domains::model; }
+/// Does the value jump as operand `n` passes some number?
+inline bool jumps_by(Function function, std::size_t n) {
+    const Behaviour behaviour = info(function).behaviour;
+    return behaviour == Behaviour::jumps || (behaviour == Behaviour::chooses && n == 0);
+}
+
+/// A derivative along the axes `first` and, of second order, `second`: 0 is x, 1 y, 2 z.
+struct Derivative {
+    int order = 0;
+    int first = 0;
+    int second = 0;
+
+    constexpr bool is_mixed() const { return order == 2 && first != second; }
+};
+/// Which derivative dx, dxx or dxy is; of order 0 for all that is none.
+Derivative derivative_of(Function function);
 
 /// Values that every expression may read. `pi` is folded into a number.
 enum class Builtin : std::uint8_t {

@@ -20,10 +20,8 @@ struct FunctionRow {
 };
 
 constexpr std::array rows = {
-#define CASCADE_FUNCTION(id, spelling, arity, places, meaning) \
-    FunctionRow{spelling, arity, Places::places},
+#define CASCADE_FUNCTION(id, spelling, arity, places) FunctionRow{spelling, arity, Places::places},
 #include "lang/vocabulary/functions.def"
-#undef CASCADE_FUNCTION
 };
 
 bool is_word(std::string_view spelling) {

@@ -1,0 +1,21 @@
+// The kinds of domains, and sets of them: where a function or a setting has a meaning.
+#pragma once
+
+#include <cstdint>
+
+namespace cascade {
+
+enum class Domains : std::uint8_t {
+    plane = 1,
+    surface = 2,               ///< A grid on a surface that a formula gives.
+    grid = plane | surface,    ///< Cells have rows and columns.
+    model = 4,
+    straight = plane | model,  ///< Axes are straight.
+    bent = surface | model,
+    all = plane | surface | model,
+};
+constexpr bool includes(Domains set, Domains one) {
+    return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0;
+}
+
+}  // namespace cascade

@@ -1,0 +1,76 @@
+// The tables of functions: what one says must fit what the other does.
+#include "lang/calculus/derivative_rules.h"
+#include "lang/program/fold.h"
+#include "lang/vocabulary/functions.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+
+namespace cascade::testing {
+namespace {
+
+std::string spelling(Function function) { return std::string(info(function).spelling); }
+
+template <typename Visit>
+void for_each_function(const Visit& visit) {
+    for (std::size_t k = 0; k < function_count; ++k) visit(static_cast<Function>(k));
+}
+
+TEST(Functions, OfNumbersHaveAValueAndOthersHaveNone) {
+    const std::array<double, most_operands> ones{1, 1, 1, 1, 1, 1};
+    for_each_function([&](Function function) {
+        EXPECT_EQ(fold(function, ones).has_value(), is_elementary(function)) << spelling(function);
+    });
+}
+
+TEST(Functions, ThatJumpHaveNoSlope) {
+    FormulaBuilder builder;
+    Node call;
+    call.kind = NodeKind::call;
+    for (std::uint32_t index = 0; index < 3; ++index) {
+        Node item;
+        item.kind = NodeKind::own;
+        item.index = index;
+        call.operands[index] = builder.part(item);
+    }
+    for_each_function([&](Function function) {
+        call.function = function;
+        call.operand_count = 0;
+        for (std::size_t n = 0; is_elementary(function) && n < operand_count(call); ++n) {
+            const auto slope = partial_derivative(builder, call, n);
+            const bool is_edge = function == Function::smoothstep && n < 2;
+            EXPECT_EQ(slope.has_value(), !is_edge) << spelling(function) << n;
+            if (!slope) continue;
+            EXPECT_EQ(builder.is_number(*slope, 0), jumps_by(function, n)) << spelling(function) << n;
+        }
+    });
+}
+
+TEST(Functions, DerivativesAreSpelledByTheirAxes) {
+    const auto axes = [](Function function) {
+        const Derivative derivative = derivative_of(function);
+        return std::array{derivative.order, derivative.first, derivative.second};
+    };
+    EXPECT_EQ(axes(Function::dx), (std::array{1, 0, 0}));
+    EXPECT_EQ(axes(Function::dz), (std::array{1, 2, 2}));
+    EXPECT_EQ(axes(Function::dyy), (std::array{2, 1, 1}));
+    EXPECT_EQ(axes(Function::dxz), (std::array{2, 0, 2}));
+    EXPECT_EQ(axes(Function::div), (std::array{0, 0, 0}));
+    EXPECT_TRUE(derivative_of(Function::dyz).is_mixed());
+    EXPECT_FALSE(derivative_of(Function::dzz).is_mixed());
+}
+
+TEST(Functions, HaveAMeaningOnTheDomainsOfTheirRow) {
+    const auto domains = [](Function function) { return info(function).domains; };
+    EXPECT_TRUE(includes(domains(Function::dz), Domains::model));
+    EXPECT_FALSE(includes(domains(Function::dz), Domains::surface));
+    EXPECT_FALSE(includes(domains(Function::dxy), Domains::model));
+    EXPECT_TRUE(includes(domains(Function::advect), Domains::surface));
+    EXPECT_FALSE(includes(domains(Function::advect), Domains::model));
+    EXPECT_TRUE(needs_model(Function::keys));
+}
+
+}  // namespace
+}  // namespace cascade::testing
