@@ -219,8 +219,9 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
 }
 
 std::string Simulation::remark_on(std::uint32_t k) const {
-    const std::string remark = describe_end(self_->stage(k), self_->program->system_of(k),
-                                            self_->states[k], k == self_->script->final_stage());
+    const std::string remark =
+        describe_end(self_->stage(k), self_->program->system_of(k), self_->states[k],
+                     k == self_->script->final_stage(), self_->counted());
     if (!remark.empty() || !self_->has_stood_still(k)) return remark;
     return fmt::format(
         "stage '{}' ended as it began: its rates are 0 in all cells{}", self_->stage(k).name,

@@ -215,9 +215,14 @@ std::optional<std::string> Simulation::Implementation::find_chequerboard(std::ui
                                                                          bool flickers) const {
     const std::vector<Field>& species = states[k].species;
     const Links* links = model ? &model->links : nullptr;
+    const StageTime& time = stage(k).time;
     const auto alternates = [&](const Field& field) {
-        // What has died away is rounding, of which the fastest waves may well be left.
-        return moments(field, counted()).deviation > least_deviation &&
+        // What has died away is rounding, or errors that the solver was allowed, of which the
+        // fastest waves may well be left.
+        const FieldMoments values = moments(field, counted());
+        const double errors =
+            time.chooses_steps() ? time.step_tolerance() * values.root_mean_square : 0;
+        return values.deviation > std::max(least_deviation, errors) &&
                alternating_part(field, counted(), links) >= chequerboard_threshold;
     };
     const auto found = std::find_if(species.begin(), species.end(), alternates);

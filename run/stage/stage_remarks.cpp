@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace cascade {
@@ -51,6 +52,27 @@ std::string describe_even(const Stage& stage, const System& system, const StageC
                        "it is even since step {} or before", values, step);
 }
 
+/// The part of the cells in which a mask is 1.
+double part_of_ones(const Mask& mask, const Mask* inside) {
+    double ones = 0, cells = 0;
+    for (std::int64_t row = 0; row < mask.layout().row_count(); ++row) {
+        for (std::int64_t i = 0; i < mask.layout().width; ++i) {
+            if (inside != nullptr && inside->row(row)[i] == 0) continue;
+            ++cells;
+            if (mask.row(row)[i] != 0) ++ones;
+        }
+    }
+    return cells > 0 ? ones / cells : 0;
+}
+
+/// Do the cells of all species differ by no more than the error that is allowed in a step?
+bool differs_by_errors_alone(const Stage& stage, const StageCourse& course) {
+    const auto& species = course.last().species;
+    return std::all_of(species.begin(), species.end(), [&](const Spread& spread) {
+        return spread.deviation() < stage.time.step_tolerance() * spread.magnitude();
+    });
+}
+
 /// The species whose deviation rises fastest.
 std::string describe_growth(const System& system, const StageCourse& course) {
     std::size_t fastest = 0;
@@ -93,15 +115,15 @@ std::string describe_until(const Stage& stage, const StageState& state) {
 }  // namespace
 
 std::string describe_end(const Stage& stage, const System& system, const StageState& state,
-                         bool is_last) {
+                         bool is_last, const Mask* inside) {
     if (!state.done || state.steps == 0) return {};
     const auto about = [&](const std::string& words) {
         return fmt::format("stage '{}' {}", stage.name, words);
     };
     const std::uint32_t frozen = system.frozen_item();
-    if (stage.uniform[frozen] && state.numbers[frozen] != 0) {
-        return about("is frozen in all cells: nothing in it changes");
-    }
+    const double frozen_part = stage.uniform[frozen] ? (state.numbers[frozen] != 0 ? 1 : 0)
+                                                     : part_of_ones(state.frozen, inside);
+    if (frozen_part == 1) return about("is frozen in all cells: nothing in it changes");
     const StageCourse& course = state.course;
     if (course.empty() || course.last().step != state.steps) return {};
     if (course.ended_even()) return about(describe_even(stage, system, course));
@@ -110,7 +132,16 @@ std::string describe_end(const Stage& stage, const System& system, const StageSt
     }
     const Trend trend = is_last && !state.condition_met ? course.trend() : Trend::none;
     if (trend == Trend::growing) return about(describe_growth(system, course));
+    if (stage.time.chooses_steps() && differs_by_errors_alone(stage, course)) {
+        return about(fmt::format(
+            "ended all but even: its cells differ by less than {:.2g}, the tolerance of its steps, "
+            "of their values",
+            stage.time.step_tolerance()));
+    }
     if (trend == Trend::fading) return about(describe_fading(system, course));
+    if (!stage.uniform[frozen] && frozen_part == 0) {
+        return about("is frozen in no cell: its 'frozen' is true nowhere");
+    }
     return {};
 }
 

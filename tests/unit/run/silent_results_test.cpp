@@ -164,7 +164,7 @@ TEST_F(SilentResults, AStageThatNobodyReads) {
                             "'a: a; b: b' in stage 'two' goes on from it"));
     // What the hint says helps.
     EXPECT_THAT(words_of(first + fmt::format(second, "a: a; b: b")), IsEmpty());
-    EXPECT_THAT(words_of(first + fmt::format(second, "frozen: one.b < 2")), IsEmpty());
+    EXPECT_THAT(words_of(first + fmt::format(second, "frozen: one.b < 4")), IsEmpty());
     EXPECT_THAT(words_of(first + fmt::format(second, "") + "picture { color: rgb(one.b/8, b/8, 0) }\n"),
                 IsEmpty());
     const std::string other =
@@ -332,6 +332,18 @@ constexpr Told told[] = {
      "stage one: turing_spots { iterations: 3000; ka: 0.05 }\n"
      "stage two: gray_scott { u: one.a/8; v: 0; iterations: 1000 }",
      "stage 'two' died out"},
+    {"a threshold that freezes all",
+     "stage one: turing_spots { iterations: 3000; ka: 0.05 }\n"
+     "stage two: turing_spots { iterations: 1000; frozen: one.b > -5; a: a; b: b; ka: 0.05 }",
+     "stage 'two' is frozen in all cells"},
+    {"a threshold that freezes nothing",
+     "stage one: turing_spots { iterations: 3000; ka: 0.05 }\n"
+     "stage two: turing_spots { iterations: 1000; frozen: one.b < -5; a: a; b: b; ka: 0.05 }",
+     "stage 'two' is frozen in no cell"},
+    {"differences that are errors of steps",
+     "system s { u: random(0.5, 0.1); u' = -200*(u - 0.5) + 0.1*lap(u) }\n"
+     "stage a: s { solver: rk45; duration: 50 }",
+     "ended all but even"},
     {"noise that has just begun to grow",
      "system s { u: random(0, 0.001); u' = 0.2 * lap(u) + 0.02 * u - u^3 }\n"
      "stage a: s { iterations: 150 }",
