@@ -20,7 +20,7 @@ std::string sides_of(const Grid& grid) {
     return describe_sides(grid) + " cells";
 }
 
-/// Up to one digit behind the point: counts are whole but for links.
+/// Up to one digit after the point: counts are whole but for links.
 std::string number(double value) {
     return std::abs(value - std::round(value)) < 0.05 ? fmt::format("{:.0f}", value)
                                                       : fmt::format("{:.1f}", value);

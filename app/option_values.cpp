@@ -127,7 +127,7 @@ struct Unit {
     double size = 1;
 };
 
-/// A number and one of the units behind it; a unit of no name stands for none.
+/// A number and one of the units after it; a unit of no name stands for none.
 std::optional<double> read_with_unit(std::string_view text, std::span<const Unit> units) {
     const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
     double number = 0;

@@ -212,7 +212,7 @@ std::optional<std::string> Parser::unknown_option() const {
     return std::nullopt;
 }
 
-/// What there is not: an option, since a word behind it may only be the value meant for it, or else
+/// What there is not: an option, since a word after it may only be the value meant for it, or else
 /// the first word that no option and no argument has taken.
 std::string Parser::describe_unexpected(const std::string& program) {
     const std::string where = called(program);
@@ -270,7 +270,7 @@ std::string missing_argument(const Options& options) {
     return "";
 }
 
-/// What stands behind `--` is no option. Whatever is given without an option is a path or a name, and
+/// What stands after `--` is no option. Whatever is given without an option is a path or a name, and
 /// a path that begins with '-' is the same with './' in front.
 std::vector<std::string> without_terminator(std::vector<std::string> arguments) {
     const auto mark = std::find(arguments.begin(), arguments.end(), "--");

@@ -69,7 +69,7 @@ std::string clock_time(double seconds) {
 
 namespace {
 
-/// A bar between what is in front of it and as many of the facts behind it as fit.
+/// A bar between what is before it and as many of the facts after it as fit.
 std::string fitting_bar(const std::string& left, double share,
                         const std::vector<std::string>& facts, int columns) {
     // A full line would move the cursor to the next one.

@@ -73,7 +73,7 @@ bool PromptSession::take(const std::string& line) {
     if (pending_.empty()) {
         const std::string_view words = trim(line);
         if (words.starts_with(":")) return obey(words);
-        // What other prompts take; none of it is a sentence of the language.
+        // What other prompts take; none of it is a statement of the language.
         if (words == "help" || words == "?") return obey(":help");
         if (words == "quit" || words == "exit") return obey(":quit");
         if (says_nothing(line)) return true;

@@ -20,7 +20,7 @@ namespace cascade {
 /// are the same.
 class PromptSession {
 public:
-    /// `show_after_run`: a picture behind each :run, for terminals.
+    /// `show_after_run`: a picture after each :run, for terminals.
     PromptSession(const SimulationOptions& options, Console& console, bool show_after_run);
     ~PromptSession();
 
@@ -31,7 +31,7 @@ public:
     /// No more lines come: what is pending is checked as it is.
     void end();
 
-    /// What to write in front of the next line: its number in the script.
+    /// What to write before the next line: its number in the script.
     std::string prompt() const;
     /// Names with which a line can go on, for completion.
     std::vector<std::string> names(const std::string& line) const;

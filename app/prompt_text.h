@@ -17,12 +17,12 @@ bool says_nothing(std::string_view line);
 
 /// How the word at the end of a line can go on.
 struct Completion {
-    std::string insert;                ///< What all choices have in common behind the word.
+    std::string insert;                ///< What all choices have in common after the word.
     std::vector<std::string> choices;  ///< In order, without repetition.
 };
 
 /// A word is of letters, digits and _; a ':' at the begin of the line belongs to it. Where only one
-/// name is left a space is put behind it.
+/// name is left a space is put after it.
 Completion complete_word(std::string_view line, std::vector<std::string> names);
 
 /// A text without white space at its ends.

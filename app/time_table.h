@@ -8,7 +8,7 @@
 namespace cascade {
 
 /// Where the time of a run went: a line for each part with its share of everything, for each stage
-/// where there are several; with bars behind the shares if `bars`. Ends with a line end.
+/// where there are several; with bars after the shares if `bars`. Ends with a line end.
 std::string time_table(TimeAccount& account, bool bars);
 
 }  // namespace cascade

@@ -10,7 +10,7 @@
 
 namespace cascade::bench {
 
-/// Reads the flags of Google Benchmark behind defaults of ours: nine repetitions, which take turns at
+/// Reads the flags of Google Benchmark after defaults of ours: nine repetitions, which take turns at
 /// random. False, with a message, where a flag is unknown.
 bool initialize_benchmarks(int argc, char** argv);
 

@@ -9,7 +9,7 @@ namespace cascade {
 
 /// "1 face was", "1,234 faces were".
 std::string counted(std::int64_t count, std::string_view one, std::string_view many);
-/// "1 step", "2 passes": of a noun whose plural ends in s, or in es behind an s.
+/// "1 step", "2 passes": of a noun whose plural ends in s, or in es after an s.
 std::string counted(std::int64_t count, std::string_view noun);
 
 }  // namespace cascade

@@ -25,7 +25,7 @@ struct Note {
 };
 
 /// One fault. `message` is a clause without a full stop; `hint` says what to write instead (may be
-/// empty) and is drawn behind the underlined words.
+/// empty) and is drawn after the underlined words.
 struct Diagnostic {
     Severity severity = Severity::error;
     Span span;

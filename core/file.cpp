@@ -31,7 +31,7 @@ fs::path folder_of(const fs::path& path) {
 }
 
 /// Where a write to this path ends: behind symbolic links, also one to a file not made yet. A
-/// circle of links is left to the system to complain about.
+/// cycle of links is left to the system to complain about.
 fs::path behind_links(const fs::path& path) {
     fs::path target = path;
     std::error_code error;

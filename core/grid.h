@@ -30,9 +30,9 @@ struct Boundaries {
 /// no neighbours along it, so a grid of W × 1 or 1 × H cells is one-dimensional. The order of a
 /// Laplacian's sum is ((((N + S) + E) + W) + U) + D − 2·axes·c, without the absent pairs.
 struct Stencil {
-    bool x = true;   ///< W and E, the columns before and behind.
+    bool x = true;   ///< W and E, the columns before and after.
     bool y = true;   ///< N and S, the rows above and below.
-    bool z = false;  ///< U and D, the slices before and behind.
+    bool z = false;  ///< U and D, the slices before and after.
     /// Others than those along axes: a list of links says which (core/links.h).
     bool links = false;
 
@@ -82,9 +82,9 @@ struct Grid {
     friend bool operator==(const Grid&, const Grid&) = default;
 };
 
-/// How a plane of elements lies in memory: slices one behind the other, in each `height` rows with
+/// How a plane of elements lies in memory: slices one after the other, in each `height` rows with
 /// one halo row above and below. A row starts on a multiple of `row_pad` elements and has `row_pad`
-/// elements before and at least `row_pad` behind it, so that a vector may be read or written at the
+/// elements before and at least `row_pad` after it, so that a vector may be read or written at the
 /// end of a row without touching another row's cells. Columns −1 and `width`, rows −1 and `height`
 /// are the halo, edges and corners included; a grid of more than one slice has the halo slices −1
 /// and `depth` as well, while one of a single slice has none.

@@ -29,7 +29,7 @@ constexpr std::uint64_t largest_file = std::uint64_t{16} << 20;
 /// How a file begins. Key and content follow, and then it ends.
 struct Header {
     char magic[8] = {};
-    std::uint64_t checksum = 0;  ///< Of all behind it.
+    std::uint64_t checksum = 0;  ///< Of all after it.
     std::uint64_t key_size = 0;
     std::uint64_t content_size = 0;
 };

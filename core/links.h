@@ -67,7 +67,7 @@ class Links {
 public:
     Links() = default;
     /// Cell order[k] of the list, or k where no order is given, lies at column k mod width of row
-    /// k / width. The cells behind the last one, which fill the last row, are given links like it,
+    /// k / width. The cells after the last one, which fill the last row, are given links like it,
     /// so that they have its values. The order of sums is that of the list. Throws std::bad_alloc.
     Links(const LinkList& list, const PlaneLayout& layout, Precision precision,
           std::span<const std::uint32_t> order = {});

@@ -39,7 +39,7 @@ public:
     void run(const std::function<void(int index)>& work, int active);
 
     /// Inside `work` only: waits until every thread that works has arrived. What a thread wrote
-    /// before is seen by all behind it. Spins a little, then yields.
+    /// before is seen by all after it. Spins a little, then yields.
     void barrier();
 
 private:

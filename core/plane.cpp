@@ -100,11 +100,11 @@ private:
     void fill_columns(std::int64_t slice, std::int64_t begin, std::int64_t end) const {
         const SideRule& left = sides_[Side::left];
         const SideRule& right = sides_[Side::right];
-        const std::int64_t behind = layout_.width;
+        const std::int64_t after = layout_.width;
         for (std::int64_t j = begin; j < end; ++j) {
             Number* cells = origin_ + start({j, slice});
             cells[-1] = cells[source(Side::left)];
-            cells[behind] = cells[source(Side::right)];
+            cells[after] = cells[source(Side::right)];
         }
         if (!left.has_value() && !right.has_value()) return;
         for (std::int64_t j = begin; j < end; ++j) {
@@ -117,7 +117,7 @@ private:
                 cells[-1] = beyond(left, cells[0], value(left, 0), spacing_);
             }
             if (right.has_value()) {
-                cells[behind] = beyond(right, cells[behind - 1], value(right, behind - 1),
+                cells[after] = beyond(right, cells[after - 1], value(right, after - 1),
                                        spacing_);
             }
         }

@@ -33,7 +33,7 @@ inline constexpr Precision precision_of = std::is_same_v<Number, double> ? Preci
                                                                          : Precision::single;
 
 /// Calls `visit` with a zero of the type that numbers of a precision have: what depends on the
-/// format is chosen once, in front of the loops.
+/// format is chosen once, before the loops.
 template <typename Visit>
 constexpr decltype(auto) with_number(Precision precision, Visit&& visit) {
     return precision == Precision::single ? visit(float{}) : visit(double{});

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t widest_excerpt = 100;    // Columns of a source line that are shown.
 constexpr std::size_t columns_in_front = 60;   // A span further right has its line cut in front.
-constexpr std::size_t columns_kept = 40;       // So many characters stay in front of it then.
+constexpr std::size_t columns_kept = 40;       // So many characters stay before it then.
 constexpr std::size_t tab_stop = 8;
 constexpr std::string_view replacement = "\xef\xbf\xbd";  // U+FFFD.
 constexpr std::string_view ellipsis = "\xe2\x80\xa6";     // U+2026.
@@ -38,7 +38,7 @@ struct Excerpt {
     std::size_t marker_width = 0;
 };
 
-/// Byte at which the excerpt begins: the line's first, or some characters in front of the span.
+/// Byte at which the excerpt begins: the line's first, or some characters before the span.
 std::size_t excerpt_begin(std::string_view line, std::size_t span_begin) {
     const bool may_be_near = span_begin <= 4 * columns_in_front;  // At most 4 bytes a character.
     if (may_be_near && count_code_points(line.substr(0, span_begin)) <= columns_in_front) return 0;
@@ -84,7 +84,7 @@ Excerpt make_excerpt(std::string_view line, std::size_t span_begin, std::size_t 
     return excerpt;
 }
 
-/// The source line of a span with the span underlined, and the hint behind it.
+/// The source line of a span with the span underlined, and the hint after it.
 std::string draw_excerpt(Span span, std::string_view hint, const Sources& sources,
                          const Colours& colours) {
     const Source& source = sources[span.source];

@@ -12,7 +12,7 @@ namespace cascade {
 struct Progress {
     std::string doing;           ///< What goes on where no stage runs; then nothing else means anything.
     std::string stage;           ///< The stage's name.
-    std::string note;            ///< What is to be said behind it; mostly nothing.
+    std::string note;            ///< What is to be said after it; mostly nothing.
     int stage_number = 1;        ///< From 1.
     int stage_count = 1;
     std::int64_t step = 0;       ///< Complete steps of this stage.

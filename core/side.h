@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// The sides in order of the axes: those before the first cells and those behind the last.
+/// The sides in order of the axes: those before the first cells and those after the last.
 enum class Side : std::uint8_t { left, right, top, bottom, front, back };
 
 inline constexpr std::size_t side_count = 6;

@@ -42,11 +42,11 @@ Source::Source(std::string name, std::string text)
 
 Location Source::locate(std::uint32_t offset) const {
     offset = std::min(offset, static_cast<std::uint32_t>(text_.size()));
-    const auto behind = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
-    if (behind == line_starts_.begin()) return {1, 1};  // Inside the byte order mark.
-    const std::uint32_t start = *(behind - 1);
+    const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
+    if (after == line_starts_.begin()) return {1, 1};  // Inside the byte order mark.
+    const std::uint32_t start = *(after - 1);
     const auto before = std::string_view(text_).substr(start, offset - start);
-    return {static_cast<std::uint32_t>(behind - line_starts_.begin()),
+    return {static_cast<std::uint32_t>(after - line_starts_.begin()),
             static_cast<std::uint32_t>(count_code_points(before)) + 1};
 }
 

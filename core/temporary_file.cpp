@@ -78,7 +78,7 @@ TemporaryFile::~TemporaryFile() {
 int TemporaryFile::write(std::string_view bytes) {
     if (error_ != 0) return error_;
     if (const int error = write_all(file_, bytes)) return error;
-    // Without it a crash of the machine may leave the new name with no content behind it.
+    // Without it a crash of the machine may leave the new name with no content after it.
     return ::fsync(file_.number()) == 0 || errno == EINVAL ? 0 : errno;
 }
 

@@ -14,7 +14,7 @@ namespace cascade {
 
 namespace {
 
-/// The head and the block behind it, which grow together.
+/// The head and the block after it, which grow together.
 class VtpFile {
 public:
     explicit VtpFile(const VtpPoints& points) : points_(points) {}

@@ -128,7 +128,7 @@ std::uint64_t hash(const CellKernel& kernel);
 std::string print(const CellKernel& kernel);
 
 /// Checks that operands come before their users, slots exist, results exist. Returns an empty text
-/// or what is wrong. Tests and debug builds run it behind every stage that makes a kernel.
+/// or what is wrong. Tests and debug builds run it after every stage that makes a kernel.
 std::string verify(const CellKernel& kernel);
 
 }  // namespace cascade

@@ -20,7 +20,7 @@ Expression polynomial(Expression x, std::span<const double> coefficients) {
     return sum;
 }
 
-// The sum of 1.5 · 2^23 (2^52) and a smaller number has no digits behind the point, and its last
+// The sum of 1.5 · 2^23 (2^52) and a smaller number has no digits after the point, and its last
 // bits are the whole number in two's complement.
 Rounded round_to_whole(Expression x) {
     const WordFormat format = x.format();

@@ -133,7 +133,7 @@ struct Parity {
 };
 
 Parity parity_of(Expression y) {
-    // 2^23 + a has no digits behind the point for a < 2^23, and its last bit is that of a. From
+    // 2^23 + a has no digits after the point for a < 2^23, and its last bit is that of a. From
     // 2^23 to 2^24 the last bit of a itself is worth 1; beyond, all numbers are even. In binary64
     // these are 2^52 and 2^53.
     const double all_whole = std::ldexp(1.0, y.format().fraction_bits);

@@ -48,7 +48,7 @@ Number arithmetic(Number a, Number b) {
     if constexpr (op == Op::divide) return a / b;
 }
 
-/// The nearest whole number: the sum of 2^23 (2^52) and a smaller number has no digits behind the point.
+/// The nearest whole number: the sum of 2^23 (2^52) and a smaller number has no digits after the point.
 template <typename Number>
 Number round_to_even(Number a) {
     constexpr auto all_whole =

@@ -13,12 +13,12 @@ namespace cascade {
 
 class CarriedVectors {
 public:
-    /// `header` is the first block of the loop and `outside` writes in the one in front of it.
+    /// `header` is the first block of the loop and `outside` writes in the one before it.
     CarriedVectors(llvm::BasicBlock& header, Builder& outside)
         : header_(header), outside_(outside) {}
 
     /// Of a field: what the execution before this one has given, or, in the first, what `first` makes
-    /// in front of the loop.
+    /// before the loop.
     llvm::Value* take(std::uint32_t slot,
                       llvm::function_ref<llvm::Value*(Builder& outside)> first);
     /// What the next execution takes; after take().

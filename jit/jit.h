@@ -63,12 +63,12 @@ struct ObjectContent {
 ///               int64_t width, int64_t stride, int64_t row_begin, int64_t row_end, int64_t is_near);
 ///
 /// (`is_near` is not 0 where all fields are in a near cache, so that nothing need be fetched ahead;
-/// for grids of several slices `int64_t slice_rows, int64_t slice` come behind: row j of slice k is
+/// for grids of several slices `int64_t slice_rows, int64_t slice` come after: row j of slice k is
 /// then row k * slice_rows + j, slice_rows is the height plus 2, and a call stays in one slice)
 /// (of kernels of binary64 with double for float) that computes rows [row_begin, row_end): the same
 /// code and ABI as the JIT's own kernels. It calls nothing. Planes are laid out as in PlaneLayout: pointers are to cell (0, 0), of numbers
 /// aligned to 64 bytes and of masks to 16; `stride` is a multiple of 16 elements, with 16 or more
-/// in front of and behind each row; `width` is at least 1. The bits are those of a run if the
+/// before and after each row; `width` is at least 1. The bits are those of a run if the
 /// processor flushes denormal inputs and results meanwhile (FTZ and DAZ on x86). Kernels for linked
 /// cells are refused.
 Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, Stencil stencil,

@@ -27,7 +27,7 @@ void KernelFrame::prefetch(Builder& builder, Value* address) const {
                             {address, word(0), word(3), word(1)});  // To read, to L1, data.
 }
 
-// Loaded once, in front of the loops. `table` is the number of the argument.
+// Loaded once, before the loops. `table` is the number of the argument.
 Value* KernelFrame::plane(unsigned table, std::size_t slot) {
     Value*& address = planes_[{table, slot}];
     if (!address) {
@@ -137,13 +137,13 @@ void KernelLoops::rows(Builder& place, Cells cells) {
     columns(row, place, next, cells);
 
     place.SetInsertPoint(next);
-    Value* behind = place.CreateNSWAdd(row, place.getInt64(1));
+    Value* below = place.CreateNSWAdd(row, place.getInt64(1));
     place.CreateBr(test);
-    row->addIncoming(behind, next);
+    row->addIncoming(below, next);
     place.SetInsertPoint(after);
 }
 
-// `place` is in the block in front of the columns, which is where the values of a row go. It stays
+// `place` is in the block before the columns, which is where the values of a row go. It stays
 // open while they come: LLVM's folding follows jumps, and cannot bear to find an empty block.
 void KernelLoops::columns(Value* row, Builder& place, llvm::BasicBlock* next, Cells cells) {
     llvm::BasicBlock* vector = frame_.new_block("cells");
@@ -158,10 +158,10 @@ void KernelLoops::columns(Value* row, Builder& place, llvm::BasicBlock* next, Ce
     llvm::PHINode* element = inner.CreatePHI(inner.getInt64Ty(), 2, "element");
     CarriedVectors carried(*vector, place);
     cells({row, start, element, &carried}, inner, row_scope);
-    Value* behind = inner.CreateNSWAdd(element, inner.getInt64(frame_.lanes()));
-    inner.CreateCondBr(inner.CreateICmpSLT(behind, end), vector, next);
+    Value* after = inner.CreateNSWAdd(element, inner.getInt64(frame_.lanes()));
+    inner.CreateCondBr(inner.CreateICmpSLT(after, end), vector, next);
     element->addIncoming(start, place.GetInsertBlock());
-    element->addIncoming(behind, inner.GetInsertBlock());
+    element->addIncoming(after, inner.GetInsertBlock());
     carried.close(place.GetInsertBlock(), inner.GetInsertBlock());
     place.CreateBr(vector);
 }
@@ -190,7 +190,7 @@ llvm::Function* build_function(
         llvm::Function::Create(type, llvm::GlobalValue::ExternalLinkage, name, module);
     function->setDoesNotThrow();
 
-    // What is needed once goes to the end of the first block while the loops behind it are built;
+    // What is needed once goes to the end of the first block while the loops after it are built;
     // like all blocks that are written to, it is closed last.
     llvm::BasicBlock* entry = llvm::BasicBlock::Create(context, "entry", function);
     llvm::BasicBlock* begin = llvm::BasicBlock::Create(context, "begin", function);

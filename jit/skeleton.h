@@ -36,7 +36,7 @@ constexpr int cache_line = 64;  ///< Bytes.
 /// What all rows and vectors share: the arguments, the planes' addresses and the way to reach them.
 class KernelFrame {
 public:
-    /// `builder` writes in front of the loops.
+    /// `builder` writes before the loops.
     KernelFrame(llvm::Function& function, const CellKernel& kernel, const KernelShape& shape,
                 Builder& builder)
         : function_(function),
@@ -61,7 +61,7 @@ public:
     llvm::Value* stride() { return function_.getArg(5); }
     llvm::Value* row_begin() { return function_.getArg(6); }
     llvm::Value* row_end() { return function_.getArg(7); }
-    /// One of those behind the arguments that all functions have, from 0 on.
+    /// One of those after the arguments that all functions have, from 0 on.
     llvm::Value* further_argument(unsigned number) {
         return function_.getArg(shared_arguments + number);
     }
@@ -161,7 +161,7 @@ public:
 
     explicit KernelLoops(KernelFrame& frame);
 
-    /// All rows, one after the other. The code begins where `place` writes and leaves it behind
+    /// All rows, one after the other. The code begins where `place` writes and leaves it after
     /// the loop.
     void rows(Builder& place, Cells cells);
     /// All values of the cells, and their results stored.
@@ -184,7 +184,7 @@ private:
 
         KernelFrame& frame_;
         Builder& builder_;
-        llvm::Value* row_;  ///< Null in front of the rows.
+        llvm::Value* row_;  ///< Null before the rows.
     };
 
     void columns(llvm::Value* row, Builder& place, llvm::BasicBlock* next, Cells cells);

@@ -17,7 +17,7 @@ namespace {
 
 using llvm::Value;
 
-// Rows of at least this width are computed while the rows behind them are prefetched. On narrower
+// Rows of at least this width are computed while the rows after them are prefetched. On narrower
 // ones the processor sees far enough ahead by itself, and prefetching costs 5 to 10 %. Vectors of
 // half a cache line prefetch each line twice, which pays only for planes that leave the caches.
 std::int64_t least_width_to_prefetch(int vector_bytes) {
@@ -250,7 +250,7 @@ Value* GridLane::neighbour(Neighbour at) {
     return beside(at.slot, stencil.y ? at.dy : 0, stencil.x ? at.dx : 0, stencil.z ? at.dz : 0);
 }
 
-// The place may lie behind the plane.
+// The place may lie after the plane.
 void GridLane::prefetch(std::uint32_t slot, int rows, Fetching fetching) {
     Value* place = nullptr;
     if (fetching == Fetching::ahead) {

@@ -118,7 +118,7 @@ Value* LinkEntry::at_targets(std::uint32_t slot) {
 }
 
 // Links are the most of what a step reads: a million cells take 0.91 to 0.96 of the time, cells
-// that fit into the cache the same. The place may lie behind the arrays.
+// that fit into the cache the same. The place may lie after the arrays.
 void LinkEntry::prefetch_ahead() {
     constexpr int entries = 16;
     const auto prefetch = [&](unsigned array, llvm::Type* element) {
@@ -163,7 +163,7 @@ private:
     std::map<SumKey, Value*> sums_;
 };
 
-/// Loads what the loop needs of the cells themselves in front of it.
+/// Loads what the loop needs of the cells themselves before it.
 void LinkedLane::load_own() {
     for (const auto& [key, value] : sums_) {
         const Flow flow = Flow::with(key.second);
@@ -182,7 +182,7 @@ Value* LinkedLane::start_of(Value* slice) {
                               builder_.getInt64(slice_cells));
 }
 
-/// Writes the loop, and goes on behind it. A slice may have no entries.
+/// Writes the loop, and goes on after it. A slice may have no entries.
 void LinkedLane::add_up() {
     load_own();
     const auto count = [&](std::uint64_t number) { return builder_.getInt64(number); };

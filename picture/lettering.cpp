@@ -32,7 +32,7 @@ void fill_rectangle(Image& image, std::int64_t x, std::int64_t y, std::int64_t w
 
 std::int64_t text_width(std::string_view text, std::int64_t dot) {
     const auto count = static_cast<std::int64_t>(label_characters(text).size());
-    // The last character needs no room behind it.
+    // The last character needs no room after it.
     return count == 0 ? 0 : (count * glyph_advance - (glyph_advance - glyph_width)) * dot;
 }
 

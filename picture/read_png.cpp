@@ -1,6 +1,6 @@
 // The text chunks of PNG files. The files may come from anywhere.
 //
-// libpng reads texts before the picture's data with ease, those behind it only by inflating the
+// libpng reads texts before the picture's data with ease, those after it only by inflating the
 // picture. So we walk over the file's chunks ourselves and show libpng short files: the header and
 // one text. It checks and inflates that within what all texts together may still have.
 #include "core/file.h"

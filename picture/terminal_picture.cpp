@@ -27,7 +27,7 @@ struct Stretch {
     double from;
     double to;
     std::int64_t first;
-    std::int64_t last;  ///< One behind.
+    std::int64_t last;  ///< One after.
 
     Stretch(std::int64_t k, std::int64_t parts, std::int64_t size)
         : from(static_cast<double>(k) * static_cast<double>(size) / static_cast<double>(parts)),

@@ -14,7 +14,7 @@ namespace cascade {
 
 namespace {
 
-/// Bytes of an array's elements, which stand in front of them.
+/// Bytes of an array's elements, which stand before them.
 using BlockSize = std::uint64_t;
 
 /// vtkDataSetAttributes::HIDDENCELL: a cell that is not there.

@@ -93,7 +93,7 @@ private:
     bool has_end_time() const { return std::isfinite(schedule_.end_time); }
     double now() const { return time_.clock.at(step_); }
 
-    /// Takes some steps and does what is due behind them; false ends the loop.
+    /// Takes some steps and does what is due after them; false ends the loop.
     bool batch() {
         const std::int64_t stop = next_stop();
         stepper_.use_threads(thread_tuner_.threads());
@@ -182,7 +182,7 @@ private:
         return true;
     }
 
-    /// The next step behind which values are looked at: no picture is made of values that are not
+    /// The next step after which values are looked at: no picture is made of values that are not
     /// finite, no stage ends with them, and steps change their length only there, so that those
     /// since the last look can be taken again.
     std::int64_t next_stop() {

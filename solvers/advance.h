@@ -33,7 +33,7 @@ using EndTest = Observer;
 /// Is shown the same, and has no say in anything.
 using Onlooker = std::function<void(std::int64_t step, double t, std::span<const Field> species)>;
 
-/// Called on the caller's thread at a complete step, behind which a run can go on from what it is given
+/// Called on the caller's thread at a complete step, after which a run can go on from what it is given
 /// with the same bits. The species are as for an Observer.
 using Keeper = std::function<void(std::int64_t step, double t, const TimeState& time)>;
 
@@ -78,7 +78,7 @@ struct Schedule {
     /// A copy of all species of at most so many bytes is kept from look to look, to find out in which
     /// step a value was spoiled. Larger ones would cost memory that their user needs for his cells.
     std::int64_t most_kept_bytes = std::int64_t{256} << 20;
-    /// Asked before each batch of steps (some 20 ms): is the state behind it to be kept? Then it is looked at
+    /// Asked before each batch of steps (some 20 ms): is the state after it to be kept? Then it is looked at
     /// for values that are not finite, too, and `keep` is called. No result depends on it.
     std::function<bool()> keep_is_due = {};
     Keeper keep = {};

@@ -21,7 +21,7 @@ RowRange slices_with(RowRange rows, std::int64_t row, std::int64_t height) {
     return {first_from(rows.begin), first_from(rows.end)};
 }
 
-/// The values of some cells beside a side; behind them may stand anything.
+/// The values of some cells beside a side; after them may stand anything.
 template <typename Number>
 std::vector<Number> compute(const ChangingSide& side, SideMoment moment, SideCells cells) {
     std::vector<Number> uniforms(side.uniforms.begin(), side.uniforms.end());

@@ -94,7 +94,7 @@ void PassRunner::prepare_pass(Worker& worker, Team& team, std::size_t number, Re
 }
 
 /// Every thread reduces its rows, then all threads take all rows together, each for itself. The
-/// numbers of rows are written again only behind the next meeting of the team.
+/// numbers of rows are written again only after the next meeting of the team.
 template <typename Number>
 void PassRunner::reduce(Worker& worker, Arguments<Number>& arguments, std::size_t pass_number,
                         Team& team, Registers registers) {

@@ -123,22 +123,22 @@ public:
     }
 
 private:
-    /// Two registers for the states of stages that change places; the rates lie behind them.
+    /// Two registers for the states of stages that change places; the rates lie after them.
     static constexpr std::uint32_t first_state = 2, first_rate = 4;
 
     static std::uint32_t state_register(std::uint32_t stage) {
         return stage == 0 ? old_register : first_state + stage % 2;
     }
 
-    /// The row that gives the state behind a stage: of the next stage, or the new step.
-    const std::vector<double>& row_behind(std::uint32_t stage) const {
+    /// The row that gives the state after a stage: of the next stage, or the new step.
+    const std::vector<double>& row_after(std::uint32_t stage) const {
         return stage + 1 < tableau_.b.size() ? tableau_.a[stage + 1] : tableau_.b;
     }
 
-    /// Is the rate of a stage read by anything but the row right behind it?
+    /// Is the rate of a stage read by anything but the row right after it?
     bool is_read_later(std::uint32_t stage) const {
         for (std::uint32_t later = stage + 1; later < tableau_.b.size(); ++later) {
-            if (row_behind(later)[stage] != 0) return true;
+            if (row_after(later)[stage] != 0) return true;
         }
         return tableau_.error[stage] != 0;
     }
@@ -191,7 +191,7 @@ private:
         sweep.inputs = {state_register(stage), old_register};
         sweep.time = time_of(tableau_.a[stage]);
         SweepOutput state;
-        const std::vector<double>& weights = row_behind(stage);
+        const std::vector<double>& weights = row_after(stage);
         add_kept_rates(form, sweep, state, weights);
         state.terms.push_back(own_rate(form, sweep, weights.back()));
         state.terms.push_back({Source::value, form.base_input});

@@ -154,7 +154,7 @@ SweepForm rkl2_form(bool second) {
     return form;
 }
 
-/// Behind the registers of stages is that of L(Y₀).
+/// After the registers of stages is that of L(Y₀).
 Scheme rkl2(std::uint32_t stages) {
     constexpr std::uint32_t rates_register = legendre_registers;
     Scheme scheme;

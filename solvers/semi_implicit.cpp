@@ -9,7 +9,7 @@ namespace {
 using Source = SweepTerm::Source;
 using Weight = SweepTerm::Weight;
 
-/// c₀ · change + c₁ · change + … + old, changes being the inputs behind the old step.
+/// c₀ · change + c₁ · change + … + old, changes being the inputs after the old step.
 SweepForm sum_form(std::uint32_t changes) {
     SweepForm form;
     form.holds = true;  // A filter spreads the changes of free cells into those that are held.

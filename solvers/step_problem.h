@@ -73,7 +73,7 @@ struct StepProblem {
 
     struct Pass {
         std::vector<Reduction> reductions;  ///< Done before the kernel is run.
-        std::optional<SweepFilter> filter;  ///< Done behind them, before the kernel is run.
+        std::optional<SweepFilter> filter;  ///< Done after them, before the kernel is run.
         KernelPointer kernel;
         std::vector<PlaneRef> fields;       ///< Of the kernel's field slots.
         std::vector<const std::uint8_t*> masks;
@@ -94,7 +94,7 @@ struct StepProblem {
     std::uint32_t registers = 2;
     std::uint32_t error_register = 0;       ///< An estimate of the step's error; 0 for none.
     /// So many passes at the start write the rates of the old step to `first_rate_register` and
-    /// nothing else, and `last_rate_register` gets the rates of the new one: behind a step the two
+    /// nothing else, and `last_rate_register` gets the rates of the new one: after a step the two
     /// change places and those passes are left out. 0 for none.
     std::size_t first_rate_passes = 0;
     std::uint32_t first_rate_register = 0, last_rate_register = 0;

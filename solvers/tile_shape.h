@@ -1,5 +1,5 @@
 // The shape of a tile in time: which layers of an axis are computed when, if several levels (passes
-// of steps, one behind the other) are done while the layers are in the cache.
+// of steps, one after the other) are done while the layers are in the cache.
 //
 // A level reads what is at most one layer away and writes its own layers. An axis is cut into bands.
 // Upright: a band does fewer layers from level to level, one less at each end that is a border.
@@ -26,7 +26,7 @@
 
 namespace cascade {
 
-/// Half-open range of layers. Where the axis wraps it may begin before layer 0 or end behind the last
+/// Half-open range of layers. Where the axis wraps it may begin before layer 0 or end after the last
 /// layer: layer n of n is layer 0.
 struct LayerRange {
     std::int64_t begin = 0, end = 0;
@@ -47,7 +47,7 @@ public:
 
     /// What the level, 0 … most_levels() − 1, does in a band.
     LayerRange upright(int band, int level) const;
-    /// And around the border behind band number `border`.
+    /// And around the border after band number `border`.
     LayerRange inverted(int border, int level) const;
     /// The number of a layer in a range, within the axis.
     std::int64_t wrapped(std::int64_t layer) const {

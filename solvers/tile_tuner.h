@@ -4,7 +4,7 @@
 //
 // What fits by the sizes of caches is used first, or what an earlier run found. Another one than what fits is
 // used only if it was clearly faster in every round; one that was not is tried no more. Of a turn its fastest
-// batch counts. So no disturbed moment decides, and behind the first round time is spent only on what seems
+// batch counts. So no disturbed moment decides, and after the first round time is spent only on what seems
 // to be faster. But other programs may be at work for as long as all rounds take, so now and then all is
 // tried again, and what an earlier run found as soon as anything would be.
 #pragma once

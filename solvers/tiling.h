@@ -29,7 +29,7 @@ struct Tiling {
     friend bool operator==(const Tiling&, const Tiling&) = default;
 };
 
-/// Must the passes in front of this one be complete in all rows before it begins: for an aggregate, or a
+/// Must the passes before this one be complete in all rows before it begins: for an aggregate, or a
 /// filter of waves?
 bool needs_all_rows(const StepProblem::Pass& pass);
 

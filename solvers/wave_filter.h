@@ -36,7 +36,7 @@ public:
     /// Multiplies every wave of every plane, given by the addresses of their cells (0, 0, 0), one for
     /// each species. `length` is the h of the response. Called by the first `threads` threads of the team, each with its
     /// number and the same arguments; rows as of split_rows() are read before the first meeting of
-    /// the team and written behind the last, by their own thread. Bits do not depend on `threads`.
+    /// the team and written after the last, by their own thread. Bits do not depend on `threads`.
     void apply(Team& team, int thread, int threads, std::span<Number* const> planes,
                std::span<const DiffusionSymbol> symbols, WaveResponse response,
                double length) const;

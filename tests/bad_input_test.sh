@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Bad input as a user would give it: sizes, files, disks, options. Each has its exit status and its
-# message, and leaves nothing behind. What a wrong sentence is told is tested in spec/messages.md.
+# message, and leaves nothing behind. What a wrong statement is told is tested in spec/messages.md.
 set -u
 rm -rf ./* .cascade-*
 unset NO_COLOR
@@ -98,7 +98,7 @@ touch file
 refused 3 "there is no folder 'nowhere'" run good.cascade -o nowhere/a.png
 refused 3 'the folder file cannot be made' run good.cascade --frames file
 refused 3 'the folder file cannot be made' run good.cascade --save file
-grep -q 'steps/s' err && fail "an output was tried behind the run"
+grep -q 'steps/s' err && fail "an output was tried after the run"
 if [ -c /dev/full ]; then
     for command in systems 'check good.cascade' 'run good.cascade -q --dump ir' --help --version; do
         # shellcheck disable=SC2086

@@ -40,7 +40,7 @@ grep -q '▆' err && fail "bars in a pipe"
 run 0 run spots.cascade --timing -q --until-stage large
 parts_are_there
 adds_up
-# What was compiled behind the last step of the run before was kept all the same.
+# What was compiled after the last step of the run before was kept all the same.
 [ "$CASCADE_JIT" != 1 ] || says err 'found on disk'
 grep -q '^  large ' err && fail "a stage alone has lines of its own"
 run 3 run grows.cascade --timing

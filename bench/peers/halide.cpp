@@ -92,7 +92,7 @@ struct Contest {
     HalideSide theirs;
 };
 
-/// Ours and each schedule take turns; both sides are freed behind it.
+/// Ours and each schedule take turns; both sides are freed after it.
 void run_contest(Backend& backend, const System& system, std::int64_t side, Programs& programs,
                  Medians& times) {
     const GridSize grid = {side, side};

@@ -78,7 +78,7 @@ public:
     /// Complete steps of that stage.
     std::int64_t steps() const;
 
-    /// The values of an expression over the present state, row by row, slice behind slice: a species or parameter of
+    /// The values of an expression over the present state, row by row, slice after slice: a species or parameter of
     /// the current stage ("b"), of an earlier one ("stage1.b"), or arithmetic ("b - stage1.b").
     /// Cells outside of the domain's mask are NaN, unless the expression is the same in all cells.
     /// Empty if the expression is wrong; error() says why, and the pattern stays ok.

@@ -15,7 +15,7 @@ class FlatRates {
 public:
     explicit FlatRates(const System& system);
 
-    /// Holds the parts of the rates first and whatever is made of them behind.
+    /// Holds the parts of the rates first and whatever is made of them after.
     FormulaBuilder& builder() { return builder_; }
     const FormulaBuilder& builder() const { return builder_; }
     PartId rate(std::uint32_t item) const { return rates_[item]; }

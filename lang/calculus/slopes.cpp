@@ -42,7 +42,7 @@ Slope SlopeRules::scaled(const Slope& slope, PartId factor) {
     return result;
 }
 
-/// Behind an operator of diffusion, or half of one: a gradient or a divergence.
+/// After an operator of diffusion, or half of one: a gradient or a divergence.
 Slope SlopeRules::through_diffusion(const Slope& slope, PartId gain) {
     Slope result = zero();
     result.jumps = slope.jumps;

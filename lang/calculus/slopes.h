@@ -3,7 +3,7 @@
 //
 // Through operators the coefficients count as if they were the same all around ("frozen"): then an
 // operator is a factor for each wave. Those of diffusion make no wave grow and the shortest one
-// decay fastest: the factor is −gain · x with x from 0 (long waves) to 1. Behind several of them it
+// decay fastest: the factor is −gain · x with x from 0 (long waves) to 1. After several of them it
 // is a polynomial of x, of which the coefficients are kept; so is what decays kept apart from what
 // may grow.
 #pragma once

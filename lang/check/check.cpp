@@ -109,10 +109,10 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
 std::optional<ast::Expression> picture_expression(const ast::Script& script) {
     for (const ast::Block& block : script.blocks) {
         if (block.kind != ast::BlockKind::picture) continue;
-        for (const ast::Sentence& sentence : block.sentences) {
-            const bool is_color = sentence.kind == ast::SentenceKind::value &&
-                                  sentence.name.text == "color" && !sentence.values.empty();
-            if (is_color) return sentence.values[0];
+        for (const ast::Statement& statement : block.statements) {
+            const bool is_color = statement.kind == ast::StatementKind::value &&
+                                  statement.name.text == "color" && !statement.values.empty();
+            if (is_color) return statement.values[0];
         }
     }
     return std::nullopt;

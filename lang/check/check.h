@@ -24,7 +24,7 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
                                   std::uint32_t stage, std::uint32_t last_stage, Program& program,
                                   const Sources& sources, Diagnostics& diagnostics);
 
-/// The `color:` sentence of the script's picture block, if it has one.
+/// The `color:` statement of the script's picture block, if it has one.
 std::optional<ast::Expression> picture_expression(const ast::Script& script);
 
 /// Every stage takes `solver` from now on (`--solver`). Each keeps the time it takes: iterations ·
@@ -37,7 +37,7 @@ void change_solver(Program& program, Solver solver, Span span, Diagnostics& diag
 /// when the grid is known.
 void check_coarse_starts(const Program& program, Diagnostics& diagnostics);
 
-/// All names a user can type at the top of an expression or sentence, for completion.
+/// All names a user can type at the top of an expression or statement, for completion.
 std::vector<std::string> known_names(const Program& program);
 
 }  // namespace cascade

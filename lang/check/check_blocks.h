@@ -13,20 +13,20 @@ namespace cascade::checking {
 std::uint32_t check_system(Workspace& work, const DerivedSystem& derived,
                            std::optional<std::uint32_t> base);
 
-/// The sentence if it gives a value; else null.
-const ast::Sentence* value_sentence(const ast::Sentence& sentence);
+/// The statement if it gives a value; else null.
+const ast::Statement* value_statement(const ast::Statement& statement);
 
 /// The overrides of each stage, in order.
-using StageOverrides = std::vector<std::vector<const ast::Sentence*>>;
+using StageOverrides = std::vector<std::vector<const ast::Statement*>>;
 
 /// Finds the stages that each override is for.
 StageOverrides distribute_overrides(Workspace& work, const ast::Script& script);
 
 /// Is this one of the texts of a system, such as title: "Gray-Scott"? It is taken then.
-bool take_text(System& system, const Statement& statement);
+bool take_text(System& system, const Declaration& declaration);
 
-/// Sets the range of a parameter whose statement has one; `value` is its default, where known.
-void check_range(Workspace& work, const Statement& statement, Quantity& quantity,
+/// Sets the range of a parameter whose declaration has one; `value` is its default, where known.
+void check_range(Workspace& work, const Declaration& declaration, Quantity& quantity,
                  std::optional<double> value);
 
 /// Warns of a value that is known now and lies outside of the parameter's range.
@@ -39,19 +39,19 @@ void report_unknown_system(Workspace& work, const ast::Word& name);
 /// All stages of a script, with the overrides.
 void check_stages(Workspace& work, const ast::Script& script);
 
-/// The sides that the block of system `index` gives its species, behind those of system `base`,
+/// The sides that the block of system `index` gives its species, after those of system `base`,
 /// which it is derived from.
 void check_system_sides(Workspace& work, const ast::Script& script, const ast::Block& block,
                         std::uint32_t index, std::optional<std::uint32_t> base);
 
-/// A sentence of the domain about a side, for all species.
-void check_domain_side(Workspace& work, const ast::Script& script, const ast::Sentence& sentence);
+/// A statement of the domain about a side, for all species.
+void check_domain_side(Workspace& work, const ast::Script& script, const ast::Statement& statement);
 
 /// The sides of all stages, when systems, stages and the domain are known.
 void check_stage_sides(Workspace& work, const ast::Script& script);
 
 /// What changes from outside say of sides, by stage, in their order.
-using SideOverrides = std::vector<std::vector<ast::Sentence>>;
+using SideOverrides = std::vector<std::vector<ast::Statement>>;
 SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& script);
 
 /// left, right, top, bottom, front, back or sides.
@@ -64,7 +64,7 @@ void check_domain(Workspace& work, const ast::Script& script);
 /// faults.
 bool is_model_setting(std::string_view name);
 /// Does `surface:` name a shape, such as sphere, instead of giving three expressions?
-bool is_model_surface(const ast::Script& script, const ast::Sentence& surface);
+bool is_model_surface(const ast::Script& script, const ast::Statement& surface);
 bool check_model(Workspace& work, const ast::Script& script, const ast::Block& domain);
 
 /// Settings of the domain that belong to a surface; looked at when the grid is known.
@@ -82,13 +82,13 @@ void warn_unread(Workspace& work);
 
 /// `iterations` or `interval`: a whole number in its range.
 std::optional<std::int64_t> check_count(Workspace& work, const ast::Script& script,
-                                        const ast::Sentence& sentence);
+                                        const ast::Statement& statement);
 
-/// The only value of a sentence; an error at the second where it has more.
-bool has_one_value(Workspace& work, const ast::Script& script, const ast::Sentence& sentence);
+/// The only value of a statement; an error at the second where it has more.
+bool has_one_value(Workspace& work, const ast::Script& script, const ast::Statement& statement);
 
 /// Sets a setting of this name: iterations, interval, frozen, speed or show.
-void check_setting(Workspace& work, const ast::Script& script, const ast::Sentence& sentence,
+void check_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                    const Scope& scope, Settings& settings);
 
 }  // namespace cascade::checking

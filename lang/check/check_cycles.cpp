@@ -21,14 +21,14 @@ std::string describe(const std::vector<std::string>& names) {
     return path + names.front();
 }
 
-void report_circle(Workspace& work, Span span, const char* what,
+void report_cycle(Workspace& work, Span span, const char* what,
                    const std::vector<std::string>& names) {
     if (names.size() == 1) {
         work.diagnostics.error(span, fmt::format("{} needs itself: {}", names[0],
                                                  describe(names)));
         return;
     }
-    work.diagnostics.error(span, fmt::format("{} need each other in a circle: {}", what,
+    work.diagnostics.error(span, fmt::format("{} need each other in a cycle: {}", what,
                                              describe(names)));
 }
 
@@ -42,38 +42,38 @@ Span place_of(const Formula& formula, NodeKind kind, std::uint32_t index) {
 
 }  // namespace
 
-void report_item_circle(Workspace& work, const System& system,
+void report_item_cycle(Workspace& work, const System& system,
                         const std::vector<const Formula*>& items,
                         const std::vector<bool>& from_system,
-                        const std::vector<std::uint32_t>& circle) {
+                        const std::vector<std::uint32_t>& cycle) {
     std::size_t first = 0;
-    while (first + 1 < circle.size() && from_system[circle[first]]) ++first;
-    if (from_system[circle[first]]) first = 0;
+    while (first + 1 < cycle.size() && from_system[cycle[first]]) ++first;
+    if (from_system[cycle[first]]) first = 0;
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < circle.size(); ++i) {
-        names.emplace_back(system.item_name(circle[(first + i) % circle.size()]));
+    for (std::size_t i = 0; i < cycle.size(); ++i) {
+        names.emplace_back(system.item_name(cycle[(first + i) % cycle.size()]));
     }
-    const std::uint32_t next = circle[(first + 1) % circle.size()];
-    report_circle(work, place_of(*items[circle[first]], NodeKind::own, next), "values", names);
+    const std::uint32_t next = cycle[(first + 1) % cycle.size()];
+    report_cycle(work, place_of(*items[cycle[first]], NodeKind::own, next), "values", names);
 }
 
-void report_step_circle(Workspace& work, const System& system,
-                        const std::vector<std::uint32_t>& circle) {
+void report_step_cycle(Workspace& work, const System& system,
+                        const std::vector<std::uint32_t>& cycle) {
     const auto definition_count = static_cast<std::uint32_t>(system.definitions.size());
     std::vector<std::string> names;
-    for (const std::uint32_t value : circle) {
+    for (const std::uint32_t value : cycle) {
         names.push_back(value < definition_count
                             ? system.definitions[value].name
                             : system.quantities[value - definition_count].name + "'");
     }
-    const auto& formula = circle[0] < definition_count
-                              ? system.definitions[circle[0]].formula
-                              : system.rates[circle[0] - definition_count];
-    const std::uint32_t next = circle[1 % circle.size()];
+    const auto& formula = cycle[0] < definition_count
+                              ? system.definitions[cycle[0]].formula
+                              : system.rates[cycle[0] - definition_count];
+    const std::uint32_t next = cycle[1 % cycle.size()];
     const Span span = next < definition_count
                           ? place_of(formula, NodeKind::definition, next)
                           : place_of(formula, NodeKind::rate, next - definition_count);
-    report_circle(work, span, "definitions and rates", names);
+    report_cycle(work, span, "definitions and rates", names);
 }
 
 }  // namespace cascade::checking

@@ -93,9 +93,9 @@ std::optional<DirectionSettings> read_numbers(Workspace& work, const ast::Script
 }  // namespace
 
 std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Script& script,
-                                                  const ast::Sentence& sentence) {
-    if (!has_one_value(work, script, sentence)) return std::nullopt;
-    const ast::Expr& value = value_of(script, sentence);
+                                                  const ast::Statement& statement) {
+    if (!has_one_value(work, script, statement)) return std::nullopt;
+    const ast::Expr& value = value_of(script, statement);
     if (std::holds_alternative<ast::Garbage>(value.node)) return std::nullopt;
     const std::string_view word = word_of(value);
     const DirectionName* name = direction_named(word);
@@ -107,7 +107,7 @@ std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Sc
                                did_you_mean(work, word, words));
         return std::nullopt;
     }
-    const std::vector<ast::Expression> arguments = arguments_of(script, sentence.values[0]);
+    const std::vector<ast::Expression> arguments = arguments_of(script, statement.values[0]);
     const bool may_stand_alone = name->arity.least == 0;
     if (arguments.empty() ? !may_stand_alone : !name->arity.takes(arguments.size())) {
         work.diagnostics.error(value.span, "this is not how directions are written",

@@ -9,6 +9,6 @@ namespace cascade::checking {
 
 /// axis(…), gradient(…), curvature_high, curvature_low or keys(…); nothing with a message.
 std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Script& script,
-                                                  const ast::Sentence& sentence);
+                                                  const ast::Statement& statement);
 
 }  // namespace cascade::checking

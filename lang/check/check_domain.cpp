@@ -48,25 +48,25 @@ std::optional<double> check_side(Workspace& work, const ast::Script& script,
     return side;
 }
 
-void check_grid(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
-    if (sentence.values.size() > 3) {
-        work.diagnostics.error(span_of(script, sentence.values[3]),
+void check_grid(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    if (statement.values.size() > 3) {
+        work.diagnostics.error(span_of(script, statement.values[3]),
                                "the grid has one, two or three sides");
         return;
     }
     std::array<std::int64_t, 3> counts{1, 1, 1};
     double cells = 1;
     bool is_sound = true;
-    for (std::size_t axis = 0; axis < sentence.values.size(); ++axis) {
-        const auto side = check_side(work, script, sentence.values[axis]);
+    for (std::size_t axis = 0; axis < statement.values.size(); ++axis) {
+        const auto side = check_side(work, script, statement.values[axis]);
         is_sound = is_sound && side.has_value();
         if (!side) continue;
         cells *= *side;
         if (cells <= most_cells) counts[axis] = static_cast<std::int64_t>(*side);
     }
     if (!is_sound) return;
-    const Span sides = join(span_of(script, sentence.values.front()),
-                            span_of(script, sentence.values.back()));
+    const Span sides = join(span_of(script, statement.values.front()),
+                            span_of(script, statement.values.back()));
     if (cells < 2) {
         work.diagnostics.error(sides, "a grid needs more than one cell");
         return;
@@ -100,14 +100,14 @@ std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& 
 }
 
 /// One word for all axes, or one for each.
-void check_boundary(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
-    if (sentence.values.size() > 3) {
-        work.diagnostics.error(span_of(script, sentence.values[3]),
+void check_boundary(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    if (statement.values.size() > 3) {
+        work.diagnostics.error(span_of(script, statement.values[3]),
                                "the boundary has one word, or one for each of three axes at most");
         return;
     }
     std::vector<Boundary> along;
-    for (const ast::Expression value : sentence.values) {
+    for (const ast::Expression value : statement.values) {
         const auto boundary = check_boundary_word(work, script, value);
         if (!boundary) return;
         along.push_back(*boundary);
@@ -118,12 +118,12 @@ void check_boundary(Workspace& work, const ast::Script& script, const ast::Sente
     if (along.size() > 1) target.z = along.size() > 2 ? along[2] : Boundary::periodic;
 }
 
-void check_spacing(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
-    if (!has_one_value(work, script, sentence)) return;
-    const auto spacing = check_constant(work, script, sentence.values[0], "spacing");
+void check_spacing(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    if (!has_one_value(work, script, statement)) return;
+    const auto spacing = check_constant(work, script, statement.values[0], "spacing");
     if (!spacing) return;
     if (!(*spacing >= least_spacing && *spacing <= 1 / least_spacing)) {
-        work.diagnostics.error(span_of(script, sentence.values[0]),
+        work.diagnostics.error(span_of(script, statement.values[0]),
                                *spacing > 0 ? "spacing must be from 1e-15 to 1e15"
                                             : "spacing must be above 0",
                                "it is the side of a cell in your unit of length");
@@ -132,12 +132,12 @@ void check_spacing(Workspace& work, const ast::Script& script, const ast::Senten
     work.program.domain.grid.spacing = *spacing;
 }
 
-void check_seed(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
-    if (!has_one_value(work, script, sentence)) return;
-    const auto seed = check_constant(work, script, sentence.values[0], "seed");
+void check_seed(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    if (!has_one_value(work, script, statement)) return;
+    const auto seed = check_constant(work, script, statement.values[0], "seed");
     if (!seed) return;
     if (!(*seed >= 0) || *seed > largest_seed || *seed != std::floor(*seed)) {
-        work.diagnostics.error(span_of(script, sentence.values[0]),
+        work.diagnostics.error(span_of(script, statement.values[0]),
                                "seed must be a whole number from 0 to 4294967295");
         return;
     }
@@ -145,19 +145,19 @@ void check_seed(Workspace& work, const ast::Script& script, const ast::Sentence&
 }
 
 /// What is not 0 where the domain is.
-void check_mask(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
-    if (!has_one_value(work, script, sentence)) return;
+void check_mask(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    if (!has_one_value(work, script, statement)) return;
     Scope scope;
     scope.place = Place::mask;
     scope.system = unknown_system;
-    auto checked = check_number(work, script, sentence.values[0], scope);
+    auto checked = check_number(work, script, statement.values[0], scope);
     if (!checked) return;
-    work.program.domain.mask = {std::move(checked->formula), span_of(script, sentence.values[0])};
+    work.program.domain.mask = {std::move(checked->formula), span_of(script, statement.values[0])};
 }
 
-void check_precision(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
-    if (!has_one_value(work, script, sentence)) return;
-    const ast::Expr& value = script.expressions[sentence.values[0].root];
+void check_precision(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    if (!has_one_value(work, script, statement)) return;
+    const ast::Expr& value = script.expressions[statement.values[0].root];
     if (std::holds_alternative<ast::Garbage>(value.node)) return;
     const auto* name = std::get_if<ast::Name>(&value.node);
     const std::string_view word = name != nullptr ? name->name : std::string_view();
@@ -171,32 +171,32 @@ void check_precision(Workspace& work, const ast::Script& script, const ast::Sent
 
 /// Of one species, in a block that knows none.
 void report_sides(Workspace& work, const ast::Block& block) {
-    for (const ast::Sentence& sentence : block.sides) {
-        work.diagnostics.error(join(sentence.name.span, sentence.side.span),
+    for (const ast::Statement& statement : block.sides) {
+        work.diagnostics.error(join(statement.name.span, statement.side.span),
                                "the sides of one species belong in its system or in a stage",
                                "left: … in the domain is for all species");
     }
 }
 
-void check_domain_sentence(Workspace& work, const ast::Script& script,
-                           const ast::Sentence& sentence) {
-    const std::string_view key = sentence.name.text;
-    if (sentence.kind != ast::SentenceKind::value) {
-        work.diagnostics.error(sentence.span, "a domain holds settings only (name: …)");
+void check_domain_statement(Workspace& work, const ast::Script& script,
+                           const ast::Statement& statement) {
+    const std::string_view key = statement.name.text;
+    if (statement.kind != ast::StatementKind::value) {
+        work.diagnostics.error(statement.span, "a domain holds settings only (name: …)");
     } else if (key == "grid") {
-        check_grid(work, script, sentence);
+        check_grid(work, script, statement);
     } else if (key == "boundary") {
-        check_boundary(work, script, sentence);
+        check_boundary(work, script, statement);
     } else if (key == "spacing") {
-        check_spacing(work, script, sentence);
+        check_spacing(work, script, statement);
     } else if (is_side_word(key)) {
-        check_domain_side(work, script, sentence);
+        check_domain_side(work, script, statement);
     } else if (key == "seed") {
-        check_seed(work, script, sentence);
+        check_seed(work, script, statement);
     } else if (key == "mask") {
-        check_mask(work, script, sentence);
+        check_mask(work, script, statement);
     } else if (key == "precision") {
-        check_precision(work, script, sentence);
+        check_precision(work, script, statement);
     } else if (is_surface_setting(key) || is_model_setting(key)) {
         return;  // They come together, see below.
     } else {
@@ -210,7 +210,7 @@ void check_domain_sentence(Workspace& work, const ast::Script& script,
         if (hint.empty()) {
             hint = "a domain has grid, spacing, boundary, sides, mask, precision, seed, surface and mesh";
         }
-        work.diagnostics.error(sentence.name.span,
+        work.diagnostics.error(statement.name.span,
                                fmt::format("'{}' is not a setting of the domain", key),
                                std::move(hint));
     }
@@ -224,17 +224,17 @@ std::uint32_t shown_stage(const Program& program) {
     return static_cast<std::uint32_t>(program.stages.size() - 1);
 }
 
-void check_color(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
-    if (work.program.stages.empty() || !has_one_value(work, script, sentence)) return;
+void check_color(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    if (work.program.stages.empty() || !has_one_value(work, script, statement)) return;
     Scope scope;
     scope.place = Place::picture;
     scope.stage = shown_stage(work.program);
     scope.system = work.program.stages[*scope.stage].system;
     scope.last_stage = static_cast<std::uint32_t>(work.program.stages.size() - 1);
-    const auto checked = check_expression(work, script, sentence.values[0], scope);
+    const auto checked = check_expression(work, script, statement.values[0], scope);
     if (!checked) return;
     if (checked->type() != ValueType::colour) {
-        work.diagnostics.error(span_of(script, sentence.values[0]), "color must be a colour",
+        work.diagnostics.error(span_of(script, statement.values[0]), "color must be a colour",
                                "rgb(…) and palette(…) make colours");
         return;
     }
@@ -247,15 +247,15 @@ void check_domain(Workspace& work, const ast::Script& script) {
     const ast::Block* block = find_block(work, script, ast::BlockKind::domain, "domain");
     if (block == nullptr) return;
     std::unordered_map<std::string, Span> seen;
-    for (const ast::Sentence& sentence : block->sentences) {
-        if (sentence.name.empty() || sentence.values.empty()) continue;
+    for (const ast::Statement& statement : block->statements) {
+        if (statement.name.empty() || statement.values.empty()) continue;
         const auto [first, is_new] =
-            seen.try_emplace(std::string(sentence.name.text), sentence.name.span);
+            seen.try_emplace(std::string(statement.name.text), statement.name.span);
         if (is_new) {
-            check_domain_sentence(work, script, sentence);
+            check_domain_statement(work, script, statement);
         } else {
-            report_twice(work, sentence.name.span, first->second,
-                         fmt::format("'{}' is given a value twice", sentence.name.text));
+            report_twice(work, statement.name.span, first->second,
+                         fmt::format("'{}' is given a value twice", statement.name.text));
         }
     }
     report_sides(work, *block);
@@ -266,21 +266,21 @@ void check_picture(Workspace& work, const ast::Script& script) {
     const ast::Block* block = find_block(work, script, ast::BlockKind::picture, "picture");
     if (block == nullptr) return;
     report_sides(work, *block);
-    const ast::Sentence* first = nullptr;
-    for (const ast::Sentence& sentence : block->sentences) {
-        if (sentence.name.empty() || sentence.values.empty()) continue;
-        if (sentence.kind != ast::SentenceKind::value || sentence.name.text != "color") {
-            const std::string_view advice = advice_about(sentence.name.text, WordPlace::picture);
+    const ast::Statement* first = nullptr;
+    for (const ast::Statement& statement : block->statements) {
+        if (statement.name.empty() || statement.values.empty()) continue;
+        if (statement.kind != ast::StatementKind::value || statement.name.text != "color") {
+            const std::string_view advice = advice_about(statement.name.text, WordPlace::picture);
             work.diagnostics.error(
-                sentence.name.span,
-                fmt::format("'{}' is not a setting of the picture", sentence.name.text),
+                statement.name.span,
+                fmt::format("'{}' is not a setting of the picture", statement.name.text),
                 advice.empty() ? "a picture has color: …" : std::string(advice));
         } else if (first != nullptr) {
-            report_twice(work, sentence.name.span, first->name.span,
+            report_twice(work, statement.name.span, first->name.span,
                          "'color' is given a value twice");
         } else {
-            first = &sentence;
-            check_color(work, script, sentence);
+            first = &statement;
+            check_color(work, script, statement);
         }
     }
 }

@@ -44,8 +44,8 @@ public:
         : work_(work), script_(script), domain_(domain) {}
 
     void check() {
-        const ast::Sentence* mesh = find("mesh");
-        const ast::Sentence* surface = find("surface");
+        const ast::Statement* mesh = find("mesh");
+        const ast::Statement* surface = find("surface");
         if (surface != nullptr && !is_model_surface(script_, *surface)) surface = nullptr;
         if (mesh != nullptr && surface != nullptr) {
             return report_twice(work_, surface->name.span, mesh->name.span,
@@ -59,34 +59,34 @@ public:
         if (const auto* unit = find("unit")) check_unit(*unit);
         if (const auto* up = find("up")) check_up(*up);
         check_anisotropy(find("directions"), find("stretch"));
-        for (const ast::Sentence& other : domain_.sentences) refuse(other);
+        for (const ast::Statement& other : domain_.statements) refuse(other);
         set_model(work_.program, *std::move(model_));
     }
 
 private:
-    const ast::Sentence* find(std::string_view name) const {
-        for (const ast::Sentence& sentence : domain_.sentences) {
-            if (sentence.name.text == name && !sentence.values.empty()) return &sentence;
+    const ast::Statement* find(std::string_view name) const {
+        for (const ast::Statement& statement : domain_.statements) {
+            if (statement.name.text == name && !statement.values.empty()) return &statement;
         }
         return nullptr;
     }
 
     /// Settings of rows and columns.
-    void refuse(const ast::Sentence& sentence) {
-        const std::string_view word = sentence.name.text;
+    void refuse(const ast::Statement& statement) {
+        const std::string_view word = statement.name.text;
         const bool is_shape = word == "grid" || word == "spacing" || word == "metric";
         const bool is_border = word == "boundary" || word == "mask" || is_side_word(word);
         if (!is_shape && !is_border) return;
-        work_.diagnostics.error(sentence.name.span, fmt::format("a model has no {}", word),
+        work_.diagnostics.error(statement.name.span, fmt::format("a model has no {}", word),
                                 is_shape ? "its cells are spread over it: cells: 20000"
                                          : "it ends where its surface ends, and nothing flows out");
     }
 
-    Span span_of(const ast::Sentence& sentence) const { return value_of(script_, sentence).span; }
+    Span span_of(const ast::Statement& statement) const { return value_of(script_, statement).span; }
 
-    void check_mesh(const ast::Sentence& sentence) {
-        if (!has_one_value(work_, script_, sentence)) return;
-        const ast::Expr& value = value_of(script_, sentence);
+    void check_mesh(const ast::Statement& statement) {
+        if (!has_one_value(work_, script_, statement)) return;
+        const ast::Expr& value = value_of(script_, statement);
         if (std::holds_alternative<ast::Garbage>(value.node)) return;
         const auto* text = std::get_if<ast::Text>(&value.node);
         if (text == nullptr || text->value.empty()) {
@@ -101,10 +101,10 @@ private:
         model_->span = value.span;
     }
 
-    void check_shape(const ast::Sentence& sentence) {
-        const ast::Expr& value = value_of(script_, sentence);
+    void check_shape(const ast::Statement& statement) {
+        const ast::Expr& value = value_of(script_, statement);
         const ShapeName& name = *shape_of(word_of(value));
-        const std::vector<ast::Expression> arguments = arguments_of(script_, sentence.values[0]);
+        const std::vector<ast::Expression> arguments = arguments_of(script_, statement.values[0]);
         const bool is_implicit = name.shape == ModelShape::implicit;
         const bool has_box = is_implicit && arguments.size() == 2;
         if (arguments.size() != name.sizes && !has_box && (is_implicit || !arguments.empty())) {
@@ -146,23 +146,23 @@ private:
         model_ = std::move(model);
     }
 
-    void check_cells(const ast::Sentence& sentence) {
-        if (!has_one_value(work_, script_, sentence)) return;
-        const std::string_view word = word_of(value_of(script_, sentence));
-        model_->cells_span = span_of(sentence);
+    void check_cells(const ast::Statement& statement) {
+        if (!has_one_value(work_, script_, statement)) return;
+        const std::string_view word = word_of(value_of(script_, statement));
+        model_->cells_span = span_of(statement);
         if (word == "faces" || word == "vertices") {
             model_->cells = word == "faces" ? ModelCellKind::faces : ModelCellKind::vertices;
             return;
         }
-        if (std::holds_alternative<ast::Name>(value_of(script_, sentence).node)) {
-            work_.diagnostics.error(span_of(sentence), "cells are a number, faces or vertices",
+        if (std::holds_alternative<ast::Name>(value_of(script_, statement).node)) {
+            work_.diagnostics.error(span_of(statement), "cells are a number, faces or vertices",
                                     did_you_mean(work_, word, {"faces", "vertices"}));
             return;
         }
-        const auto count = check_constant(work_, script_, sentence.values[0], "cells");
+        const auto count = check_constant(work_, script_, statement.values[0], "cells");
         if (!count) return;
         if (!(*count >= 1 && *count <= most_cells) || *count != std::floor(*count)) {
-            work_.diagnostics.error(span_of(sentence),
+            work_.diagnostics.error(span_of(statement),
                                     "cells must be a whole number from 1 to 268435456",
                                     "cells: 20000");
             return;
@@ -170,39 +170,39 @@ private:
         model_->count = static_cast<std::int64_t>(*count);
     }
 
-    void check_laplacian(const ast::Sentence& sentence) {
-        if (!has_one_value(work_, script_, sentence)) return;
-        const std::string_view word = word_of(value_of(script_, sentence));
+    void check_laplacian(const ast::Statement& statement) {
+        if (!has_one_value(work_, script_, statement)) return;
+        const std::string_view word = word_of(value_of(script_, statement));
         if (word == "turk") {
             model_->laplacian = ModelLaplacian::turk;
         } else if (word != "fv") {
-            work_.diagnostics.error(span_of(sentence), "the laplacian of a model is fv or turk",
+            work_.diagnostics.error(span_of(statement), "the laplacian of a model is fv or turk",
                                     did_you_mean(work_, word, {"fv", "turk"}));
         }
     }
 
-    void check_unit(const ast::Sentence& sentence) {
-        if (!has_one_value(work_, script_, sentence)) return;
-        const auto unit = check_constant(work_, script_, sentence.values[0], "unit");
+    void check_unit(const ast::Statement& statement) {
+        if (!has_one_value(work_, script_, statement)) return;
+        const auto unit = check_constant(work_, script_, statement.values[0], "unit");
         if (!unit) return;
         if (!(*unit > 0) || !std::isfinite(*unit)) {
-            work_.diagnostics.error(span_of(sentence), "the unit of length must be above 0");
+            work_.diagnostics.error(span_of(statement), "the unit of length must be above 0");
             return;
         }
         model_->unit = *unit;
     }
 
-    void check_up(const ast::Sentence& sentence) {
-        if (!has_one_value(work_, script_, sentence)) return;
-        const std::string_view word = word_of(value_of(script_, sentence));
+    void check_up(const ast::Statement& statement) {
+        if (!has_one_value(work_, script_, statement)) return;
+        const std::string_view word = word_of(value_of(script_, statement));
         if (const auto axis = axis_of_name(word)) {
             model_->up = *axis;
         } else {
-            work_.diagnostics.error(span_of(sentence), "the axis that points upwards is x, y or z");
+            work_.diagnostics.error(span_of(statement), "the axis that points upwards is x, y or z");
         }
     }
 
-    void check_anisotropy(const ast::Sentence* directions, const ast::Sentence* stretch) {
+    void check_anisotropy(const ast::Statement* directions, const ast::Statement* stretch) {
         if (directions != nullptr) model_->directions = check_directions(work_, script_, *directions);
         if (stretch == nullptr) return;
         if (directions == nullptr) {
@@ -234,24 +234,24 @@ bool is_model_setting(std::string_view name) {
            name == "stretch" || name == "up";
 }
 
-bool is_model_surface(const ast::Script& script, const ast::Sentence& surface) {
+bool is_model_surface(const ast::Script& script, const ast::Statement& surface) {
     return surface.values.size() == 1 && shape_of(word_of(value_of(script, surface))) != nullptr;
 }
 
 bool check_model(Workspace& work, const ast::Script& script, const ast::Block& domain) {
     bool names_model = false;
-    for (const ast::Sentence& sentence : domain.sentences) {
-        if (sentence.values.empty()) continue;
-        names_model |= sentence.name.text == "mesh" ||
-                       (sentence.name.text == "surface" && is_model_surface(script, sentence));
+    for (const ast::Statement& statement : domain.statements) {
+        if (statement.values.empty()) continue;
+        names_model |= statement.name.text == "mesh" ||
+                       (statement.name.text == "surface" && is_model_surface(script, statement));
     }
     if (names_model) {
         ModelChecker(work, script, domain).check();
         return true;
     }
-    for (const ast::Sentence& sentence : domain.sentences) {
-        if (sentence.values.empty() || !is_model_setting(sentence.name.text)) continue;
-        work.diagnostics.error(sentence.name.span, "only a domain with a model has this setting",
+    for (const ast::Statement& statement : domain.statements) {
+        if (statement.values.empty() || !is_model_setting(statement.name.text)) continue;
+        work.diagnostics.error(statement.name.span, "only a domain with a model has this setting",
                                "mesh: \"horse.ply\" or surface: sphere");
     }
     return false;

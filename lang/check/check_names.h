@@ -53,7 +53,7 @@ struct Workspace {
     std::size_t parts_written = 0;
     /// The call of a user's function that is being checked: what is wrong is wrong there.
     std::optional<Span> call = std::nullopt;
-    /// By system: sentences of it or an index could not be read. What it seems to lack may stand
+    /// By system: statements of it or an index could not be read. What it seems to lack may stand
     /// there, so nothing is said of it.
     std::vector<bool> incomplete = {};
     /// Indices that have no values, with a message: what they were to number is passed over.
@@ -71,7 +71,7 @@ enum class Place : std::uint8_t {
     constant,  ///< one number that is known now: iterations, the size of the grid, …
 };
 
-/// An index with its value, as `i` is 2 in the second sentence that `u[i]: e` stands for.
+/// An index with its value, as `i` is 2 in the second statement that `u[i]: e` stands for.
 struct IndexValue {
     std::string_view name;
     std::int64_t value = 0;
@@ -84,7 +84,7 @@ struct Scope {
     std::uint32_t last_stage = 0;        ///< In pictures: the last stage that can be read.
     std::string_view subject;            ///< In constants: what is to be one number.
     bool knows_time = false;             ///< Values of sides may depend on t and step.
-    std::optional<IndexValue> index = std::nullopt;  ///< Of the sentence, if it is of a family.
+    std::optional<IndexValue> index = std::nullopt;  ///< Of the statement, if it is of a family.
 };
 
 /// Whether the language gives a word a meaning of its own, so that nobody can declare it.

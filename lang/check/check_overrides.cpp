@@ -11,19 +11,19 @@
 
 namespace cascade::checking {
 
-const ast::Sentence* value_sentence(const ast::Sentence& sentence) {
-    const bool usable = sentence.kind == ast::SentenceKind::value && !sentence.name.empty() &&
-                        !sentence.values.empty();
-    return usable ? &sentence : nullptr;
+const ast::Statement* value_statement(const ast::Statement& statement) {
+    const bool usable = statement.kind == ast::StatementKind::value && !statement.name.empty() &&
+                        !statement.values.empty();
+    return usable ? &statement : nullptr;
 }
 
 namespace {
 
-/// Can the sentence set something in this stage?
-bool has_name(const Workspace& work, const Stage& stage, const ast::Sentence& sentence) {
+/// Can the statement set something in this stage?
+bool has_name(const Workspace& work, const Stage& stage, const ast::Statement& statement) {
     if (stage.system == unknown_system) return true;
-    const std::string_view name = sentence.name.text;
-    if (!sentence.index.empty()) return has_family(work.program.systems[stage.system], name);
+    const std::string_view name = statement.name.text;
+    if (!statement.index.empty()) return has_family(work.program.systems[stage.system], name);
     if (reserved(name) != Reserved::no) return true;
     return find(work.names[stage.system], name) != nullptr;
 }
@@ -59,12 +59,12 @@ void report_unknown_stage(Workspace& work, const ast::Word& name) {
 
 /// `--set gray_scott.feed=…` where no stage is called so: it holds in every stage of that system.
 bool set_in_stages_of_system(const Workspace& work, std::string_view system,
-                             const ast::Sentence* sentence, StageOverrides& result) {
+                             const ast::Statement* statement, StageOverrides& result) {
     bool used = false;
     for (std::size_t i = 0; i < result.size(); ++i) {
         const std::uint32_t its = work.program.stages[i].system;
         if (its == unknown_system || work.program.systems[its].name != system) continue;
-        result[i].push_back(sentence);
+        result[i].push_back(statement);
         used = true;
     }
     return used;
@@ -75,39 +75,39 @@ bool is_system(const Workspace& work, std::string_view name) {
                        [&](const System& system) { return system.name == name; });
 }
 
-/// Has the stage a species, or a family of such, of the sentence's name?
-bool has_species(const Workspace& work, const Stage& stage, const ast::Sentence& sentence) {
+/// Has the stage a species, or a family of such, of the statement's name?
+bool has_species(const Workspace& work, const Stage& stage, const ast::Statement& statement) {
     if (stage.system == unknown_system) return false;
     const System& system = work.program.systems[stage.system];
-    const std::string name = sentence.index.empty() ? std::string(sentence.name.text)
-                                                    : fmt::format("{}[", sentence.name.text);
+    const std::string name = statement.index.empty() ? std::string(statement.name.text)
+                                                    : fmt::format("{}[", statement.name.text);
     return std::any_of(system.quantities.begin(), system.quantities.end(),
                        [&](const Quantity& quantity) {
         if (!quantity.is_species) return false;
-        return sentence.index.empty() ? quantity.name == name : quantity.name.starts_with(name);
+        return statement.index.empty() ? quantity.name == name : quantity.name.starts_with(name);
     });
 }
 
 /// A change of a side: `stage` is empty where it is for all stages with the species.
 struct SideChange {
     ast::Word stage;
-    ast::Sentence sentence;
+    ast::Statement statement;
 };
 
 /// Is this about a side? u.left is one if no stage and no system is called u.
 std::optional<SideChange> as_side(const Workspace& work, const ast::Override& change) {
-    if (!change.sentence.side.empty()) return SideChange{change.stage, change.sentence};
-    const bool may_be = !change.stage.empty() && change.sentence.index.empty() &&
-                        is_side_word(change.sentence.name.text) &&
+    if (!change.statement.side.empty()) return SideChange{change.stage, change.statement};
+    const bool may_be = !change.stage.empty() && change.statement.index.empty() &&
+                        is_side_word(change.statement.name.text) &&
                         !work.stages.contains(std::string(change.stage.text)) &&
                         !is_system(work, change.stage.text);
     if (!may_be) return std::nullopt;
-    SideChange side{{}, change.sentence};
-    side.sentence.side = side.sentence.name;
-    side.sentence.name = change.stage;
+    SideChange side{{}, change.statement};
+    side.statement.side = side.statement.name;
+    side.statement.name = change.stage;
     const bool is_species = std::any_of(
         work.program.stages.begin(), work.program.stages.end(),
-        [&](const Stage& stage) { return has_species(work, stage, side.sentence); });
+        [&](const Stage& stage) { return has_species(work, stage, side.statement); });
     return is_species ? std::optional(std::move(side)) : std::nullopt;
 }
 
@@ -123,12 +123,12 @@ void report_no_side(Workspace& work, const ast::Word& word) {
 SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& script) {
     SideOverrides result(work.program.stages.size());
     for (const ast::Override& change : script.overrides) {
-        if (value_sentence(change.sentence) == nullptr) continue;
+        if (value_statement(change.statement) == nullptr) continue;
         const auto side = as_side(work, change);
         if (!side) continue;
-        const ast::Sentence& sentence = side->sentence;
-        if (!is_side_word(sentence.side.text)) {
-            report_no_side(work, sentence.side);
+        const ast::Statement& statement = side->statement;
+        if (!is_side_word(statement.side.text)) {
+            report_no_side(work, statement.side);
             continue;
         }
         bool is_stage = false, is_used = false;
@@ -140,16 +140,16 @@ SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& scri
             const bool is_named = stage.name == side->stage.text || is_its_system;
             is_stage |= is_named;
             // That a stage which is named lacks the species is said there.
-            if (side->stage.empty() ? !has_species(work, stage, sentence) : !is_named) continue;
-            result[k].push_back(sentence);
+            if (side->stage.empty() ? !has_species(work, stage, statement) : !is_named) continue;
+            result[k].push_back(statement);
             is_used = true;
         }
         if (is_used) continue;
         if (!side->stage.empty() && !is_stage) {
             report_unknown_stage(work, side->stage);
         } else {
-            work.diagnostics.error(sentence.name.span, fmt::format("no stage has a species '{}'",
-                                                                   sentence.name.text));
+            work.diagnostics.error(statement.name.span, fmt::format("no stage has a species '{}'",
+                                                                   statement.name.text));
         }
     }
     return result;
@@ -158,25 +158,25 @@ SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& scri
 StageOverrides distribute_overrides(Workspace& work, const ast::Script& script) {
     StageOverrides result(work.program.stages.size());
     for (const ast::Override& change : script.overrides) {
-        const ast::Sentence* sentence = value_sentence(change.sentence);
-        if (sentence == nullptr || as_side(work, change)) continue;
+        const ast::Statement* statement = value_statement(change.statement);
+        if (statement == nullptr || as_side(work, change)) continue;
         if (!change.stage.empty()) {
             const auto found = work.stages.find(std::string(change.stage.text));
             if (found != work.stages.end()) {
-                result[found->second].push_back(sentence);
+                result[found->second].push_back(statement);
                 continue;
             }
-            if (set_in_stages_of_system(work, change.stage.text, sentence, result)) continue;
+            if (set_in_stages_of_system(work, change.stage.text, statement, result)) continue;
             report_unknown_stage(work, change.stage);
             continue;
         }
         bool used = false;
         for (std::size_t i = 0; i < result.size(); ++i) {
-            if (!has_name(work, work.program.stages[i], *sentence)) continue;
-            result[i].push_back(sentence);
+            if (!has_name(work, work.program.stages[i], *statement)) continue;
+            result[i].push_back(statement);
             used = true;
         }
-        if (!used) report_unknown_override(work, sentence->name);
+        if (!used) report_unknown_override(work, statement->name);
     }
     return result;
 }

@@ -6,24 +6,24 @@
 
 namespace cascade::checking {
 
-bool take_text(System& system, const Statement& statement) {
-    const ast::Sentence& sentence = *statement.sentence;
-    if (!sentence.index.empty() || sentence.values.size() != 1) return false;
-    const auto& value = statement.script->expressions[sentence.values[0].root].node;
+bool take_text(System& system, const Declaration& declaration) {
+    const ast::Statement& statement = *declaration.statement;
+    if (!statement.index.empty() || statement.values.size() != 1) return false;
+    const auto& value = declaration.script->expressions[statement.values[0].root].node;
     const auto* text = std::get_if<ast::Text>(&value);
     if (text == nullptr) return false;
-    std::string* target = statement.name == "title"   ? &system.title
-                          : statement.name == "cite"  ? &system.cite
-                          : statement.name == "about" ? &system.about
+    std::string* target = declaration.name == "title"   ? &system.title
+                          : declaration.name == "cite"  ? &system.cite
+                          : declaration.name == "about" ? &system.about
                                                       : nullptr;
     if (target != nullptr) *target = text->value;
     return target != nullptr;
 }
 
-void check_range(Workspace& work, const Statement& statement, Quantity& quantity,
+void check_range(Workspace& work, const Declaration& declaration, Quantity& quantity,
                  std::optional<double> value) {
-    const ast::Range& written = *statement.range;
-    const ast::Script& script = *statement.range_script;
+    const ast::Range& written = *declaration.range;
+    const ast::Script& script = *declaration.range_script;
     if (quantity.is_species) {
         work.diagnostics.error(written.span, "a range belongs to a parameter",
                                 fmt::format("'{}' is a species", quantity.name));
@@ -44,9 +44,9 @@ void check_range(Workspace& work, const Statement& statement, Quantity& quantity
                                 "the step of a range is above 0 and no longer than the range");
     } else {
         quantity.range = range;
-        const ast::Expression default_value = statement.sentence->values[0];
+        const ast::Expression default_value = declaration.statement->values[0];
         warn_outside(work, quantity, value,
-                     statement.script->expressions[default_value.root].span);
+                     declaration.script->expressions[default_value.root].span);
     }
 }
 

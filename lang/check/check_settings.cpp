@@ -16,13 +16,13 @@ Span span_of(const ast::Script& script, ast::Expression expression) {
 }
 
 /// `0,0125`: digits on both sides of a comma without a blank are a number of other countries.
-std::string hint_of_decimal_comma(const ast::Script& script, const ast::Sentence& sentence) {
-    if (sentence.values.size() != 2) return "";
-    const Span whole = span_of(script, sentence.values[0]);
-    const Span part = span_of(script, sentence.values[1]);
+std::string hint_of_decimal_comma(const ast::Script& script, const ast::Statement& statement) {
+    if (statement.values.size() != 2) return "";
+    const Span whole = span_of(script, statement.values[0]);
+    const Span part = span_of(script, statement.values[1]);
     const auto is_number = [&](std::size_t k) {
         return std::holds_alternative<ast::Number>(
-            script.expressions[sentence.values[k].root].node);
+            script.expressions[statement.values[k].root].node);
     };
     if (!is_number(0) || !is_number(1) || part.begin != whole.end + 1) return "";
     return "a decimal point is a point: write '.' for ','";
@@ -30,20 +30,20 @@ std::string hint_of_decimal_comma(const ast::Script& script, const ast::Sentence
 
 }  // namespace
 
-bool has_one_value(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
-    if (sentence.values.size() == 1) return true;
-    if (sentence.values.empty()) return false;
-    work.diagnostics.error(span_of(script, sentence.values[1]),
-                           fmt::format("'{}' takes one value", sentence.name.text),
-                           hint_of_decimal_comma(script, sentence));
+bool has_one_value(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    if (statement.values.size() == 1) return true;
+    if (statement.values.empty()) return false;
+    work.diagnostics.error(span_of(script, statement.values[1]),
+                           fmt::format("'{}' takes one value", statement.name.text),
+                           hint_of_decimal_comma(script, statement));
     return false;
 }
 
 std::optional<std::int64_t> check_count(Workspace& work, const ast::Script& script,
-                                        const ast::Sentence& sentence) {
-    const std::string_view name = sentence.name.text;
-    const Span span = span_of(script, sentence.values[0]);
-    const auto value = check_constant(work, script, sentence.values[0], name);
+                                        const ast::Statement& statement) {
+    const std::string_view name = statement.name.text;
+    const Span span = span_of(script, statement.values[0]);
+    const auto value = check_constant(work, script, statement.values[0], name);
     if (!value) return std::nullopt;
     const double least = name == "iterations" ? 0 : 1;
     if (*value < least) {
@@ -61,34 +61,34 @@ std::optional<std::int64_t> check_count(Workspace& work, const ast::Script& scri
     return static_cast<std::int64_t>(*value);
 }
 
-void check_setting(Workspace& work, const ast::Script& script, const ast::Sentence& sentence,
+void check_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                    const Scope& scope, Settings& settings) {
-    if (!has_one_value(work, script, sentence)) return;
-    const std::string_view name = sentence.name.text;
+    if (!has_one_value(work, script, statement)) return;
+    const std::string_view name = statement.name.text;
     if (name == "iterations") {
-        settings.iterations = check_count(work, script, sentence);
+        settings.iterations = check_count(work, script, statement);
     } else if (name == "interval") {
-        settings.interval = check_count(work, script, sentence);
-    } else if (is_time_setting(script, sentence)) {
-        check_time_setting(work, script, sentence, scope, settings);
+        settings.interval = check_count(work, script, statement);
+    } else if (is_time_setting(script, statement)) {
+        check_time_setting(work, script, statement, scope, settings);
     } else if (name == "show") {
         Scope picture = scope;
         picture.place = Place::picture;
         picture.last_stage = scope.stage.value_or(0);
-        auto checked = check_expression(work, script, sentence.values[0], picture);
+        auto checked = check_expression(work, script, statement.values[0], picture);
         if (checked) settings.show = std::move(checked->formula);
     } else {
-        auto checked = check_number(work, script, sentence.values[0], scope);
+        auto checked = check_number(work, script, statement.values[0], scope);
         if (!checked) return;
         if (name == "speed" && checked->constant && !(*checked->constant > 0)) {
-            work.diagnostics.error(span_of(script, sentence.values[0]), "speed must be above 0");
+            work.diagnostics.error(span_of(script, statement.values[0]), "speed must be above 0");
             return;
         }
         if (name == "speed") settings.time.automatic_speed = false;
         (name == "speed" ? settings.speed : settings.frozen) = std::move(checked->formula);
     }
     if (is_end_setting(name) && settings.time.duration && settings.iterations) {
-        work.diagnostics.error(sentence.name.span,
+        work.diagnostics.error(statement.name.span,
                                "a stage ends by its iterations or by its duration, not by both",
                                "leave one of them out");
     }

@@ -1,7 +1,7 @@
 // Sides: what a species is at the sides of the grid. `u.left: fixed(1)` in a system or a stage,
 // `left: fixed(0)` of all species in the domain.
 #include "lang/check/check_blocks.h"
-#include "lang/check/statements.h"
+#include "lang/check/declarations.h"
 #include "lang/vocabulary/words_elsewhere.h"
 
 #include <fmt/format.h>
@@ -30,14 +30,14 @@ struct WrittenSide {
 
 /// `periodic`, `noflux`, `fixed(e)` or `flux(e)`; nothing, with a message, for all else.
 std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
-                                     const ast::Sentence& sentence) {
-    if (sentence.kind != ast::SentenceKind::value) {
-        work.diagnostics.error(sentence.span, "a side is given with ':'",
-                               fmt::format("write {}: …", sentence.name.text));
+                                     const ast::Statement& statement) {
+    if (statement.kind != ast::StatementKind::value) {
+        work.diagnostics.error(statement.span, "a side is given with ':'",
+                               fmt::format("write {}: …", statement.name.text));
         return std::nullopt;
     }
-    if (!has_one_value(work, script, sentence)) return std::nullopt;
-    const ast::Expression written = sentence.values[0];
+    if (!has_one_value(work, script, statement)) return std::nullopt;
+    const ast::Expression written = statement.values[0];
     const ast::Expr& value = script.expressions[written.root];
     if (std::holds_alternative<ast::Garbage>(value.node)) return std::nullopt;
     const auto* name = std::get_if<ast::Name>(&value.node);
@@ -76,18 +76,18 @@ std::vector<Side> sides_of_word(std::string_view word) {
     return sides;
 }
 
-/// The sentences with those of `sides` first, since one side alone says more than all.
-std::vector<const ast::Sentence*> in_order(std::span<const ast::Sentence> sentences) {
-    std::vector<const ast::Sentence*> ordered;
-    for (const ast::Sentence& sentence : sentences) ordered.push_back(&sentence);
-    std::stable_partition(ordered.begin(), ordered.end(), [](const ast::Sentence* sentence) {
-        return sentence->side.text == "sides";
+/// The statements with those of `sides` first, since one side alone says more than all.
+std::vector<const ast::Statement*> in_order(std::span<const ast::Statement> statements) {
+    std::vector<const ast::Statement*> ordered;
+    for (const ast::Statement& statement : statements) ordered.push_back(&statement);
+    std::stable_partition(ordered.begin(), ordered.end(), [](const ast::Statement* statement) {
+        return statement->side.text == "sides";
     });
     return ordered;
 }
 
-/// What a sentence sets, in messages: `u.left`.
-Span head_of(const ast::Sentence& sentence) { return join(sentence.name.span, sentence.side.span); }
+/// What a statement sets, in messages: `u.left`.
+Span head_of(const ast::Statement& statement) { return join(statement.name.span, statement.side.span); }
 
 /// t and step reach a side as numbers: what takes the values of many cells, or knows the place of
 /// one, is computed when the stage starts.
@@ -153,7 +153,7 @@ std::vector<std::string> species_names(const System& system) {
     return names;
 }
 
-/// The rules that sentences give, in an order in which later ones replace earlier ones.
+/// The rules that statements give, in an order in which later ones replace earlier ones.
 class RuleChecker {
 public:
     RuleChecker(Workspace& work, const ast::Script& script, const Scope& scope)
@@ -161,9 +161,9 @@ public:
         scope_.knows_time = true;
     }
 
-    std::vector<SpeciesSide> check(std::span<const ast::Sentence> sentences) {
-        for (const ast::Sentence* sentence : in_order(sentences)) {
-            for (const Statement& each : stage_statements(work_, system_, script_, *sentence)) {
+    std::vector<SpeciesSide> check(std::span<const ast::Statement> statements) {
+        for (const ast::Statement* statement : in_order(statements)) {
+            for (const Declaration& each : stage_declarations(work_, system_, script_, *statement)) {
                 if (!is_replaced(each)) check(each);
             }
         }
@@ -186,59 +186,59 @@ private:
         bool is_of_all = false;     ///< `sides`, not one of them.
     };
 
-    /// A second sentence about the same is a fault.
-    bool is_replaced(const Statement& statement) {
-        const std::string side(statement.sentence->side.text);
-        const std::string what = statement.name + "." + side;
-        const Span span = head_of(*statement.sentence);
+    /// A second statement about the same is a fault.
+    bool is_replaced(const Declaration& declaration) {
+        const std::string side(declaration.statement->side.text);
+        const std::string what = declaration.name + "." + side;
+        const Span span = head_of(*declaration.statement);
         const auto [first, is_new] =
-            seen_.try_emplace(what + (statement.index ? "*" : ""), span);
+            seen_.try_emplace(what + (declaration.index ? "*" : ""), span);
         if (!is_new) {
             report_twice(work_, span, first->second, fmt::format("'{}' is given twice", what));
         }
         return !is_new;
     }
 
-    void check(const Statement& statement) {
-        const ast::Sentence& sentence = *statement.sentence;
-        const Meaning* meaning = find(work_.names[scope_.system], statement.name);
+    void check(const Declaration& declaration) {
+        const ast::Statement& statement = *declaration.statement;
+        const Meaning* meaning = find(work_.names[scope_.system], declaration.name);
         if (meaning != nullptr && meaning->is_faulty) return;
         if (meaning == nullptr || meaning->is_definition || !system_.is_species(meaning->index)) {
             if (is_incomplete(work_, scope_.system)) return;
-            return report_no_species(statement);
+            return report_no_species(declaration);
         }
-        const auto written = read_side(work_, script_, sentence);
+        const auto written = read_side(work_, script_, statement);
         if (!written) return;
-        SideSetting setting{written->kind, {}, sentence.span};
+        SideSetting setting{written->kind, {}, statement.span};
         if (written->value) {
             Scope scope = scope_;
-            scope.index = statement.index;
+            scope.index = declaration.index;
             auto checked = check_number(work_, script_, *written->value, scope);
             if (!checked || !is_known_along_side(work_, checked->formula)) return;
             setting.value = std::move(checked->formula);
             mark_reads(work_, setting.value, scope_.system);
-            const Side side = sides_of_word(sentence.side.text)[0];
-            if (!reads_no_species(work_, system_, setting, side, statement.name)) return;
+            const Side side = sides_of_word(statement.side.text)[0];
+            if (!reads_no_species(work_, system_, setting, side, declaration.name)) return;
         }
-        for (const Side side : sides_of_word(sentence.side.text)) {
-            rules_.push_back({{meaning->index, side, setting}, statement.index.has_value(),
-                              sentence.side.text == "sides"});
+        for (const Side side : sides_of_word(statement.side.text)) {
+            rules_.push_back({{meaning->index, side, setting}, declaration.index.has_value(),
+                              statement.side.text == "sides"});
         }
     }
 
-    void report_no_species(const Statement& statement) {
+    void report_no_species(const Declaration& declaration) {
         std::string hint;
         if (!is_hopeless(work_)) {
-            if (auto family = explain_family(work_, system_, statement.name)) {
-                work_.diagnostics.error(head_of(*statement.sentence), std::move(family->message),
+            if (auto family = explain_family(work_, system_, declaration.name)) {
+                work_.diagnostics.error(head_of(*declaration.statement), std::move(family->message),
                                         std::move(family->hint));
                 return;
             }
-            hint = did_you_mean(work_, statement.name, species_names(system_));
+            hint = did_you_mean(work_, declaration.name, species_names(system_));
         }
         work_.diagnostics.error(
-            head_of(*statement.sentence),
-            fmt::format("'{}' is not a species of {}", statement.name, system_.name), hint);
+            head_of(*declaration.statement),
+            fmt::format("'{}' is not a species of {}", declaration.name, system_.name), hint);
     }
 
     Workspace& work_;
@@ -357,20 +357,20 @@ void check_system_sides(Workspace& work, const ast::Script& script, const ast::B
     }
 }
 
-void check_domain_side(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
-    const auto written = read_side(work, script, sentence);
+void check_domain_side(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    const auto written = read_side(work, script, statement);
     if (!written) return;
-    SideSetting setting{written->kind, {}, sentence.span};
+    SideSetting setting{written->kind, {}, statement.span};
     if (written->value) {
         const auto value = check_constant(work, script, *written->value,
                                           "the value of a side of all species");
         Node node;
         node.number = value.value_or(0);  // A wrong one has its message; the side's kind holds.
-        node.span = sentence.span;
+        node.span = statement.span;
         setting.value = {{node}};
     }
-    const bool is_for_all = sentence.name.text == "sides";
-    for (const Side side : sides_of_word(sentence.name.text)) {
+    const bool is_for_all = statement.name.text == "sides";
+    for (const Side side : sides_of_word(statement.name.text)) {
         auto& target = work.program.domain.sides[static_cast<std::size_t>(side)];
         if (!is_for_all || !target) target = setting;
     }
@@ -393,7 +393,7 @@ void check_stage_sides(Workspace& work, const ast::Script& script) {
         if (stage.system == unknown_system) continue;
         std::vector<SpeciesSide> rules = RuleChecker(work, script, scope).check(block.sides);
         // What comes from outside has the last word, and of that the last.
-        for (const ast::Sentence& change : overrides[index - 1]) {
+        for (const ast::Statement& change : overrides[index - 1]) {
             for (SpeciesSide& rule :
                  RuleChecker(work, script, scope).check(std::span(&change, 1))) {
                 rules.push_back(std::move(rule));

@@ -1,4 +1,4 @@
-// Stages: each sentence checked, defaults filled in, the order of items found, and which of them
+// Stages: each statement checked, defaults filled in, the order of items found, and which of them
 // are the same in all cells.
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_cycles.h"
@@ -35,7 +35,7 @@ public:
         : work_(work), script_(script), index_(index), copied_(copied) {}
 
     /// `overrides` come from outside the script; of two with one name the last counts.
-    void run(const ast::Block& block, const std::vector<const ast::Sentence*>& overrides);
+    void run(const ast::Block& block, const std::vector<const ast::Statement*>& overrides);
 
 private:
     Stage& stage() { return work_.program.stages[index_]; }
@@ -49,11 +49,11 @@ private:
         result.last_stage = index_;
         return result;
     }
-    std::vector<Statement> collect(const ast::Block& block,
-                                   const std::vector<const ast::Sentence*>& overrides);
-    std::vector<Statement> statements_of(const ast::Sentence& sentence);
-    void set(const Statement& statement);
-    void report_unknown(const Statement& statement);
+    std::vector<Declaration> collect(const ast::Block& block,
+                                   const std::vector<const ast::Statement*>& overrides);
+    std::vector<Declaration> declarations_of(const ast::Statement& statement);
+    void set(const Declaration& declaration);
+    void report_unknown(const Declaration& declaration);
     void fill_defaults();
     void take_default(std::uint32_t item, const Formula* formula, double otherwise);
     void order_items();
@@ -68,74 +68,74 @@ private:
 };
 
 /// With an unknown system nothing is known of families either.
-std::vector<Statement> StageChecker::statements_of(const ast::Sentence& sentence) {
+std::vector<Declaration> StageChecker::declarations_of(const ast::Statement& statement) {
     if (stage().system != unknown_system) {
-        return stage_statements(work_, system(), script_, sentence);
+        return stage_declarations(work_, system(), script_, statement);
     }
-    Statement statement;
-    statement.script = &script_;
-    statement.sentence = &sentence;
-    statement.name = fmt::format("{}[{}]", sentence.name.text, sentence.index.text);
-    return {std::move(statement)};
+    Declaration declaration;
+    declaration.script = &script_;
+    declaration.statement = &statement;
+    declaration.name = fmt::format("{}[{}]", statement.name.text, statement.index.text);
+    return {std::move(declaration)};
 }
 
-std::vector<Statement> StageChecker::collect(const ast::Block& block,
-                                             const std::vector<const ast::Sentence*>& overrides) {
-    std::vector<Statement> statements;
+std::vector<Declaration> StageChecker::collect(const ast::Block& block,
+                                             const std::vector<const ast::Statement*>& overrides) {
+    std::vector<Declaration> declarations;
     std::unordered_map<std::string, std::size_t> positions;
-    const auto add = [&](Statement statement, bool from_outside) {
-        const auto [first, is_new] = positions.try_emplace(statement.name, statements.size());
-        if (is_new) return statements.push_back(std::move(statement));
-        Statement& before = statements[first->second];
+    const auto add = [&](Declaration declaration, bool from_outside) {
+        const auto [first, is_new] = positions.try_emplace(declaration.name, declarations.size());
+        if (is_new) return declarations.push_back(std::move(declaration));
+        Declaration& before = declarations[first->second];
         // u[2]: … says more of u[2] than u[i]: … does; of two overrides the last counts.
-        const bool replaces = from_outside || (before.index && !statement.index);
-        const bool is_replaced = !from_outside && !before.index && statement.index;
+        const bool replaces = from_outside || (before.index && !declaration.index);
+        const bool is_replaced = !from_outside && !before.index && declaration.index;
         if (!replaces && !is_replaced) {
-            report_twice(work_, statement.span(), before.span(),
-                         fmt::format("'{}' is given a value twice", statement.name));
+            report_twice(work_, declaration.span(), before.span(),
+                         fmt::format("'{}' is given a value twice", declaration.name));
         }
-        if (replaces) before = std::move(statement);
+        if (replaces) before = std::move(declaration);
     };
-    for (const ast::Sentence& sentence : block.sentences) {
-        if (sentence.name.empty()) continue;
-        const ast::Sentence* value = value_sentence(sentence);
+    for (const ast::Statement& statement : block.statements) {
+        if (statement.name.empty()) continue;
+        const ast::Statement* value = value_statement(statement);
         if (value == nullptr) {
-            if (sentence.kind == ast::SentenceKind::value) continue;
-            work_.diagnostics.error(sentence.span, "a stage holds values only (name: …)",
-                                    sentence.kind == ast::SentenceKind::definition
-                                        ? fmt::format("write {}: …", sentence.name.text)
+            if (statement.kind == ast::StatementKind::value) continue;
+            work_.diagnostics.error(statement.span, "a stage holds values only (name: …)",
+                                    statement.kind == ast::StatementKind::definition
+                                        ? fmt::format("write {}: …", statement.name.text)
                                         : "rates, definitions and bounds belong in a system");
             continue;
         }
-        if (sentence.range) {
-            work_.diagnostics.error(sentence.range->span, "the range of a parameter stands in "
+        if (statement.range) {
+            work_.diagnostics.error(statement.range->span, "the range of a parameter stands in "
                                                           "its system");
         }
-        for (Statement& statement : statements_of(*value)) add(std::move(statement), false);
+        for (Declaration& declaration : declarations_of(*value)) add(std::move(declaration), false);
     }
-    for (const ast::Sentence* sentence : overrides) {
-        for (Statement& statement : statements_of(*sentence)) add(std::move(statement), true);
+    for (const ast::Statement* statement : overrides) {
+        for (Declaration& declaration : declarations_of(*statement)) add(std::move(declaration), true);
     }
-    return statements;
+    return declarations;
 }
 
 void StageChecker::run(const ast::Block& block,
-                       const std::vector<const ast::Sentence*>& overrides) {
-    const std::vector<Statement> statements = collect(block, overrides);
+                       const std::vector<const ast::Statement*>& overrides) {
+    const std::vector<Declaration> declarations = collect(block, overrides);
     if (stage().system == unknown_system) return;
     stage().items.resize(system().item_count());
     from_system_.assign(system().item_count(), false);
     // An end that comes from outside the script replaces the script's, whichever of the two it is.
     const SourceId own_source = stage().span.source;
-    const auto is_end = [&](const Statement& statement, bool from_outside) {
-        return is_end_setting(statement.name) &&
-               (statement.span().source != own_source) == from_outside;
+    const auto is_end = [&](const Declaration& declaration, bool from_outside) {
+        return is_end_setting(declaration.name) &&
+               (declaration.span().source != own_source) == from_outside;
     };
-    const bool has_new_end = std::any_of(statements.begin(), statements.end(), [&](const auto& each) {
+    const bool has_new_end = std::any_of(declarations.begin(), declarations.end(), [&](const auto& each) {
         return is_end(each, true);
     });
-    for (const Statement& statement : statements) {
-        if (!has_new_end || !is_end(statement, false)) set(statement);
+    for (const Declaration& declaration : declarations) {
+        if (!has_new_end || !is_end(declaration, false)) set(declaration);
     }
     for (const Formula& formula : stage().items) mark_reads(work_, formula, stage().system);
     for (const auto* formula : {&settings_.show, &settings_.time.until}) {
@@ -147,56 +147,56 @@ void StageChecker::run(const ast::Block& block,
     check_time(work_, index_);
 }
 
-void StageChecker::set(const Statement& statement) {
-    const ast::Sentence& sentence = *statement.sentence;
-    const std::string_view name = statement.name;
+void StageChecker::set(const Declaration& declaration) {
+    const ast::Statement& statement = *declaration.statement;
+    const std::string_view name = declaration.name;
     const Reserved kind = reserved(name);
     if (kind == Reserved::setting) {
-        check_setting(work_, script_, sentence, scope(), settings_);
+        check_setting(work_, script_, statement, scope(), settings_);
         return;
     }
     const Meaning* meaning = find(work_.names[stage().system], name);
-    if (meaning == nullptr) return report_unknown(statement);
+    if (meaning == nullptr) return report_unknown(declaration);
     if (meaning->is_faulty) return;
     if (meaning->is_definition) {
         work_.diagnostics.error(
-            sentence.name.span,
+            statement.name.span,
             fmt::format("'{}' is a definition of {} and cannot be set", name, system().name));
         return;
     }
-    if (!has_one_value(work_, script_, sentence)) return;
+    if (!has_one_value(work_, script_, statement)) return;
     Scope own = scope();
-    own.index = statement.index;
-    auto checked = check_number(work_, script_, sentence.values[0], own);
+    own.index = declaration.index;
+    auto checked = check_number(work_, script_, statement.values[0], own);
     if (!checked) return;
     if (meaning->index < system().quantities.size()) {
         warn_outside(work_, system().quantities[meaning->index], checked->constant,
-                     script_.expressions[sentence.values[0].root].span);
+                     script_.expressions[statement.values[0].root].span);
     }
     stage().items[meaning->index] = std::move(checked->formula);
 }
 
-void StageChecker::report_unknown(const Statement& statement) {
+void StageChecker::report_unknown(const Declaration& declaration) {
     Diagnostic diagnostic;
-    diagnostic.span = statement.span();
-    if (auto explained = explain_family(work_, system(), statement.name)) {
-        work_.diagnostics.error(statement.span(), std::move(explained->message),
+    diagnostic.span = declaration.span();
+    if (auto explained = explain_family(work_, system(), declaration.name)) {
+        work_.diagnostics.error(declaration.span(), std::move(explained->message),
                                 std::move(explained->hint));
         return;
     }
     if (is_incomplete(work_, stage().system)) return;
     diagnostic.message =
-        fmt::format("'{}' is not a parameter of {}", statement.name, system().name);
+        fmt::format("'{}' is not a parameter of {}", declaration.name, system().name);
     if (!is_hopeless(work_)) {
         std::vector<std::string> names = quantity_names(system());
         diagnostic.notes.push_back({std::nullopt, fmt::format("{} has {}", system().name,
                                                               list_names(names))});
         names.insert(names.end(), setting_names().begin(), setting_names().end());
-        diagnostic.hint = advice_about(statement.name, WordPlace::stage);
-        if (diagnostic.hint.empty()) diagnostic.hint = did_you_mean(work_, statement.name, names);
-        if (is_side_word(statement.name)) {
+        diagnostic.hint = advice_about(declaration.name, WordPlace::stage);
+        if (diagnostic.hint.empty()) diagnostic.hint = did_you_mean(work_, declaration.name, names);
+        if (is_side_word(declaration.name)) {
             diagnostic.hint = fmt::format("a side of one species is SPECIES.{0}: …, of all {0}: … in the domain",
-                                          statement.name);
+                                          declaration.name);
         }
     }
     work_.diagnostics.add(std::move(diagnostic));
@@ -255,12 +255,12 @@ void StageChecker::order_items() {
     std::vector<const Formula*> items;
     for (const Formula& formula : stage().items) items.push_back(&formula);
     Order order = topological_order(item_dependencies(items));
-    for (const auto& circle : order.circles) {
-        // A circle of defaults has been reported with the system.
-        const bool is_default = std::all_of(circle.begin(), circle.end(), [&](std::uint32_t item) {
+    for (const auto& cycle : order.cycles) {
+        // A cycle of defaults has been reported with the system.
+        const bool is_default = std::all_of(cycle.begin(), cycle.end(), [&](std::uint32_t item) {
             return from_system_[item];
         });
-        if (!is_default) report_item_circle(work_, system(), items, from_system_, circle);
+        if (!is_default) report_item_cycle(work_, system(), items, from_system_, cycle);
     }
     stage().order = std::move(order.order);
 }

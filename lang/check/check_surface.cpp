@@ -7,9 +7,9 @@ namespace cascade::checking {
 
 namespace {
 
-void check_position(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
-    if (sentence.values.size() != 3) {
-        work.diagnostics.error(sentence.span, "a surface is three expressions: x, y and z in space",
+void check_position(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    if (statement.values.size() != 3) {
+        work.diagnostics.error(statement.span, "a surface is three expressions: x, y and z in space",
                                "surface: sx, sy, 0.1 * sin(2 * pi * sx)");
         return;
     }
@@ -17,46 +17,46 @@ void check_position(Workspace& work, const ast::Script& script, const ast::Sente
     scope.place = Place::position;
     std::array<Formula, 3> position;
     for (std::size_t k = 0; k < 3; ++k) {
-        auto checked = check_number(work, script, sentence.values[k], scope);
+        auto checked = check_number(work, script, statement.values[k], scope);
         if (!checked) return;
         position[k] = std::move(checked->formula);
     }
     SurfaceSettings& surface = work.program.domain.surface.emplace();
     surface.position = std::move(position);
-    surface.span = sentence.name.span;
+    surface.span = statement.name.span;
 }
 
-Span span_of_value(const ast::Script& script, const ast::Sentence& sentence) {
-    return script.expressions[sentence.values[0].root].span;
+Span span_of_value(const ast::Script& script, const ast::Statement& statement) {
+    return script.expressions[statement.values[0].root].span;
 }
 
 /// `metric: 0` or `metric: 1`.
-void check_metric(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
-    if (!has_one_value(work, script, sentence)) return;
-    const auto metric = check_constant(work, script, sentence.values[0], "metric");
+void check_metric(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    if (!has_one_value(work, script, statement)) return;
+    const auto metric = check_constant(work, script, statement.values[0], "metric");
     if (!metric) return;
     if (*metric != 0 && *metric != 1) {
-        work.diagnostics.error(span_of_value(script, sentence), "metric is 0 or 1");
+        work.diagnostics.error(span_of_value(script, statement), "metric is 0 or 1");
         return;
     }
     work.program.domain.surface->has_metric = *metric != 0;
 }
 
-void check_unit(Workspace& work, const ast::Script& script, const ast::Sentence& sentence) {
-    if (!has_one_value(work, script, sentence)) return;
-    const auto unit = check_constant(work, script, sentence.values[0], "unit");
+void check_unit(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    if (!has_one_value(work, script, statement)) return;
+    const auto unit = check_constant(work, script, statement.values[0], "unit");
     if (!unit) return;
     if (!(*unit > 0) || !std::isfinite(*unit)) {
-        work.diagnostics.error(span_of_value(script, sentence),
+        work.diagnostics.error(span_of_value(script, statement),
                                "the unit of length must be above 0");
         return;
     }
     work.program.domain.surface->unit = *unit;
 }
 
-const ast::Sentence* find_sentence(const ast::Block& block, std::string_view name) {
-    for (const ast::Sentence& sentence : block.sentences) {
-        if (sentence.name.text == name && !sentence.values.empty()) return &sentence;
+const ast::Statement* find_statement(const ast::Block& block, std::string_view name) {
+    for (const ast::Statement& statement : block.statements) {
+        if (statement.name.text == name && !statement.values.empty()) return &statement;
     }
     return nullptr;
 }
@@ -68,11 +68,11 @@ bool is_surface_setting(std::string_view name) {
 }
 
 void check_surface(Workspace& work, const ast::Script& script, const ast::Block& domain) {
-    const ast::Sentence* surface = find_sentence(domain, "surface");
-    const ast::Sentence* metric = find_sentence(domain, "metric");
-    const ast::Sentence* unit = find_sentence(domain, "unit");
+    const ast::Statement* surface = find_statement(domain, "surface");
+    const ast::Statement* metric = find_statement(domain, "metric");
+    const ast::Statement* unit = find_statement(domain, "unit");
     if (surface == nullptr) {
-        for (const ast::Sentence* lonely : {metric, unit}) {
+        for (const ast::Statement* lonely : {metric, unit}) {
             if (lonely == nullptr) continue;
             work.diagnostics.error(lonely->name.span,
                                    "only a domain with a surface has this setting",

@@ -13,10 +13,10 @@ namespace cascade::checking {
 
 namespace {
 
-/// The sentences that make a rate.
-struct RateSentences {
-    const Statement* assignment = nullptr;
-    std::vector<const Statement*> terms;
+/// The statements that make a rate.
+struct RateStatements {
+    const Declaration* assignment = nullptr;
+    std::vector<const Declaration*> terms;
     bool empty() const { return assignment == nullptr && terms.empty(); }
 };
 
@@ -24,33 +24,33 @@ class SystemChecker {
 public:
     SystemChecker(Workspace& work, const DerivedSystem& derived, std::uint32_t index)
         : work_(work), derived_(derived), index_(index),
-          statements_(system_statements(work, system(), derived.sentences)) {}
+          declarations_(system_declarations(work, system(), derived.statements)) {}
 
     void run();
 
 private:
     System& system() { return work_.program.systems[index_]; }
-    Scope scope(Place place, const Statement& statement) const {
+    Scope scope(Place place, const Declaration& declaration) const {
         Scope result;
         result.place = place;
         result.system = index_;
-        result.index = statement.index;
+        result.index = declaration.index;
         return result;
     }
 
-    void declare(const Statement& statement);
-    bool can_declare(const Statement& statement);
-    void collect_rate(const Statement& statement);
-    void report_rate_of_definition(const Statement& rate);
-    void report_no_species(const Statement& statement, const Meaning* meaning);
+    void declare(const Declaration& declaration);
+    bool can_declare(const Declaration& declaration);
+    void collect_rate(const Declaration& declaration);
+    void report_rate_of_definition(const Declaration& rate);
+    void report_no_species(const Declaration& declaration, const Meaning* meaning);
     void report_families();
     void report_no_rates();
-    std::optional<CheckedExpression> check_value(const Statement& statement, Place place);
+    std::optional<CheckedExpression> check_value(const Declaration& declaration, Place place);
     void check_values();
     void check_definitions();
     void check_rates();
     void check_invariants();
-    void report_no_bound(const Statement& statement);
+    void report_no_bound(const Declaration& declaration);
     void check_settings();
     void order_values();
     void order_steps();
@@ -59,21 +59,21 @@ private:
     Workspace& work_;
     const DerivedSystem& derived_;
     std::uint32_t index_;
-    std::vector<Statement> statements_;
+    std::vector<Declaration> declarations_;
     std::unordered_map<std::string, Span> declared_;
-    std::vector<const Statement*> values_, definitions_, invariants_, settings_;
-    std::vector<const Statement*> rate_sentences_;
-    std::vector<RateSentences> rates_;
+    std::vector<const Declaration*> values_, definitions_, invariants_, settings_;
+    std::vector<const Declaration*> rate_statements_;
+    std::vector<RateStatements> rates_;
 };
 
 void SystemChecker::run() {
     for (const Index& index : system().indices) declared_.emplace(index.name, index.span);
-    for (const Statement& statement : statements_) declare(statement);
+    for (const Declaration& declaration : declarations_) declare(declaration);
     report_families();
     work_.names[index_] = names_of(system());
     rates_.resize(system().quantities.size());
-    for (const Statement* statement : rate_sentences_) collect_rate(*statement);
-    if (rate_sentences_.empty() && !is_incomplete(work_, index_)) {
+    for (const Declaration* declaration : rate_statements_) collect_rate(*declaration);
+    if (rate_statements_.empty() && !is_incomplete(work_, index_)) {
         report_no_rates();
     }
     work_.items_read[index_].assign(system().item_count(), false);
@@ -89,7 +89,7 @@ void SystemChecker::run() {
 
 /// `u_t = …` is a definition here, and a rate on paper.
 void SystemChecker::report_no_rates() {
-    const auto is_paper_rate = [&](const Statement* each) {
+    const auto is_paper_rate = [&](const Declaration* each) {
         return each->name.size() > 2 && each->name.ends_with("_t");
     };
     const auto found = std::find_if(definitions_.begin(), definitions_.end(), is_paper_rate);
@@ -107,76 +107,76 @@ void SystemChecker::report_no_rates() {
     }
 }
 
-bool SystemChecker::can_declare(const Statement& statement) {
-    const std::string_view name = statement.sentence->name.text;
+bool SystemChecker::can_declare(const Declaration& declaration) {
+    const std::string_view name = declaration.statement->name.text;
     const Reserved kind = reserved(name);
     if (kind == Reserved::builtin) {
         work_.diagnostics.error(
-            statement.span(), fmt::format("'{}' is built in and cannot be declared", name));
+            declaration.span(), fmt::format("'{}' is built in and cannot be declared", name));
         return false;
     }
-    const bool is_member = !statement.sentence->index.empty();
+    const bool is_member = !declaration.statement->index.empty();
     if (kind == Reserved::setting && is_member) {
-        work_.diagnostics.error(statement.span(),
+        work_.diagnostics.error(declaration.span(),
                                 fmt::format("'{}' is a setting and no family", name));
         return false;
     }
-    if (kind == Reserved::setting && statement.kind() == ast::SentenceKind::definition) {
-        work_.diagnostics.error(statement.span(),
+    if (kind == Reserved::setting && declaration.kind() == ast::StatementKind::definition) {
+        work_.diagnostics.error(declaration.span(),
                                 fmt::format("'{}' is a setting and no definition", name),
                                 fmt::format("write {}: …", name));
         return false;
     }
-    const auto [first, is_new] = declared_.try_emplace(statement.name, statement.span());
+    const auto [first, is_new] = declared_.try_emplace(declaration.name, declaration.span());
     if (is_new) return true;
-    report_twice(work_, statement.span(), first->second,
-                 fmt::format("'{}' is given a value twice", statement.name));
+    report_twice(work_, declaration.span(), first->second,
+                 fmt::format("'{}' is given a value twice", declaration.name));
     return false;
 }
 
-void SystemChecker::declare(const Statement& statement) {
-    switch (statement.kind()) {
-        case ast::SentenceKind::value: {
-            if (!can_declare(statement)) return;
-            if (take_text(system(), statement)) return;
-            if (reserved(statement.name) == Reserved::setting) {
-                settings_.push_back(&statement);
+void SystemChecker::declare(const Declaration& declaration) {
+    switch (declaration.kind()) {
+        case ast::StatementKind::value: {
+            if (!can_declare(declaration)) return;
+            if (take_text(system(), declaration)) return;
+            if (reserved(declaration.name) == Reserved::setting) {
+                settings_.push_back(&declaration);
                 return;
             }
-            values_.push_back(&statement);
+            values_.push_back(&declaration);
             Quantity quantity;
-            quantity.name = statement.name;
-            quantity.span = statement.span();
-            quantity.doc = statement.doc;
+            quantity.name = declaration.name;
+            quantity.span = declaration.span();
+            quantity.doc = declaration.doc;
             system().quantities.push_back(std::move(quantity));
             return;
         }
-        case ast::SentenceKind::definition:
-            if (!can_declare(statement)) return;
-            definitions_.push_back(&statement);
-            system().definitions.push_back({statement.name, statement.span(), {}});
+        case ast::StatementKind::definition:
+            if (!can_declare(declaration)) return;
+            definitions_.push_back(&declaration);
+            system().definitions.push_back({declaration.name, declaration.span(), {}});
             return;
-        case ast::SentenceKind::index: return;
-        case ast::SentenceKind::rate:
-        case ast::SentenceKind::rate_term: rate_sentences_.push_back(&statement); return;
-        case ast::SentenceKind::at_least:
-        case ast::SentenceKind::at_most: invariants_.push_back(&statement); return;
+        case ast::StatementKind::index: return;
+        case ast::StatementKind::rate:
+        case ast::StatementKind::rate_term: rate_statements_.push_back(&declaration); return;
+        case ast::StatementKind::at_least:
+        case ast::StatementKind::at_most: invariants_.push_back(&declaration); return;
     }
 }
 
 /// The name of a family cannot be that of a quantity or an index too.
 void SystemChecker::report_families() {
-    for (const Statement& statement : statements_) {
-        const ast::Sentence& sentence = *statement.sentence;
-        const bool declares = statement.kind() == ast::SentenceKind::value ||
-                              statement.kind() == ast::SentenceKind::definition;
-        if (sentence.index.empty() || !declares) continue;
-        const auto plain = declared_.find(std::string(sentence.name.text));
+    for (const Declaration& declaration : declarations_) {
+        const ast::Statement& statement = *declaration.statement;
+        const bool declares = declaration.kind() == ast::StatementKind::value ||
+                              declaration.kind() == ast::StatementKind::definition;
+        if (statement.index.empty() || !declares) continue;
+        const auto plain = declared_.find(std::string(statement.name.text));
         if (plain == declared_.end()) continue;
         Diagnostic diagnostic;
-        diagnostic.span = sentence.name.span;
+        diagnostic.span = statement.name.span;
         diagnostic.message =
-            fmt::format("'{}' cannot be a family and one quantity", sentence.name.text);
+            fmt::format("'{}' cannot be a family and one quantity", statement.name.text);
         diagnostic.notes.push_back({plain->second, "the other is here"});
         work_.diagnostics.add(std::move(diagnostic));
     }
@@ -184,10 +184,10 @@ void SystemChecker::report_families() {
 
 /// A name is a definition and has a rate: `u = 1` in place of `u: 1`. In a system that is derived
 /// from another one the later of the two is the slip.
-void SystemChecker::report_rate_of_definition(const Statement& rate) {
+void SystemChecker::report_rate_of_definition(const Declaration& rate) {
     const auto definition =
         std::find_if(definitions_.begin(), definitions_.end(),
-                     [&](const Statement* each) { return each->name == rate.name; });
+                     [&](const Declaration* each) { return each->name == rate.name; });
     if (definition != definitions_.end() && (*definition)->level >= rate.level) {
         work_.diagnostics.error((*definition)->span(),
                                 fmt::format("'{}' is a species and cannot be a definition", rate.name),
@@ -199,24 +199,24 @@ void SystemChecker::report_rate_of_definition(const Statement& rate) {
 }
 
 /// A rate of something that is no species: said once, later readers of the name stay silent.
-void SystemChecker::report_no_species(const Statement& statement, const Meaning* meaning) {
-    const std::string& name = statement.name;
+void SystemChecker::report_no_species(const Declaration& declaration, const Meaning* meaning) {
+    const std::string& name = declaration.name;
     if (meaning != nullptr && meaning->is_definition) {
-        report_rate_of_definition(statement);
+        report_rate_of_definition(declaration);
         return;
     }
     if (reserved(name) != Reserved::no) {
-        work_.diagnostics.error(statement.span(), fmt::format("'{}' has no rate", name));
+        work_.diagnostics.error(declaration.span(), fmt::format("'{}' has no rate", name));
         return;
     }
     if (auto explained = explain_family(work_, system(), name)) {
-        work_.diagnostics.error(statement.span(), std::move(explained->message),
+        work_.diagnostics.error(declaration.span(), std::move(explained->message),
                                 std::move(explained->hint));
     } else if (!is_incomplete(work_, index_)) {  // Else it may be what could not be read.
         std::string hint;
         if (!is_hopeless(work_)) hint = did_you_mean(work_, name, quantity_names(system()));
         if (hint.empty()) hint = fmt::format("add {}: …", name);
-        work_.diagnostics.error(statement.span(),
+        work_.diagnostics.error(declaration.span(),
                                 fmt::format("species '{}' has no starting value", name),
                                 std::move(hint));
     }
@@ -224,30 +224,30 @@ void SystemChecker::report_no_species(const Statement& statement, const Meaning*
 }
 
 /// A name with a rate is a species.
-void SystemChecker::collect_rate(const Statement& statement) {
-    const Meaning* meaning = find(work_.names[index_], statement.name);
+void SystemChecker::collect_rate(const Declaration& declaration) {
+    const Meaning* meaning = find(work_.names[index_], declaration.name);
     const bool is_quantity = meaning != nullptr && !meaning->is_definition &&
                              meaning->index < system().quantities.size();
     if (meaning != nullptr && meaning->is_faulty) return;
-    if (!is_quantity) return report_no_species(statement, meaning);
+    if (!is_quantity) return report_no_species(declaration, meaning);
     system().quantities[meaning->index].is_species = true;
-    RateSentences& rate = rates_[meaning->index];
-    if (statement.kind() == ast::SentenceKind::rate_term) {
-        rate.terms.push_back(&statement);
+    RateStatements& rate = rates_[meaning->index];
+    if (declaration.kind() == ast::StatementKind::rate_term) {
+        rate.terms.push_back(&declaration);
     } else if (rate.assignment == nullptr) {
-        rate.assignment = &statement;
+        rate.assignment = &declaration;
     } else {
-        report_twice(work_, statement.span(), rate.assignment->span(),
-                     fmt::format("the rate of '{}' is given twice", statement.name));
+        report_twice(work_, declaration.span(), rate.assignment->span(),
+                     fmt::format("the rate of '{}' is given twice", declaration.name));
     }
 }
 
-/// The number that a statement says, or nothing with a message.
-std::optional<CheckedExpression> SystemChecker::check_value(const Statement& statement,
+/// The number that a declaration says, or nothing with a message.
+std::optional<CheckedExpression> SystemChecker::check_value(const Declaration& declaration,
                                                             Place place) {
-    if (!has_one_value(work_, *statement.script, *statement.sentence)) return std::nullopt;
-    auto checked = check_number(work_, *statement.script, statement.sentence->values[0],
-                                scope(place, statement));
+    if (!has_one_value(work_, *declaration.script, *declaration.statement)) return std::nullopt;
+    auto checked = check_number(work_, *declaration.script, declaration.statement->values[0],
+                                scope(place, declaration));
     if (checked) mark_reads(work_, checked->formula, index_);
     return checked;
 }
@@ -292,20 +292,20 @@ void superpose(Formula& sum, Formula term) {
 void SystemChecker::check_rates() {
     system().rates.resize(system().quantities.size());
     for (std::size_t i = 0; i < rates_.size(); ++i) {
-        std::vector<const Statement*> statements = rates_[i].terms;
+        std::vector<const Declaration*> declarations = rates_[i].terms;
         if (rates_[i].assignment != nullptr) {
-            statements.insert(statements.begin(), rates_[i].assignment);
+            declarations.insert(declarations.begin(), rates_[i].assignment);
         }
-        for (const Statement* statement : statements) {
-            auto checked = check_value(*statement, Place::rate);
+        for (const Declaration* declaration : declarations) {
+            auto checked = check_value(*declaration, Place::rate);
             if (checked) superpose(system().rates[i], std::move(checked->formula));
         }
     }
 }
 
-void SystemChecker::report_no_bound(const Statement& statement) {
-    if (auto explained = explain_family(work_, system(), statement.name)) {
-        work_.diagnostics.error(statement.span(), std::move(explained->message),
+void SystemChecker::report_no_bound(const Declaration& declaration) {
+    if (auto explained = explain_family(work_, system(), declaration.name)) {
+        work_.diagnostics.error(declaration.span(), std::move(explained->message),
                                 std::move(explained->hint));
         return;
     }
@@ -314,25 +314,25 @@ void SystemChecker::report_no_bound(const Statement& statement) {
     for (const Quantity& quantity : system().quantities) {
         if (quantity.is_species && !is_hopeless(work_)) species.push_back(quantity.name);
     }
-    std::string hint = did_you_mean(work_, statement.name, species);
+    std::string hint = did_you_mean(work_, declaration.name, species);
     work_.diagnostics.error(
-        statement.span(),
-        fmt::format("'{}' is not a species of {}", statement.name, system().name),
+        declaration.span(),
+        fmt::format("'{}' is not a species of {}", declaration.name, system().name),
         std::move(hint));
 }
 
 void SystemChecker::check_invariants() {
-    for (const Statement* statement : invariants_) {
-        const Meaning* meaning = find(work_.names[index_], statement->name);
+    for (const Declaration* declaration : invariants_) {
+        const Meaning* meaning = find(work_.names[index_], declaration->name);
         if (meaning != nullptr && meaning->is_faulty) continue;
         if (meaning == nullptr || meaning->is_definition || !system().is_species(meaning->index)) {
-            report_no_bound(*statement);
+            report_no_bound(*declaration);
             continue;
         }
-        auto checked = check_value(*statement, Place::bound);
+        auto checked = check_value(*declaration, Place::bound);
         if (!checked) continue;
         system().invariants.push_back({meaning->index,
-                                       statement->kind() == ast::SentenceKind::at_least,
+                                       declaration->kind() == ast::StatementKind::at_least,
                                        std::move(checked->formula)});
     }
 }
@@ -340,13 +340,13 @@ void SystemChecker::check_invariants() {
 void SystemChecker::check_settings() {
     Settings settings;
     std::uint32_t level_of_end = 0;
-    for (const Statement* statement : settings_) {
-        if (is_end_setting(statement->name)) level_of_end = std::max(level_of_end, statement->level);
+    for (const Declaration* declaration : settings_) {
+        if (is_end_setting(declaration->name)) level_of_end = std::max(level_of_end, declaration->level);
     }
-    for (const Statement* statement : settings_) {
-        if (is_end_setting(statement->name) && statement->level < level_of_end) continue;
-        check_setting(work_, *statement->script, *statement->sentence,
-                      scope(Place::value, *statement), settings);
+    for (const Declaration* declaration : settings_) {
+        if (is_end_setting(declaration->name) && declaration->level < level_of_end) continue;
+        check_setting(work_, *declaration->script, *declaration->statement,
+                      scope(Place::value, *declaration), settings);
     }
     for (const auto* formula :
          {&settings.frozen, &settings.speed, &settings.show, &settings.time.until}) {
@@ -364,16 +364,16 @@ void SystemChecker::order_values() {
     items.push_back(settings.speed ? &*settings.speed : nullptr);
     const Order order = topological_order(item_dependencies(items));
     const std::vector<bool> from_system(items.size(), false);
-    for (const auto& circle : order.circles) {
-        report_item_circle(work_, system(), items, from_system, circle);
+    for (const auto& cycle : order.cycles) {
+        report_item_cycle(work_, system(), items, from_system, cycle);
     }
 }
 
-/// Puts definitions behind those they read and finds the order of the rates.
+/// Puts definitions after those they read and finds the order of the rates.
 void SystemChecker::order_steps() {
     System& target = system();
     const Order order = topological_order(step_dependencies(target));
-    for (const auto& circle : order.circles) report_step_circle(work_, target, circle);
+    for (const auto& cycle : order.cycles) report_step_cycle(work_, target, cycle);
     const auto count = static_cast<std::uint32_t>(target.definitions.size());
     std::vector<std::uint32_t> position(count);
     std::vector<Definition> definitions;
@@ -399,7 +399,7 @@ void SystemChecker::order_steps() {
     for (auto& [name, meaning] : work_.names[index_]) {
         if (meaning.is_definition) meaning.index = position[meaning.index];
     }
-    if (order.circles.empty()) check_depths();
+    if (order.cycles.empty()) check_depths();
 }
 
 /// How deep operators lie in each other through definitions and rates.

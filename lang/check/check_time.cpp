@@ -122,20 +122,20 @@ void check_start(Workspace& work, const ast::Script& script, ast::Expression val
 
 }  // namespace
 
-bool is_time_setting(const ast::Script& script, const ast::Sentence& sentence) {
+bool is_time_setting(const ast::Script& script, const ast::Statement& statement) {
     static constexpr std::array<std::string_view, 7> names{
         "solver", "tolerance", "largest_step", "duration", "until", "check", "start"};
-    const std::string_view name = sentence.name.text;
-    if (name == "speed") return word_of(script, sentence.values[0]) == "auto";
+    const std::string_view name = statement.name.text;
+    if (name == "speed") return word_of(script, statement.values[0]) == "auto";
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 bool is_end_setting(std::string_view name) { return name == "iterations" || name == "duration"; }
 
-void check_time_setting(Workspace& work, const ast::Script& script, const ast::Sentence& sentence,
+void check_time_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                         const Scope& scope, Settings& settings) {
-    const std::string_view name = sentence.name.text;
-    const ast::Expression value = sentence.values[0];
+    const std::string_view name = statement.name.text;
+    const ast::Expression value = statement.values[0];
     TimeSettings& time = settings.time;
     if (name == "speed") {
         time.automatic_speed = true;
@@ -149,11 +149,11 @@ void check_time_setting(Workspace& work, const ast::Script& script, const ast::S
         time.tolerance = check_range(work, script, value, name, least_tolerance, most_tolerance);
     } else if (name == "largest_step") {
         time.largest_step = check_range(work, script, value, name, least_step, longest_duration);
-        time.largest_step_span = sentence.name.span;
+        time.largest_step_span = statement.name.span;
     } else if (name == "duration") {
         time.duration = check_range(work, script, value, name, 0, longest_duration);
     } else if (name == "check") {
-        time.check = check_count(work, script, sentence);
+        time.check = check_count(work, script, statement);
     } else if (name == "until") {
         check_until(work, script, value, scope, time);
     } else {

@@ -14,13 +14,13 @@ namespace cascade::checking {
 inline constexpr std::int64_t most_iterations = 1'000'000'000;
 
 /// Is this one of the settings above? `speed` is where it is `auto`.
-bool is_time_setting(const ast::Script& script, const ast::Sentence& sentence);
+bool is_time_setting(const ast::Script& script, const ast::Statement& statement);
 
 /// `iterations` and `duration`: a stage ends by one of them, and what replaces either replaces both.
 bool is_end_setting(std::string_view name);
 
-/// Sets it. The sentence has one value.
-void check_time_setting(Workspace& work, const ast::Script& script, const ast::Sentence& sentence,
+/// Sets it. The statement has one value.
+void check_time_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                         const Scope& scope, Settings& settings);
 
 /// Iterations, interval and all of time of a stage: its own settings, then its system's, then the

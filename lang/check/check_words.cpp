@@ -127,7 +127,7 @@ std::optional<Explanation> explain_family(Workspace& work, const System& system,
 
 Explanation index_without_value(std::string_view index) {
     return {fmt::format("the index '{}' has no value here", index),
-            fmt::format("it has one in sentences of u[{0}] and in sum(… over {0})", index)};
+            fmt::format("it has one in statements of u[{0}] and in sum(… over {0})", index)};
 }
 
 void add_call(const Workspace& work, Diagnostic& diagnostic) {

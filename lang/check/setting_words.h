@@ -9,8 +9,8 @@
 
 namespace cascade::checking {
 
-inline const ast::Expr& value_of(const ast::Script& script, const ast::Sentence& sentence) {
-    return script.expressions[sentence.values[0].root];
+inline const ast::Expr& value_of(const ast::Script& script, const ast::Statement& statement) {
+    return script.expressions[statement.values[0].root];
 }
 
 /// A word that stands alone or with arguments in brackets; "" for all else.
@@ -20,7 +20,7 @@ inline std::string_view word_of(const ast::Expr& value) {
     return {};
 }
 
-/// The arguments of a call, whose parts stand one behind the other in front of it.
+/// The arguments of a call, whose parts stand one after the other before it.
 inline std::vector<ast::Expression> arguments_of(const ast::Script& script, ast::Expression written) {
     std::vector<ast::Expression> arguments;
     const auto* call = std::get_if<ast::Call>(&script.expressions[written.root].node);

@@ -9,7 +9,7 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr std::size_t most_sentences = 1'000'000;
+constexpr std::size_t most_statements = 1'000'000;
 constexpr std::size_t most_named = 12;
 
 class Derivation {
@@ -26,7 +26,7 @@ public:
 
 private:
     std::optional<std::uint32_t> find_base(std::uint32_t index);
-    void report_circle(const std::vector<std::uint32_t>& circle);
+    void report_cycle(const std::vector<std::uint32_t>& cycle);
     DerivedSystem derive(std::uint32_t index, const std::vector<DerivedSystem>& before);
 
     Workspace& work_;
@@ -52,19 +52,19 @@ std::optional<std::uint32_t> Derivation::find_base(std::uint32_t index) {
     return std::nullopt;
 }
 
-void Derivation::report_circle(const std::vector<std::uint32_t>& circle) {
+void Derivation::report_cycle(const std::vector<std::uint32_t>& cycle) {
     std::string path;
-    for (std::size_t i = 0; i < circle.size(); ++i) {
-        is_known_[circle[i]] = false;
+    for (std::size_t i = 0; i < cycle.size(); ++i) {
+        is_known_[cycle[i]] = false;
         if (i == most_named) path += "… -> ";
-        if (i < most_named) path += fmt::format("{} -> ", blocks_[circle[i]].block->name.text);
+        if (i < most_named) path += fmt::format("{} -> ", blocks_[cycle[i]].block->name.text);
     }
-    const ast::Block& first = *blocks_[circle[0]].block;
+    const ast::Block& first = *blocks_[cycle[0]].block;
     work_.diagnostics.error(
         first.base.span,
-        circle.size() == 1
+        cycle.size() == 1
             ? fmt::format("'{}' is derived from itself", first.name.text)
-            : fmt::format("systems are derived from each other in a circle: {}{}", path,
+            : fmt::format("systems are derived from each other in a cycle: {}{}", path,
                           first.name.text));
 }
 
@@ -77,20 +77,20 @@ DerivedSystem Derivation::derive(std::uint32_t index, const std::vector<DerivedS
         system.base = places_[*bases_[index]];
         const DerivedSystem& base = before[*system.base];
         system.is_known = base.is_known;
-        if (copied_ <= most_sentences && copied_ + base.sentences.size() > most_sentences) {
+        if (copied_ <= most_statements && copied_ + base.statements.size() > most_statements) {
             work_.diagnostics.error(system.from.block->base.span,
                                     "the systems of this script are too large together");
         }
-        copied_ += base.sentences.size();
-        if (copied_ > most_sentences) {
+        copied_ += base.statements.size();
+        if (copied_ > most_statements) {
             system.is_known = false;
-        } else if (!base.sentences.empty()) {
-            system.sentences = base.sentences;
-            level = base.sentences.back().level + 1;
+        } else if (!base.statements.empty()) {
+            system.statements = base.statements;
+            level = base.statements.back().level + 1;
         }
     }
-    for (const ast::Sentence& sentence : system.from.block->sentences) {
-        system.sentences.push_back({system.from.script, &sentence, level});
+    for (const ast::Statement& statement : system.from.block->statements) {
+        system.statements.push_back({system.from.script, &statement, level});
     }
     return system;
 }
@@ -103,7 +103,7 @@ std::vector<DerivedSystem> Derivation::run() {
         if (bases_[i]) reads[i].push_back(*bases_[i]);
     }
     const Order order = topological_order(reads);
-    for (const auto& circle : order.circles) report_circle(circle);
+    for (const auto& cycle : order.cycles) report_cycle(cycle);
     places_.assign(blocks_.size(), 0);
     std::vector<DerivedSystem> systems;
     for (const std::uint32_t index : order.order) {

@@ -36,9 +36,9 @@ std::string how_to_go_on(const Program& program, std::uint32_t stage) {
         return fmt::format("a stage begins with its own starting values: 'p: {}.{}' would read this one",
                            program.stages[stage].name, species.front());
     }
-    std::vector<std::string> sentences;
-    for (const std::string& name : species) sentences.push_back(fmt::format("{}: {}", name, name));
-    return fmt::format("'{}' in stage '{}' goes on from it", fmt::join(sentences, "; "), next.name);
+    std::vector<std::string> statements;
+    for (const std::string& name : species) statements.push_back(fmt::format("{}: {}", name, name));
+    return fmt::format("'{}' in stage '{}' goes on from it", fmt::join(statements, "; "), next.name);
 }
 
 }  // namespace

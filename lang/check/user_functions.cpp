@@ -34,7 +34,7 @@ public:
         for (const ast::FunctionDefinition& definition : script_.functions) declare(definition);
         calls_.resize(table_.functions_.size());
         for (std::uint32_t i = 0; i < table_.functions_.size(); ++i) check_body(i);
-        for (const auto& circle : topological_order(calls_).circles) report_circle(circle);
+        for (const auto& cycle : topological_order(calls_).cycles) report_cycle(cycle);
         return std::move(table_);
     }
 
@@ -43,7 +43,7 @@ private:
     void check_body(std::uint32_t index);
     void check_name(UserFunction& function, std::string_view name, Span span);
     void check_call(std::uint32_t index, const ast::Call& call, Span span);
-    void report_circle(const std::vector<std::uint32_t>& circle);
+    void report_cycle(const std::vector<std::uint32_t>& cycle);
     void fault(UserFunction& function, Span span, std::string message, std::string hint) {
         work_.diagnostics.error(span, std::move(message), std::move(hint));
         function.faulty = true;
@@ -143,20 +143,20 @@ void FunctionTableMaker::check_call(std::uint32_t index, const ast::Call& call, 
     }
 }
 
-void FunctionTableMaker::report_circle(const std::vector<std::uint32_t>& circle) {
+void FunctionTableMaker::report_cycle(const std::vector<std::uint32_t>& cycle) {
     std::string path;
-    for (std::size_t i = 0; i < circle.size(); ++i) {
-        table_.functions_[circle[i]].faulty = true;
+    for (std::size_t i = 0; i < cycle.size(); ++i) {
+        table_.functions_[cycle[i]].faulty = true;
         if (i == most_named) path += "… -> ";
         if (i >= most_named) continue;
-        path += fmt::format("{} -> ", table_.functions_[circle[i]].definition->name.text);
+        path += fmt::format("{} -> ", table_.functions_[cycle[i]].definition->name.text);
     }
-    const ast::Word& first = table_.functions_[circle[0]].definition->name;
+    const ast::Word& first = table_.functions_[cycle[0]].definition->name;
     path += first.text;
-    // The place of the call: that of `circle[1]`, or of itself, in the first one's value.
-    const ast::Expression body = table_.functions_[circle[0]].definition->body;
+    // The place of the call: that of `cycle[1]`, or of itself, in the first one's value.
+    const ast::Expression body = table_.functions_[cycle[0]].definition->body;
     const std::string_view next =
-        table_.functions_[circle[1 % circle.size()]].definition->name.text;
+        table_.functions_[cycle[1 % cycle.size()]].definition->name.text;
     Span span = first.span;
     for (ast::ExprId id = body.first; id <= body.root; ++id) {
         const auto* call = std::get_if<ast::Call>(&script_.expressions[id].node);
@@ -164,8 +164,8 @@ void FunctionTableMaker::report_circle(const std::vector<std::uint32_t>& circle)
     }
     work_.diagnostics.error(
         span,
-        circle.size() == 1 ? fmt::format("the function '{}' calls itself", first.text)
-                           : fmt::format("functions call each other in a circle: {}", path),
+        cycle.size() == 1 ? fmt::format("the function '{}' calls itself", first.text)
+                           : fmt::format("functions call each other in a cycle: {}", path),
         "a function cannot be computed by itself");
 }
 

@@ -42,7 +42,7 @@ constexpr Around arounds[] = {
     {"tanh", "tanh(", ")", "\\tanh\\left(", "\\right)"},
 };
 
-/// Operators in front of what they act on.
+/// Operators before what they act on.
 struct Prefix {
     std::string_view function, unicode, tex;
 };
@@ -189,12 +189,12 @@ private:
             case Op::power: return write_power(node.left, node.right, least);
         }
     }
-    /// A sign directly behind `+` or `−` stands in brackets.
+    /// A sign directly after `+` or `−` stands in brackets.
     int right_of_sum(ast::ExprId right, int least) const {
         return as<ast::Unary>(right) != nullptr ? a_power : least;
     }
 
-    /// A sum over an index would swallow the factors behind it.
+    /// A sum over an index would swallow the factors after it.
     int factor(ast::ExprId id, int least) const {
         const auto* const over = as<ast::Over>(id);
         return over && (over->function.text == "sum" || over->function.text == "product")

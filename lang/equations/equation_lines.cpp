@@ -18,8 +18,8 @@ std::string_view command_at(std::string_view formula, std::size_t at) {
     return formula.substr(at, std::max(end, at + 2) - at);
 }
 
-/// How much deeper in brackets, groups or environments a formula is behind a command.
-int deeper_behind(std::string_view command) {
+/// How much deeper in brackets, groups or environments a formula is after a command.
+int deeper_after(std::string_view command) {
     if (command == "\\left" || command == "\\begin" || command == "\\lfloor" || command == "\\lceil") {
         return 1;
     }
@@ -37,7 +37,7 @@ std::vector<std::string_view> terms_of(std::string_view formula) {
         const char c = formula[at];
         if (c == '\\') {
             const std::string_view command = command_at(formula, at);
-            depth += deeper_behind(command);
+            depth += deeper_after(command);
             at += command.size() - 1;
         } else if (c == '{') {
             ++depth;

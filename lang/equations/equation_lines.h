@@ -15,7 +15,7 @@ int width_in_signs(std::string_view formula);
 
 /// A sum in pieces that fit on a line each as far as its terms do. Pieces begin with their sign but
 /// for the first. Sums in brackets, in fractions and in roots stay whole, but for a long fraction that
-/// is the whole formula: it becomes a sum in brackets behind 1 / its denominator.
+/// is the whole formula: it becomes a sum in brackets after 1 / its denominator.
 std::vector<std::string> broken_sum(std::string_view formula);
 
 }  // namespace cascade

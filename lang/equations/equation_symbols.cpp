@@ -60,7 +60,7 @@ std::optional<std::string> replaced(const Letter (&letters)[count], std::string_
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A name is a stem, digits behind it, and what stands behind the first `_`.
+/// A name is a stem, digits after it, and what stands after the first `_`.
 struct Parts {
     std::string_view stem, below;
     bool has_bar = false;  ///< `_` parts them.

@@ -28,7 +28,7 @@ struct Symbols {
 /// Any text in TeX's text mode.
 std::string tex_text(std::string_view text);
 
-/// Can the part of a name behind its first `_` be written below?
+/// Can the part of a name after its first `_` be written below?
 bool has_subscript(std::string_view name);
 
 /// Written above or below in Unicode; nothing where a character has no such form.

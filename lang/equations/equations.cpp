@@ -1,7 +1,7 @@
 #include "lang/equations/equations.h"
 
 #include "lang/check/check_names.h"
-#include "lang/check/system_sentences.h"
+#include "lang/check/system_statements.h"
 #include "lang/equations/equation_formula.h"
 #include "lang/equations/equation_lines.h"
 
@@ -24,15 +24,15 @@ struct Line {
 
 class EquationPrinter {
 public:
-    EquationPrinter(const SystemSentences& system, Notation notation, std::string_view name)
+    EquationPrinter(const SystemStatements& system, Notation notation, std::string_view name)
         : system_(system), name_(name) {
         symbols_.notation = notation;
-        for (const SaidSentence& said : system.all()) {
+        for (const SaidStatement& said : system.all()) {
             symbols_.subscripts =
-                symbols_.subscripts && (is_setting(*said.sentence) ||
-                                        has_subscript(said.sentence->name.text));
+                symbols_.subscripts && (is_setting(*said.statement) ||
+                                        has_subscript(said.statement->name.text));
         }
-        for (const SaidSentence& said : system.all()) sort(said);
+        for (const SaidStatement& said : system.all()) sort(said);
         add_functions();
     }
 
@@ -42,53 +42,53 @@ public:
     }
 
 private:
-    static bool is_setting(const ast::Sentence& sentence) {
-        return sentence.kind == ast::SentenceKind::value && sentence.index.empty() &&
-               checking::reserved(sentence.name.text) != checking::Reserved::no;
+    static bool is_setting(const ast::Statement& statement) {
+        return statement.kind == ast::StatementKind::value && statement.index.empty() &&
+               checking::reserved(statement.name.text) != checking::Reserved::no;
     }
     bool is_tex() const { return symbols_.notation == Notation::tex; }
-    std::string typeset_value(const SaidSentence& said, const ast::Expression& value,
+    std::string typeset_value(const SaidStatement& said, const ast::Expression& value,
                               int least = anything) const {
         return typeset(*said.script, *said.sources, symbols_, value.root, least);
     }
 
-    void sort(const SaidSentence& said) {
-        const ast::Sentence& sentence = *said.sentence;
-        const ast::Expression& first = sentence.values.front();
+    void sort(const SaidStatement& said) {
+        const ast::Statement& statement = *said.statement;
+        const ast::Expression& first = statement.values.front();
         const bool is_text =
             std::holds_alternative<ast::Text>(said.script->expressions[first.root].node);
-        if (is_setting(sentence) || is_text) return;
+        if (is_setting(statement) || is_text) return;
         const std::string symbol =
-            sentence.index.empty() ? symbols_.name(sentence.name.text)
-                                   : symbols_.member(sentence.name.text, sentence.index.text);
-        switch (sentence.kind) {
-            case ast::SentenceKind::rate:
-            case ast::SentenceKind::rate_term: return add_rate(said, symbol);
-            case ast::SentenceKind::definition:
+            statement.index.empty() ? symbols_.name(statement.name.text)
+                                   : symbols_.member(statement.name.text, statement.index.text);
+        switch (statement.kind) {
+            case ast::StatementKind::rate:
+            case ast::StatementKind::rate_term: return add_rate(said, symbol);
+            case ast::StatementKind::definition:
                 definitions_.push_back({symbol, "=", typeset_value(said, first)});
                 return;
-            case ast::SentenceKind::at_least:
+            case ast::StatementKind::at_least:
                 bounds_.push_back({symbol, is_tex() ? "\\ge" : "≥", typeset_value(said, first)});
                 return;
-            case ast::SentenceKind::at_most:
+            case ast::StatementKind::at_most:
                 bounds_.push_back({symbol, is_tex() ? "\\le" : "≤", typeset_value(said, first)});
                 return;
-            case ast::SentenceKind::index:
+            case ast::StatementKind::index:
                 indices_.push_back({symbol, "=",
                                     typeset_value(said, first) + (is_tex() ? ", \\dots, " : " … ") +
-                                        typeset_value(said, sentence.values.back())});
+                                        typeset_value(said, statement.values.back())});
                 return;
-            case ast::SentenceKind::value: break;
+            case ast::StatementKind::value: break;
         }
         std::string value = typeset_value(said, first);
-        (system_.is_species(sentence.name.text) ? starts_ : parameters_)
+        (system_.is_species(statement.name.text) ? starts_ : parameters_)
             .push_back({symbol, "=", std::move(value)});
     }
 
     /// Terms of one rate, wherever they were written, are one sum.
-    void add_rate(const SaidSentence& said, const std::string& symbol) {
-        const ast::Sentence& sentence = *said.sentence;
-        const auto& value = sentence.values.front();
+    void add_rate(const SaidStatement& said, const std::string& symbol) {
+        const ast::Statement& statement = *said.statement;
+        const auto& value = statement.values.front();
         const auto [place, is_new] = rate_lines_.try_emplace(symbol, rates_.size());
         if (is_new) {
             rates_.push_back({is_tex() ? "\\partial_t " + symbol : "∂" + symbol + "/∂t", "=",
@@ -105,8 +105,8 @@ private:
 
     /// The script's own functions that are called, each once, as they are met.
     void add_functions() {
-        for (const SaidSentence& said : system_.all()) {
-            for (const ast::Expression& value : said.sentence->values) note_calls(said, value);
+        for (const SaidStatement& said : system_.all()) {
+            for (const ast::Expression& value : said.statement->values) note_calls(said, value);
         }
         for (std::size_t k = 0; k < called_.size(); ++k) {  // The list grows.
             const auto [said, function] = called_[k];
@@ -119,7 +119,7 @@ private:
             note_calls(said, function->body);
         }
     }
-    void note_calls(const SaidSentence& said, const ast::Expression& expression) {
+    void note_calls(const SaidStatement& said, const ast::Expression& expression) {
         if (said.script->functions.empty()) return;
         for (ast::ExprId id = expression.first; id <= expression.root; ++id) {
             const auto* const call = std::get_if<ast::Call>(&said.script->expressions[id].node);
@@ -186,11 +186,11 @@ private:
         return text;
     }
 
-    const SystemSentences& system_;
+    const SystemStatements& system_;
     std::string_view name_;
     Symbols symbols_;
     std::unordered_map<std::string, std::size_t> rate_lines_;  ///< By what changes.
-    std::vector<std::pair<SaidSentence, const ast::FunctionDefinition*>> called_;
+    std::vector<std::pair<SaidStatement, const ast::FunctionDefinition*>> called_;
     std::unordered_set<std::string_view> called_names_;
     std::vector<Line> rates_, indices_, definitions_, bounds_, parameters_, starts_;
 };
@@ -203,9 +203,9 @@ std::vector<std::string> print_equations(const ast::Script& script, const Source
     const SystemBlocks blocks = system_blocks(script);
     std::vector<std::string> texts;
     for (const std::string_view system : systems) {
-        const SystemSentences sentences(script, sources, blocks, system);
-        texts.push_back(sentences.found()
-                            ? EquationPrinter(sentences, notation, system).run(parts)
+        const SystemStatements statements(script, sources, blocks, system);
+        texts.push_back(statements.found()
+                            ? EquationPrinter(statements, notation, system).run(parts)
                             : "");
     }
     return texts;

@@ -1,5 +1,5 @@
 // Where words stand on their lines. What an author has lined up under each other (`=` and `+` of
-// neighbouring equations, comments behind sentences) stays lined up; all other extra blanks go.
+// neighbouring equations, comments after statements) stays lined up; all other extra blanks go.
 //
 // A lined-up column never moves left of where its widest line needs it, and else stays as far from
 // the words before it as the author wrote it, so that a second run finds everything in its place.
@@ -13,7 +13,7 @@ namespace cascade {
 namespace {
 
 constexpr std::size_t before_comment = 2;  // Blanks, at least.
-constexpr std::size_t goes_on_by = 4;      // Further right than its sentence, where nothing helps.
+constexpr std::size_t goes_on_by = 4;      // Further right than its statement, where nothing helps.
 constexpr std::size_t furthest_start = 60;  // Deep brackets must not push lines out of sight.
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
@@ -38,7 +38,7 @@ public:
         for (std::size_t begin = 0; begin < lines_.size();) {
             std::size_t end = begin + 1;
             while (end < lines_.size() && is_below(end)) ++end;
-            if (begins_sentence(begin)) place_paragraph(begin, end);
+            if (begins_statement(begin)) place_paragraph(begin, end);
             begin = end;
         }
         for (std::size_t line = 0; line < lines_.size(); ++line) place_continued(line);
@@ -51,10 +51,10 @@ private:
     }
     /// Can words of the line be lined up with words of the line above?
     bool is_below(std::size_t line) const {
-        return !lines_[line].blank_line_before && begins_sentence(line) &&
-               begins_sentence(line - 1);
+        return !lines_[line].blank_line_before && begins_statement(line) &&
+               begins_statement(line - 1);
     }
-    bool begins_sentence(std::size_t line) const {
+    bool begins_statement(std::size_t line) const {
         return !lines_[line].goes_on && !lines_[line].cells.empty();
     }
 
@@ -155,8 +155,8 @@ private:
         }
     }
 
-    // Lines inside a sentence begin below the first word behind the innermost open bracket, or,
-    // where none is open, below the beginning of the sentence's value.
+    // Lines inside a statement begin below the first word after the innermost open bracket, or,
+    // where none is open, below the beginning of the statement's value.
     struct Bracket {
         std::size_t inside = 0;  ///< Where lines inside it begin.
         std::size_t close = 0;   ///< Where a bracket that closes it on a line of its own stands.
@@ -170,18 +170,18 @@ private:
         } else if (!here.cells.empty()) {
             brackets_.clear();
             value_column_ = none;
-            sentence_column_ = here.indentation;
+            statement_column_ = here.indentation;
         }
         for (std::size_t cell = 0; cell < here.cells.size(); ++cell) follow(line, cell);
     }
     std::size_t start_of_continued(std::size_t line) const {
         const std::size_t start = helpful_start(line);
-        return start <= furthest_start ? start : sentence_column_ + goes_on_by;
+        return start <= furthest_start ? start : statement_column_ + goes_on_by;
     }
     std::size_t helpful_start(std::size_t line) const {
         const bool is_comment = lines_[line].cells.empty();
         if (brackets_.empty()) {
-            return value_column_ == none ? sentence_column_ + goes_on_by : value_column_;
+            return value_column_ == none ? statement_column_ + goes_on_by : value_column_;
         }
         const bool closes = !is_comment && (word(line, 0).kind == TokenKind::close_round ||
                                             word(line, 0).kind == TokenKind::close_square);
@@ -248,7 +248,7 @@ private:
     std::vector<std::size_t> placed_;  ///< Per line: how many cells have their place.
     std::vector<Bracket> brackets_;
     std::size_t value_column_ = none;
-    std::size_t sentence_column_ = 0;
+    std::size_t statement_column_ = 0;
 };
 
 }  // namespace

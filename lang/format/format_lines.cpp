@@ -22,7 +22,7 @@ public:
             breaks_ = std::max(breaks_, word.breaks);
             if (word.kind == TokenKind::semicolon) {
                 semicolon_ = k;
-                continue;  // It is written only where a sentence follows on the line.
+                continue;  // It is written only where a statement follows on the line.
             }
             if (word.is_comment()) add_comment(k);
             else if (word.kind == TokenKind::open_curly) open_block(k);
@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    bool in_sentence() const {
+    bool in_statement() const {
         if (before_ == nullptr) return false;
         return open_brackets_ > 0 || wants_operand(before_->kind);
     }
@@ -65,17 +65,17 @@ private:
     }
 
     void add_comment(std::size_t k) {
-        const bool is_behind = breaks_ == 0 && !lines_.empty() && !lines_.back().comment;
-        if (!is_behind) begin_line(indentation(), in_sentence(), !in_sentence() && !block_begins_);
+        const bool is_after = breaks_ == 0 && !lines_.empty() && !lines_.back().comment;
+        if (!is_after) begin_line(indentation(), in_statement(), !in_statement() && !block_begins_);
         lines_.back().comment = k;
-        block_begins_ = block_begins_ && is_behind;
+        block_begins_ = block_begins_ && is_after;
     }
 
     void add_word(std::size_t k) {
         const bool behind_comment = !lines_.empty() && lines_.back().comment.has_value();
         const bool splits = semicolon_ && splits_at_semicolons_ && !in_one_line_block_;
         const bool breaks = lines_.empty() || breaks_ > 0 || behind_comment;
-        if (!needs_line_ && breaks && in_sentence()) {
+        if (!needs_line_ && breaks && in_statement()) {
             begin_line(0, true, false);
         } else if (needs_line_ || splits || (breaks && !in_one_line_block_)) {
             open_brackets_ = 0;

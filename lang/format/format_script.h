@@ -13,7 +13,7 @@
 
 namespace cascade {
 
-/// What a line holds before a block or a row of sentences is put on lines of its own, in columns.
+/// What a line holds before a block or a row of statements is put on lines of its own, in columns.
 inline constexpr std::size_t widest_script_line = 100;
 
 /// The script in the one style. Formatting the result again changes nothing. Empty where the script

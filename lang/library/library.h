@@ -37,7 +37,7 @@ struct LibraryScript {
 };
 
 /// The systems of the library that a script needs: those which its stages and derived systems name,
-/// and those from which these are derived, each behind the one it is derived from. A system that
+/// and those from which these are derived, each after the one it is derived from. A system that
 /// the script declares itself is not looked for, unless it is derived from one of its name.
 /// The texts are added to `sources`; an equal one of an earlier call is used again.
 std::vector<LibraryScript> read_library(const ast::Script& script, Sources& sources,

@@ -41,28 +41,28 @@ std::string name_of(const PartGraph& graph, PartId id) {
     return print_formula(graph.program(), graph.program().system_of(graph.stage()), formula);
 }
 
-std::string describe_brought(const PartGraph& graph, const PassPlanner::Brought& brought) {
-    const std::string reader = name_of(graph, brought.reader);
-    const std::string operand = name_of(graph, brought.operand);
-    if (brought.places == 0) {
+std::string describe_choice(const PartGraph& graph, const PassPlanner::OperandChoice& choice) {
+    const std::string reader = name_of(graph, choice.reader);
+    const std::string operand = name_of(graph, choice.operand);
+    if (choice.places == 0) {
         return fmt::format("{} is written to a plane: {} takes all its cells", operand, reader);
     }
-    const std::string neighbours = counted(brought.places, "neighbour");
-    if (brought.is_open) {
+    const std::string neighbours = counted(choice.places, "neighbour");
+    if (choice.is_open) {
         return fmt::format("{} is computed again at {} for {}: beyond a side it is made of what "
                            "stands there", operand, neighbours, reader);
     }
-    if (!brought.is_written) {
+    if (!choice.is_written) {
         return fmt::format("{} is computed again at {} for {}", operand, neighbours, reader);
     }
     return fmt::format("{} is written to a plane: {} reads it at {}, where {}", operand, reader,
                        neighbours,
-                       brought.is_forced
+                       choice.is_forced
                            ? "it cannot be computed again"
                            : "computing it again would take longer than reading it");
 }
 
-std::string describe_lasting(const PartGraph& graph, PartId id) {
+std::string describe_step_invariant(const PartGraph& graph, PartId id) {
     const std::string name = name_of(graph, id);
     if (graph[id].is_uniform) return fmt::format("{} is computed once: no step changes it", name);
     return fmt::format("{} is computed once and kept in a plane: no step changes it, and computing it "
@@ -75,7 +75,7 @@ std::string describe(const PartGraph& graph, const PassPlanner& planner, const S
     std::string text = counted(plan.passes.size(), "pass");
     if (plan.temporaries > 0) text += ", " + counted(plan.temporaries, "temporary plane");
     if (plan.aggregates > 0) text += ", " + counted(plan.aggregates, "aggregate");
-    if (plan.lasting > 0) text += ", " + counted(plan.lasting, "lasting part");
+    if (plan.step_invariants > 0) text += ", " + counted(plan.step_invariants, "step-invariant part");
     for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
         const std::vector<std::string>& results = plan.passes[pass].bound.kernel.result_names;
         if (results.empty()) continue;
@@ -87,18 +87,18 @@ std::string describe(const PartGraph& graph, const PassPlanner& planner, const S
         text += ": ";
         for (std::size_t k = 0; k < results.size(); ++k) text += (k > 0 ? ", " : "") + results[k];
     }
-    std::vector<std::pair<std::string, std::size_t>> lasting;  // And how many parts of one name.
+    std::vector<std::pair<std::string, std::size_t>> step_invariants;  // And how many parts of one name.
     for (PartId id = 0; id < graph.size(); ++id) {
-        if (!planner.is_needed(id) || !planner.is_lasting(id)) continue;
-        std::string words = describe_lasting(graph, id);
-        if (lasting.empty() || lasting.back().first != words) lasting.emplace_back(words, 0);
-        ++lasting.back().second;
+        if (!planner.is_needed(id) || !planner.is_step_invariant(id)) continue;
+        std::string words = describe_step_invariant(graph, id);
+        if (step_invariants.empty() || step_invariants.back().first != words) step_invariants.emplace_back(words, 0);
+        ++step_invariants.back().second;
     }
-    for (const auto& [words, count] : lasting) {
+    for (const auto& [words, count] : step_invariants) {
         text += "\n  " + words + (count > 1 ? fmt::format(" ({} times)", count) : "");
     }
-    for (const PassPlanner::Brought& brought : planner.brought()) {
-        text += "\n  " + describe_brought(graph, brought);
+    for (const PassPlanner::OperandChoice& choice : planner.choices()) {
+        text += "\n  " + describe_choice(graph, choice);
     }
     return text;
 }

@@ -90,7 +90,7 @@ struct StepGraph {
     PartGraph graph;
     std::vector<PartId> rates;    ///< By item.
     std::vector<PartId> bounds;   ///< By invariant.
-    std::vector<PartId> lasting;  ///< What is computed once.
+    std::vector<PartId> step_invariants;  ///< What is computed once.
 
     StepGraph(const Program& program, std::uint32_t stage, const PlanOptions& options)
         : graph(program, stage) {
@@ -99,10 +99,10 @@ struct StepGraph {
         for (const Invariant& invariant : system.invariants) {
             bounds.push_back(graph.add(invariant.bound, {}));
         }
-        if (!options.keeps_lasting) return;
+        if (!options.keeps_step_invariants) return;
         std::vector<PartId> all = bounds;
         for (const std::uint32_t item : system.rate_order) all.push_back(rates[item]);
-        lasting = lasting_parts(graph, all);
+        step_invariants = step_invariant_parts(graph, all);
     }
 
 private:
@@ -154,7 +154,7 @@ public:
             wanted.push_back(step.bounds[k]);
         }
         const std::vector<std::uint32_t> slots = species_items(system_);
-        StepPlan plan = build_plan({step.graph, wanted, options, true, slots, step.lasting,
+        StepPlan plan = build_plan({step.graph, wanted, options, true, slots, step.step_invariants,
                                     program_.domain.fast},
                                    [&](KernelAssembly& assembly, const PassLowering& values) {
             for (std::size_t o = 0; o < form_.outputs.size(); ++o) emit(assembly, values, o);
@@ -330,7 +330,7 @@ StepPlan plan_rates(const Program& program, std::uint32_t stage, const PlanOptio
     const std::vector<std::uint32_t> species = species_items(system);
     std::vector<PartId> wanted;
     for (const std::uint32_t item : system.rate_order) wanted.push_back(step.rates[item]);
-    StepPlan plan = build_plan({step.graph, wanted, options, true, species, step.lasting},
+    StepPlan plan = build_plan({step.graph, wanted, options, true, species, step.step_invariants},
                                [&](KernelAssembly& assembly, const PassLowering& values) {
         for (const std::uint32_t item : species) {
             assembly.result(system.quantities[item].name,
@@ -341,19 +341,19 @@ StepPlan plan_rates(const Program& program, std::uint32_t stage, const PlanOptio
     return plan;
 }
 
-StepPlan plan_lasting(const Program& program, std::uint32_t stage, const PlanOptions& options) {
+StepPlan plan_step_invariants(const Program& program, std::uint32_t stage, const PlanOptions& options) {
     const StepGraph step(program, stage, options);
-    StepPlan plan = build_plan({step.graph, step.lasting, options, true},
+    StepPlan plan = build_plan({step.graph, step.step_invariants, options, true},
                                [&](KernelAssembly& assembly, const PassLowering& values) {
-        for (std::size_t k = 0; k < step.lasting.size(); ++k) {
-            const std::string& name = step.graph.name(step.lasting[k]);
-            assembly.result(name.empty() ? fmt::format("(lasting {})", k) : name,
-                            values.value(step.lasting[k])[0]);
+        for (std::size_t k = 0; k < step.step_invariants.size(); ++k) {
+            const std::string& name = step.graph.name(step.step_invariants[k]);
+            assembly.result(name.empty() ? fmt::format("(step-invariant {})", k) : name,
+                            values.value(step.step_invariants[k])[0]);
         }
     });
     for (PassTarget& target : plan.passes.back().targets) {
         if (target.kind != PassTarget::Kind::result) continue;
-        const PartId part = step.lasting[target.index];
+        const PartId part = step.step_invariants[target.index];
         target.is_uniform = step.graph[part].is_uniform;
         target.boundary = step.graph.boundary(part);
     }
@@ -363,18 +363,18 @@ StepPlan plan_lasting(const Program& program, std::uint32_t stage, const PlanOpt
 SidePlans plan_side(const Program& program, const SideSetting& setting, Side side,
                     std::uint32_t stage) {
     SidePlans plans;
-    PartGraph graph(program, stage, Lasting::state);
+    PartGraph graph(program, stage, Invariance::state);
     PartId part = graph.add(setting.value, {});
     if (setting.kind == SideKind::flux) part = graph.across_side(part, side);
     const std::array wanted{part};
-    std::vector<PartId> lasting;
-    plans.changes = !graph[part].is_lasting;
-    if (plans.changes) lasting = largest_lasting_parts(graph, wanted);
-    plans.once = build_plan({graph, lasting, {}},
+    std::vector<PartId> step_invariants;
+    plans.changes = !graph[part].is_step_invariant;
+    if (plans.changes) step_invariants = largest_step_invariants(graph, wanted);
+    plans.once = build_plan({graph, step_invariants, {}},
                             [&](KernelAssembly& assembly, const PassLowering& values) {
-        for (const PartId each : lasting) assembly.result("lasting", values.value(each)[0]);
+        for (const PartId each : step_invariants) assembly.result("step-invariant", values.value(each)[0]);
     });
-    plans.each = build_plan({graph, wanted, {}, false, {}, lasting},
+    plans.each = build_plan({graph, wanted, {}, false, {}, step_invariants},
                             [&](KernelAssembly& assembly, const PassLowering& values) {
         assembly.result("value", values.value(part)[0]);
     });
@@ -403,7 +403,7 @@ StepPlan plan_view(const Program& program, std::span<const Formula* const> formu
 
 StepPlan plan_mask(const Program& program) {
     CHECK(program.domain.mask, "lowering: the domain has a mask");
-    PartGraph graph(program, 0, Lasting::parameters, Extent::grid);
+    PartGraph graph(program, 0, Invariance::parameters, Extent::grid);
     const PartId part = graph.add(program.domain.mask->formula, {"mask", false, "domain"});
     return build_plan({graph, std::span(&part, 1), {}},
                       [&](KernelAssembly& assembly, const PassLowering& values) {
@@ -417,13 +417,13 @@ StepPlan plan_view(const Program& program, const Formula& formula, std::uint32_t
 }
 
 std::string describe_plans(const Program& program) {
-    const PlanOptions options{Bringing::cheaper, true, true};
+    const PlanOptions options{Materialise::when_cheaper, true, true};
     std::string text;
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
         const std::string& name = program.stages[k].name;
         text += fmt::format("stage '{}', starting values: {}\n", name,
                             plan_start(program, k, options).words);
-        if (const StepPlan once = plan_lasting(program, k, options); once.result_count > 0) {
+        if (const StepPlan once = plan_step_invariants(program, k, options); once.result_count > 0) {
             text += fmt::format("stage '{}', once before the first step: {}\n", name, once.words);
         }
         text += fmt::format("stage '{}', one step: {}\n", name,

@@ -54,15 +54,15 @@ StepPlan plan_rates(const Program& program, std::uint32_t stage,
 /// What decides which cells are inside the mask of the domain, which must have one: one result.
 /// Of a program with a stage.
 StepPlan plan_mask(const Program& program);
-/// What no step of the stage changes, as far as keeping it pays (PlanOptions::keeps_lasting; without
-/// it nothing): result k is lasting part k, which every step reads from a plane or, where it is the
+/// What no step of the stage changes, as far as keeping it pays (PlanOptions::keeps_step_invariants; without
+/// it nothing): result k is step-invariant part k, which every step reads from a plane or, where it is the
 /// same in all cells, as a number.
-StepPlan plan_lasting(const Program& program, std::uint32_t stage, const PlanOptions& options);
+StepPlan plan_step_invariants(const Program& program, std::uint32_t stage, const PlanOptions& options);
 
 /// The value of a side: of a flux on a surface in units of the grid.
 struct SidePlans {
     bool changes = false;  ///< With t or step.
-    StepPlan once;         ///< What does not change of one that does, as of plan_lasting.
+    StepPlan once;         ///< What does not change of one that does, as of plan_step_invariants.
     /// The value: of one that changes a single pass, which reads planes and numbers in the own cell
     /// and knows of no place.
     StepPlan each;

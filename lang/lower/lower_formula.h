@@ -49,8 +49,8 @@ public:
     ValueId coefficient(std::uint32_t index);
     std::uint32_t temporary_slot(std::uint32_t temporary);
     /// What the stage has computed once: a plane, or a number for all cells.
-    std::uint32_t lasting_slot(std::uint32_t number);
-    ValueId lasting_number(std::uint32_t number);
+    std::uint32_t step_invariant_slot(std::uint32_t number);
+    ValueId step_invariant_number(std::uint32_t number);
     ValueId aggregate(std::uint32_t index);
     ValueId beside(std::uint32_t slot) { return builder_.neighbour(slot, at_.dx, at_.dy, at_.dz); }
     /// Other than 0 where the cell at an offset is inside the mask.

@@ -15,18 +15,18 @@ ValueId PassLowering::scaled(ValueId value, double factor) {
 /// The operation `laplacian` reads a plane as it is.
 bool PassLowering::can_read_as_plane(PartId id) const {
     if (graph_[id].is_uniform) return false;
-    return planner_.is_lasting(id) || graph_.is_plane(id) ||
+    return planner_.is_step_invariant(id) || graph_.is_plane(id) ||
            (planner_.is_plane_in(id, pass_) && !graph_[id].is_open());
 }
 
-/// Of a part that a pass has written, this one or that of the lasting parts.
+/// Of a part that a pass has written, this one or that of the step-invariant parts.
 std::uint32_t PassLowering::slot_of_own_plane(PartId id) {
-    return planner_.is_lasting(id) ? assembly_.lasting_slot(storage_.lasting[id])
+    return planner_.is_step_invariant(id) ? assembly_.step_invariant_slot(storage_.step_invariants[id])
                                    : assembly_.temporary_slot(storage_.temporary[id]);
 }
 
 std::uint32_t PassLowering::slot_of_plane(PartId id) {
-    if (planner_.is_lasting(id) || planner_.is_plane_in(id, pass_)) return slot_of_own_plane(id);
+    if (planner_.is_step_invariant(id) || planner_.is_plane_in(id, pass_)) return slot_of_own_plane(id);
     return assembly_.plane_slot(graph_, id);
 }
 

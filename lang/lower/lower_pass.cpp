@@ -67,12 +67,12 @@ bool PassLowering::is_plane_at(PartId id, Offsets where) const {
     return planner_.is_plane_in(id, pass_) && (where == own_cell || !graph_[id].is_open());
 }
 
-/// Written and lasting parts are read from their planes, aggregates from their numbers.
+/// Written and step-invariant parts are read from their planes, aggregates from their numbers.
 bool PassLowering::is_source(PartId id, Offsets where) const {
     const Part& part = graph_[id];
     const bool is_aggregate =
         part.node.kind == NodeKind::call && info(part.node.function).is_aggregate;
-    return is_aggregate || planner_.is_lasting(id) || is_plane_at(id, where);
+    return is_aggregate || planner_.is_step_invariant(id) || is_plane_at(id, where);
 }
 
 void PassLowering::need_operands(PartId id, std::uint32_t where) {
@@ -184,7 +184,7 @@ void PassLowering::compute_part(PartId id) {
         for_each_face(needs_[id], [&](Face face) {
             slot(id, face.number()) = {vector_at(id, face)};
         });
-        if (part.is_lasting) builder_.keep_from(first);
+        if (part.is_step_invariant) builder_.keep_from(first);
         return;
     }
     for_each_offset(needs_[id], [&](Offset offset) {
@@ -205,14 +205,14 @@ void PassLowering::compute_part(PartId id) {
         builder_.keep(value[0]);
     });
     // What no step changes may be computed once, without contraction.
-    if (part.is_lasting) builder_.keep_from(first);
+    if (part.is_step_invariant) builder_.keep_from(first);
 }
 
 ValueId PassLowering::source(PartId id) {
-    const bool is_lasting = planner_.is_lasting(id);
-    if (is_lasting && graph_[id].is_uniform) return assembly_.lasting_number(storage_.lasting[id]);
+    const bool is_step_invariant = planner_.is_step_invariant(id);
+    if (is_step_invariant && graph_[id].is_uniform) return assembly_.step_invariant_number(storage_.step_invariants[id]);
     const bool is_written = planner_.is_plane_in(id, pass_);
-    if (is_lasting || is_written) return assembly_.beside(slot_of_own_plane(id));
+    if (is_step_invariant || is_written) return assembly_.beside(slot_of_own_plane(id));
     return assembly_.aggregate(storage_.aggregate[id]);
 }
 

@@ -20,7 +20,7 @@ namespace cascade::lowering {
 struct Storage {
     std::vector<std::uint32_t> temporary;  ///< By part, where it is written.
     std::vector<std::uint32_t> aggregate;  ///< By part, where it is an aggregate.
-    std::vector<std::uint32_t> lasting;    ///< By part, where it is known before the first pass.
+    std::vector<std::uint32_t> step_invariants;    ///< By part, where it is known before the first pass.
 };
 
 class PassLowering {

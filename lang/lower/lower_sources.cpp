@@ -126,17 +126,17 @@ std::uint32_t KernelAssembly::temporary_slot(std::uint32_t temporary) {
     return slot;
 }
 
-std::uint32_t KernelAssembly::lasting_slot(std::uint32_t number) {
-    const std::uint32_t slot = builder_.field_slot(fmt::format("(lasting {})", number));
+std::uint32_t KernelAssembly::step_invariant_slot(std::uint32_t number) {
+    const std::uint32_t slot = builder_.field_slot(fmt::format("(step-invariant {})", number));
     if (slot == bound_.fields.size()) {
-        bound_.fields.push_back({SlotSource::Kind::lasting, stage_, number});
+        bound_.fields.push_back({SlotSource::Kind::step_invariant, stage_, number});
     }
     return slot;
 }
 
-ValueId KernelAssembly::lasting_number(std::uint32_t number) {
-    return uniform(fmt::format("(lasting {})", number),
-                   {SlotSource::Kind::lasting, stage_, number});
+ValueId KernelAssembly::step_invariant_number(std::uint32_t number) {
+    return uniform(fmt::format("(step-invariant {})", number),
+                   {SlotSource::Kind::step_invariant, stage_, number});
 }
 
 ValueId KernelAssembly::aggregate(std::uint32_t index) {

@@ -142,7 +142,7 @@ ValueId PassLowering::through_sides(PartId flux, Face face, ValueId value) {
     return builder_.select(is_side, builder_.number(0), value);
 }
 
-/// Σ (flux behind − flux before) / h, x first.
+/// Σ (flux after − flux before) / h, x first.
 ValueId PassLowering::divergence(const Part& part) {
     const PartId flux = part.operands[0];
     std::optional<ValueId> sum;

@@ -45,10 +45,10 @@ bool PartGraph::is_uniform(const Part& part) const {
 }
 
 /// Parameters keep the values that they have when the stage starts, and earlier stages are over.
-bool PartGraph::is_lasting(const Part& part) const {
+bool PartGraph::is_step_invariant(const Part& part) const {
     switch (part.node.kind) {
         case NodeKind::own:
-            return lasting_ == Lasting::state ||
+            return step_invariant_ == Invariance::state ||
                    !program_.system_of(stage_).is_species(part.node.index);
         case NodeKind::builtin: {
             const auto builtin = static_cast<Builtin>(part.node.index);
@@ -65,9 +65,9 @@ bool PartGraph::is_lasting(const Part& part) const {
         case NodeKind::inside: return true;
         case NodeKind::call: break;
     }
-    if (is_random(part.node.function) && lasting_ != Lasting::state) return false;
+    if (is_random(part.node.function) && step_invariant_ != Invariance::state) return false;
     for (std::uint32_t k = 0; k < part.operand_count; ++k) {
-        if (!parts_[part.operands[k]].is_lasting) return false;
+        if (!parts_[part.operands[k]].is_step_invariant) return false;
     }
     return true;
 }
@@ -118,7 +118,7 @@ PartId PartGraph::intern(Part part) {
     const auto id = static_cast<PartId>(parts_.size());
     parts_.push_back(part);
     parts_.back().is_uniform = is_uniform(part);
-    parts_.back().is_lasting = is_lasting(part);
+    parts_.back().is_step_invariant = is_step_invariant(part);
     parts_.back().beyond = beyond(parts_.back());
     if (!is_own) known_.emplace(hash, id);
     return id;

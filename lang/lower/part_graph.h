@@ -44,7 +44,7 @@ struct Part {
     const Noise* noise = nullptr;      ///< Of parts that draw random numbers.
     std::size_t draw = 0;              ///< Which draw of its formula, from 1.
     bool is_uniform = false;           ///< The same in all cells.
-    bool is_lasting = false;           ///< The same in all steps of the stage.
+    bool is_step_invariant = false;           ///< The same in all steps of the stage.
 
     std::array<Beyond, 3> beyond{};    ///< By axis.
 
@@ -69,16 +69,16 @@ enum class Extent : std::uint8_t {
 /// The plane that has a built-in value on a model; nothing of t and step.
 std::optional<ModelPlane> model_plane_of(Builtin builtin);
 
-/// What counts as lasting: what no step changes, or all but t and step.
-enum class Lasting : std::uint8_t { parameters, state };
+/// What counts as step-invariant: what no step changes, or all but t and step.
+enum class Invariance : std::uint8_t { parameters, state };
 
 class PartGraph {
 public:
     PartGraph(const Program& program, std::uint32_t stage,
-              Lasting lasting = Lasting::parameters, Extent extent = Extent::domain)
+              Invariance step_invariants = Invariance::parameters, Extent extent = Extent::domain)
         : program_(program),
           stage_(stage),
-          lasting_(lasting),
+          step_invariant_(step_invariants),
           has_metric_(program.domain.surface && program.domain.surface->has_metric),
           has_mask_(program.domain.mask && extent == Extent::domain),
           has_model_(program.domain.model.has_value()) {}
@@ -143,12 +143,12 @@ private:
     PartId divergence_over_links(const Gradients& gradients);
 
     bool is_uniform(const Part& part) const;
-    bool is_lasting(const Part& part) const;
+    bool is_step_invariant(const Part& part) const;
     std::array<Beyond, 3> beyond(const Part& part) const;
 
     const Program& program_;
     std::uint32_t stage_;
-    Lasting lasting_;
+    Invariance step_invariant_;
     std::vector<Part> parts_;
     std::deque<Noise> noises_;
     std::unordered_multimap<std::uint64_t, PartId> known_;

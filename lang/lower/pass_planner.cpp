@@ -70,21 +70,21 @@ Offsets stencil_offsets(const Part& stencil, const Axes& axes) {
     return own_cell | axes.pair(0) | axes.pair(1) | axes.diagonal(0, 1);
 }
 
-PassPlanner::PassPlanner(const PartGraph& graph, std::span<const PartId> roots, Bringing bringing,
-                         std::span<const PartId> lasting)
+PassPlanner::PassPlanner(const PartGraph& graph, std::span<const PartId> roots, Materialise materialise,
+                         std::span<const PartId> step_invariants)
     : graph_(graph),
       axes_(graph.program().domain.grid),
-      bringing_(bringing),
+      materialise_(materialise),
       needed_(graph.size(), false),
       written_(graph.size(), false),
-      lasting_(graph.size(), false),
+      step_invariant_(graph.size(), false),
       stays_(graph.size(), false),
       pass_(graph.size(), 0),
       beside_(graph.size(), 0) {
-    for (const PartId id : lasting) lasting_[id] = true;
+    for (const PartId id : step_invariants) step_invariant_[id] = true;
     mark_needed(roots);
     for (PartId id = 0; id < graph.size(); ++id) {
-        if (needed_[id] && !lasting_[id]) decide(id);
+        if (needed_[id] && !step_invariant_[id]) decide(id);
     }
     for (const PartId root : roots) pass_count_ = std::max(pass_count_, pass_[root] + 1);
 }
@@ -92,7 +92,7 @@ PassPlanner::PassPlanner(const PartGraph& graph, std::span<const PartId> roots, 
 void PassPlanner::mark_needed(std::span<const PartId> roots) {
     for (const PartId root : roots) needed_[root] = true;
     for (PartId id = static_cast<PartId>(graph_.size()); id-- > 0;) {
-        if (!needed_[id] || lasting_[id]) continue;
+        if (!needed_[id] || step_invariant_[id]) continue;
         const Part& part = graph_[id];
         for (std::uint32_t k = 0; k < part.operand_count; ++k) needed_[part.operands[k]] = true;
     }
@@ -100,7 +100,7 @@ void PassPlanner::mark_needed(std::span<const PartId> roots) {
 
 /// Would computing the part at so many places take more than it is worth? Looks at no more parts
 /// than that.
-bool PassPlanner::is_dear(PartId id, std::uint32_t places) const {
+bool PassPlanner::is_expensive(PartId id, std::uint32_t places) const {
     std::uint32_t cost = 0;
     std::vector<PartId> seen, open{id};
     while (!open.empty()) {
@@ -131,7 +131,7 @@ void PassPlanner::decide(PartId id) {
     if (info(function).is_aggregate) {
         const bool written = !is_plane(last);
         if (written && !written_[last]) {
-            brought_.push_back({last, id, 0, true, true, false});
+            choices_.push_back({last, id, 0, true, true, false});
             written_[last] = true;
         }
         pass_[id] = beside_[id] = written ? pass_[last] + 1 : 0;
@@ -139,19 +139,19 @@ void PassPlanner::decide(PartId id) {
     }
     const bool differs = !part.is_uniform;
     if (differs && is_stencil(function) && graph_.is_linked()) {
-        for (std::uint32_t k = 0; k < part.operand_count; ++k) bring_over_links(part.operands[k], id);
+        for (std::uint32_t k = 0; k < part.operand_count; ++k) provide_over_links(part.operands[k], id);
     } else if (differs && is_stencil(function)) {
-        bring(last, reach(stencil_offsets(part, axes_)) & ~own_cell, id);
+        provide(last, reach(stencil_offsets(part, axes_)) & ~own_cell, id);
     } else if (differs && (part.node.type == ValueType::vector || function == Function::div) &&
                !graph_.is_linked()) {
         // Vectors are known at faces, which takes what they are made of in the cells beside.
         for (std::uint32_t k = 0; k < part.operand_count; ++k) {
             const PartId operand = part.operands[k];
             if (is_number(graph_[operand])) {
-                bring(operand, axes_.crosswise() & ~own_cell, id);
+                provide(operand, axes_.crosswise() & ~own_cell, id);
             } else if (graph_[operand].node.type == ValueType::tensor) {
                 for (const PartId entry : std::span(graph_[operand].operands).first(3)) {
-                    bring(entry, axes_.crosswise() & ~own_cell, id);
+                    provide(entry, axes_.crosswise() & ~own_cell, id);
                 }
             }
         }
@@ -222,30 +222,30 @@ std::uint32_t PassPlanner::pass_beside(PartId operand) const {
 }
 
 /// Makes an operand known at neighbours: by a plane, or by computing it there.
-void PassPlanner::bring(PartId operand, Offsets offsets, PartId reader) {
+void PassPlanner::provide(PartId operand, Offsets offsets, PartId reader) {
     const auto places = static_cast<std::uint32_t>(std::popcount(offsets));
     if (places == 0 || graph_[operand].is_uniform || is_plane(operand)) return;
-    if (graph_[operand].is_open()) return bring_open(operand, offsets, reader);
-    Brought brought{operand, reader, places, false, stays_[operand], false};
-    const bool wants = bringing_ == Bringing::writing ||
-                       (bringing_ == Bringing::cheaper && is_dear(operand, places));
-    brought.is_written = written_[operand] || stays_[operand] || wants;
-    written_[operand] = brought.is_written;
-    brought_.push_back(brought);
+    if (graph_[operand].is_open()) return provide_open(operand, offsets, reader);
+    OperandChoice choice{operand, reader, places, false, stays_[operand], false};
+    const bool wants = materialise_ == Materialise::always ||
+                       (materialise_ == Materialise::when_cheaper && is_expensive(operand, places));
+    choice.is_written = written_[operand] || stays_[operand] || wants;
+    written_[operand] = choice.is_written;
+    choices_.push_back(choice);
 }
 
 /// Sums over links read planes.
-void PassPlanner::bring_over_links(PartId operand, PartId reader) {
+void PassPlanner::provide_over_links(PartId operand, PartId reader) {
     if (graph_[operand].is_uniform || is_plane(operand)) return;
     written_[operand] = true;
-    brought_.push_back({operand, reader, 0, true, true, false});
+    choices_.push_back({operand, reader, 0, true, true, false});
 }
 
 /// Computes an operand at neighbours from the parts that have planes, or can have them.
-void PassPlanner::bring_open(PartId operand, Offsets offsets, PartId reader) {
+void PassPlanner::provide_open(PartId operand, Offsets offsets, PartId reader) {
     const auto places = static_cast<std::uint32_t>(std::popcount(offsets));
-    for_each_closed(operand, [&](PartId id) { bring(id, offsets, reader); });
-    brought_.push_back({operand, reader, places, false, false, true});
+    for_each_closed(operand, [&](PartId id) { provide(id, offsets, reader); });
+    choices_.push_back({operand, reader, places, false, false, true});
 }
 
 }  // namespace cascade::lowering

@@ -44,7 +44,7 @@ inline constexpr Offsets own_cell = only(Offset{});
 Offsets with_stand_ins(Offsets offsets);
 
 /// A face between two cells and a component of a vector there: the face lies between cell `cell()`
-/// and the next one along `axis`; `side` 0 is the face behind the own cell, 1 the one before it.
+/// and the next one along `axis`; `side` 0 is the face after the own cell, 1 the one before it.
 struct Face {
     int axis = 0;
     int component = 0;
@@ -79,8 +79,8 @@ Offsets stencil_offsets(const Part& stencil, const Axes& axes);
 /// About how many operations of a kernel a part takes, its operands being known.
 int operations_of(const Part& part);
 
-/// In the time in which a plane is read, filled and read again (some twelve bytes a cell), a core
-/// computes about as many operations for a cell.
+/// The number of operations on a cell that take a core as long as writing a plane and reading it back
+/// (about twelve bytes of traffic a cell).
 inline constexpr int operations_of_writing = 40;
 /// Reading a plane alone is a third of that traffic.
 inline constexpr int operations_of_reading = operations_of_writing / 3;
@@ -88,15 +88,15 @@ inline constexpr int operations_of_reading = operations_of_writing / 3;
 /// The decisions about the parts of a graph.
 class PassPlanner {
 public:
-    /// `roots` are needed in the own cell, in the last pass. `lasting` parts are known before the
+    /// `roots` are needed in the own cell, in the last pass. `step_invariants` parts are known before the
     /// first: those that vary lie in planes.
-    PassPlanner(const PartGraph& graph, std::span<const PartId> roots, Bringing bringing,
-                std::span<const PartId> lasting = {});
+    PassPlanner(const PartGraph& graph, std::span<const PartId> roots, Materialise materialise,
+                std::span<const PartId> step_invariants = {});
 
     std::uint32_t pass_count() const { return pass_count_; }
     bool is_needed(PartId part) const { return needed_[part]; }
     /// Is it one of those that are known before the first pass?
-    bool is_lasting(PartId part) const { return lasting_[part]; }
+    bool is_step_invariant(PartId part) const { return step_invariant_[part]; }
     /// Is the part written to a temporary plane?
     bool is_written(PartId part) const { return written_[part]; }
     /// The pass in which it can first be computed in the own cell; a written part is computed then.
@@ -105,16 +105,16 @@ public:
     bool is_plane_in(PartId part, std::uint32_t pass) const {
         return written_[part] && pass_[part] < pass;
     }
-    /// How an operand came to the neighbours where its reader needs it.
-    struct Brought {
+    /// How an operand is provided at the neighbours at which its reader needs it.
+    struct OperandChoice {
         PartId operand = 0, reader = 0;
-        std::uint32_t places = 0;   ///< At how many neighbours at most.
+        std::uint32_t places = 0;   ///< The largest number of neighbours.
         bool is_written = false;    ///< To a plane; else it is recomputed there.
         bool is_forced = false;     ///< It cannot be recomputed.
         bool is_open = false;       ///< It has to be: see Part::is_open.
     };
     /// Of all operands that are no planes and vary, in order of their readers.
-    const std::vector<Brought>& brought() const { return brought_; }
+    const std::vector<OperandChoice>& choices() const { return choices_; }
     const Axes& axes() const { return axes_; }
     /// Where an operand is needed that operators read at `offsets`.
     Offsets reach(Offsets offsets) const {
@@ -126,23 +126,23 @@ private:
     void decide(PartId id);
     void decide_own(PartId id);
     std::uint32_t pass_beside(PartId operand) const;
-    void bring(PartId operand, Offsets offsets, PartId reader);
-    void bring_over_links(PartId operand, PartId reader);
-    void bring_open(PartId operand, Offsets offsets, PartId reader);
+    void provide(PartId operand, Offsets offsets, PartId reader);
+    void provide_over_links(PartId operand, PartId reader);
+    void provide_open(PartId operand, Offsets offsets, PartId reader);
     template <typename Visit>
     void for_each_closed(PartId open, const Visit& visit) const;
-    bool is_plane(PartId id) const { return lasting_[id] || graph_.is_plane(id); }
-    bool is_dear(PartId id, std::uint32_t places) const;
+    bool is_plane(PartId id) const { return step_invariant_[id] || graph_.is_plane(id); }
+    bool is_expensive(PartId id, std::uint32_t places) const;
 
     const PartGraph& graph_;
     Axes axes_;
-    Bringing bringing_;
+    Materialise materialise_;
     std::uint32_t pass_count_ = 1;
-    std::vector<bool> needed_, written_, lasting_;
+    std::vector<bool> needed_, written_, step_invariant_;
     std::vector<bool> stays_;             ///< Cannot be computed for a neighbour.
     std::vector<std::uint32_t> pass_;     ///< The first in which the own cell's value is known …
     std::vector<std::uint32_t> beside_;   ///< … and the values of neighbours, planes being read.
-    std::vector<Brought> brought_;
+    std::vector<OperandChoice> choices_;
 };
 
 }  // namespace cascade::lowering

@@ -27,7 +27,7 @@ public:
         : request_(request),
           graph_(request.graph),
           emit_(emit),
-          planner_(graph_, request.wanted, request.options.bringing, request.lasting) {}
+          planner_(graph_, request.wanted, request.options.materialise, request.step_invariants) {}
 
     StepPlan build() {
         plan_.passes.resize(planner_.pass_count());
@@ -50,11 +50,11 @@ private:
     void number_parts() {
         storage_.temporary.assign(graph_.size(), 0);
         storage_.aggregate.assign(graph_.size(), 0);
-        storage_.lasting.assign(graph_.size(), 0);
-        plan_.lasting = static_cast<std::uint32_t>(request_.lasting.size());
-        for (std::uint32_t k = 0; k < plan_.lasting; ++k) storage_.lasting[request_.lasting[k]] = k;
+        storage_.step_invariants.assign(graph_.size(), 0);
+        plan_.step_invariants = static_cast<std::uint32_t>(request_.step_invariants.size());
+        for (std::uint32_t k = 0; k < plan_.step_invariants; ++k) storage_.step_invariants[request_.step_invariants[k]] = k;
         for (PartId id = 0; id < graph_.size(); ++id) {
-            if (!planner_.is_needed(id) || planner_.is_lasting(id)) continue;
+            if (!planner_.is_needed(id) || planner_.is_step_invariant(id)) continue;
             if (planner_.is_written(id)) {
                 storage_.temporary[id] = plan_.temporaries++;
                 written_[planner_.pass_of(id)].push_back(id);
@@ -114,8 +114,8 @@ private:
 
     SlotSource source_of(PartId id) const {
         const Part& part = graph_[id];
-        if (planner_.is_lasting(id)) {
-            return {SlotSource::Kind::lasting, graph_.stage(), storage_.lasting[id]};
+        if (planner_.is_step_invariant(id)) {
+            return {SlotSource::Kind::step_invariant, graph_.stage(), storage_.step_invariants[id]};
         }
         if (planner_.is_written(id)) {
             return {SlotSource::Kind::temporary, 0, storage_.temporary[id]};
@@ -142,7 +142,7 @@ private:
         for (SlotSource& source : pass.bound.fields) visit(source);
     }
 
-    /// Temporaries get the numbers of planes; a plane is free behind the last pass that reads it.
+    /// Temporaries get the numbers of planes; a plane is free after the last pass that reads it.
     void share_temporaries() {
         std::vector<std::size_t> last_read(plan_.temporaries, 0);
         for (std::size_t pass = 0; pass < plan_.passes.size(); ++pass) {
@@ -151,7 +151,7 @@ private:
             });
         }
         std::vector<std::uint32_t> plane(plan_.temporaries), free;
-        std::vector<std::vector<std::uint32_t>> freed_behind(plan_.passes.size());
+        std::vector<std::vector<std::uint32_t>> freed_after(plan_.passes.size());
         std::uint32_t count = 0;
         for (std::size_t pass = 0; pass < plan_.passes.size(); ++pass) {
             for (PassTarget& target : plan_.passes[pass].targets) {
@@ -161,12 +161,12 @@ private:
                 plane[number] = free.back();
                 free.pop_back();
                 target.index = plane[number];
-                freed_behind[std::max(last_read[number], pass)].push_back(plane[number]);
+                freed_after[std::max(last_read[number], pass)].push_back(plane[number]);
             }
             for_each_read(plan_.passes[pass], [&](SlotSource& source) {
                 if (source.kind == SlotSource::Kind::temporary) source.item = plane[source.item];
             });
-            free.insert(free.end(), freed_behind[pass].begin(), freed_behind[pass].end());
+            free.insert(free.end(), freed_after[pass].begin(), freed_after[pass].end());
         }
         plan_.temporaries = count;
     }

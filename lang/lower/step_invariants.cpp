@@ -19,7 +19,7 @@ bool is_aggregate(const Part& part) {
 
 /// Does it take operations of each cell that a plane could save?
 bool is_costly(const PartGraph& graph, PartId id) {
-    return graph[id].is_lasting && !graph[id].is_uniform && !graph.is_plane(id);
+    return graph[id].is_step_invariant && !graph[id].is_uniform && !graph.is_plane(id);
 }
 
 template <typename Visit>
@@ -65,11 +65,11 @@ public:
         }
         for (const PartId root : roots_) want(root);
         for (PartId id = 0; id < graph_.size(); ++id) {
-            if (places_[id] == 0 || graph_[id].is_lasting) continue;
+            if (places_[id] == 0 || graph_[id].is_step_invariant) continue;
             for_each_operand(graph_[id], [&](PartId operand) { want(operand); });
         }
         return first_reached(graph_, roots_, [&](PartId id) {
-            const bool is_number = graph_[id].is_lasting && is_aggregate(graph_[id]);
+            const bool is_number = graph_[id].is_step_invariant && is_aggregate(graph_[id]);
             return is_number || (is_costly(graph_, id) && cut_.is_kept(number_[id]));
         });
     }
@@ -87,7 +87,7 @@ private:
         const bool at_faces = is_operator && part.node.type == ValueType::vector;
         for (std::uint32_t k = 0; k < part.operand_count; ++k) {
             // What lasts is computed wherever its reader is.
-            std::uint32_t places = part.is_lasting ? places_[id] : 1;
+            std::uint32_t places = part.is_step_invariant ? places_[id] : 1;
             if (at_faces) {
                 places = count(axes_.crosswise());
             } else if (is_operator && is_stencil(part.node.function) && k + 1 == part.operand_count) {
@@ -126,14 +126,14 @@ private:
 
 }  // namespace
 
-std::vector<PartId> lasting_parts(const PartGraph& graph, std::span<const PartId> roots) {
+std::vector<PartId> step_invariant_parts(const PartGraph& graph, std::span<const PartId> roots) {
     return Chooser(graph, roots).choose();
 }
 
-std::vector<PartId> largest_lasting_parts(const PartGraph& graph, std::span<const PartId> roots) {
+std::vector<PartId> largest_step_invariants(const PartGraph& graph, std::span<const PartId> roots) {
     return first_reached(graph, roots, [&](PartId id) {
         const Part& part = graph[id];
-        if (!part.is_lasting || part.node.type != ValueType::number) return false;
+        if (!part.is_step_invariant || part.node.type != ValueType::number) return false;
         return is_aggregate(part) || is_costly(graph, id);
     });
 }

@@ -13,10 +13,10 @@ namespace cascade::lowering {
 /// its tensor, functions of the place, of files and of the metric. Aggregates become numbers; what
 /// varies becomes planes, chosen so that the steps take the fewest operations, those that are left
 /// and the reading of the planes taken together. `roots` are needed in every step.
-std::vector<PartId> lasting_parts(const PartGraph& graph, std::span<const PartId> roots);
+std::vector<PartId> step_invariant_parts(const PartGraph& graph, std::span<const PartId> roots);
 
-/// All lasting parts that vary or are aggregates, but for planes, of which other parts are made: so
+/// All step-invariant parts that vary or are aggregates, but for planes, of which other parts are made: so
 /// that what is left knows of no place.
-std::vector<PartId> largest_lasting_parts(const PartGraph& graph, std::span<const PartId> roots);
+std::vector<PartId> largest_step_invariants(const PartGraph& graph, std::span<const PartId> roots);
 
 }  // namespace cascade::lowering

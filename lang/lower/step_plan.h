@@ -28,7 +28,7 @@ struct SlotSource {
         metric,     ///< MetricPlane `item` of the surface, as a field slot.
         model,      ///< ModelPlane `item` of the cells of a model, as a field slot.
         neighbourhood,  ///< Which cells around are inside the mask, as a field slot of words.
-        lasting,    ///< Lasting part `item` of stage `stage`: a field slot, or a uniform.
+        step_invariant,    ///< Step-invariant part `item` of stage `stage`: a field slot, or a uniform.
         step,       ///< Uniform: complete steps of the stage when the step begins.
         draw,       ///< Uniform: the word of that step in draws (ir/draw_of_step.h).
         time,       ///< Uniform: the stage's t when the rates are evaluated.
@@ -66,7 +66,7 @@ struct PassTarget {
     Kind kind = Kind::result;
     std::uint32_t index = 0;  ///< Of the plan's results or temporaries.
     bool is_uniform = false;  ///< The same in all cells.
-    Boundaries boundary = {}; ///< How the halo of a temporary or a lasting part is filled.
+    Boundaries boundary = {}; ///< How the halo of a temporary or a step-invariant part is filled.
 };
 
 /// An aggregate over the domain, computed from a plane.
@@ -88,24 +88,25 @@ struct StepPlan {
     std::uint32_t result_count = 0;
     std::uint32_t temporaries = 0;      ///< Planes that passes write for later ones.
     std::uint32_t aggregates = 0;
-    std::uint32_t lasting = 0;          ///< Lasting parts (plan_lasting) that may be read.
+    std::uint32_t step_invariants = 0;          ///< Step-invariant parts (plan_step_invariants) that may be read.
     bool is_uniform = false;            ///< Every result is the same in all cells.
     std::string words;                  ///< What the passes do and why, where it was asked for.
 };
 
-/// How operands of operators are brought to the neighbours. All choices give the same bits.
-enum class Bringing : std::uint8_t {
-    cheaper,      ///< What is cheap is recomputed at neighbours, what is dear is written to a plane.
-    recomputing,  ///< As much as possible is recomputed.
-    writing,      ///< Everything but planes is written.
+/// Which operands of operators are written to a plane (materialised); the others are recomputed at
+/// the neighbours where they are read. All choices give the same bits.
+enum class Materialise : std::uint8_t {
+    when_cheaper,  ///< Those that cost more to recompute than to write and read.
+    never,         ///< Only those that cannot be recomputed.
+    always,        ///< All that are no planes already.
 };
 
 struct PlanOptions {
-    Bringing bringing = Bringing::cheaper;
+    Materialise materialise = Materialise::when_cheaper;
     bool describe = false;       ///< Fill in StepPlan::words.
-    /// Parts of rates that no step changes are read, where that pays, from what plan_lasting()
+    /// Parts of rates that no step changes are read, where that pays, from what plan_step_invariants()
     /// computes once. The bits are those of computing them anew in each step.
-    bool keeps_lasting = false;
+    bool keeps_step_invariants = false;
 };
 
 }  // namespace cascade

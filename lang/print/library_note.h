@@ -10,7 +10,7 @@
 namespace cascade {
 
 struct LibraryNote {
-    std::string about;               ///< One line: the first sentence of the text's head.
+    std::string about;               ///< One line: the first statement of the text's head.
     std::vector<std::string> lines;  ///< The whole head, a line each: description and sources.
     std::string words;               ///< Name, comments and texts in quotes, in small letters.
 

@@ -1,4 +1,4 @@
-// The syntax tree as text, for `--dump ast`: blocks and sentences indented, expressions in prefix
+// The syntax tree as text, for `--dump ast`: blocks and statements indented, expressions in prefix
 // form, `(+ a (* 2 b))`, which shows what binds to what.
 #include "lang/syntax/parse.h"
 
@@ -96,26 +96,26 @@ private:
     std::vector<Work> work_;
 };
 
-std::string print_sentence(const ast::Sentence& sentence, ExpressionPrinter& printer) {
+std::string print_statement(const ast::Statement& statement, ExpressionPrinter& printer) {
     static constexpr std::array<std::string_view, 7> relations = {":",   " =",  "' =", "' +=",
                                                                   " >=", " <=", ":"};
-    std::string result(sentence.name.text);
-    if (!sentence.index.empty()) result += fmt::format("[{}]", sentence.index.text);
-    if (!sentence.side.empty()) result += fmt::format(".{}", sentence.side.text);
-    result += relations[static_cast<std::size_t>(sentence.kind)];
-    const char* between = sentence.kind == ast::SentenceKind::index ? " .. " : ", ";
-    for (const ast::Expression& value : sentence.values) {
-        result += &value == &sentence.values.front() ? " " : between;
+    std::string result(statement.name.text);
+    if (!statement.index.empty()) result += fmt::format("[{}]", statement.index.text);
+    if (!statement.side.empty()) result += fmt::format(".{}", statement.side.text);
+    result += relations[static_cast<std::size_t>(statement.kind)];
+    const char* between = statement.kind == ast::StatementKind::index ? " .. " : ", ";
+    for (const ast::Expression& value : statement.values) {
+        result += &value == &statement.values.front() ? " " : between;
         result += printer.print(value.root);
     }
-    if (sentence.range) {
-        result += fmt::format(" in {} .. {}", printer.print(sentence.range->low.root),
-                              printer.print(sentence.range->high.root));
-        if (sentence.range->step) {
-            result += fmt::format(" step {}", printer.print(sentence.range->step->root));
+    if (statement.range) {
+        result += fmt::format(" in {} .. {}", printer.print(statement.range->low.root),
+                              printer.print(statement.range->high.root));
+        if (statement.range->step) {
+            result += fmt::format(" step {}", printer.print(statement.range->step->root));
         }
     }
-    if (!sentence.doc.empty()) result += "  ## " + sentence.doc;
+    if (!statement.doc.empty()) result += "  ## " + statement.doc;
     return result + "\n";
 }
 
@@ -144,17 +144,17 @@ std::string print_ast(const ast::Script& script, const Sources& sources) {
         if (!block.name.empty()) result += fmt::format(" {}", block.name.text);
         if (!block.base.empty()) result += fmt::format(": {}", block.base.text);
         result += fmt::format("  # line {}\n", location.line);
-        for (const ast::Sentence& sentence : block.sides) {
-            result += "    " + print_sentence(sentence, printer);
+        for (const ast::Statement& statement : block.sides) {
+            result += "    " + print_statement(statement, printer);
         }
-        for (const ast::Sentence& sentence : block.sentences) {
-            result += "    " + print_sentence(sentence, printer);
+        for (const ast::Statement& statement : block.statements) {
+            result += "    " + print_statement(statement, printer);
         }
     }
     for (const ast::Override& change : script.overrides) {
         result += "set ";
         if (!change.stage.empty()) result += fmt::format("{}.", change.stage.text);
-        result += print_sentence(change.sentence, printer);
+        result += print_statement(change.statement, printer);
     }
     return result;
 }

@@ -12,7 +12,7 @@ namespace cascade {
 std::string text_of(const SurfaceValue& value);
 
 /// The formula in the language itself, except that own items of a stage are [p], as in a stage's
-/// sentences, and items of other stages always stage.p. In formulas of a system (no `stage`) own
+/// statements, and items of other stages always stage.p. In formulas of a system (no `stage`) own
 /// names are bare.
 std::string print_formula(const Program& program, const System& system, const Formula& formula,
                           std::optional<std::uint32_t> stage = {});

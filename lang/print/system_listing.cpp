@@ -1,7 +1,7 @@
 #include "lang/print/system_listing.h"
 
 #include "lang/check/check_names.h"
-#include "lang/check/system_sentences.h"
+#include "lang/check/system_statements.h"
 #include "lang/format/format_words.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ struct Row {
 };
 
 /// The text of a value as its author wrote it, on one line.
-std::string source_of(const SaidSentence& said, const ast::Expression& value) {
+std::string source_of(const SaidStatement& said, const ast::Expression& value) {
     const std::string_view text = said.sources->text(said.script->expressions[value.root].span);
     std::string line;
     for (const char c : text) {
@@ -31,27 +31,27 @@ std::string source_of(const SaidSentence& said, const ast::Expression& value) {
     return line;
 }
 
-const ast::Text* text_of(const SaidSentence& said) {
-    const ast::ExprId root = said.sentence->values.front().root;
+const ast::Text* text_of(const SaidStatement& said) {
+    const ast::ExprId root = said.statement->values.front().root;
     return std::get_if<ast::Text>(&said.script->expressions[root].node);
 }
 
-Row row_of(const SaidSentence& said, const SystemSentences& system) {
-    const ast::Sentence& sentence = *said.sentence;
-    const std::string_view name = sentence.name.text;
+Row row_of(const SaidStatement& said, const SystemStatements& system) {
+    const ast::Statement& statement = *said.statement;
+    const std::string_view name = statement.name.text;
     const bool is_setting =
-        sentence.index.empty() && checking::reserved(name) != checking::Reserved::no;
+        statement.index.empty() && checking::reserved(name) != checking::Reserved::no;
     Row row;
     row.kind = is_setting ? "setting" : system.is_species(name) ? "species" : "parameter";
-    row.name = sentence.index.empty() ? std::string(name)
-                                      : fmt::format("{}[{}]", name, sentence.index.text);
-    row.value = source_of(said, sentence.values.front());
-    if (sentence.kind == ast::SentenceKind::index) {
+    row.name = statement.index.empty() ? std::string(name)
+                                      : fmt::format("{}[{}]", name, statement.index.text);
+    row.value = source_of(said, statement.values.front());
+    if (statement.kind == ast::StatementKind::index) {
         row.kind = "index";
-        row.value += " .. " + source_of(said, sentence.values.back());
+        row.value += " .. " + source_of(said, statement.values.back());
     }
     if (said.range != nullptr) {
-        const SaidSentence from{said.range_script, said.range_sources, said.range};
+        const SaidStatement from{said.range_script, said.range_sources, said.range};
         const ast::Range& range = *said.range->range;
         row.range =
             fmt::format("in {} .. {}", source_of(from, range.low), source_of(from, range.high));
@@ -71,11 +71,11 @@ std::string padded(std::string_view text, std::size_t width) {
 
 std::vector<std::string> system_words(const ast::Script& script, const Sources& sources,
                                       std::string_view system) {
-    const SystemSentences sentences(script, sources, system_blocks(script), system);
+    const SystemStatements statements(script, sources, system_blocks(script), system);
     std::vector<std::string> lines;
-    if (!sentences.doc().empty()) lines.push_back(sentences.doc());
-    for (const SaidSentence& said : sentences.all()) {
-        if (said.sentence->kind != ast::SentenceKind::value) continue;
+    if (!statements.doc().empty()) lines.push_back(statements.doc());
+    for (const SaidStatement& said : statements.all()) {
+        if (said.statement->kind != ast::StatementKind::value) continue;
         if (const ast::Text* text = text_of(said)) lines.push_back(text->value);
     }
     return lines;
@@ -83,15 +83,15 @@ std::vector<std::string> system_words(const ast::Script& script, const Sources& 
 
 std::string print_system_listing(const ast::Script& script, const Sources& sources,
                                  std::string_view system) {
-    constexpr std::size_t widest_value = 24;  // Longer ones push what is behind them.
-    const SystemSentences sentences(script, sources, system_blocks(script), system);
+    constexpr std::size_t widest_value = 24;  // Longer ones push what is after them.
+    const SystemStatements statements(script, sources, system_blocks(script), system);
     std::vector<Row> rows;
     std::size_t name_width = 0, value_width = 0, range_width = 0;
-    for (const SaidSentence& said : sentences.all()) {
-        const bool is_listed = said.sentence->kind == ast::SentenceKind::value ||
-                               said.sentence->kind == ast::SentenceKind::index;
+    for (const SaidStatement& said : statements.all()) {
+        const bool is_listed = said.statement->kind == ast::StatementKind::value ||
+                               said.statement->kind == ast::StatementKind::index;
         if (!is_listed || text_of(said) != nullptr) continue;
-        rows.push_back(row_of(said, sentences));
+        rows.push_back(row_of(said, statements));
         name_width = std::max(name_width, width_of(rows.back().name));
         const std::size_t width = width_of(rows.back().value);
         if (width <= widest_value) value_width = std::max(value_width, width);

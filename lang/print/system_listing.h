@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// What a system says of itself in words: its doc comment and the texts among its sentences
+/// What a system says of itself in words: its doc comment and the texts among its statements
 /// (`title: "…"`), a line each; those of the systems it is derived from come first.
 std::vector<std::string> system_words(const ast::Script& script, const Sources& sources,
                                       std::string_view system);

@@ -17,7 +17,7 @@ struct Visit {
 class Sorter {
 public:
     explicit Sorter(const Dependencies& reads)
-        : reads_(reads), states_(reads.size(), State::untouched), in_circle_(reads.size(), false) {}
+        : reads_(reads), states_(reads.size(), State::untouched), in_cycle_(reads.size(), false) {}
 
     Order run() {
         for (std::uint32_t value = 0; value < reads_.size(); ++value) {
@@ -44,30 +44,30 @@ private:
             }
             const std::uint32_t needed = reads_[top.value][top.next++];
             if (states_[needed] == State::untouched) open(needed);
-            else if (states_[needed] == State::open) add_circle(needed);
+            else if (states_[needed] == State::open) add_cycle(needed);
         }
     }
 
-    /// The path from `first` to its end is a circle. One that shares a value with a circle that is
+    /// The path from `first` to its end is a cycle. One that shares a value with a cycle that is
     /// known already is left out: it is most likely the same mistake.
-    void add_circle(std::uint32_t first) {
+    void add_cycle(std::uint32_t first) {
         std::size_t begin = path_.size();
         while (path_[begin - 1].value != first) {
-            if (in_circle_[path_[begin - 1].value]) return;
+            if (in_cycle_[path_[begin - 1].value]) return;
             --begin;
         }
-        if (in_circle_[first]) return;
-        std::vector<std::uint32_t> circle;
+        if (in_cycle_[first]) return;
+        std::vector<std::uint32_t> cycle;
         for (std::size_t i = begin - 1; i < path_.size(); ++i) {
-            circle.push_back(path_[i].value);
-            in_circle_[path_[i].value] = true;
+            cycle.push_back(path_[i].value);
+            in_cycle_[path_[i].value] = true;
         }
-        result_.circles.push_back(std::move(circle));
+        result_.cycles.push_back(std::move(cycle));
     }
 
     const Dependencies& reads_;
     std::vector<State> states_;
-    std::vector<bool> in_circle_;
+    std::vector<bool> in_cycle_;
     std::vector<Visit> path_;
     Order result_;
 };

@@ -11,9 +11,9 @@ using Dependencies = std::vector<std::vector<std::uint32_t>>;
 
 struct Order {
     std::vector<std::uint32_t> order;  ///< All values, each after those it reads.
-    /// Circles: each reads the next and the last reads the first. No value is in two of them. Where
+    /// Cycles: each reads the next and the last reads the first. No value is in two of them. Where
     /// there is one `order` has no meaning.
-    std::vector<std::vector<std::uint32_t>> circles;
+    std::vector<std::vector<std::uint32_t>> cycles;
 };
 
 /// Depth-first topological sort with a stack of its own: values stay in order of their numbers as

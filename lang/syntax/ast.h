@@ -63,7 +63,7 @@ struct Expression {
     ExprId root = 0;
 };
 
-enum class SentenceKind : std::uint8_t {
+enum class StatementKind : std::uint8_t {
     value,       ///< name: e      (or  name: e, e  in a domain)
     definition,  ///< name = e
     rate,        ///< name' = e
@@ -73,15 +73,15 @@ enum class SentenceKind : std::uint8_t {
     index,       ///< name: low .. high; the values are the two ends
 };
 
-/// in low .. high [step e], behind the value of a parameter.
+/// in low .. high [step e], after the value of a parameter.
 struct Range {
     Expression low, high;
     std::optional<Expression> step;
     Span span;
 };
 
-struct Sentence {
-    SentenceKind kind = SentenceKind::value;
+struct Statement {
+    StatementKind kind = StatementKind::value;
     Word name;
     Word index;                      ///< i of `u[i]: e`: a name or a number; empty without one.
     Word side;                       ///< left of `u.left: e`; empty without one.
@@ -94,7 +94,7 @@ struct Sentence {
 enum class BlockKind : std::uint8_t {
     system,         ///< system NAME { … }
     stage,          ///< stage NAME: SYSTEM { … }
-    classic_stage,  ///< system_name: SYSTEM and the sentences behind it
+    classic_stage,  ///< system_name: SYSTEM and the statements after it
     domain,         ///< domain { … }
     picture,        ///< picture { … }
 };
@@ -106,8 +106,8 @@ struct Block {
     /// The stage's system; empty where it could not be read. Of a system: the system it is derived
     /// from, empty where it is derived from none.
     Word base;
-    std::vector<Sentence> sentences;
-    std::vector<Sentence> sides;  ///< `u.left: …`, `u[1].left: …`.
+    std::vector<Statement> statements;
+    std::vector<Statement> sides;  ///< `u.left: …`, `u[1].left: …`.
     std::string doc;  ///< The text of its doc comments, joined to one line.
     /// Something of it could not be read and is not in these lists; it has its message.
     bool is_damaged = false;
@@ -127,12 +127,12 @@ struct Use {
     std::string path;  ///< As written.
 };
 
-/// A value from outside the script (`--set large.ka=1/400`): it replaces the sentence of that name
+/// A value from outside the script (`--set large.ka=1/400`): it replaces the statement of that name
 /// in one stage, or, where no stage is called so, in every stage of the system of that name, or,
 /// where `stage` is empty, in every stage that has such a name.
 struct Override {
     Word stage;
-    Sentence sentence;
+    Statement statement;
 };
 
 struct Script {

@@ -19,7 +19,7 @@ constexpr double smallest = 0x1p-126;
 
 ExpressionParser::Progress ExpressionParser::read_operand() {
     if (!pending_.empty() && cursor_.take_if(TokenKind::newline) &&
-        (cursor_.begins_sentence() || cursor_.at_sentence_end())) {
+        (cursor_.begins_statement() || cursor_.at_statement_end())) {
         cursor_.step_back();
     }
     const Token token = cursor_.peek();
@@ -48,8 +48,8 @@ ExpressionParser::Progress ExpressionParser::read_operand() {
         }
         case TokenKind::plus: {
             const TokenKind before = cursor_.previous().kind;
-            const bool is_behind_operator = !pending_.empty() && wants_operand(before);
-            if (is_behind_operator && before != TokenKind::comma) break;
+            const bool is_after_operator = !pending_.empty() && wants_operand(before);
+            if (is_after_operator && before != TokenKind::comma) break;
             while (cursor_.take_if(TokenKind::plus)) {}
             cursor_.error(token.span, "numbers have no sign '+'", "leave it out");
             return Progress::going_on;
@@ -135,8 +135,8 @@ ExpressionParser::Progress ExpressionParser::read_bracketed() {
     bool is_readable = true;
     std::size_t depth = 1;
     while (depth > 0) {
-        const bool line_ends = cursor_.at(TokenKind::newline) && cursor_.begins_sentence(1);
-        const bool text_ends = cursor_.at_sentence_end() && !cursor_.at(TokenKind::newline);
+        const bool line_ends = cursor_.at(TokenKind::newline) && cursor_.begins_statement(1);
+        const bool text_ends = cursor_.at_statement_end() && !cursor_.at(TokenKind::newline);
         if (line_ends || text_ends) {
             return fail(open.span, "this '[' is never closed", "a ']' is missing after the name");
         }
@@ -201,7 +201,7 @@ ExpressionParser::Progress ExpressionParser::read_text_in_primes() {
 ExpressionParser::Progress ExpressionParser::missing_operand() {
     const Token before = cursor_.previous();
     const Token here = cursor_.peek();
-    const bool ends = cursor_.at_sentence_end();
+    const bool ends = cursor_.at_statement_end();
     const bool closes =
         here.kind == TokenKind::close_round || here.kind == TokenKind::close_square;
     if (closes && open_brackets_ == 0) {

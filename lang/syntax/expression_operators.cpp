@@ -1,4 +1,4 @@
-// Expressions behind an operand: operators, commas, closing brackets, and the end.
+// Expressions after an operand: operators, commas, closing brackets, and the end.
 #include "lang/syntax/expression_parser.h"
 #include "lang/vocabulary/functions.h"
 
@@ -79,13 +79,13 @@ ExpressionParser::Progress ExpressionParser::read_operator() {
     return unexpected_operator(on_new_line);
 }
 
-/// Does a '[' here stand directly behind a name, as in u[i]? Behind a blank it is a new operand.
+/// Does a '[' here stand directly after a name, as in u[i]? After a blank it is a new operand.
 bool ExpressionParser::begins_index() const {
     const Token& before = cursor_.previous();
     return before.kind == TokenKind::name && before.span.end == cursor_.peek().span.begin;
 }
 
-/// u[…]: the index is complete. A prime behind it makes the member's rate.
+/// u[…]: the index is complete. A prime after it makes the member's rate.
 ExpressionParser::Progress ExpressionParser::close_index() {
     const Token close = cursor_.take();
     const Pending open = pending_.back();
@@ -125,7 +125,7 @@ ExpressionParser::Progress ExpressionParser::read_over() {
         return fail(over.span, "'over' stands inside a function's brackets", form);
     }
     if (open.argument_count > 0) {
-        return fail(over.span, "'over' stands behind one expression only", form);
+        return fail(over.span, "'over' stands after one expression only", form);
     }
     cursor_.take();
     cursor_.skip_newlines_in_brackets();
@@ -239,11 +239,11 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
         return unclosed();
     }
     if (before.kind == TokenKind::garbage) return fail_silently();
-    const bool is_sentence = cursor_.begins_sentence();
-    if (is_sentence && open_brackets_ > 0) return unclosed();
-    if (is_sentence) {
+    const bool is_statement = cursor_.begins_statement();
+    if (is_statement && open_brackets_ > 0) return unclosed();
+    if (is_statement) {
         cursor_.error(here.span,
-                      cursor_.describe(here) + " begins a second sentence on this line",
+                      cursor_.describe(here) + " begins a second statement on this line",
                       "put ';' between them");
         return Progress::finished;
     }
@@ -259,7 +259,7 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
         function_named(cursor_.text(before))) {
         hint = fmt::format("write {}({})", cursor_.text(before), shortened(cursor_.text(here)));
     } else if (is_word_of_range) {
-        hint = "a range stands behind the value of a parameter: p: 1 in 0 .. 2 step 0.1";
+        hint = "a range stands after the value of a parameter: p: 1 in 0 .. 2 step 0.1";
     } else if (is_product && here.kind != TokenKind::keyword_not && both.end - both.begin <= 40) {
         hint = fmt::format("write '{} * {}' to multiply", cursor_.text(before), cursor_.text(here));
         if (here.kind == TokenKind::open_round) hint = "write '*' to multiply";
@@ -269,7 +269,7 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
 
 /// The mistake has been told by the lexer.
 ExpressionParser::Progress ExpressionParser::fail_silently() {
-    cursor_.skip_sentence(open_brackets_);
+    cursor_.skip_statement(open_brackets_);
     return Progress::failed;
 }
 

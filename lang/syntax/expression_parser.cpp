@@ -121,28 +121,28 @@ ast::Expression ExpressionParser::abandon(Span begin) {
     return {first_, first_};
 }
 
-/// Gives the message and leaves the rest of the sentence.
+/// Gives the message and leaves the rest of the statement.
 ExpressionParser::Progress ExpressionParser::fail(Span span, std::string message,
                                                   std::string hint) {
     cursor_.error(span, std::move(message), std::move(hint));
-    cursor_.skip_sentence(open_brackets_);
+    cursor_.skip_statement(open_brackets_);
     return Progress::failed;
 }
 
-/// The sentence ends, but a bracket is open: that one is to blame.
+/// The statement ends, but a bracket is open: that one is to blame.
 ExpressionParser::Progress ExpressionParser::unclosed() {
     for (std::size_t k = pending_.size(); k-- > 0;) {
         if (!pending_[k].is_bracket()) continue;
-        // Behind a text that is never closed, nothing says that the bracket was forgotten too.
+        // After a text that is never closed, nothing says that the bracket was forgotten too.
         if (cursor_.lost_in_text(pending_[k].token, "")) break;
         const bool is_index = pending_[k].kind == PendingKind::index;
         cursor_.error(pending_[k].token.span,
                       is_index ? "this '[' is never closed" : "this '(' is never closed",
-                      fmt::format("a '{}' is missing before the sentence ends",
+                      fmt::format("a '{}' is missing before the statement ends",
                                   is_index ? ']' : ')'));
         break;
     }
-    cursor_.skip_sentence();
+    cursor_.skip_statement();
     return Progress::failed;
 }
 

@@ -22,7 +22,7 @@ public:
 
     /// Reads one expression and leaves the cursor at what ends it: a line end, `;`, `}`, `,` or the
     /// end of the text. Where it cannot be read, a message is given, the cursor goes to the end of
-    /// the sentence, and the expression is one Garbage. `owner` says in messages whose value is
+    /// the statement, and the expression is one Garbage. `owner` says in messages whose value is
     /// missing where there is nothing: `the value of 'ka'`. Outside of brackets the expression
     /// ends at `..` too, and at the word `end_word` where an operator could stand.
     ast::Expression parse(const std::string& owner, std::string_view end_word = "");

@@ -28,18 +28,18 @@ std::optional<std::string> hint_of_other_number(std::string_view word) {
     if (cross == std::string_view::npos || cross + 1 == word.size() || word.size() > longest) {
         return std::nullopt;
     }
-    const std::string_view before = word.substr(0, cross), behind = word.substr(cross + 1);
+    const std::string_view before = word.substr(0, cross), after = word.substr(cross + 1);
     std::uint64_t value = 0;
     const auto [end, fault] =
-        std::from_chars(behind.data(), behind.data() + behind.size(), value, 16);
-    if (before == "0" && fault == std::errc() && end == behind.data() + behind.size()) {
+        std::from_chars(after.data(), after.data() + after.size(), value, 16);
+    if (before == "0" && fault == std::errc() && end == after.data() + after.size()) {
         return fmt::format("write {}", value);
     }
     const auto is_whole = [](std::string_view text) {
         return !text.empty() && std::all_of(text.begin(), text.end(), is_digit);
     };
     std::string list(before);
-    for (std::string_view rest = behind; is_whole(before);) {
+    for (std::string_view rest = after; is_whole(before);) {
         const std::size_t next = std::min(rest.find_first_of("xX"), rest.size());
         if (!is_whole(rest.substr(0, next))) break;
         list += fmt::format(", {}", rest.substr(0, next));

@@ -46,7 +46,7 @@ inline constexpr ForeignOperator foreign_operators[] = {
     {"=>", TokenKind::greater_equal, "write '>='"},
     {"=<", TokenKind::less_equal, "write '<='"},
     {":=", TokenKind::colon, "write ':' for a value, '=' for a definition"},
-    {"-=", TokenKind::plus_assign, "write '+=' and a minus sign in front of the term"},
+    {"-=", TokenKind::plus_assign, "write '+=' and a minus sign before the term"},
     {"*=", TokenKind::plus_assign, "there is only '+='"},
     {"/=", TokenKind::plus_assign, "there is only '+='"},
     {"&", TokenKind::keyword_and, "write 'and'"},

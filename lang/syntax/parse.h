@@ -1,6 +1,6 @@
 // The parser: tokens to syntax tree.
 //
-// Sentences are read by plain recursive descent of fixed depth; expressions by operator precedence
+// Statements are read by plain recursive descent of fixed depth; expressions by operator precedence
 // with a stack of its own, so that neither 100,000 brackets nor 1,000,000 operands can overflow
 // anything. The grammar is in spec/grammar.md.
 #pragma once
@@ -17,8 +17,8 @@ namespace cascade {
 /// The largest script, in bytes; a larger one is refused with a message before it is read.
 inline constexpr std::size_t largest_script = 16u << 20;
 
-/// Parses a whole script. Faults go to `diagnostics`; reading goes on behind each, at the next
-/// sentence, so that one call finds them all.
+/// Parses a whole script. Faults go to `diagnostics`; reading goes on after each, at the next
+/// statement, so that one call finds them all.
 ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnostics);
 
 /// Parses a text that another script uses: its systems and functions, and what it uses itself, are

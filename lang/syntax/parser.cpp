@@ -97,8 +97,8 @@ std::optional<ast::Expression> ScriptParser::parse_lone_expression() {
     return expression;
 }
 
-/// The word behind a '.', if there is one; false, with a message, if it is missing.
-bool ScriptParser::parse_word_behind_dot(ast::Word& word, const std::string& form) {
+/// The word after a '.', if there is one; false, with a message, if it is missing.
+bool ScriptParser::parse_word_after_dot(ast::Word& word, const std::string& form) {
     if (!cursor_.take_if(TokenKind::dot)) return true;
     if (!cursor_.at(TokenKind::name)) {
         cursor_.error(cursor_.previous().span, "a name is missing after '.'", form);
@@ -113,29 +113,29 @@ bool ScriptParser::parse_word_behind_dot(ast::Word& word, const std::string& for
 void ScriptParser::parse_override() {
     const std::string form = "write name=value or stage.name=value";
     ast::Override change;
-    ast::Sentence& sentence = change.sentence;
+    ast::Statement& statement = change.statement;
     cursor_.skip_newlines();
     if (!cursor_.at(TokenKind::name)) {
         if (cursor_.at(TokenKind::garbage)) return;
         return cursor_.error(cursor_.peek().span, "the name of what to set is missing", form);
     }
-    sentence.name = cursor_.word(cursor_.take());
-    if (!parse_index(sentence)) return;
-    if (sentence.index.empty() && cursor_.at(TokenKind::dot)) {
-        change.stage = sentence.name;
-        if (!parse_word_behind_dot(sentence.name, form) || !parse_index(sentence)) return;
+    statement.name = cursor_.word(cursor_.take());
+    if (!parse_index(statement)) return;
+    if (statement.index.empty() && cursor_.at(TokenKind::dot)) {
+        change.stage = statement.name;
+        if (!parse_word_after_dot(statement.name, form) || !parse_index(statement)) return;
     }
-    if (!parse_word_behind_dot(sentence.side, form)) return;
-    const ast::Word& name = sentence.name;
+    if (!parse_word_after_dot(statement.side, form)) return;
+    const ast::Word& name = statement.name;
     if (!cursor_.take_if(TokenKind::assign) && !cursor_.take_if(TokenKind::colon)) {
         if (cursor_.at(TokenKind::garbage)) return;
         return cursor_.error(
             name.span, fmt::format("'=' is missing after '{}'", shortened(name.text)), form);
     }
-    change.sentence.values.push_back(
+    change.statement.values.push_back(
         expressions_.parse("the value of '" + shortened(name.text) + "'"));
-    change.sentence.span = join(name.span, cursor_.previous().span);
-    report_rest("one value", change.sentence.values[0], form);
+    change.statement.span = join(name.span, cursor_.previous().span);
+    report_rest("one value", change.statement.values[0], form);
     script_.overrides.push_back(std::move(change));
 }
 

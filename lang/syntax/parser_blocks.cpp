@@ -38,9 +38,9 @@ void ScriptParser::parse_item() {
     if (cursor_.begins_block()) return parse_block(cursor_.text(cursor_.peek()));
     if (begins_classic_stage()) return parse_classic_stage();
     if (parse_function_or_use() || parse_misspelt_block()) return;
-    if (!in_classic_stage_) return parse_outside_sentence();
-    if (auto sentence = parse_sentence()) {
-        add_sentence(script_.blocks.back(), std::move(*sentence));
+    if (!in_classic_stage_) return parse_outside_statement();
+    if (auto statement = parse_statement()) {
+        add_statement(script_.blocks.back(), std::move(*statement));
     }
 }
 
@@ -49,7 +49,7 @@ bool ScriptParser::parse_misspelt_block() {
     if (!cursor_.at(TokenKind::name) || !has_shape_of_block(1)) return false;
     const std::string meant = report_no_block(cursor_.word(cursor_.peek()));
     if (meant.empty()) {
-        cursor_.skip_sentence();
+        cursor_.skip_statement();
     } else {
         parse_block(meant);
     }
@@ -129,7 +129,7 @@ void ScriptParser::parse_header_without_name() {
                   fmt::format("write '{} {{'", cursor_.text(keyword)));
 }
 
-/// { sentences }. Where one of the brackets is missing the block ends at the next block.
+/// { statements }. Where one of the brackets is missing the block ends at the next block.
 void ScriptParser::parse_body(ast::Block& block) {
     const Token header_end = cursor_.previous();
     cursor_.skip_newlines();
@@ -137,10 +137,10 @@ void ScriptParser::parse_body(ast::Block& block) {
     const Token open = cursor_.peek();
     if (is_open) {
         cursor_.take();
-        add_docs(block.doc, docs_behind(block.keyword.span.begin));
+        add_docs(block.doc, docs_after(block.keyword.span.begin));
     } else if (cursor_.at(TokenKind::garbage)) {
         block.is_damaged = true;
-        cursor_.skip_sentence();
+        cursor_.skip_statement();
     } else {
         // A header that ends too early has its message.
         const bool is_told = block.is_damaged && !cursor_.at(TokenKind::name);
@@ -148,19 +148,19 @@ void ScriptParser::parse_body(ast::Block& block) {
         if (!is_told) {
             cursor_.error(header_end.span,
                           fmt::format("'{{' is missing after {}", cursor_.describe(header_end)),
-                          "a block is written { sentences }");
+                          "a block is written { statements }");
         }
-        // What is left of the header's line is no sentence.
+        // What is left of the header's line is no statement.
         if (header_end.kind != TokenKind::name || !cursor_.at(TokenKind::name)) {
-            cursor_.skip_sentence();
+            cursor_.skip_statement();
         }
     }
     while (!cursor_.at_end() && !cursor_.begins_block() && !begins_classic_stage()) {
         if (cursor_.take_if(TokenKind::close_curly)) return;
         if (cursor_.take_if(TokenKind::newline) || cursor_.take_if(TokenKind::semicolon)) continue;
         if (refuse_function_or_use()) continue;
-        if (auto sentence = parse_sentence()) {
-            add_sentence(block, std::move(*sentence));
+        if (auto statement = parse_statement()) {
+            add_statement(block, std::move(*statement));
         } else {
             block.is_damaged = true;
         }
@@ -183,7 +183,7 @@ void ScriptParser::report_unclosed(const Token& open, const ast::Block& block) {
     cursor_.error(std::move(diagnostic));
 }
 
-/// `system_name: SYSTEM`, and all sentences up to the next one or a block.
+/// `system_name: SYSTEM`, and all statements up to the next one or a block.
 void ScriptParser::parse_classic_stage() {
     ast::Block block;
     block.kind = ast::BlockKind::classic_stage;
@@ -192,7 +192,7 @@ void ScriptParser::parse_classic_stage() {
     in_classic_stage_ = true;
     outside_reported_ = false;
     parse_base_of_classic_stage(block);
-    add_docs(block.doc, docs_behind(block.keyword.span.begin));
+    add_docs(block.doc, docs_after(block.keyword.span.begin));
     script_.blocks.push_back(std::move(block));
 }
 
@@ -206,36 +206,36 @@ void ScriptParser::parse_base_of_classic_stage(ast::Block& block) {
     if (cursor_.at(TokenKind::name)) {
         block.base = cursor_.word(cursor_.take());
     } else if (has_colon && !cursor_.at(TokenKind::garbage)) {
-        const bool is_missing = cursor_.at_sentence_end();
+        const bool is_missing = cursor_.at_statement_end();
         cursor_.error(is_missing ? cursor_.previous().span : cursor_.peek().span,
                       is_missing ? "the name of a system is missing"
                                  : fmt::format("{} is not the name of a system",
                                                cursor_.describe(cursor_.peek())),
                       form);
     }
-    if (cursor_.at_sentence_end()) return;
+    if (cursor_.at_statement_end()) return;
     const bool is_told = !has_colon || block.base.empty() || cursor_.at(TokenKind::garbage);
     if (!is_told) {
         cursor_.error(cursor_.peek().span,
                       fmt::format("{} has no place after the name of a system",
                                   cursor_.describe(cursor_.peek())));
     }
-    cursor_.skip_sentence();
+    cursor_.skip_statement();
 }
 
-/// A sentence that belongs to no stage is read, for its own faults, and forgotten.
-void ScriptParser::parse_outside_sentence() {
+/// A statement that belongs to no stage is read, for its own faults, and forgotten.
+void ScriptParser::parse_outside_statement() {
     const bool is_name = cursor_.at(TokenKind::name);
     const std::size_t errors_before = cursor_.error_count();
-    const auto sentence = parse_sentence();
-    if (!is_name || outside_reported_ || !sentence) return;
+    const auto statement = parse_statement();
+    if (!is_name || outside_reported_ || !statement) return;
     if (cursor_.error_count() != errors_before) return;
     outside_reported_ = true;
     const std::array<std::string, 1> beginning = {"system_name"};
-    const bool is_near = !nearest_name(sentence->name.text, beginning).empty();
-    cursor_.error(sentence->name.span,
+    const bool is_near = !nearest_name(statement->name.text, beginning).empty();
+    cursor_.error(statement->name.span,
                   fmt::format("{} belongs to no stage",
-                              cursor_.describe({TokenKind::name, sentence->name.span})),
+                              cursor_.describe({TokenKind::name, statement->name.span})),
                   is_near ? "did you mean 'system_name'?"
                           : "a stage begins with 'system_name: SYSTEM'");
 }

@@ -33,7 +33,7 @@ bool ScriptParser::refuse_function_or_use() {
     const Token word = cursor_.take();
     cursor_.error(word.span, fmt::format("{} stands outside of blocks", cursor_.describe(word)),
                   "write it at the top of the script");
-    cursor_.skip_sentence();
+    cursor_.skip_statement();
     return true;
 }
 
@@ -56,15 +56,15 @@ void ScriptParser::parse_function() {
         }
         return keep_damaged(std::move(function));
     }
-    function.body = parse_behind_operator("the value of the function " + name, "");
+    function.body = parse_after_operator("the value of the function " + name, "");
     if (cursor_.at(TokenKind::dots) || cursor_.at(TokenKind::comma)) {
         cursor_.error(cursor_.peek().span,
                       fmt::format("{} has no place in a function",
                                   cursor_.describe(cursor_.peek())),
                       "its value is one expression");
-        cursor_.skip_sentence();
+        cursor_.skip_statement();
     }
-    add_docs(function.doc, docs_behind(keyword.span.begin));
+    add_docs(function.doc, docs_after(keyword.span.begin));
     script_.functions.push_back(std::move(function));
 }
 
@@ -75,7 +75,7 @@ void ScriptParser::keep_damaged(ast::FunctionDefinition function) {
     function.parameters.clear();
     function.body = {here, here};
     script_.functions.push_back(std::move(function));
-    cursor_.skip_sentence();
+    cursor_.skip_statement();
 }
 
 /// ( [ name { , name } ] ). False, with a message, if they cannot be read.
@@ -99,7 +99,7 @@ bool ScriptParser::parse_parameters(ast::FunctionDefinition& function) {
         if (!cursor_.take_if(TokenKind::comma)) break;
         cursor_.skip_newlines_in_brackets();
     }
-    return refuse(cursor_.at_sentence_end() ? open.span : cursor_.peek().span,
+    return refuse(cursor_.at_statement_end() ? open.span : cursor_.peek().span,
                   fmt::format("the parameters of {} are names with commas between them", name));
 }
 
@@ -111,15 +111,15 @@ void ScriptParser::parse_use() {
     if (file.kind != TokenKind::text) {
         cursor_.error(file.span, "the name of the file stands in quotes",
                       fmt::format("write use \"{}.cascade\"", shortened(cursor_.text(file))));
-        return cursor_.skip_sentence();
+        return cursor_.skip_statement();
     }
     const std::string_view text = cursor_.text(file);
     script_.uses.push_back({file.span, std::string(text.substr(1, text.size() - 2))});
-    if (cursor_.at_sentence_end()) return;
+    if (cursor_.at_statement_end()) return;
     cursor_.error(cursor_.peek().span,
                   fmt::format("{} has no place after the name of a file",
                               cursor_.describe(cursor_.peek())));
-    cursor_.skip_sentence();
+    cursor_.skip_statement();
 }
 
 }  // namespace cascade

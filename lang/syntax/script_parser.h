@@ -1,4 +1,4 @@
-// The parser of blocks and sentences.
+// The parser of blocks and statements.
 #pragma once
 
 #include "lang/syntax/ast.h"
@@ -21,7 +21,7 @@ public:
     void parse_script();
     /// `[stage.]name=expression`, the whole text.
     void parse_override();
-    bool parse_word_behind_dot(ast::Word& word, const std::string& form);
+    bool parse_word_after_dot(ast::Word& word, const std::string& form);
     /// The expression that is the whole text.
     std::optional<ast::Expression> parse_lone_expression();
 
@@ -37,7 +37,7 @@ private:
     void report_unclosed(const Token& open, const ast::Block& block);
     void parse_classic_stage();
     void parse_base_of_classic_stage(ast::Block& block);
-    void parse_outside_sentence();
+    void parse_outside_statement();
     bool begins_classic_stage() const { return cursor_.at_name("system_name"); }
 
     // `fn` and `use` (parser_functions.cpp).
@@ -52,29 +52,29 @@ private:
     void keep_damaged(ast::FunctionDefinition function);
     void parse_use();
 
-    // Sentences (parser_sentences.cpp).
-    std::optional<ast::Sentence> parse_sentence();
-    void parse_side(ast::Sentence& sentence);
-    static void add_sentence(ast::Block& block, ast::Sentence sentence);
-    void report_dot(const ast::Sentence& sentence);
-    bool parse_relation(ast::Sentence& sentence);
-    bool parse_rate_relation(ast::Sentence& sentence);
-    bool report_missing_colon(const ast::Sentence& sentence);
+    // Statements (parser_statements.cpp).
+    std::optional<ast::Statement> parse_statement();
+    void parse_side(ast::Statement& statement);
+    static void add_statement(ast::Block& block, ast::Statement statement);
+    void report_dot(const ast::Statement& statement);
+    bool parse_relation(ast::Statement& statement);
+    bool parse_rate_relation(ast::Statement& statement);
+    bool report_missing_colon(const ast::Statement& statement);
     bool has_shape_of_block(std::size_t ahead) const;
     std::string report_no_block(const ast::Word& word);
-    bool report_second_rate(const ast::Sentence& sentence);
-    bool take_paper_rate(ast::Sentence& sentence);
-    bool report_no_sentence();
-    void parse_values(ast::Sentence& sentence);
-    bool parse_index(ast::Sentence& sentence);
-    void parse_end_of_index(ast::Sentence& sentence);
-    void parse_range(ast::Sentence& sentence);
-    ast::Expression parse_behind_operator(const std::string& owner, std::string_view end_word);
+    bool report_second_rate(const ast::Statement& statement);
+    bool take_paper_rate(ast::Statement& statement);
+    bool report_no_statement();
+    void parse_values(ast::Statement& statement);
+    bool parse_index(ast::Statement& statement);
+    void parse_end_of_index(ast::Statement& statement);
+    void parse_range(ast::Statement& statement);
+    ast::Expression parse_after_operator(const std::string& owner, std::string_view end_word);
 
-    /// The doc comments in front of the cursor's token that belong to what begins there.
+    /// The doc comments before the cursor's token that belong to what begins there.
     std::string docs_before();
-    /// Those of what began at `begin` and has just been read, and behind it on its line.
-    std::string docs_behind(std::uint32_t begin);
+    /// Those of what began at `begin` and has just been read, and after it on its line.
+    std::string docs_after(std::uint32_t begin);
     static void add_docs(std::string& doc, const std::string& more);
 
     void report_rest(const std::string& what, ast::Expression expression,
@@ -83,8 +83,8 @@ private:
     TokenCursor& cursor_;
     ast::Script& script_;
     ExpressionParser expressions_;
-    bool in_classic_stage_ = false;   ///< Sentences belong to the last block of the script.
-    bool outside_reported_ = false;   ///< One message serves a run of sentences outside of stages.
+    bool in_classic_stage_ = false;   ///< Statements belong to the last block of the script.
+    bool outside_reported_ = false;   ///< One message serves a run of statements outside of stages.
     std::size_t forgiven_closings_ = 0;  ///< `}` that are left over by a block told to be unclosed.
 };
 

@@ -1,4 +1,4 @@
-// Walking over tokens, and finding the end of a sentence that could not be read.
+// Walking over tokens, and finding the end of a statement that could not be read.
 #include "lang/syntax/token_cursor.h"
 
 #include <algorithm>
@@ -85,7 +85,7 @@ void TokenCursor::report_lost_docs() {
     }
 }
 
-bool TokenCursor::at_sentence_end() const {
+bool TokenCursor::at_statement_end() const {
     const TokenKind here = kind();
     return here == TokenKind::newline || here == TokenKind::semicolon ||
            here == TokenKind::close_curly || here == TokenKind::end_of_text;
@@ -121,7 +121,7 @@ bool TokenCursor::begins_block(std::size_t ahead) const {
     return has_extra && kind(ahead + 2) == TokenKind::open_curly;
 }
 
-bool TokenCursor::begins_sentence(std::size_t ahead) const {
+bool TokenCursor::begins_statement(std::size_t ahead) const {
     if (kind(ahead) != TokenKind::name) return false;
     std::size_t relation = ahead + 1;
     const bool is_member = kind(relation) == TokenKind::open_square &&
@@ -130,18 +130,18 @@ bool TokenCursor::begins_sentence(std::size_t ahead) const {
     const TokenKind next = kind(relation);
     if (next == TokenKind::colon || next == TokenKind::assign) return true;
     if (next == TokenKind::prime) {
-        const TokenKind behind = kind(relation + 1);
-        return behind == TokenKind::assign || behind == TokenKind::plus_assign;
+        const TokenKind after = kind(relation + 1);
+        return after == TokenKind::assign || after == TokenKind::plus_assign;
     }
     return begins_block(ahead);
 }
 
-bool TokenCursor::line_ends_sentence() const {
-    if (begins_sentence(1) || kind(1) == TokenKind::close_curly) return true;
+bool TokenCursor::line_ends_statement() const {
+    if (begins_statement(1) || kind(1) == TokenKind::close_curly) return true;
     return position_ == 0 || !wants_operand(previous().kind);
 }
 
-void TokenCursor::skip_sentence(std::size_t open_brackets) {
+void TokenCursor::skip_statement(std::size_t open_brackets) {
     std::size_t open_curly = 0;
     for (; !at_end(); take()) {
         switch (kind()) {
@@ -166,8 +166,8 @@ void TokenCursor::skip_sentence(std::size_t open_brackets) {
                 break;
             case TokenKind::newline: {
                 if (open_curly > 0 || kind(1) == TokenKind::open_curly) break;
-                const bool is_open = open_brackets > 0 && !begins_sentence(1);
-                if (!is_open && line_ends_sentence()) return;
+                const bool is_open = open_brackets > 0 && !begins_statement(1);
+                if (!is_open && line_ends_statement()) return;
                 break;
             }
             default:

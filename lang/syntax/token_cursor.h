@@ -1,4 +1,4 @@
-// A place in a list of tokens: what the parser of sentences and the parser of expressions share.
+// A place in a list of tokens: what the parser of statements and the parser of expressions share.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// Walks over the tokens of one source. Never leaves the list: behind the end is end_of_text.
+/// Walks over the tokens of one source. Never leaves the list: after the end is end_of_text.
 class TokenCursor {
 public:
     TokenCursor(SourceId source, const Sources& sources, Diagnostics& diagnostics);
@@ -29,10 +29,10 @@ public:
     /// Back to the token taken last.
     void step_back();
     void skip_newlines() { take_if(TokenKind::newline); }
-    /// The same inside brackets: not where the next line begins a sentence, since the bracket's end
+    /// The same inside brackets: not where the next line begins a statement, since the bracket's end
     /// is missing then.
     void skip_newlines_in_brackets() {
-        if (at(TokenKind::newline) && !begins_sentence(1)) take();
+        if (at(TokenKind::newline) && !begins_statement(1)) take();
     }
     std::size_t position() const { return position_; }
     std::size_t token_count() const { return tokens_.size(); }
@@ -50,11 +50,11 @@ public:
     void report_lost_docs();
 
     /// Line end, `;`, `}` or the end of the text.
-    bool at_sentence_end() const;
+    bool at_statement_end() const;
     /// Does a block begin here? `system`, `stage`, `domain` and `picture` are names elsewhere.
     bool begins_block(std::size_t ahead = 0) const;
-    /// Is here what begins a sentence or a block and has no place in a correct expression?
-    bool begins_sentence(std::size_t ahead = 0) const;
+    /// Is here what begins a statement or a block and has no place in a correct expression?
+    bool begins_statement(std::size_t ahead = 0) const;
     /// Is the token here the name with this text?
     bool at_name(std::string_view name, std::size_t ahead = 0) const;
 
@@ -62,9 +62,9 @@ public:
     /// it took with it is not missing.
     bool lost_in_text(const Token& from, std::string_view swallowed) const;
 
-    /// Goes to the end of the sentence, over `open_brackets` brackets that are open and over whole
+    /// Goes to the end of the statement, over `open_brackets` brackets that are open and over whole
     /// { } with everything in them.
-    void skip_sentence(std::size_t open_brackets = 0);
+    void skip_statement(std::size_t open_brackets = 0);
 
     void error(Span span, std::string message, std::string hint = "");
     void error(Diagnostic diagnostic);
@@ -74,7 +74,7 @@ public:
     void mute(bool muted) { muted_ = muted; }
 
 private:
-    bool line_ends_sentence() const;
+    bool line_ends_statement() const;
 
     const Sources& sources_;
     Diagnostics& diagnostics_;
@@ -88,7 +88,7 @@ private:
 /// A name as messages show it: cut where it is long.
 std::string shortened(std::string_view name);
 
-/// Does an operand have to follow this token, so that a line end behind it ends nothing?
+/// Does an operand have to follow this token, so that a line end after it ends nothing?
 bool wants_operand(TokenKind kind);
 
 }  // namespace cascade

@@ -45,9 +45,9 @@ struct Arity {
     }
 };
 constexpr Arity either(int fewer, int more) { return {fewer, more}; }
-/// Groups of so many values; behind them there may be so many more.
-constexpr Arity groups_of(int size, int behind = 0) {
-    Arity arity{size, size + behind};
+/// Groups of so many values; after them there may be so many more.
+constexpr Arity groups_of(int size, int after = 0) {
+    Arity arity{size, size + after};
     arity.is_groups = true;
     return arity;
 }

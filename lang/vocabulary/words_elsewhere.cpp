@@ -91,8 +91,8 @@ constexpr WordElsewhere rows[] = {
     {Place::function, "average avg", "write 'mean(u over domain)'"},
     {Place::function, "integral integrate",
      "write 'sum(u over domain)', on a plane times the size of a cell"},
-    {Place::function, "steady", "it stands alone behind 'until:'"},
-    {Place::function, "fixed flux", "it stands behind a side, as in u.left: fixed(1)"},
+    {Place::function, "steady", "it stands alone after 'until:'"},
+    {Place::function, "fixed flux", "it stands after a side, as in u.left: fixed(1)"},
 
     {Place::value, "time", "write 't'"},
     {Place::value, "dt timestep time_step", "write 'speed'"},

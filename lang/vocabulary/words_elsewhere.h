@@ -22,7 +22,7 @@ enum class WordPlace : std::uint8_t {
 };
 
 /// A row: `words`, with blanks between them, and what to write in their place. The text in quotes
-/// behind `write` is that word's replacement and passes the checker as it stands
+/// after `write` is that word's replacement and passes the checker as it stands
 /// (tests/unit/lang/hints_test.cpp); the word of `did you mean` replaces the name alone.
 struct WordElsewhere {
     WordPlace place;

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 9> kinds = {"tokens", "ast", "equations",
                                                    "plan", "ir", "llvm", "asm"};
 
 /// Steps are shown as they are taken.
-constexpr PlanOptions as_run{Bringing::cheaper, false, true};
+constexpr PlanOptions as_run{Materialise::when_cheaper, false, true};
 
 std::string dump_tokens(const Script& script) {
     Diagnostics already_reported;
@@ -47,7 +47,7 @@ std::string dump_ir(const Program& program) {
         const Stage& stage = program.stages[k];
         section(stage, "values that are the same everywhere", plan_uniform_start(program, k));
         section(stage, "values that vary", plan_start(program, k));
-        section(stage, "what no step changes", plan_lasting(program, k, as_run));
+        section(stage, "what no step changes", plan_step_invariants(program, k, as_run));
         section(stage, "one step", plan_step(program, k, as_run));
     }
     return text;

@@ -52,7 +52,7 @@ private:
     void look();
     void observe(std::uint32_t stage);
     bool frame_is_due(std::uint32_t stage);
-    double tenths_behind(std::uint32_t stage) const;
+    double tenths_done(std::uint32_t stage) const;
     std::int64_t observation_interval(const Stage& stage) const;
     Result<void> write_results();
     Result<void> write_outputs();
@@ -182,7 +182,7 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
                             request_.stop_at->step <= last;
     if (stops_here) last = request_.stop_at->step;
     const std::int64_t before = simulation_->state(k).steps;
-    tenths_seen_ = tenths_behind(k);
+    tenths_seen_ = tenths_done(k);
     const auto start = Clock::now();
     auto end = simulation_->advance_stage(k, std::max(last, before), control_,
                                           [&] { observe(k); }, observation_interval(stage));
@@ -241,11 +241,11 @@ std::int64_t Runner::observation_interval(const Stage& stage) const {
 bool Runner::frame_is_due(std::uint32_t k) {
     const std::int64_t interval = script_.program->stages[k].interval;
     if (interval > 0) return simulation_->state(k).steps % interval == 0;
-    const double before = std::exchange(tenths_seen_, tenths_behind(k));
+    const double before = std::exchange(tenths_seen_, tenths_done(k));
     return tenths_seen_ > before;
 }
 
-double Runner::tenths_behind(std::uint32_t k) const {
+double Runner::tenths_done(std::uint32_t k) const {
     const StageState& state = simulation_->state(k);
     const Program& program = *script_.program;
     return tenths_reached(state.t, duration_of(program.stages[k], program.system_of(k), state));

@@ -26,7 +26,7 @@ Result<void> check_outputs(const RunRequest& request,
 /// Makes the folders, and tries them.
 Result<void> check_folders(const RunRequest& request);
 
-/// A picture larger than memory is refused before the run, not behind it. `memory` is what the run
+/// A picture larger than memory is refused before the run, not after it. `memory` is what the run
 /// takes without it.
 Result<void> check_picture_size(const DomainSettings& domain, const PictureRequest& picture,
                                 double memory, std::uint64_t memory_limit);

@@ -48,7 +48,7 @@ Failure damaged(const std::filesystem::path& folder, const std::string& why) {
     return {fmt::format("the saved run in {} is damaged: {}", folder.string(), why), ""};
 }
 
-/// Species as they were at the last look of `until: steady(…)` have this behind their names.
+/// Species as they were at the last look of `until: steady(…)` have this after their names.
 constexpr std::string_view last_look = ".last";
 
 Result<std::vector<Field>> read_species(const std::filesystem::path& folder, const nlohmann::json& manifest,

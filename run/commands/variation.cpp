@@ -98,7 +98,7 @@ Result<Variation> parse_variation(std::string_view text) {
     }
     const std::size_t colon = values.rfind(':');
     if (colon == std::string_view::npos || colon < dots) {
-        return tl::unexpected(wrong(text, "behind a range stands ':' and how many values"));
+        return tl::unexpected(wrong(text, "after a range stands ':' and how many values"));
     }
     const auto low = read_number(trimmed(values.substr(0, dots)));
     const auto high = read_number(trimmed(values.substr(dots + 2, colon - dots - 2)));

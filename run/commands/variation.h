@@ -38,7 +38,7 @@ Result<std::size_t> count_runs(std::span<const Variation> varied);
 /// The values of run `number`, one for each variation; the first variation runs fastest.
 std::vector<std::string> values_of_run(std::span<const Variation> varied, std::size_t number);
 
-/// `base` with the values of a run; `seed` goes to the seed, all else behind the other sets.
+/// `base` with the values of a run; `seed` goes to the seed, all else after the other sets.
 /// Fails where a seed is no whole number of 32 bits.
 Result<Overrides> overrides_of_run(const Overrides& base, std::span<const Variation> varied,
                                    std::span<const std::string> values);

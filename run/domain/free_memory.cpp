@@ -28,7 +28,7 @@ std::optional<std::uint64_t> number_in(const fs::path& path) {
     return std::nullopt;
 }
 
-/// The number behind a key in a file of lines "KEY NUMBER …"; 0 where there is none.
+/// The number after a key in a file of lines "KEY NUMBER …"; 0 where there is none.
 std::uint64_t number_of(const fs::path& path, std::string_view key) {
     std::ifstream file(path);
     std::string word, rest;

@@ -123,7 +123,7 @@ CellKind kind_of(ModelCellKind kind) {
     CHECK(false, "a kind of cells");
 }
 
-/// Calls `write(row, column, cell, is_cell)` for all places of the rows; those behind the last cell, which
+/// Calls `write(row, column, cell, is_cell)` for all places of the rows; those after the last cell, which
 /// fill up the last row, are like it.
 template <typename Write>
 void for_each_place(const ModelCells& model, const Write& write) {

@@ -50,10 +50,10 @@ std::vector<double> key_values(const ModelCells& model, std::span<const double> 
                     smoothing * box.longest, team, cancel);
 }
 
-/// A coordinate of a texture as a place among `count` pixels: the one before it, the one behind, and
+/// A coordinate of a texture as a place among `count` pixels: the one before it, the one after, and
 /// how far it is from the first to the second.
 struct BetweenPixels {
-    std::size_t before = 0, behind = 0;
+    std::size_t before = 0, after = 0;
     double part = 0;
 
     BetweenPixels(double coordinate, std::int64_t count) {
@@ -62,7 +62,7 @@ struct BetweenPixels {
         const auto first = static_cast<std::int64_t>(std::floor(place));
         part = place - std::floor(place);
         before = static_cast<std::size_t>((first + count) % count);
-        behind = static_cast<std::size_t>((first + 1 + count) % count);
+        after = static_cast<std::size_t>((first + 1 + count) % count);
     }
 };
 
@@ -73,9 +73,9 @@ double lightness_at(const GreyPicture& picture, const std::array<double, 2>& pla
         return double{picture.values[j * static_cast<std::size_t>(picture.width) + i]};
     };
     const auto along = [&](std::size_t j) {
-        return std::lerp(pixel(j, column.before), pixel(j, column.behind), column.part);
+        return std::lerp(pixel(j, column.before), pixel(j, column.after), column.part);
     };
-    return std::lerp(along(row.before), along(row.behind), row.part);
+    return std::lerp(along(row.before), along(row.after), row.part);
 }
 
 }  // namespace

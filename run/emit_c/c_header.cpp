@@ -113,7 +113,7 @@ private:
  *
  * Layout. A plane holds one value per cell, and a table has the address of its cell (0, 0, 0):
  * cell (column i, row j, slice k) is plane[$_at(i, j, k)]. A row starts on 64 bytes. The
- * halo, cells -1 and behind the last along each axis, is filled by the step.
+ * halo, cells -1 and after the last along each axis, is filled by the step.
  *
 )");
         text += table("species", "SPECIES", compiled_.species);

@@ -72,7 +72,7 @@ static inline uint64_t $_enter(void) {
     return before;
 }
 
-/* A product by itself: compilers may not contract it with a sum behind it to one rounding. */
+/* A product by itself: compilers may not contract it with a sum after it to one rounding. */
 static inline double $_rounded(double product) {
     const volatile double rounded = product;
     return rounded;

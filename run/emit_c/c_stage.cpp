@@ -40,8 +40,8 @@ std::string_view c_kind(ReductionKind kind) {
 struct PassText {
     std::string kernel;
     std::vector<std::string> fields, masks, uniforms, results;
-    std::vector<std::string> before;  ///< Statements in front of the kernel …
-    std::vector<std::string> behind;  ///< … and behind it.
+    std::vector<std::string> before;  ///< Statements before the kernel …
+    std::vector<std::string> after;  ///< … and after it.
 };
 
 class Describer {
@@ -111,7 +111,7 @@ private:
         const std::string results = array("float *const", "results", pass.results);
         line(fmt::format("{}_compute({}, {}, {}, {}, {});", request_.name, pass.kernel, fields,
                          masks, uniforms, results));
-        for (const std::string& statement : pass.behind) line(statement);
+        for (const std::string& statement : pass.after) line(statement);
         return text + "    }\n";
     }
 
@@ -146,7 +146,7 @@ private:
                 }
                 lines.results.push_back(tables_.temporary(target.index));
                 if (with_halo.contains(target.index)) {
-                    lines.behind.push_back(fill(lines.results.back(), request_.name + "_boundary"));
+                    lines.after.push_back(fill(lines.results.back(), request_.name + "_boundary"));
                 }
             }
             add_reads(pass, lines);
@@ -159,7 +159,7 @@ private:
     }
 
     /// Planes that passes read and do not change; the halo of those that are read at neighbours is
-    /// filled in front of the pass.
+    /// filled before the pass.
     void add_reads(const Pass& pass, PassText& lines) {
         for (std::size_t slot = 0; slot < pass.bound.fields.size(); ++slot) {
             const SlotSource& source = pass.bound.fields[slot];
@@ -284,13 +284,13 @@ private:
             if (result.plane.kind == PlaneRef::Kind::temporary) {
                 lines.results.push_back(tables_.temporary(result.plane.number));
                 if (result.needs_halo) {
-                    lines.behind.push_back(fill(lines.results.back(), request_.name + "_boundary"));
+                    lines.after.push_back(fill(lines.results.back(), request_.name + "_boundary"));
                 }
                 continue;
             }
             lines.results.push_back(register_text(result.plane));
             if (result.needs_halo && is_read_at_neighbours_later(problem, number, result.plane)) {
-                lines.behind.push_back(fill(lines.results.back(), species_rules(result.plane.number)));
+                lines.after.push_back(fill(lines.results.back(), species_rules(result.plane.number)));
             }
         }
         return write(lines);

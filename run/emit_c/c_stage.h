@@ -47,7 +47,7 @@ struct CKernel {
 };
 
 struct CStage {
-    std::string name;                 ///< Of the struct, and in front of all other names.
+    std::string name;                 ///< Of the struct, and before all other names.
     std::vector<CEntry> species;
     std::vector<CNumber> numbers;     ///< What is the same in all cells.
     std::vector<CPlane> planes;       ///< What varies and no step changes.

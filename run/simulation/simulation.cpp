@@ -159,7 +159,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     self.listener = &control;
     self.until_is_told = false;
     self.until_watch.reset();
-    self.find_lasting_parts(k);
+    self.find_step_invariants(k);
     Progress progress;
     progress.stage = stage.name;
     progress.note = self.progress_note;
@@ -207,7 +207,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
         self.warn_of_doubts(k, timer, control);
         self.warn_of_undefined_end(k, control);
     }
-    state.lasting.clear();
+    state.step_invariants.clear();
     self.account_for(k, state.steps - steps_before, outcome);
     if (outcome.not_finite) return tl::unexpected(self.explain(outcome, k));
     if (outcome.too_short) return tl::unexpected(self.explain(*outcome.too_short, k));

@@ -51,7 +51,7 @@ struct SimulationOptions {
     bool starts_interpreted = false;
     std::uint64_t memory_limit = 0;   ///< Bytes that all fields may take; 0: what is free.
     /// How steps are put together. No result depends on it.
-    PlanOptions planning = {Bringing::cheaper, false, true};
+    PlanOptions planning = {Materialise::when_cheaper, false, true};
     /// How steps go through memory; none: as fits the machine's caches. No result depends on it.
     std::optional<Tiling> tiling = {};
 };

@@ -7,7 +7,7 @@ namespace cascade {
 
 std::string Simulation::Implementation::place_in_words(std::int64_t column, std::int64_t row) const {
     if (!model) return fmt::format("column {}, row {}", column, row);
-    // The places behind the last one are like it.
+    // The places after the last one are like it.
     const auto last = static_cast<std::int64_t>(model->count()) - 1;
     return fmt::format("cell {}", model->cell_at(std::min(row * grid.width + column, last)));
 }

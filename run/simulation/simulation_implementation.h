@@ -60,7 +60,7 @@ struct Simulation::Implementation {
     /// Values of sides follow the time of their stage whenever they are looked at.
     mutable std::vector<StageState> states;
     std::optional<Program> own_program;  ///< Of a coarser grid.
-    std::string progress_note;           ///< Behind the stage's name in reports of progress.
+    std::string progress_note;           ///< After the stage's name in reports of progress.
     TimeAccount* account = nullptr;      ///< None where nobody asks.
     // While a stage advances:
     const RunControl* listener = nullptr;  ///< Of its warnings.
@@ -121,9 +121,9 @@ struct Simulation::Implementation {
     /// Do rows and columns meet at other angles than right ones beside a side with a flux?
     bool is_sheared_at(Side side, SideKind kind) const;
     Result<void> check_speed(std::uint32_t k) const;
-    /// What no step changes is computed before the first that is taken, and given back behind the
+    /// What no step changes is computed before the first that is taken, and given back after the
     /// last.
-    void find_lasting_parts(std::uint32_t k);
+    void find_step_invariants(std::uint32_t k);
 
     // Coarser grids (simulation_coarse.cpp).
 
@@ -154,7 +154,7 @@ struct Simulation::Implementation {
     Compile once() const {
         return grid.cell_count() < cells_worth_compiling ? interpreted(grid) : often();
     }
-    /// Has the stepper compile what stages behind `k` will need, where they take long.
+    /// Has the stepper compile what stages after `k` will need, where they take long.
     void expect_later_stages(std::uint32_t k);
     /// Is it sure that the steps of a stage take longer than making code for them?
     bool is_long(std::uint32_t k) const;

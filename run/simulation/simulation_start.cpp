@@ -195,21 +195,21 @@ Result<void> Simulation::Implementation::find_sides(std::uint32_t k) {
     return {};
 }
 
-void Simulation::Implementation::find_lasting_parts(std::uint32_t k) {
+void Simulation::Implementation::find_step_invariants(std::uint32_t k) {
     const TimeAccount::Scope spent(account, Spent::starting);
-    const StepPlan& once = plans->lasting(k);
+    const StepPlan& once = plans->step_invariants(k);
     StageState& state = states[k];
-    state.lasting.clear();
-    state.lasting_numbers.assign(once.result_count, 0);
-    state.lasting_boundaries.resize(once.result_count);
+    state.step_invariants.clear();
+    state.step_invariant_numbers.assign(once.result_count, 0);
+    state.step_invariant_boundaries.resize(once.result_count);
     if (once.result_count == 0) return;
-    state.lasting = evaluate(once, k);
+    state.step_invariants = evaluate(once, k);
     for (const PassTarget& target : once.passes.back().targets) {
         if (target.kind != PassTarget::Kind::result) continue;
-        state.lasting_boundaries[target.index] = target.boundary;
+        state.step_invariant_boundaries[target.index] = target.boundary;
         if (!target.is_uniform) continue;
-        Field& plane = state.lasting[target.index];
-        state.lasting_numbers[target.index] = plane.number_at(0, 0);
+        Field& plane = state.step_invariants[target.index];
+        state.step_invariant_numbers[target.index] = plane.number_at(0, 0);
         plane = {};
     }
 }

@@ -15,9 +15,9 @@ StepWork Simulation::step_work(std::uint32_t k) {
     };
     StageState& state = self.states[k];
     StageTimer timer(*self.program, k, state, self.tools(k, note));
-    self.find_lasting_parts(k);
+    self.find_step_invariants(k);
     StepWork work = work_of(timer.problem(), kernels);
-    state.lasting.clear();
+    state.step_invariants.clear();
     return work;
 }
 

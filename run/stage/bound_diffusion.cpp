@@ -6,7 +6,7 @@ namespace cascade {
 
 namespace {
 
-/// The plan's results as temporaries behind its own; their numbers.
+/// The plan's results as temporaries after its own; their numbers.
 std::vector<std::uint32_t> results_to_temporaries(StepPlan& plan) {
     std::vector<std::uint32_t> planes;
     for (PassTarget& target : plan.passes.back().targets) {

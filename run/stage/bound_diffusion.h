@@ -25,7 +25,7 @@ public:
     const StepPlan& before() const { return before_; }
 
     /// Adds the factors to a problem that begins with the passes of before(): planes are reduced to
-    /// their largest values behind those.
+    /// their largest values after those.
     void add_to(StepProblem& problem) const;
 
 private:

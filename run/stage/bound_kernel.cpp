@@ -18,8 +18,8 @@ const Field& plane_of(const SlotSource& source, const BindingContext& context) {
         return context.surface_values->value(source.item);
     }
     if (source.kind == SlotSource::Kind::neighbourhood) return context.mask->neighbourhood;
-    if (source.kind == SlotSource::Kind::lasting) {
-        return context.states[source.stage].lasting[source.item];
+    if (source.kind == SlotSource::Kind::step_invariant) {
+        return context.states[source.stage].step_invariants[source.item];
     }
     return context.states[source.stage].field(source.item);
 }
@@ -125,8 +125,8 @@ private:
 
     /// Of a plane that is read at neighbours and does not change.
     SideRules sides_of(const SlotSource& source) const {
-        if (source.kind == SlotSource::Kind::lasting) {
-            return context_.states[source.stage].lasting_boundaries[source.item];
+        if (source.kind == SlotSource::Kind::step_invariant) {
+            return context_.states[source.stage].step_invariant_boundaries[source.item];
         }
         if (source.kind == SlotSource::Kind::item) {
             const StageState& state = context_.states[source.stage];
@@ -181,8 +181,8 @@ private:
             case SlotSource::Kind::item:
                 value = context_.states[source.stage].numbers[source.item];
                 break;
-            case SlotSource::Kind::lasting:
-                value = context_.states[source.stage].lasting_numbers[source.item];
+            case SlotSource::Kind::step_invariant:
+                value = context_.states[source.stage].step_invariant_numbers[source.item];
                 break;
             case SlotSource::Kind::step: bound.changing.push_back({Kind::step, slot, 0, 0, false}); break;
             case SlotSource::Kind::draw: bound.changing.push_back({Kind::draw, slot, 0, 0, false}); break;

@@ -42,8 +42,8 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
         temporaries = std::max(temporaries, plans.sweep(k, form).temporaries);
     }
     // What no step changes is kept beside them, and computed with temporaries of its own.
-    const StepPlan& lasting = plans.lasting(k);
-    temporaries = std::max(temporaries, lasting.temporaries) + lasting.result_count;
+    const StepPlan& step_invariants = plans.step_invariants(k);
+    temporaries = std::max(temporaries, step_invariants.temporaries) + step_invariants.result_count;
     const DomainSettings& domain = program.domain;
     Schedule schedule;
     schedule.judges_all = judges_all_steps(stage);
@@ -88,7 +88,7 @@ std::uint64_t planes_to_choose(const Program& program, std::uint32_t stage) {
 }  // namespace
 
 double memory_of(const Program& program) {
-    StagePlans plans(program, {Bringing::cheaper, false, true});
+    StagePlans plans(program, {Materialise::when_cheaper, false, true});
     return memory_of(program, plans);
 }
 

@@ -8,9 +8,9 @@ const StepPlan& StagePlans::start(std::uint32_t stage) {
     return *plan;
 }
 
-const StepPlan& StagePlans::lasting(std::uint32_t stage) {
-    std::optional<StepPlan>& plan = lasting_[stage];
-    if (!plan) plan = plan_lasting(program_, stage, options_);
+const StepPlan& StagePlans::step_invariants(std::uint32_t stage) {
+    std::optional<StepPlan>& plan = step_invariant_[stage];
+    if (!plan) plan = plan_step_invariants(program_, stage, options_);
     return *plan;
 }
 

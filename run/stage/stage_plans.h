@@ -18,21 +18,21 @@ public:
         : program_(program),
           options_(options),
           starts_(program.stages.size()),
-          lasting_(program.stages.size()),
+          step_invariant_(program.stages.size()),
           sweeps_(program.stages.size()) {}
 
     const PlanOptions& options() const { return options_; }
     /// Of the starting values.
     const StepPlan& start(std::uint32_t stage);
     /// Of what no step changes.
-    const StepPlan& lasting(std::uint32_t stage);
+    const StepPlan& step_invariants(std::uint32_t stage);
     /// Of a sweep of the rates.
     const StepPlan& sweep(std::uint32_t stage, const SweepForm& form);
 
 private:
     const Program& program_;
     PlanOptions options_;
-    std::vector<std::optional<StepPlan>> starts_, lasting_;
+    std::vector<std::optional<StepPlan>> starts_, step_invariant_;
     std::vector<std::deque<std::pair<SweepForm, StepPlan>>> sweeps_;  ///< By stage.
 };
 

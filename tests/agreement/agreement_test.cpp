@@ -147,10 +147,10 @@ TEST(Agreement, HoweverOperandsComeToNeighbours) {
                                      simulation->model().get(), simulation->mask()};
         std::vector<std::vector<Field>> found;
         std::size_t passes = 0;
-        for (const Bringing bringing :
-             {Bringing::cheaper, Bringing::recomputing, Bringing::writing}) {
-            const StepPlan plan = plan_rates(*script.program, 0, {bringing});
-            passes_differ += bringing == Bringing::writing && plan.passes.size() != passes ? 1 : 0;
+        for (const Materialise materialise :
+             {Materialise::when_cheaper, Materialise::never, Materialise::always}) {
+            const StepPlan plan = plan_rates(*script.program, 0, {materialise});
+            passes_differ += materialise == Materialise::always && plan.passes.size() != passes ? 1 : 0;
             passes = plan.passes.size();
             found.push_back(run_plan(plan, compile, context, grid, team));
             EXPECT_EQ(same_bits(found[0], found.back()), "") << text;
@@ -166,16 +166,16 @@ TEST(Agreement, HoweverStepsArePlanned) {
     for (int seed = 0; seed < 500; ++seed) {
         const std::string text = random_script(static_cast<std::uint64_t>(seed));
         SimulationOptions options = interpreted();
-        options.planning = {Bringing::writing, false, false};
+        options.planning = {Materialise::always, false, false};
         const Outcome expected = run_script("random", text, {}, options);
-        options.planning = {Bringing::recomputing, false, true};
+        options.planning = {Materialise::never, false, true};
         expect_same(expected, run_script("random", text, {}, options), text);
-        options.planning = {Bringing::cheaper, false, true};
+        options.planning = {Materialise::when_cheaper, false, true};
         expect_same(expected, run_script("random", text, {}, options), text);
         if (::testing::Test::HasFailure()) return;
         const Script script = load_script("random", text, ".");
         for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
-            kept += plan_lasting(*script.program, k, options.planning).result_count > 0 ? 1 : 0;
+            kept += plan_step_invariants(*script.program, k, options.planning).result_count > 0 ? 1 : 0;
         }
     }
     EXPECT_GT(kept, 100u);
@@ -188,9 +188,9 @@ TEST(Agreement, WhateverIsKeptOfFastSteps) {
     for (int seed = 0; seed < 500; ++seed) {
         const std::string text = random_script(static_cast<std::uint64_t>(seed));
         SimulationOptions options = interpreted();
-        options.planning = {Bringing::cheaper, false, true};
+        options.planning = {Materialise::when_cheaper, false, true};
         const Outcome expected = run_script("random", text, overrides, options);
-        options.planning = {Bringing::cheaper, false, false};
+        options.planning = {Materialise::when_cheaper, false, false};
         expect_same(expected, run_script("random", text, overrides, options), text);
         if (::testing::Test::HasFailure()) return;
     }

@@ -1,5 +1,5 @@
 // A fuzzer of files that the program keeps for itself: cells of a model, compiled kernels. The
-// first byte chooses the reader and whether the checksum is made right, so that what lies behind it
+// first byte chooses the reader and whether the checksum is made right, so that what lies after it
 // is reached as well.
 #include "core/check.h"
 #include "core/hash.h"

@@ -1,6 +1,6 @@
 // The specification's code blocks are read by the program; its tables name what the program has.
 //
-// spec/README.md says what the words behind the fences mean. CASCADE_UPDATE=1 rewrites the expected
+// spec/README.md says what the words after the fences mean. CASCADE_UPDATE=1 rewrites the expected
 // messages.
 #include "lang/library/library.h"
 #include "run/script/script.h"
@@ -50,7 +50,7 @@ protected:
         if (script.program) expect_sound_kernels(*script.program);
     }
 
-    /// Compares the messages of a script with the text behind it, or rewrites that text.
+    /// Compares the messages of a script with the text after it, or rewrites that text.
     void check_messages(const CodeBlock& block, const CodeBlock* expected) {
         const Script script = load_script("script.cascade", block.body, ".");
         EXPECT_EQ(script.diagnostics.has_errors(), block.word == "cascade-error");

@@ -48,7 +48,7 @@ std::vector<Field> run_kernel(Backend& backend, const CellKernel& kernel, const 
 /// difference: result, cell, both words.
 std::string same_bits(const std::vector<Field>& a, const std::vector<Field>& b);
 
-/// Empty if a run wrote only what backend.h allows: the cells of `rows`, and behind the last cell
+/// Empty if a run wrote only what backend.h allows: the cells of `rows`, and after the last cell
 /// of these up to the next multiple of row_pad. Else the first place that was touched. Only for planes
 /// made by HostileInputs::run.
 std::string stray_writes(const std::vector<Field>& results, RowRange rows);

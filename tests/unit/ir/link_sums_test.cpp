@@ -90,7 +90,7 @@ TEST(Links, FillTheLastRowWithCellsLikeTheLast) {
     list.weights = {1, 1, 2, 3, 2, 3};
     const Links links(list, layout, Precision::binary64);
     const LinkTable<double> table = links.table<double>();
-    // Slice 1 is the second row, whose cell 0 is cell 4; those behind it are like it.
+    // Slice 1 is the second row, whose cell 0 is cell 4; those after it are like it.
     ASSERT_EQ(table.starts[2] - table.starts[1], 2U);
     for (std::int64_t lane = 0; lane < 4; ++lane) {
         const std::int64_t link = table.starts[1] * LinkTable<double>::slice_cells + lane;

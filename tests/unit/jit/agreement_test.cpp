@@ -387,8 +387,8 @@ TEST(JitAgreement, TheFirstRowIsNumberZero) {
     for (const Precision precision : {Precision::single, Precision::binary64}) {
         KernelBuilder builder(precision);
         const ValueId row = builder.cell_row();
-        const ValueId is_behind = builder.apply(Op::bits_to_number, row);
-        builder.result("r", builder.select(is_behind, row, builder.number(7)));
+        const ValueId is_after = builder.apply(Op::bits_to_number, row);
+        builder.result("r", builder.select(is_after, row, builder.number(7)));
         const CellKernel kernel = std::move(builder).finish();
         EXPECT_EQ(difference(*jit_of(0, 2), kernel, Grid{20, 3, Boundary::periodic}, 1), "");
     }

@@ -15,14 +15,14 @@ std::vector<std::string> faults(const std::string& text,
     return check_text(text, overrides)->faults();
 }
 
-/// A stage of Turing's system with one sentence, which is on line 2.
-std::vector<std::string> stage_faults(const std::string& sentence) {
-    return faults("system_name: turing_spots\n" + sentence + "\n");
+/// A stage of Turing's system with one statement, which is on line 2.
+std::vector<std::string> stage_faults(const std::string& statement) {
+    return faults("system_name: turing_spots\n" + statement + "\n");
 }
 
-/// A small sound system with more sentences, the first on line 2.
-std::vector<std::string> system_faults(const std::string& sentences) {
-    return faults("system s { a: 1; k: 2; a' = -k * a\n" + sentences + "\n}\n");
+/// A small sound system with more statements, the first on line 2.
+std::vector<std::string> system_faults(const std::string& statements) {
+    return faults("system s { a: 1; k: 2; a' = -k * a\n" + statements + "\n}\n");
 }
 
 TEST(CheckFaults, SoundTextsHaveNone) {
@@ -176,24 +176,24 @@ TEST(CheckFaults, TimeBelongsInSteps) {
                             "rates can be read in rates and definitions"));
 }
 
-TEST(CheckFaults, Circles) {
+TEST(CheckFaults, Cycles) {
     EXPECT_THAT(stage_faults("a: [b]\nb: [ka]\nka: [a] + [beta]"),
-                ElementsAre("2:4: values need each other in a circle: a -> b -> ka -> a"));
+                ElementsAre("2:4: values need each other in a cycle: a -> b -> ka -> a"));
     EXPECT_THAT(stage_faults("a: [a]"), ElementsAre("2:4: a needs itself: a -> a"));
     EXPECT_THAT(stage_faults("a: [b]\nb: [a]\nka: [beta]\nbeta: [ka]"),
-                ElementsAre("2:4: values need each other in a circle: a -> b -> a",
-                            "5:7: values need each other in a circle: beta -> ka -> beta"));
+                ElementsAre("2:4: values need each other in a cycle: a -> b -> a",
+                            "5:7: values need each other in a cycle: beta -> ka -> beta"));
     EXPECT_THAT(system_faults("p = q + 1; q = p; a' += p"),
-                ElementsAre("2:5: definitions and rates need each other in a circle: "
+                ElementsAre("2:5: definitions and rates need each other in a cycle: "
                             "p -> q -> p"));
     EXPECT_THAT(system_faults("p = a'; a' += p"),
-                ElementsAre("2:5: definitions and rates need each other in a circle: "
+                ElementsAre("2:5: definitions and rates need each other in a cycle: "
                             "p -> a' -> p"));
     EXPECT_THAT(faults("system s { a: b; b: a; a' = b }\nstage one: s {}"),
-                ElementsAre("1:15: values need each other in a circle: a -> b -> a"));
-    // A stage closes the circle with a default of its system: b of stripes is a.
+                ElementsAre("1:15: values need each other in a cycle: a -> b -> a"));
+    // A stage closes the cycle with a default of its system: b of stripes is a.
     EXPECT_THAT(faults("system_name: stripes\na: [d] + [b]"),
-                ElementsAre("2:4: values need each other in a circle: a -> d -> a"));
+                ElementsAre("2:4: values need each other in a cycle: a -> d -> a"));
 }
 
 TEST(CheckFaults, Twice) {

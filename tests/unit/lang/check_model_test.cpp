@@ -11,16 +11,16 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// Faults of a domain with a model and one sentence of a stage, those of the domain included.
-std::vector<std::string> faults_on(const std::string& domain, const std::string& sentence = "") {
+/// Faults of a domain with a model and one statement of a stage, those of the domain included.
+std::vector<std::string> faults_on(const std::string& domain, const std::string& statement = "") {
     const auto checked =
-        check_text("domain { " + domain + " }\nsystem_name: turing_spots\n" + sentence + "\n");
+        check_text("domain { " + domain + " }\nsystem_name: turing_spots\n" + statement + "\n");
     if (checked->program) check_on_domain(*checked->program, checked->diagnostics);
     return checked->faults();
 }
 
-std::vector<std::string> faults(const std::string& sentence) {
-    return faults_on("surface: sphere", sentence);
+std::vector<std::string> faults(const std::string& statement) {
+    return faults_on("surface: sphere", statement);
 }
 
 TEST(CheckModel, PointsComeInGroups) {

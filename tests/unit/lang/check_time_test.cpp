@@ -12,15 +12,15 @@ using ::testing::IsEmpty;
 
 constexpr const char* decay = "system decay { u: 1; k: 2; u' = lap(u) - k * u }\n";
 
-/// A stage of a small system; its sentences are on line 2, from column 18.
-std::unique_ptr<Checked> stage(const std::string& sentences) {
-    return check_text(std::string(decay) + "stage s: decay { " + sentences + " }\n");
+/// A stage of a small system; its statements are on line 2, from column 18.
+std::unique_ptr<Checked> stage(const std::string& statements) {
+    return check_text(std::string(decay) + "stage s: decay { " + statements + " }\n");
 }
-std::vector<std::string> faults(const std::string& sentences) { return stage(sentences)->faults(); }
+std::vector<std::string> faults(const std::string& statements) { return stage(statements)->faults(); }
 
-StageTime time_of(const std::string& sentences) {
-    const auto checked = stage(sentences);
-    EXPECT_THAT(checked->faults(), IsEmpty()) << sentences;
+StageTime time_of(const std::string& statements) {
+    const auto checked = stage(statements);
+    EXPECT_THAT(checked->faults(), IsEmpty()) << statements;
     return checked->program ? checked->program->stages[0].time : StageTime{};
 }
 
@@ -53,8 +53,8 @@ TEST(CheckTime, SettingsAreTakenAsWritten) {
 }
 
 TEST(CheckTime, HowAStageEnds) {
-    const auto end_of = [](const std::string& sentences) {
-        const auto checked = stage(sentences);
+    const auto end_of = [](const std::string& statements) {
+        const auto checked = stage(statements);
         const Stage& made = checked->program->stages[0];
         return std::pair{made.iterations, made.interval};
     };

@@ -12,7 +12,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// The faults of a text in front of a sound system with one stage.
+/// The faults of a text before a sound system with one stage.
 std::vector<std::string> faults_of(const std::string& text) { return check_text(text)->faults(); }
 
 const std::string sound = "\nsystem s { u: 1; u' = 1 }\nstage a: s { iterations: 3 }";
@@ -23,7 +23,7 @@ TEST(FunctionFaults, Definitions) {
         {"fn f(x) = f(x)",
          "1:11: the function 'f' calls itself | a function cannot be computed by itself"},
         {"fn f(x) = 1 + g(x); fn g(a) = h(a, a); fn h(a, b) = f(a)",
-         "1:15: functions call each other in a circle: f -> g -> h -> f | "
+         "1:15: functions call each other in a cycle: f -> g -> h -> f | "
          "a function cannot be computed by itself"},
         {"fn sin(x) = x", "1:4: 'sin' is a function of the language | choose another name"},
         {"fn sum(x) = x", "1:4: 'sum' is a function of the language | choose another name"},
@@ -103,9 +103,9 @@ TEST(FamilyFaults, Indices) {
 }
 
 TEST(FamilyFaults, Members) {
-    const auto faults_with = [](const std::string& sentence) {
+    const auto faults_with = [](const std::string& statement) {
         return faults_of("system s { i: 1..3; u[i]: 1; p: 1; u[i]' = p; v: 0; v' = 1\n" +
-                         sentence + " }\nstage a: s { }");
+                         statement + " }\nstage a: s { }");
     };
     const std::string members = " | there are u[1] to u[3]";
     const std::vector<std::pair<std::string, std::string>> cases = {
@@ -117,7 +117,7 @@ TEST(FamilyFaults, Members) {
         {"v' += u[1/0]", "2:11: division by zero"},
         {"v' += u", "2:7: 'u' is a family | write u[1], or u[i] where i has a value"},
         {"v' += i", "2:7: the index 'i' has no value here | "
-         "it has one in sentences of u[i] and in sum(… over i)"},
+         "it has one in statements of u[i] and in sum(… over i)"},
         {"v' += p[1]", "2:7: 'p' is no family | write p without an index"},
         {"v' += w[1]", "2:7: 'w[1]' is not a parameter of s | did you mean 'u[1]'?"},
         {"v' += u[4]'", "2:7: 'u[4]' is no member of its family" + members},
@@ -142,17 +142,17 @@ TEST(FamilyFaults, Members) {
         {"speed[i]: 1", "2:1: 'speed' is a setting and no family"},
         {"x[i]: 1", "2:1: 'x' is built in and cannot be declared"},
     };
-    for (const auto& [sentence, fault] : cases) {
-        const auto faults = faults_with(sentence);
-        ASSERT_FALSE(faults.empty()) << sentence;
-        EXPECT_EQ(faults[0], fault) << sentence;
+    for (const auto& [statement, fault] : cases) {
+        const auto faults = faults_with(statement);
+        ASSERT_FALSE(faults.empty()) << statement;
+        EXPECT_EQ(faults[0], fault) << statement;
     }
 }
 
 TEST(FamilyFaults, Stages) {
-    const auto faults_with = [](const std::string& sentence) {
+    const auto faults_with = [](const std::string& statement) {
         return faults_of("system s { i: 1..2; u[i]: 1; p: 1; u[i]' = p }\nstage z: s { }\n"
-                         "stage a: s { " + sentence + " }");
+                         "stage a: s { " + statement + " }");
     };
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"u: 1", "3:14: 'u' is a family | write u[1], or u[i] where i has a value"},
@@ -165,16 +165,16 @@ TEST(FamilyFaults, Stages) {
         {"p: [u]", "3:18: 'u' is a family | write u[1], or u[i] where i has a value"},
         {"p: z.u", "3:19: 'u' is a family | write u[1], or u[i] where i has a value"},
         {"p: u[i]", "3:19: the index 'i' has no value here | "
-         "it has one in sentences of u[i] and in sum(… over i)"},
+         "it has one in statements of u[i] and in sum(… over i)"},
         {"p: z.u[3]", "3:17: 'u[3]' is no member of its family | there are u[1] to u[2]"},
         {"i: 1..2", "3:14: a stage holds values only (name: …) | "
          "rates, definitions and bounds belong in a system"},
         {"p: 1 in 0 .. 2", "3:19: the range of a parameter stands in its system"},
     };
-    for (const auto& [sentence, fault] : cases) {
-        const auto faults = faults_with(sentence);
-        ASSERT_FALSE(faults.empty()) << sentence;
-        EXPECT_EQ(faults[0], fault) << sentence;
+    for (const auto& [statement, fault] : cases) {
+        const auto faults = faults_with(statement);
+        ASSERT_FALSE(faults.empty()) << statement;
+        EXPECT_EQ(faults[0], fault) << statement;
     }
 }
 
@@ -182,7 +182,7 @@ TEST(DerivationFaults, AreToldOnce) {
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"system b: b { u: 1; u' = 1 }", "1:11: 'b' is derived from itself"},
         {"system b: c { } system c: d { } system d: b { u: 1 }",
-         "1:11: systems are derived from each other in a circle: b -> c -> d -> b"},
+         "1:11: systems are derived from each other in a cycle: b -> c -> d -> b"},
         {"system base { u: 1; u' = 1 } system b: bass { v' = 2 }",
          "1:40: there is no system 'bass'"},
         {"system base { u: 1; feed: 1; u' = feed } system b: base { fed: 2 }",
@@ -207,8 +207,8 @@ TEST(DerivationFaults, AreToldOnce) {
 }
 
 TEST(RangeFaults, AreTold) {
-    const auto faults_with = [](const std::string& sentence) {
-        return faults_of("system s { u: 1; u' = p\n" + sentence + " }\nstage a: s { p: 9 }");
+    const auto faults_with = [](const std::string& statement) {
+        return faults_of("system s { u: 1; u' = p\n" + statement + " }\nstage a: s { p: 9 }");
     };
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"p: 1 in 2 .. 0", "2:6: a range goes from a lower to a higher number"},
@@ -224,8 +224,8 @@ TEST(RangeFaults, AreTold) {
         {"p: 1; v: 1 in 0 .. 2; v' = 0",
          "2:12: a range belongs to a parameter | 'v' is a species"},
     };
-    for (const auto& [sentence, fault] : cases) {
-        EXPECT_THAT(faults_with(sentence), ElementsAre(fault)) << sentence;
+    for (const auto& [statement, fault] : cases) {
+        EXPECT_THAT(faults_with(statement), ElementsAre(fault)) << statement;
     }
 }
 
@@ -246,7 +246,7 @@ TEST(Expansion, IsBounded) {
     for (int k = 0; k < 200; ++k) families += fmt::format("p{}[i]: 1\n", k);
     EXPECT_THAT(faults_of(families + "}").at(0),
                 "101:1: the families of s are too large together | "
-                "a system has at most 100000 sentences");
+                "a system has at most 100000 statements");
     // A function of a million parts in a chain is no depth that could overflow.
     std::string chain = "fn f0(x) = x\n";
     for (int i = 1; i < 20'000; ++i) chain += fmt::format("fn f{}(x) = f{}(x) + 1\n", i, i - 1);

@@ -13,10 +13,10 @@ namespace cascade::testing {
 namespace {
 
 /// A stage on a small grid; u goes from 0.2 to 1.4 over its columns, v from 2 to 0.5.
-std::unique_ptr<Checked> rates_of(const std::string& sentences) {
-    auto checked = check_text("system s {\n u: 0.2 + 1.2 * sx\n v: 2 - 1.5 * sx\n k: 3\n" + sentences +
+std::unique_ptr<Checked> rates_of(const std::string& statements) {
+    auto checked = check_text("system s {\n u: 0.2 + 1.2 * sx\n v: 2 - 1.5 * sx\n k: 3\n" + statements +
                               "\n}\nstage one: s { }\ndomain { grid: 16, 4 }\n");
-    EXPECT_TRUE(checked->program) << sentences << checked->faults().front();
+    EXPECT_TRUE(checked->program) << statements << checked->faults().front();
     return checked;
 }
 

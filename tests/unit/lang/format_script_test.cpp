@@ -23,8 +23,8 @@ std::string once(const std::string& text) {
     return second == first ? *first : *first + "\n--- changed again:\n" + second.value_or("");
 }
 
-std::string in_system(const std::string& sentence) { return "system s {\n  " + sentence + "\n}\n"; }
-std::string sentence(const std::string& text) {
+std::string in_system(const std::string& statement) { return "system s {\n  " + statement + "\n}\n"; }
+std::string statement(const std::string& text) {
     const std::string result = once(in_system(text));
     const std::string before = "system s {\n  ", after = "\n}\n";
     if (!result.starts_with(before) || !result.ends_with(after)) return result;
@@ -32,30 +32,30 @@ std::string sentence(const std::string& text) {
 }
 
 TEST(FormatScript, PutsOneBlankAroundOperatorsAndNoneInsideBrackets) {
-    EXPECT_EQ(sentence("a:1"), "a: 1");
-    EXPECT_EQ(sentence("a  :  1"), "a: 1");
-    EXPECT_EQ(sentence("a'=b+c-d"), "a' = b + c - d");
-    EXPECT_EQ(sentence("a '  +=lap( b )"), "a' += lap(b)");
-    EXPECT_EQ(sentence("a>=0"), "a >= 0");
-    EXPECT_EQ(sentence("a: if( b<4 and not c,min (b ,c),[ d ])"),
+    EXPECT_EQ(statement("a:1"), "a: 1");
+    EXPECT_EQ(statement("a  :  1"), "a: 1");
+    EXPECT_EQ(statement("a'=b+c-d"), "a' = b + c - d");
+    EXPECT_EQ(statement("a '  +=lap( b )"), "a' += lap(b)");
+    EXPECT_EQ(statement("a>=0"), "a >= 0");
+    EXPECT_EQ(statement("a: if( b<4 and not c,min (b ,c),[ d ])"),
               "a: if(b < 4 and not c, min(b, c), [d])");
-    EXPECT_EQ(sentence("a: large . b ^ 2"), "a: large.b^2");
-    EXPECT_EQ(sentence("a: (b)^( c+1 )"), "a: (b)^(c + 1)");
+    EXPECT_EQ(statement("a: large . b ^ 2"), "a: large.b^2");
+    EXPECT_EQ(statement("a: (b)^( c+1 )"), "a: (b)^(c + 1)");
 }
 
 TEST(FormatScript, GluesASignToItsOperand) {
-    EXPECT_EQ(sentence("a: - b - - c"), "a: -b - -c");
-    EXPECT_EQ(sentence("a: - - b"), "a: - -b");
-    EXPECT_EQ(sentence("a: 2 ^ - 1 * - 3"), "a: 2^-1 * -3");
-    EXPECT_EQ(sentence("a: f(- 1, - x)"), "a: f(-1, -x)");
-    EXPECT_EQ(sentence("a: not - b < - c"), "a: not -b < -c");
+    EXPECT_EQ(statement("a: - b - - c"), "a: -b - -c");
+    EXPECT_EQ(statement("a: - - b"), "a: - -b");
+    EXPECT_EQ(statement("a: 2 ^ - 1 * - 3"), "a: 2^-1 * -3");
+    EXPECT_EQ(statement("a: f(- 1, - x)"), "a: f(-1, -x)");
+    EXPECT_EQ(statement("a: not - b < - c"), "a: not -b < -c");
 }
 
 TEST(FormatScript, LeavesTheAuthorTheChoiceAroundProducts) {
-    EXPECT_EQ(sentence("a: b*c+1/8"), "a: b*c + 1/8");
-    EXPECT_EQ(sentence("a: b * c + 1 / 8"), "a: b * c + 1 / 8");
-    EXPECT_EQ(sentence("a: b *c + 1/ 8"), "a: b * c + 1 / 8");
-    EXPECT_EQ(sentence("a: 0.05 * 1/16"), "a: 0.05 * 1/16");
+    EXPECT_EQ(statement("a: b*c+1/8"), "a: b*c + 1/8");
+    EXPECT_EQ(statement("a: b * c + 1 / 8"), "a: b * c + 1 / 8");
+    EXPECT_EQ(statement("a: b *c + 1/ 8"), "a: b * c + 1 / 8");
+    EXPECT_EQ(statement("a: 0.05 * 1/16"), "a: 0.05 * 1/16");
 }
 
 TEST(FormatScript, IndentsBlocksByTwoAndKeepsOneBlankLine) {
@@ -73,7 +73,7 @@ TEST(FormatScript, ReadsEveryLineEndAndTheByteOrderMark) {
               "system s {\n  a: 1\n\n  b: 2\n}\n");
 }
 
-TEST(FormatScript, KeepsSentencesTogetherThatStandOnALine) {
+TEST(FormatScript, KeepsStatementsTogetherThatStandOnALine) {
     EXPECT_EQ(once("system s{a:1;b:2;}"), "system s { a: 1; b: 2 }\n");
     EXPECT_EQ(once("system s {\na:1;b:2;\n;;c:3;\n}"), "system s {\n  a: 1; b: 2\n  c: 3\n}\n");
     EXPECT_EQ(once("system s { a: 1\n}"), "system s {\n  a: 1\n}\n");
@@ -88,8 +88,8 @@ TEST(FormatScript, SplitsWhatDoesNotFitALine) {
               "stage t: s {\n  " + one + "\n  " + one + "\n  " + one + "\n}\n");
     const std::string two = one + "; " + one;
     EXPECT_EQ(once("stage t: s { " + two + " }"), "stage t: s { " + two + " }\n");
-    EXPECT_EQ(sentence(row), one + "\n  " + one + "\n  " + one);
-    EXPECT_EQ(sentence(two), two);
+    EXPECT_EQ(statement(row), one + "\n  " + one + "\n  " + one);
+    EXPECT_EQ(statement(two), two);
 }
 
 TEST(FormatScript, KeepsCommentsWhereTheyAre) {
@@ -97,48 +97,48 @@ TEST(FormatScript, KeepsCommentsWhereTheyAre) {
               "# top\n\n# second\nsystem s {  # behind\n  # own\n  a: 1  # short\n\n  # last\n}\n");
     EXPECT_EQ(once("system s # name\n{\na: 1\n} # end\n#after"),
               "system s  # name\n{\n  a: 1\n}  # end\n#after\n");
-    EXPECT_EQ(sentence("a: min(1, # one\n# between\n2)"),
+    EXPECT_EQ(statement("a: min(1, # one\n# between\n2)"),
               "a: min(1,  # one\n         # between\n         2)");
 }
 
 TEST(FormatScript, LeavesCommentsInTheirColumn) {
     const std::string kept = "a: 1        # one\n  bc: 23     # two";
-    EXPECT_EQ(sentence("a: 1        # one\n  bc: 23      # two"),
+    EXPECT_EQ(statement("a: 1        # one\n  bc: 23      # two"),
               "a: 1        # one\n  bc: 23      # two");
     // A line that needs more room moves the column; a lone comment stays at its distance.
-    EXPECT_EQ(sentence("a: random(1,2,3,4)  # one\n  b: 1                # two"),
+    EXPECT_EQ(statement("a: random(1,2,3,4)  # one\n  b: 1                # two"),
               "a: random(1, 2, 3, 4)  # one\n  b: 1                   # two");
-    EXPECT_EQ(sentence("a: 1      # one"), "a: 1      # one");
-    EXPECT_EQ(sentence(kept), kept);
+    EXPECT_EQ(statement("a: 1      # one"), "a: 1      # one");
+    EXPECT_EQ(statement(kept), kept);
 }
 
 TEST(FormatScript, KeepsEquationsLinedUp) {
     const std::string equations = "a' = ka * (16 - a*b)       + diff_a * lap(a)\n"
                                   "  b' = ka * (a*b - b - beta) + diff_b * lap(b)";
-    EXPECT_EQ(sentence(equations), equations);
-    EXPECT_EQ(sentence("a' = ka*(16 -a*b)        + lap(a)\n  b' = ka*(a*b - b - beta) + lap(b)"),
+    EXPECT_EQ(statement(equations), equations);
+    EXPECT_EQ(statement("a' = ka*(16 -a*b)        + lap(a)\n  b' = ka*(a*b - b - beta) + lap(b)"),
               "a' = ka*(16 - a*b)       + lap(a)\n  b' = ka*(a*b - b - beta) + lap(b)");
-    EXPECT_EQ(sentence("cells' = 1\n  bait'  = 2"), "cells' = 1\n  bait'  = 2");
+    EXPECT_EQ(statement("cells' = 1\n  bait'  = 2"), "cells' = 1\n  bait'  = 2");
     // What is not lined up with a neighbour loses its extra blanks.
-    EXPECT_EQ(sentence("a' = 1   + b\n  c' = 1 + d"), "a' = 1 + b\n  c' = 1 + d");
-    EXPECT_EQ(sentence("a:    1\n  b:    2"), "a: 1\n  b: 2");
+    EXPECT_EQ(statement("a' = 1   + b\n  c' = 1 + d"), "a' = 1 + b\n  c' = 1 + d");
+    EXPECT_EQ(statement("a:    1\n  b:    2"), "a: 1\n  b: 2");
 }
 
-TEST(FormatScript, KeepsLineEndsInsideSentences) {
-    EXPECT_EQ(sentence("a: if(b < 4,\n c,\n d)"), "a: if(b < 4,\n        c,\n        d)");
-    EXPECT_EQ(sentence("a: f(\n1,\n2\n)"), "a: f(\n    1,\n    2\n  )");
-    EXPECT_EQ(sentence("a: 1/200 +\n1/1000"), "a: 1/200 +\n     1/1000");
-    EXPECT_EQ(sentence("a' =\n\n\nb"), "a' =\n      b");
-    EXPECT_EQ(sentence("a: g(b,\nmin(1,\n2))"), "a: g(b,\n       min(1,\n           2))");
+TEST(FormatScript, KeepsLineEndsInsideStatements) {
+    EXPECT_EQ(statement("a: if(b < 4,\n c,\n d)"), "a: if(b < 4,\n        c,\n        d)");
+    EXPECT_EQ(statement("a: f(\n1,\n2\n)"), "a: f(\n    1,\n    2\n  )");
+    EXPECT_EQ(statement("a: 1/200 +\n1/1000"), "a: 1/200 +\n     1/1000");
+    EXPECT_EQ(statement("a' =\n\n\nb"), "a' =\n      b");
+    EXPECT_EQ(statement("a: g(b,\nmin(1,\n2))"), "a: g(b,\n       min(1,\n           2))");
 }
 
 TEST(FormatScript, KnowsFamiliesRangesAndFunctions) {
-    EXPECT_EQ(sentence("i: 1..n"), "i: 1..n");
-    EXPECT_EQ(sentence("i: 1 ..n"), "i: 1 .. n");
-    EXPECT_EQ(sentence("a: 1 in 0  .. (2)step 0.1"), "a: 1 in 0 .. (2) step 0.1");
-    EXPECT_EQ(sentence("u[ i ]'=sum( u[i+1] over i )"), "u[i]' = sum(u[i + 1] over i)");
-    EXPECT_EQ(sentence("a: [ u[ i ] ]+[b]"), "a: [u[i]] + [b]");
-    EXPECT_EQ(sentence("a: step (x, 1)*step(y,2)"), "a: step(x, 1)*step(y, 2)");
+    EXPECT_EQ(statement("i: 1..n"), "i: 1..n");
+    EXPECT_EQ(statement("i: 1 ..n"), "i: 1 .. n");
+    EXPECT_EQ(statement("a: 1 in 0  .. (2)step 0.1"), "a: 1 in 0 .. (2) step 0.1");
+    EXPECT_EQ(statement("u[ i ]'=sum( u[i+1] over i )"), "u[i]' = sum(u[i + 1] over i)");
+    EXPECT_EQ(statement("a: [ u[ i ] ]+[b]"), "a: [u[i]] + [b]");
+    EXPECT_EQ(statement("a: step (x, 1)*step(y,2)"), "a: step(x, 1)*step(y, 2)");
     EXPECT_EQ(once("use\"a.cascade\";fn f (r,w)=exp( -r )\nsystem s:t{a:1}"),
               "use \"a.cascade\"; fn f(r, w) = exp(-r)\nsystem s: t { a: 1 }\n");
     EXPECT_EQ(once("## of s\nsystem s { a: 1 ## of a\n}"),

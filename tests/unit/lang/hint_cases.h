@@ -55,8 +55,8 @@ inline constexpr HintCase hint_cases[] = {
     {"script", "system_name: turing_spots\nka: 1\xff", "save the script as UTF-8", "system_name: turing_spots\nka: 1"},
     {"script", "system_name: turing_spots\nka: 1\xe2\x80\x8e", "take it out", "system_name: turing_spots\nka: 1"},
 
-    // Sentences and blocks.
-    {"script", "stage large: turing_spots\n", "a block is written { sentences }", "stage large: turing_spots { }"},
+    // Statements and blocks.
+    {"script", "stage large: turing_spots\n", "a block is written { statements }", "stage large: turing_spots { }"},
     {"script", "stage: turing_spots { }", "write 'stage NAME: SYSTEM {'", "stage a: turing_spots { }"},
     {"script", "system { u: 1; u' = 0 }", "write 'system NAME {'", "system s { u: 1; u' = 0 }"},
     {"script", "system s: { u: 1; u' = 0 }", "write 'system NAME: SYSTEM {'", "system s: gray_scott { u: 1 }"},
@@ -87,7 +87,7 @@ inline constexpr HintCase hint_cases[] = {
     {"system", "u' = v\nu > 0", "write '>='"},
     {"system", "u' = v\nu < 1", "write '<='"},
     {"system", "u' = v\nv += 1", "write v' +=", "u' = v\nv' += 1"},
-    {"system", "u' -= v", "write '+=' and a minus sign in front of the term", "u' += -v"},
+    {"system", "u' -= v", "write '+=' and a minus sign before the term", "u' += -v"},
     {"system", "u': v", "write u' = …", "u' = v"},
     {"system", "du/dt = v", "write u' = …", "u' = v"},
     {"system", "w: 1; w'' = -w\nu' = w", "make the rate a species: write v: 0; w' = v; v' = …",
@@ -102,7 +102,7 @@ inline constexpr HintCase hint_cases[] = {
     {"system", "u' = v\nq = 1 .. 2", "write i: 1..3", "u' = v\nq: 1 .. 2"},
     {"system", "u' = v\nq: 1 in 3", "write p: 1 in 0 .. 2", "u' = v\nq: 1 in 0 .. 3"},
     {"system", "u' = (v in 0 .. 2)",
-     "a range stands behind the value of a parameter: p: 1 in 0 .. 2 step 0.1", "u' = v"},
+     "a range stands after the value of a parameter: p: 1 in 0 .. 2 step 0.1", "u' = v"},
     {"script", "system s { u: 1; k: 2 }", "a rate is written name' = …", "system s { u: 1; k: 2; u' = k }"},
     {"script", "system s { u: 1; u_t = lap(u) }", "write u' = …", "system s { u: 1; u' = lap(u) }"},
 

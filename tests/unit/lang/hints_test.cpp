@@ -44,7 +44,7 @@ std::string framed(std::string_view frame, std::string_view text) {
 }
 
 /// The text that a hint tells to write: 'x' of "write 'x' to multiply" and of "did you mean 'x'?",
-/// else all behind "write ".
+/// else all after "write ".
 std::string text_to_write(const std::string& hint) {
     static const std::regex quoted("(?:write|add|put|did you mean) '(.+?)'(?=$|[ ?,;:])");
     static const std::regex bare("(?:write|add) (.+)");
@@ -131,7 +131,7 @@ std::string used(WordPlace place, std::string_view word) {
 std::string advised(WordPlace place, const std::string& advice) {
     const std::string text = text_to_write(advice);
     const std::string_view frame = frame_of(place);
-    // Another block, in place of the sentence.
+    // Another block, in place of the statement.
     for (const char* block : {"stage ", "domain ", "picture "}) {
         if (text.starts_with(block)) return framed(frame, "") + text + "\n";
     }

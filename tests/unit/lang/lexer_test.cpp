@@ -48,7 +48,7 @@ std::string tokens_of(const std::string& text) {
     return lexed.tokens;
 }
 
-TEST(Lexer, SplitsASentence) {
+TEST(Lexer, SplitsAStatement) {
     EXPECT_EQ(tokens_of("b' += ka*(a*b-b-beta)"), "b ' += ka * ( a * b - b - beta )");
     EXPECT_EQ(tokens_of("a:if([frozen],4,large.a)"), "a : if ( [ frozen ] , 4 , large . a )");
     EXPECT_EQ(tokens_of("{};<=>= == != = < > + - / ^"), "{ } ; <= >= == != = < > + - / ^");

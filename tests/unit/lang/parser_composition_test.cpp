@@ -60,7 +60,7 @@ TEST(Expressions, MembersAndAggregates) {
     }
 }
 
-TEST(Sentences, FamiliesAndRanges) {
+TEST(Statements, FamiliesAndRanges) {
     const Parsed parsed = parse_text(
         "system s {\n"
         " i: 1..2 + 1\n j: 0 .. 4\n"
@@ -111,7 +111,7 @@ TEST(DocComments, BelongToWhatStandsThere) {
     const ast::Block& block = parsed.script.blocks.at(0);
     EXPECT_EQ(block.doc, "Two words and more. on its line");
     std::vector<std::string> docs;
-    for (const ast::Sentence& sentence : block.sentences) docs.push_back(sentence.doc);
+    for (const ast::Statement& statement : block.statements) docs.push_back(statement.doc);
     EXPECT_THAT(docs, ElementsAre("before behind", "", "of c", "within", "", ""));
     EXPECT_EQ(parsed.script.functions.at(0).doc, "doubles");
 }
@@ -133,7 +133,7 @@ TEST(CompositionFaults, Expressions) {
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"u[]", "2:5 an expression is missing after '['"},
         {"u[1, 2]", "2:7 a family has one index | write u[i]"},
-        {"u[i", "2:5 this '[' is never closed | a ']' is missing before the sentence ends"},
+        {"u[i", "2:5 this '[' is never closed | a ']' is missing before the statement ends"},
         {"(u[i)", "2:6 this '[' is never closed | a ']' is missing before the ')'"},
         {"[u[i] + 1]",
          "2:4 this '[' is never closed | the member of a family in this stage is written [u[i]]"},
@@ -144,7 +144,7 @@ TEST(CompositionFaults, Expressions) {
         {"(u)[i]", "2:7 an operator is missing before '['"},
         {"a over domain", "2:6 'over' stands inside a function's brackets" + form},
         {"(a over domain)", "2:7 'over' stands inside a function's brackets" + form},
-        {"sum(a, b over i)", "2:13 'over' stands behind one expression only" + form},
+        {"sum(a, b over i)", "2:13 'over' stands after one expression only" + form},
         {"sum(a over 3)", "2:10 'over' names an index or the domain" + form},
         {"sum(a over i, 1)", "2:15 a ')' is missing after 'over i'" + form},
         {"sum(a over i", "2:15 a ')' is missing after 'over i'" + form},
@@ -165,15 +165,15 @@ TEST(CompositionFaults, Expressions) {
     }
 }
 
-TEST(CompositionFaults, Sentences) {
+TEST(CompositionFaults, Statements) {
     const std::string function = " | write 'fn name(a, b) = expression'";
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"u[i+1]: 1",
-         "2:1 the index that a sentence sets is a name or a whole number | write u[i] or u[1]"},
+         "2:1 the index that a statement sets is a name or a whole number | write u[i] or u[1]"},
         {"u[1,2]: 1",
-         "2:1 the index that a sentence sets is a name or a whole number | write u[i] or u[1]"},
-        {"u[i] 3", "2:1 ':' is missing after 'u' | a sentence is 'name: expression'"},
-        {"u [i]: 3", "2:1 ':' is missing after 'u' | a sentence is 'name: expression'"},
+         "2:1 the index that a statement sets is a name or a whole number | write u[i] or u[1]"},
+        {"u[i] 3", "2:1 ':' is missing after 'u' | a statement is 'name: expression'"},
+        {"u [i]: 3", "2:1 ':' is missing after 'u' | a statement is 'name: expression'"},
         {"u[i]: 1..2", "2:8 a range declares an index | write i: 1..3"},
         {"i = 1..2", "2:6 a range declares an index | write i: 1..3"},
         {"a = 1 in 0 .. 2",

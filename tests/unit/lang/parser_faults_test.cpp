@@ -22,12 +22,12 @@ std::vector<std::string> faults_of(const std::string& text) {
     return list_faults(diagnostics, sources);
 }
 
-/// A value of a sentence, and the only message about it; its line is 2.
+/// A value of a statement, and the only message about it; its line is 2.
 using ValueFault = std::pair<std::string, std::string>;
 
 void expect_value_faults(const std::vector<ValueFault>& cases) {
     for (const auto& [text, fault] : cases) {
-        // The sentence behind it is read again, and its fault found.
+        // The statement after it is read again, and its fault found.
         const std::string script = "system_name: s\nq: " + text + "\nlast: *\n";
         std::vector<std::string> faults = faults_of(script);
         ASSERT_FALSE(faults.empty()) << text;
@@ -39,7 +39,7 @@ void expect_value_faults(const std::vector<ValueFault>& cases) {
 
 TEST(ExpressionFaults, Brackets) {
     const std::string unclosed =
-        " this '(' is never closed | a ')' is missing before the sentence ends";
+        " this '(' is never closed | a ')' is missing before the statement ends";
     expect_value_faults({
         {"(1 + 2", "2:4" + unclosed},
         {"f(1, (2)", "2:5" + unclosed},
@@ -111,8 +111,8 @@ TEST(ExpressionFaults, MissingOperators) {
         {"(a)(b)", "2:7 an operator is missing before '(' | write '*' to multiply"},
         {"a [b]", "2:6 an operator is missing before '['"},
         {"a not b", "2:6 an operator is missing before 'not'"},
-        {"3 b: 4", "2:6 'b' begins a second sentence on this line | put ';' between them"},
-        {"3 b' = 4", "2:6 'b' begins a second sentence on this line | put ';' between them"},
+        {"3 b: 4", "2:6 'b' begins a second statement on this line | put ';' between them"},
+        {"3 b' = 4", "2:6 'b' begins a second statement on this line | put ';' between them"},
         {"a.b.c",
          "2:7 '.' stands between the name of a stage and one of its names | write stage.p"},
         {"(a)'", "2:7 a prime stands directly after a name | write p' for a rate"},
@@ -163,11 +163,11 @@ TEST(ExpressionFaults, GarbageIsToldOnce) {
     });
 }
 
-TEST(SentenceFaults, WrongForms) {
+TEST(StatementFaults, WrongForms) {
     const std::vector<std::pair<std::string, std::string>> cases = {
-        {"ka 3", "2:1 ':' is missing after 'ka' | a sentence is 'name: expression'"},
-        {"ka", "2:1 ':' is missing after 'ka' | a sentence is 'name: expression'"},
-        {"ka 3 4 (", "2:1 ':' is missing after 'ka' | a sentence is 'name: expression'"},
+        {"ka 3", "2:1 ':' is missing after 'ka' | a statement is 'name: expression'"},
+        {"ka", "2:1 ':' is missing after 'ka' | a statement is 'name: expression'"},
+        {"ka 3 4 (", "2:1 ':' is missing after 'ka' | a statement is 'name: expression'"},
         {"a' : 3", "2:1 a rate is written with '=' or '+=' | write a' = …"},
         {"a' >= 3", "2:1 a rate is written with '=' or '+=' | write a' = …"},
         {"a == 3", "2:3 '==' compares and defines nothing | write '='"},
@@ -175,10 +175,10 @@ TEST(SentenceFaults, WrongForms) {
         {"a > 3", "2:3 an invariant is written with '>=' | write '>='"},
         {"a < 3", "2:3 an invariant is written with '<=' | write '<='"},
         {"large.p: 3",
-         "2:1 a sentence sets a name of its own stage only | "
+         "2:1 a statement sets a name of its own stage only | "
          "write the name without a stage"},
-        {"[p]: 3", "2:1 no sentence begins with '[' | a sentence is 'name: expression'"},
-        {"3: 4", "2:1 no sentence begins with '3' | a sentence is 'name: expression'"},
+        {"[p]: 3", "2:1 no statement begins with '[' | a statement is 'name: expression'"},
+        {"3: 4", "2:1 no statement begins with '3' | a statement is 'name: expression'"},
         {"and: 4", "2:1 'and' is a word of the language and cannot be a name"},
         {"): 4", "2:1 this ')' closes nothing"},
         {"a =", "2:3 the definition of 'a' is missing"},
@@ -213,9 +213,9 @@ TEST(BlockFaults, Headers) {
          "1:8 stage 's' does not say its system | write 'stage NAME: SYSTEM {'"},
         {"domain: { a: 1 }", "1:7 ':' has no place after 'domain' | write 'domain {'"},
         {"picture p { a: 1 }", "1:9 'p' has no place after 'picture' | write 'picture {'"},
-        {"system s\n a: 1 }", "1:8 '{' is missing after 's' | a block is written { sentences }"},
+        {"system s\n a: 1 }", "1:8 '{' is missing after 's' | a block is written { statements }"},
         {"system s 3 4\n a: 1 }",
-         "1:8 '{' is missing after 's' | a block is written { sentences }"},
+         "1:8 '{' is missing after 's' | a block is written { statements }"},
     };
     for (const auto& [text, fault] : cases) {
         EXPECT_THAT(faults_of(text + "\n"), ElementsAre(fault)) << text;
@@ -249,7 +249,7 @@ TEST(BlockFaults, ClassicStages) {
     }
 }
 
-TEST(BlockFaults, SentencesOutsideOfStages) {
+TEST(BlockFaults, StatementsOutsideOfStages) {
     EXPECT_THAT(
         faults_of("a: 1\nb: 2\nsystem_name: s\nc: 3\n"),
         ElementsAre("1:1 'a' belongs to no stage | a stage begins with 'system_name: SYSTEM'"));
@@ -280,11 +280,11 @@ TEST(ScriptFaults, ManyAreFoundInOneGo) {
                   "c: 0 < a < 4\n"
                   "d: if(a = 4, 1e99, f(2)\n"
                   "e: 1\n"),
-        ElementsAre("2:1 ':' is missing after 'iterations' | a sentence is 'name: expression'",
-                    "3:4 this '(' is never closed | a ')' is missing before the sentence ends",
+        ElementsAre("2:1 ':' is missing after 'iterations' | a statement is 'name: expression'",
+                    "3:4 this '(' is never closed | a ')' is missing before the statement ends",
                     "4:6 an expression is missing after '+'",
                     "5:4 comparisons do not chain | write '0 < a and a < 4'",
-                    "6:6 this '(' is never closed | a ')' is missing before the sentence ends",
+                    "6:6 this '(' is never closed | a ')' is missing before the statement ends",
                     "6:9 '=' inside an expression | write '==' to compare",
                     "6:14 number out of range | "
                     "numbers other than 0 are from 1.18e-38 to 3.4e38"));
@@ -296,8 +296,8 @@ TEST(ScriptFaults, AValueThatCannotBeReadIsStillGiven) {
     const SourceId source = sources.add("test", "system_name: s\na: 1 + f(2, )\n");
     const ast::Script script = parse(source, sources, diagnostics);
     ASSERT_EQ(script.blocks.size(), 1u);
-    ASSERT_EQ(script.blocks[0].sentences.size(), 1u);
-    const ast::Expression value = script.blocks[0].sentences[0].values.at(0);
+    ASSERT_EQ(script.blocks[0].statements.size(), 1u);
+    const ast::Expression value = script.blocks[0].statements[0].values.at(0);
     EXPECT_EQ(value.first, value.root);
     EXPECT_TRUE(std::holds_alternative<ast::Garbage>(script.expressions[value.root].node));
 }

@@ -1,4 +1,4 @@
-// The parser: what binds to what, where sentences and blocks end.
+// The parser: what binds to what, where statements and blocks end.
 #include "lang/syntax/parse.h"
 #include "script_faults.h"
 
@@ -102,12 +102,12 @@ TEST(Expressions, PartsComeBeforeTheWhole) {
     Diagnostics diagnostics;
     const SourceId source = sources.add("test", "system_name: s\na: f(1, (b - 2) * 3)\nb: 4");
     const ast::Script script = parse(source, sources, diagnostics);
-    const auto& sentences = script.blocks.at(0).sentences;
-    ASSERT_EQ(sentences.size(), 2u);
-    EXPECT_EQ(sentences[0].values[0].first, 0u);
-    EXPECT_EQ(sentences[0].values[0].root, 6u);
-    EXPECT_EQ(sentences[1].values[0].first, 7u);
-    EXPECT_EQ(sentences[1].values[0].root, 7u);
+    const auto& statements = script.blocks.at(0).statements;
+    ASSERT_EQ(statements.size(), 2u);
+    EXPECT_EQ(statements[0].values[0].first, 0u);
+    EXPECT_EQ(statements[0].values[0].root, 6u);
+    EXPECT_EQ(statements[1].values[0].first, 7u);
+    EXPECT_EQ(statements[1].values[0].root, 7u);
     for (ast::ExprId id = 0; id < script.expressions.size(); ++id) {
         const auto& node = script.expressions[id].node;
         if (const auto* binary = std::get_if<ast::Binary>(&node)) {
@@ -120,10 +120,10 @@ TEST(Expressions, PartsComeBeforeTheWhole) {
     EXPECT_EQ(text(6), "f(1, (b - 2) * 3)");
     EXPECT_EQ(text(5), "(b - 2) * 3");
     EXPECT_EQ(text(3), "b - 2");
-    EXPECT_EQ(sources.text(sentences[0].span), "a: f(1, (b - 2) * 3)");
+    EXPECT_EQ(sources.text(statements[0].span), "a: f(1, (b - 2) * 3)");
 }
 
-TEST(Parser, ReadsSentencesOfEveryForm) {
+TEST(Parser, ReadsStatementsOfEveryForm) {
     EXPECT_EQ(tree_of("system s {\n"
                       "  a: 4; b: 5\n"
                       "  rate = a*b\n"
@@ -260,7 +260,7 @@ TEST(LargeScripts, DepthAndLengthAreNoProblem) {
     EXPECT_THAT(faults_of_large(repeat("1+", many) + "1"), ElementsAre(last));
     EXPECT_THAT(faults_of_large(repeat("(", deep)),
                 ElementsAre("2:100003 this '(' is never closed | "
-                            "a ')' is missing before the sentence ends",
+                            "a ')' is missing before the statement ends",
                             last));
     EXPECT_THAT(
         faults_of_large(repeat("[", deep) + "p" + repeat("]", deep)),

@@ -16,13 +16,13 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// The plan of a step of a system of these sentences.
-StepPlan step_of(const std::string& sentences, PlanOptions options = {Bringing::cheaper, true}) {
-    const auto checked = check_text("system s {\n" + sentences + "\n}\nstage only: s {}\n");
-    EXPECT_TRUE(checked->program) << sentences;
+/// The plan of a step of a system of these statements.
+StepPlan step_of(const std::string& statements, PlanOptions options = {Materialise::when_cheaper, true}) {
+    const auto checked = check_text("system s {\n" + statements + "\n}\nstage only: s {}\n");
+    EXPECT_TRUE(checked->program) << statements;
     if (!checked->program) return {};
     StepPlan plan = plan_step(*checked->program, 0, options);
-    for (const Pass& pass : plan.passes) EXPECT_EQ(verify(pass.bound.kernel), "") << sentences;
+    for (const Pass& pass : plan.passes) EXPECT_EQ(verify(pass.bound.kernel), "") << statements;
     return plan;
 }
 
@@ -57,7 +57,7 @@ TEST(Plan, WhatIsDearIsWritten) {
     EXPECT_EQ(passes("lap(exp(u) * sin(u))"), 2u);
     EXPECT_EQ(passes("lap(random(u, 1))"), 2u);
     EXPECT_EQ(passes("lap(disc(0.5, 0.5, 0.1) * u)"), 2u);
-    EXPECT_EQ(passes("div(tensor(1, 2, x + u) * grad(u))"), 2u) << "sine and cosine are dear";
+    EXPECT_EQ(passes("div(tensor(1, 2, x + u) * grad(u))"), 2u) << "sine and cosine are expensive";
     EXPECT_EQ(passes("div(tensor(1, 2, 0.3) * grad(u))"), 1u);
     const std::string words = step_of("u: x; u' = lap(exp(u))").words;
     EXPECT_THAT(words, HasSubstr("2 passes, 1 temporary plane"));
@@ -68,9 +68,9 @@ TEST(Plan, WhatIsDearIsWritten) {
 
 TEST(Plan, CanBeForced) {
     const std::string rates = "u: x; u' = lap(exp(u)) + div(u^2 * grad(u + 1))";
-    EXPECT_EQ(step_of(rates, {Bringing::recomputing}).passes.size(), 1u);
-    EXPECT_EQ(step_of(rates, {Bringing::writing}).passes.size(), 2u);
-    EXPECT_EQ(step_of(rates, {Bringing::writing}).temporaries, 3u);
+    EXPECT_EQ(step_of(rates, {Materialise::never}).passes.size(), 1u);
+    EXPECT_EQ(step_of(rates, {Materialise::always}).passes.size(), 2u);
+    EXPECT_EQ(step_of(rates, {Materialise::always}).temporaries, 3u);
 }
 
 TEST(Plan, PlanesAreUsedAgain) {
@@ -103,58 +103,58 @@ TEST(Plan, AggregatesStandBetweenPasses) {
     EXPECT_EQ(step_of("u: x; u' = max(u - mean(u over domain) over domain) - u").passes.size(), 2u);
 }
 
-/// The number of lasting parts of a step of these sentences.
-std::uint32_t lasting(const std::string& sentences) {
-    return step_of(sentences, {Bringing::cheaper, false, true}).lasting;
+/// The number of step-invariant parts of a step of these statements.
+std::uint32_t step_invariants(const std::string& statements) {
+    return step_of(statements, {Materialise::when_cheaper, false, true}).step_invariants;
 }
 
 TEST(Plan, WhatNoStepChangesIsKept) {
     // A parameter lies in a plane; one operation more is not worth another.
-    EXPECT_EQ(lasting("u: x; k: x * y; u' = 2 * k * u"), 0u);
-    EXPECT_EQ(lasting("u: x; k: x * y; u' = exp(k) * u"), 1u);
-    EXPECT_EQ(lasting("u: x; u' = exp(u) * sin(t) + random(0, 1)"), 0u) << "all of it changes";
-    EXPECT_EQ(lasting("u: x; k: 2; u' = exp(k) * u"), 0u) << "one number for all cells";
-    EXPECT_EQ(lasting("u: x; k: x * y; u' = lap(k) * u"), 1u);
-    EXPECT_EQ(lasting("u: x; u' = div((1 + x * y) * grad(u))"), 1u) << "needed at five cells";
-    EXPECT_EQ(lasting("u: x; u' = (1 + x * y) * u"), 0u) << "needed at one";
-    EXPECT_EQ(lasting("u: x; k: x * y; u' = u * mean(k^2 over domain)"), 1u);
+    EXPECT_EQ(step_invariants("u: x; k: x * y; u' = 2 * k * u"), 0u);
+    EXPECT_EQ(step_invariants("u: x; k: x * y; u' = exp(k) * u"), 1u);
+    EXPECT_EQ(step_invariants("u: x; u' = exp(u) * sin(t) + random(0, 1)"), 0u) << "all of it changes";
+    EXPECT_EQ(step_invariants("u: x; k: 2; u' = exp(k) * u"), 0u) << "one number for all cells";
+    EXPECT_EQ(step_invariants("u: x; k: x * y; u' = lap(k) * u"), 1u);
+    EXPECT_EQ(step_invariants("u: x; u' = div((1 + x * y) * grad(u))"), 1u) << "needed at five cells";
+    EXPECT_EQ(step_invariants("u: x; u' = (1 + x * y) * u"), 0u) << "needed at one";
+    EXPECT_EQ(step_invariants("u: x; k: x * y; u' = u * mean(k^2 over domain)"), 1u);
     EXPECT_EQ(step_of("u: x; k: x * y; u' = u * mean(k^2 over domain)",
-                      {Bringing::cheaper, false, true}).passes.size(), 1u);
-    EXPECT_EQ(step_of("u: x; k: x; u' = exp(k) * u").lasting, 0u) << "only where it is asked for";
+                      {Materialise::when_cheaper, false, true}).passes.size(), 1u);
+    EXPECT_EQ(step_of("u: x; k: x; u' = exp(k) * u").step_invariants, 0u) << "only where it is asked for";
 }
 
 // Of four entries of two tensors that share a direction, the direction's sine and cosine are kept.
 TEST(Plan, FewestOperationsAndPlanesTogether) {
-    EXPECT_EQ(lasting("u: x; k: x * y; u' = diffuse(u, 1, 2, k)"), 2u);
-    EXPECT_EQ(lasting("u: x; v: y; k: x * y\n"
+    EXPECT_EQ(step_invariants("u: x; k: x * y; u' = diffuse(u, 1, 2, k)"), 2u);
+    EXPECT_EQ(step_invariants("u: x; v: y; k: x * y\n"
                       "u' = diffuse(u, 1, 2, k); v' = diffuse(v, 3, 1, k)"), 2u);
-    EXPECT_EQ(lasting("u: x; k: x * y; u' = exp(exp(k)) * u"), 1u);
-    EXPECT_EQ(lasting("u: x; k: x * y; u' = exp(exp(k)) * u + exp(k)"), 2u);
-    EXPECT_EQ(lasting("u: x; k: x * y; a = exp(k); u' = (a + 1) * u + (a - 1) * (a + 2) * u^2"), 1u);
-    EXPECT_THAT(step_of("u: x; k: x * y; u' = exp(k) * u", {Bringing::cheaper, true, true}).words,
+    EXPECT_EQ(step_invariants("u: x; k: x * y; u' = exp(exp(k)) * u"), 1u);
+    EXPECT_EQ(step_invariants("u: x; k: x * y; u' = exp(exp(k)) * u + exp(k)"), 2u);
+    EXPECT_EQ(step_invariants("u: x; k: x * y; a = exp(k); u' = (a + 1) * u + (a - 1) * (a + 2) * u^2"), 1u);
+    EXPECT_THAT(step_of("u: x; k: x * y; u' = exp(k) * u", {Materialise::when_cheaper, true, true}).words,
                 HasSubstr("exp(k) is computed once and kept in a plane"));
 }
 
 // What does not cost more than reading is computed, and a network of any size is cut quickly.
-TEST(Plan, ManyLastingPartsArePlannedQuickly) {
+TEST(Plan, ManyStepInvariantsArePlannedQuickly) {
     std::string deep = "k", wide = "u";
     for (int n = 0; n < 2000; ++n) deep = "(" + deep + " * k + 1)";
-    EXPECT_EQ(lasting("u: x; k: x * y; u' = u * " + deep), 1u);
+    EXPECT_EQ(step_invariants("u: x; k: x * y; u' = u * " + deep), 1u);
     for (int n = 0; n < 500; ++n) wide += fmt::format(" + u^{} * (exp(k) + {} * k)", n % 5, n);
-    EXPECT_EQ(lasting("u: x; k: x * y; u' = " + wide), 1u);
+    EXPECT_EQ(step_invariants("u: x; k: x * y; u' = " + wide), 1u);
 }
 
 /// The plan of a step of a system with sides.
-StepPlan sided(const std::string& sentences, const std::string& domain, PlanOptions options) {
-    const auto checked = check_text("system s {\n" + sentences + "\n}\ndomain { grid: 8, 8; " +
+StepPlan sided(const std::string& statements, const std::string& domain, PlanOptions options) {
+    const auto checked = check_text("system s {\n" + statements + "\n}\ndomain { grid: 8, 8; " +
                                     domain + " }\nstage only: s {}\n");
-    EXPECT_TRUE(checked->program) << sentences;
+    EXPECT_TRUE(checked->program) << statements;
     return checked->program ? plan_step(*checked->program, 0, options) : StepPlan{};
 }
 
 TEST(Plan, WhatIsOpenAtSidesIsComputedThere) {
     const std::string open = "boundary: noflux; left: fixed(1)";
-    const PlanOptions writing{Bringing::writing, true};
+    const PlanOptions writing{Materialise::always, true};
     EXPECT_EQ(sided("u: x; u' = lap(exp(u))", open, writing).passes.size(), 1u);
     EXPECT_EQ(sided("u: x; u' = lap(exp(u))", "boundary: noflux", writing).passes.size(), 2u);
     // The inner operator is written, and what is made of it and of u computed around.

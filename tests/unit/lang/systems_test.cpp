@@ -63,7 +63,7 @@ struct Case {
     std::vector<const char*> species;
     std::vector<const char*> parameters;
     Listing listing;
-    const char* fixed_point;  ///< Sentences that take the noise away.
+    const char* fixed_point;  ///< Statements that take the noise away.
 };
 
 const std::vector<Case>& cases() {
@@ -83,9 +83,9 @@ const std::vector<Case>& cases() {
     return all;
 }
 
-std::unique_ptr<Checked> stage_of(const Case& system, const std::string& sentences) {
+std::unique_ptr<Checked> stage_of(const Case& system, const std::string& statements) {
     auto checked = check_text(fmt::format("domain {{ grid: {0}, {0} }}\nstage one: {1} {{\n{2}\n}}",
-                                          side, system.system, sentences));
+                                          side, system.system, statements));
     EXPECT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
     return checked;
 }
@@ -123,12 +123,12 @@ TEST(Systems, FixedPointsStay) {
 TEST(Systems, StepsAreThoseOfTheListings) {
     for (const Case& each : cases()) {
         // Every quantity varies from cell to cell, by up to a third of a typical value.
-        std::string sentences = "speed: 0.5\nfrozen: x + y < 0.3\n";
-        for (const char* name : each.species) sentences += fmt::format("{}: random(3, 1)\n", name);
+        std::string statements = "speed: 0.5\nfrozen: x + y < 0.3\n";
+        for (const char* name : each.species) statements += fmt::format("{}: random(3, 1)\n", name);
         for (const char* name : each.parameters) {
-            sentences += fmt::format("{}: random(0.06, 0.02)\n", name);
+            statements += fmt::format("{}: random(0.06, 0.02)\n", name);
         }
-        const auto checked = stage_of(each, sentences);
+        const auto checked = stage_of(each, statements);
         ScriptRun run(*checked->program);
         run.start(0);
         std::map<std::string, Cells> old;

@@ -83,14 +83,14 @@ inline std::string inflated(const std::string& bytes, std::size_t size) {
     return status == Z_OK && out_size == size ? out : std::string();
 }
 
-/// One black grey pixel; chunks can be put before and behind its data.
+/// One black grey pixel; chunks can be put before and after its data.
 inline std::vector<Chunk> tiny_png(const std::vector<Chunk>& before = {},
-                                   const std::vector<Chunk>& behind = {}) {
+                                   const std::vector<Chunk>& after = {}) {
     std::vector<Chunk> chunks{
         {"IHDR", big_endian(1) + big_endian(1) + std::string("\x08\0\0\0\0", 5)}};
     chunks.insert(chunks.end(), before.begin(), before.end());
     chunks.push_back({"IDAT", deflated(std::string(2, '\0'))});
-    chunks.insert(chunks.end(), behind.begin(), behind.end());
+    chunks.insert(chunks.end(), after.begin(), after.end());
     chunks.push_back({"IEND", ""});
     return chunks;
 }

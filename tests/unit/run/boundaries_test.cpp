@@ -272,8 +272,8 @@ TEST(BeyondSides, FunctionsAreMadeOfWhatStandsThere) {
         return ran.species()[0].at(0, 0);
     };
     const double u0 = 1.125, u1 = 1.375, ghost = 2 * 3 - u0;
-    for (const Bringing bringing : {Bringing::writing, Bringing::recomputing, Bringing::cheaper}) {
-        const PlanOptions planning{bringing, false, true};
+    for (const Materialise materialise : {Materialise::always, Materialise::never, Materialise::when_cheaper}) {
+        const PlanOptions planning{materialise, false, true};
         EXPECT_NEAR(after_a_step("lap(u^2)", planning),
                     u0 + ghost * ghost + u1 * u1 - 2 * u0 * u0, 1e-4);
         EXPECT_NEAR(after_a_step("lap(exp(u)) + 0 * mean(exp(u) over domain)", planning),

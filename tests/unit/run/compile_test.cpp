@@ -385,8 +385,8 @@ TEST_F(CompileTest, SidesOfAnotherStageAreRefused) {
 }
 
 TEST_F(CompileTest, StepsOfChosenLengthAreRefused) {
-    const auto message = [&](const std::string& sentences, const CompileRequest& wanted = {}) {
-        return refused("stage only: turing_spots { " + sentences + " }", wanted).message;
+    const auto message = [&](const std::string& statements, const CompileRequest& wanted = {}) {
+        return refused("stage only: turing_spots { " + statements + " }", wanted).message;
     };
     EXPECT_EQ(message("solver: rk23; duration: 10"),
               "stage 'only' is solved by rk23, which chooses its steps as it runs, but compiled "

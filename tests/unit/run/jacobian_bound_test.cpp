@@ -191,7 +191,7 @@ TEST(JacobianBounds, GrowthThroughOperatorsIsThatOfTheory) {
     }
 }
 
-/// Of every system in the library, behind some steps of its own.
+/// Of every system in the library, after some steps of its own.
 TEST(JacobianBounds, HoldForTheLibrary) {
     int without_rule = 0;
     for (const LibraryText& text : library_texts()) {

@@ -18,8 +18,8 @@ protected:
                                "f 1 2 3\nf 2 4 3\nf 4 5 3\nf 5 1 3\nf 2 1 6\nf 4 2 6\nf 5 4 6\nf 1 5 6\n"));
     }
 
-    std::vector<std::string> warnings(const std::string& domain, const std::string& sentences) {
-        Script script = load("domain { " + domain + " }\nstage one: turing_spots { " + sentences + " }\n");
+    std::vector<std::string> warnings(const std::string& domain, const std::string& statements) {
+        Script script = load("domain { " + domain + " }\nstage one: turing_spots { " + statements + " }\n");
         EXPECT_TRUE(script.program) << script.messages(false);
         RunControl control;
         std::vector<std::string> said;

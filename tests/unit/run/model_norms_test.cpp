@@ -23,7 +23,7 @@ std::string script_of(const std::string& system, const std::string& stage) {
                        cells, system, stage);
 }
 
-/// The time of an adaptive run of u' = 20 u (1 − u) behind so many steps, and so many copies of the last
+/// The time of an adaptive run of u' = 20 u (1 − u) after so many steps, and so many copies of the last
 /// value being counted with the others.
 double time_by_hand(std::vector<double> start, std::size_t copies, int steps) {
     constexpr double tolerance = 1e-6, duration = 50;
@@ -70,7 +70,7 @@ TEST(ModelNorms, StepsAreChosenByTheErrorsOfCells) {
         << "copies that count are seen";
 }
 
-/// The step behind which a stage has settled, as fields of these planes say.
+/// The step after which a stage has settled, as fields of these planes say.
 template <typename Look>
 std::int64_t settled_by_hand(const std::string& system, double tolerance, const Look& look) {
     ModelRun run(script_of(system, "iterations: 10000; speed: 1"), Precision::binary64);

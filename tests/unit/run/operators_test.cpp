@@ -254,7 +254,7 @@ TEST(Operators, FluxFormConservesSums) {
         {"tensor",
          "c: random(1, 0.5); c' = div(tensor(0.5 + x, 0.3, 6 * y) * grad(c) + vector(c * y, -c))",
          0.05},
-        {"dear mobility", "c: random(1, 0.5); c' = div(exp(-c * c) * grad(log(c)))", 0.05},
+        {"expensive mobility", "c: random(1, 0.5); c' = div(exp(-c * c) * grad(log(c)))", 0.05},
     };
     for (const Conserved& each : systems) {
         for (const char* boundary : {"periodic", "noflux"}) {

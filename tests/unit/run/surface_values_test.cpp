@@ -17,8 +17,8 @@ constexpr double pi = std::numbers::pi;
 class SurfaceValuesTest : public RunTest {
 protected:
     /// The simulation of a script of one stage that has begun; null with a failed test.
-    std::unique_ptr<Simulation> start(const std::string& domain, const std::string& sentences = "") {
-        script_ = load("domain { " + domain + " }\nsystem_name: turing_spots\n" + sentences);
+    std::unique_ptr<Simulation> start(const std::string& domain, const std::string& statements = "") {
+        script_ = load("domain { " + domain + " }\nsystem_name: turing_spots\n" + statements);
         EXPECT_EQ(script_.messages(false), "");
         if (!script_.program) return nullptr;
         SimulationOptions options;
@@ -44,8 +44,8 @@ protected:
     }
 
     /// The messages of a script that cannot begin.
-    std::string fault(const std::string& domain, const std::string& sentences) {
-        script_ = load("domain { " + domain + " }\nsystem_name: turing_spots\n" + sentences);
+    std::string fault(const std::string& domain, const std::string& statements) {
+        script_ = load("domain { " + domain + " }\nsystem_name: turing_spots\n" + statements);
         EXPECT_TRUE(script_.program) << script_.messages(false);
         if (!script_.program) return "";
         EXPECT_FALSE(Simulation::create(script_, {}));

@@ -104,7 +104,7 @@ TEST_F(Upright, ScriptsSeeTheSameModelBitForBit) {
               first_species(grown(Axis::y, "", all_of_space)));
 }
 
-TEST_F(Upright, TheOptionIsTheSentence) {
+TEST_F(Upright, TheOptionIsTheStatement) {
     Overrides overrides;
     overrides.up = Axis::z;
     const auto expected = first_species(grown(Axis::y, "", all_of_space));

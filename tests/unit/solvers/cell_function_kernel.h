@@ -36,7 +36,7 @@ struct CellView {
 /// Writes the results of a cell.
 using CellFunction = std::function<void(const CellView& cell, float* results)>;
 
-/// Runs a CellFunction. Behind each row it writes NaN up to the next multiple of row_pad, as the
+/// Runs a CellFunction. After each row it writes NaN up to the next multiple of row_pad, as the
 /// contract of kernels allows: nobody may rely on what is there.
 class CellFunctionKernel : public Kernel {
 public:

@@ -266,7 +266,7 @@ TEST(StepControl, AValueThatIsNotFiniteShortensTheStep) {
     EXPECT_DOUBLE_EQ(control.step(), 0.1);
     EXPECT_FALSE(control.judge(0.1, INFINITY));
     EXPECT_DOUBLE_EQ(control.step(), 0.01);
-    // Behind a rejection the step does not grow at once.
+    // After a rejection the step does not grow at once.
     EXPECT_TRUE(control.judge(0.01, 1e-6));
     EXPECT_DOUBLE_EQ(control.step(), 0.01);
     EXPECT_TRUE(control.judge(0.01, 1e-6));

@@ -98,7 +98,7 @@ TEST(Steady, EndsBehindTheGrowthWhateverTheGridAndTheLooks) {
 }
 
 TEST(Steady, DoesNotWaitForWhatGoesOnMoving) {
-    // Behind its growth the pattern drifts, at a hundredth of the speed of its formation: enough to
+    // After its growth the pattern drifts, at a hundredth of the speed of its formation: enough to
     // change altogether in as long again as it has run.
     const auto value = [](double t, double x, double y) {
         return 4 + amplitude(t) * wave(x + 1e-5 * t, y);

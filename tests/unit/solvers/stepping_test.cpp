@@ -46,7 +46,7 @@ TEST(SteppingTest, PassesThatNeedAllCellsBeginATile) {
     EXPECT_EQ(one.sweeps_at_once, 2.5);
     EXPECT_EQ(one.meetings, 2 * 2 + 1);
     EXPECT_EQ(one.in_words(), "up to 4 sweeps a pass between its aggregates");
-    // Behind the fifth pass the first two follow, in front of the third.
+    // After the fifth pass the first two follow, before the third.
     const Stepping two = stepping_with(five_passes({2, 3}), levels(4), 4, 2);
     EXPECT_EQ(two.sweeps_at_once, 2.5);
     const Stepping all = stepping_with(five_passes({0, 1, 2, 3, 4}), {}, 1, 1);

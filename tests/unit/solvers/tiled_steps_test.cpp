@@ -30,7 +30,7 @@ private:
 };
 
 /// Result r is a sum over all fields of their own cells and, of most, of all cells around; a mask keeps
-/// field 0. Behind each row it writes NaN, as the contract of kernels allows.
+/// field 0. After each row it writes NaN, as the contract of kernels allows.
 template <typename Number>
 class SumKernel : public Kernel {
 public:

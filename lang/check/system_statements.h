@@ -14,15 +14,15 @@
 
 namespace cascade {
 
-/// A sentence and the script that its expressions are in.
-struct SaidSentence {
+/// A statement and the script that its expressions are in.
+struct SaidStatement {
     const ast::Script* script = nullptr;
     const Sources* sources = nullptr;
-    const ast::Sentence* sentence = nullptr;
-    /// The sentence that has its doc comment, and the one that has its range: where it took the
+    const ast::Statement* statement = nullptr;
+    /// The statement that has its doc comment, and the one that has its range: where it took the
     /// place of another and has none, that of the other. Null where there is none.
-    const ast::Sentence* doc = nullptr;
-    const ast::Sentence* range = nullptr;
+    const ast::Statement* doc = nullptr;
+    const ast::Statement* range = nullptr;
     const ast::Script* range_script = nullptr;
     const Sources* range_sources = nullptr;
 };
@@ -31,17 +31,17 @@ struct SaidSentence {
 using SystemBlocks = std::unordered_map<std::string_view, const ast::Block*>;
 SystemBlocks system_blocks(const ast::Script& script);
 
-/// The sentences of a system of a checked script or of the library, those of its bases first and
+/// The statements of a system of a checked script or of the library, those of its bases first and
 /// changed as `system b: a { … }` changes them.
-class SystemSentences {
+class SystemStatements {
 public:
     /// `blocks` are those of `script`.
-    SystemSentences(const ast::Script& script, const Sources& sources, const SystemBlocks& blocks,
+    SystemStatements(const ast::Script& script, const Sources& sources, const SystemBlocks& blocks,
                     std::string_view system);
 
     /// False if there is no such system.
     bool found() const { return found_; }
-    const std::vector<SaidSentence>& all() const { return sentences_; }
+    const std::vector<SaidStatement>& all() const { return statements_; }
     /// The doc comment of the system itself; may be empty.
     const std::string& doc() const { return doc_; }
     /// Is this the name, without index, of something with a rate?
@@ -65,7 +65,7 @@ private:
     void derive(const Place& place);
 
     std::deque<LibraryScript> library_;
-    std::vector<SaidSentence> sentences_;
+    std::vector<SaidStatement> statements_;
     std::unordered_set<std::string_view> species_;
     std::string doc_;
     bool found_ = false;

@@ -1,4 +1,4 @@
-// Sentences: a name, what is said of it, and the expressions that say it.
+// Statements: a name, what is said of it, and the expressions that say it.
 #include "lang/syntax/script_parser.h"
 
 #include "core/near_name.h"
@@ -12,27 +12,27 @@
 
 namespace cascade {
 
-/// The sentence at the cursor; the cursor goes to its end. Empty, with a message, if not even its
+/// The statement at the cursor; the cursor goes to its end. Empty, with a message, if not even its
 /// name and form can be read; if only its value cannot, that is Garbage.
-std::optional<ast::Sentence> ScriptParser::parse_sentence() {
+std::optional<ast::Statement> ScriptParser::parse_statement() {
     if (!cursor_.at(TokenKind::name)) {
-        report_no_sentence();
+        report_no_statement();
         return std::nullopt;
     }
-    ast::Sentence sentence;
-    sentence.doc = docs_before();
-    sentence.name = cursor_.word(cursor_.take());
-    if (!parse_index(sentence)) return std::nullopt;
-    parse_side(sentence);
-    if (!parse_relation(sentence)) return std::nullopt;
-    parse_values(sentence);
-    sentence.span = join(sentence.name.span, cursor_.previous().span);
-    add_docs(sentence.doc, docs_behind(sentence.name.span.begin));
-    return sentence;
+    ast::Statement statement;
+    statement.doc = docs_before();
+    statement.name = cursor_.word(cursor_.take());
+    if (!parse_index(statement)) return std::nullopt;
+    parse_side(statement);
+    if (!parse_relation(statement)) return std::nullopt;
+    parse_values(statement);
+    statement.span = join(statement.name.span, cursor_.previous().span);
+    add_docs(statement.doc, docs_after(statement.name.span.begin));
+    return statement;
 }
 
 /// The `.left` of `u.left: e` or `u[1].left: e`, if there is one.
-void ScriptParser::parse_side(ast::Sentence& sentence) {
+void ScriptParser::parse_side(ast::Statement& statement) {
     const bool is_dotted = cursor_.at(TokenKind::dot) && cursor_.kind(1) == TokenKind::name &&
                            cursor_.kind(2) == TokenKind::colon &&
                            cursor_.peek().span.begin == cursor_.previous().span.end &&
@@ -43,19 +43,19 @@ void ScriptParser::parse_side(ast::Sentence& sentence) {
                          std::find(side_names.begin(), side_names.end(), word) != side_names.end();
     if (!is_side) return;
     cursor_.take();
-    sentence.side = cursor_.word(cursor_.take());
+    statement.side = cursor_.word(cursor_.take());
 }
 
-/// Sentences about sides go to a place of their own.
-void ScriptParser::add_sentence(ast::Block& block, ast::Sentence sentence) {
-    (!sentence.side.empty() ? block.sides : block.sentences).push_back(std::move(sentence));
+/// Statements about sides go to a place of their own.
+void ScriptParser::add_statement(ast::Block& block, ast::Statement statement) {
+    (!statement.side.empty() ? block.sides : block.statements).push_back(std::move(statement));
 }
 
 std::string ScriptParser::docs_before() {
     return cursor_.take_docs(cursor_.taken_up_to(), cursor_.peek().span.begin);
 }
 
-std::string ScriptParser::docs_behind(std::uint32_t begin) {
+std::string ScriptParser::docs_after(std::uint32_t begin) {
     const bool is_last = cursor_.at(TokenKind::semicolon) && cursor_.kind(1) == TokenKind::newline;
     return cursor_.take_docs(begin, cursor_.peek(is_last ? 1 : 0).span.begin);
 }
@@ -66,28 +66,28 @@ void ScriptParser::add_docs(std::string& doc, const std::string& more) {
 }
 
 /// The `[i]` of `u[i]: e`, if there is one. False, with a message, if it cannot be read.
-bool ScriptParser::parse_index(ast::Sentence& sentence) {
+bool ScriptParser::parse_index(ast::Statement& statement) {
     const bool is_index = cursor_.at(TokenKind::open_square) &&
-                          cursor_.peek().span.begin == sentence.name.span.end;
+                          cursor_.peek().span.begin == statement.name.span.end;
     if (!is_index) return true;
     const Token open = cursor_.take();
     const bool is_plain = cursor_.at(TokenKind::name) || cursor_.at(TokenKind::number);
     if (is_plain && cursor_.kind(1) == TokenKind::close_square) {
-        sentence.index = cursor_.word(cursor_.take());
+        statement.index = cursor_.word(cursor_.take());
         cursor_.take();
         return true;
     }
     if (!cursor_.at(TokenKind::garbage)) {
-        cursor_.error(join(sentence.name.span, open.span),
-                      "the index that a sentence sets is a name or a whole number",
-                      fmt::format("write {0}[i] or {0}[1]", shortened(sentence.name.text)));
+        cursor_.error(join(statement.name.span, open.span),
+                      "the index that a statement sets is a name or a whole number",
+                      fmt::format("write {0}[i] or {0}[1]", shortened(statement.name.text)));
     }
-    cursor_.skip_sentence(1);
+    cursor_.skip_statement(1);
     return false;
 }
 
-/// What begins here is no sentence; always false.
-bool ScriptParser::report_no_sentence() {
+/// What begins here is no statement; always false.
+bool ScriptParser::report_no_statement() {
     const Token token = cursor_.peek();
     const std::string word = cursor_.describe(token);
     switch (token.kind) {
@@ -106,127 +106,127 @@ bool ScriptParser::report_no_sentence() {
                           "blocks are system, stage, domain and picture");
             break;
         default:
-            cursor_.error(token.span, fmt::format("no sentence begins with {}", word),
-                          "a sentence is 'name: expression'");
+            cursor_.error(token.span, fmt::format("no statement begins with {}", word),
+                          "a statement is 'name: expression'");
     }
-    cursor_.skip_sentence();
+    cursor_.skip_statement();
     return false;
 }
 
 /// Reads what stands between the name and the value. Forms of other languages are read as what they
 /// mean, with a message. False if there is no value to read.
-bool ScriptParser::parse_relation(ast::Sentence& sentence) {
-    using Kind = ast::SentenceKind;
+bool ScriptParser::parse_relation(ast::Statement& statement) {
+    using Kind = ast::StatementKind;
     const Token token = cursor_.peek();
-    const std::string name(shortened(sentence.name.text));
+    const std::string name(shortened(statement.name.text));
     switch (token.kind) {
-        case TokenKind::colon: sentence.kind = Kind::value; break;
-        case TokenKind::assign: sentence.kind = Kind::definition; break;
-        case TokenKind::greater_equal: sentence.kind = Kind::at_least; break;
-        case TokenKind::less_equal: sentence.kind = Kind::at_most; break;
-        case TokenKind::prime: cursor_.take(); return parse_rate_relation(sentence);
+        case TokenKind::colon: statement.kind = Kind::value; break;
+        case TokenKind::assign: statement.kind = Kind::definition; break;
+        case TokenKind::greater_equal: statement.kind = Kind::at_least; break;
+        case TokenKind::less_equal: statement.kind = Kind::at_most; break;
+        case TokenKind::prime: cursor_.take(); return parse_rate_relation(statement);
         case TokenKind::plus_assign:
-            sentence.kind = Kind::rate_term;
+            statement.kind = Kind::rate_term;
             cursor_.error(token.span, "only a rate has terms to add to",
                           fmt::format("write {}' +=", name));
             break;
         case TokenKind::equal:
-            sentence.kind = Kind::definition;
+            statement.kind = Kind::definition;
             cursor_.error(token.span, "'==' compares and defines nothing", "write '='");
             break;
         case TokenKind::greater:
-            sentence.kind = Kind::at_least;
+            statement.kind = Kind::at_least;
             cursor_.error(token.span, "an invariant is written with '>='", "write '>='");
             break;
         case TokenKind::less:
-            sentence.kind = Kind::at_most;
+            statement.kind = Kind::at_most;
             cursor_.error(token.span, "an invariant is written with '<='", "write '<='");
             break;
         case TokenKind::dot:
-            report_dot(sentence);
-            cursor_.skip_sentence();
+            report_dot(statement);
+            cursor_.skip_statement();
             return false;
-        case TokenKind::garbage: cursor_.skip_sentence(); return false;
-        default: return take_paper_rate(sentence) || report_missing_colon(sentence);
+        case TokenKind::garbage: cursor_.skip_statement(); return false;
+        default: return take_paper_rate(statement) || report_missing_colon(statement);
     }
     cursor_.take();
     return true;
 }
 
 /// `large.ka: 1`, or a side with a slip.
-void ScriptParser::report_dot(const ast::Sentence& sentence) {
+void ScriptParser::report_dot(const ast::Statement& statement) {
     std::string near;
     if (cursor_.kind(1) == TokenKind::name) {
         std::vector<std::string> sides(side_names.begin(), side_names.end());
         sides.emplace_back("sides");
         near = nearest_name(cursor_.text(cursor_.peek(1)), sides);
     }
-    cursor_.error(sentence.name.span, "a sentence sets a name of its own stage only",
+    cursor_.error(statement.name.span, "a statement sets a name of its own stage only",
                   near.empty() ? "write the name without a stage"
-                               : fmt::format("did you mean {}.{}?", sentence.name.text, near));
+                               : fmt::format("did you mean {}.{}?", statement.name.text, near));
 }
 
-bool ScriptParser::parse_rate_relation(ast::Sentence& sentence) {
+bool ScriptParser::parse_rate_relation(ast::Statement& statement) {
     if (cursor_.take_if(TokenKind::plus_assign)) {
-        sentence.kind = ast::SentenceKind::rate_term;
+        statement.kind = ast::StatementKind::rate_term;
         return true;
     }
-    sentence.kind = ast::SentenceKind::rate;
+    statement.kind = ast::StatementKind::rate;
     if (cursor_.take_if(TokenKind::assign)) return true;
-    if (cursor_.at(TokenKind::prime)) return report_second_rate(sentence);
+    if (cursor_.at(TokenKind::prime)) return report_second_rate(statement);
     if (!cursor_.at(TokenKind::garbage)) {
-        cursor_.error(join(sentence.name.span, cursor_.previous().span),
+        cursor_.error(join(statement.name.span, cursor_.previous().span),
                       "a rate is written with '=' or '+='",
-                      fmt::format("write {}' = …", shortened(sentence.name.text)));
+                      fmt::format("write {}' = …", shortened(statement.name.text)));
     }
     // A colon in its place is the likely slip: what follows is the rate.
     if (cursor_.take_if(TokenKind::colon) || cursor_.take_if(TokenKind::equal)) return true;
-    cursor_.skip_sentence();
+    cursor_.skip_statement();
     return false;
 }
 
 /// `u'' = e`: what is said of it stays unread, for no first rate means the same.
-bool ScriptParser::report_second_rate(const ast::Sentence& sentence) {
+bool ScriptParser::report_second_rate(const ast::Statement& statement) {
     while (cursor_.at(TokenKind::prime)) cursor_.take();
-    const std::string name = shortened(sentence.name.text);
-    cursor_.error(join(sentence.name.span, cursor_.previous().span),
+    const std::string name = shortened(statement.name.text);
+    cursor_.error(join(statement.name.span, cursor_.previous().span),
                   "rates are first derivatives by time",
                   fmt::format("make the rate a species: write v: 0; {}' = v; v' = …", name));
-    cursor_.skip_sentence();
+    cursor_.skip_statement();
     return false;
 }
 
 /// `du/dt = e`, read on as the rate of u.
-bool ScriptParser::take_paper_rate(ast::Sentence& sentence) {
-    const std::string_view name = sentence.name.text;
+bool ScriptParser::take_paper_rate(ast::Statement& statement) {
+    const std::string_view name = statement.name.text;
     const bool is_rate = name.size() > 1 && name[0] == 'd' && cursor_.at(TokenKind::slash) &&
                          cursor_.at_name("dt", 1) && cursor_.kind(2) == TokenKind::assign;
     if (!is_rate) return false;
-    const Span derivative = join(sentence.name.span, cursor_.peek(1).span);
+    const Span derivative = join(statement.name.span, cursor_.peek(1).span);
     for (int k = 0; k < 3; ++k) cursor_.take();
-    sentence.kind = ast::SentenceKind::rate;
-    sentence.name.text = name.substr(1);
-    ++sentence.name.span.begin;
+    statement.kind = ast::StatementKind::rate;
+    statement.name.text = name.substr(1);
+    ++statement.name.span.begin;
     cursor_.error(derivative, "a rate is written with a prime",
-                  fmt::format("write {}' = …", shortened(sentence.name.text)));
+                  fmt::format("write {}' = …", shortened(statement.name.text)));
     return true;
 }
 
-/// A name is followed by something that makes no sentence: mostly the colon is missing, or the name
+/// A name is followed by something that makes no statement: mostly the colon is missing, or the name
 /// should begin a block. True if the value can be read on.
-bool ScriptParser::report_missing_colon(const ast::Sentence& sentence) {
-    const ast::Word& name = sentence.name;
+bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
+    const ast::Word& name = statement.name;
     const std::string quoted = cursor_.describe({TokenKind::name, name.span});
     if (has_shape_of_block(0)) {
         report_no_block(name);
-        cursor_.skip_sentence();
+        cursor_.skip_statement();
         return false;
     }
     cursor_.error(name.span, fmt::format("':' is missing after {}", quoted),
-                  "a sentence is 'name: expression'");
+                  "a statement is 'name: expression'");
     if (cursor_.at(TokenKind::open_square) && cursor_.kind(2) == TokenKind::close_square &&
         cursor_.kind(3) != TokenKind::newline) {
-        cursor_.skip_sentence();  // `u [i]: e`: what follows the name is no value.
+        cursor_.skip_statement();  // `u [i]: e`: what follows the name is no value.
         return false;
     }
     switch (cursor_.kind()) {
@@ -236,7 +236,7 @@ bool ScriptParser::report_missing_colon(const ast::Sentence& sentence) {
         case TokenKind::minus:
         case TokenKind::text:
         case TokenKind::keyword_not: return true;
-        default: cursor_.skip_sentence(); return false;
+        default: cursor_.skip_statement(); return false;
     }
 }
 
@@ -264,75 +264,75 @@ std::string ScriptParser::report_no_block(const ast::Word& word) {
 }
 
 /// One expression, or several with commas between them.
-void ScriptParser::parse_values(ast::Sentence& sentence) {
+void ScriptParser::parse_values(ast::Statement& statement) {
     const bool colon_is_missing = !wants_operand(cursor_.previous().kind) &&
                                   cursor_.previous().kind != TokenKind::colon;
     const std::string owner =
         fmt::format("the {} of {}",
-                    sentence.kind == ast::SentenceKind::value        ? "value"
-                    : sentence.kind == ast::SentenceKind::definition ? "definition"
-                    : sentence.kind == ast::SentenceKind::rate ||
-                            sentence.kind == ast::SentenceKind::rate_term
+                    statement.kind == ast::StatementKind::value        ? "value"
+                    : statement.kind == ast::StatementKind::definition ? "definition"
+                    : statement.kind == ast::StatementKind::rate ||
+                            statement.kind == ast::StatementKind::rate_term
                         ? "rate"
                         : "bound",
-                    cursor_.describe({TokenKind::name, sentence.name.span}));
+                    cursor_.describe({TokenKind::name, statement.name.span}));
     cursor_.mute(colon_is_missing);
-    sentence.values.push_back(parse_behind_operator(owner, "in"));
-    if (cursor_.at(TokenKind::dots)) parse_end_of_index(sentence);
+    statement.values.push_back(parse_after_operator(owner, "in"));
+    if (cursor_.at(TokenKind::dots)) parse_end_of_index(statement);
     while (cursor_.at(TokenKind::comma)) {
         const Token comma = cursor_.take();
-        if (cursor_.begins_sentence()) {
-            cursor_.error(comma.span, "a comma stands between values, not between sentences",
+        if (cursor_.begins_statement()) {
+            cursor_.error(comma.span, "a comma stands between values, not between statements",
                           "write ';'");
             break;
         }
-        if (sentence.kind != ast::SentenceKind::value) {
+        if (statement.kind != ast::StatementKind::value) {
             cursor_.error(comma.span, "only a value may be a list", "write one expression");
-            cursor_.skip_sentence();
+            cursor_.skip_statement();
             break;
         }
-        if (cursor_.at(TokenKind::newline) && !cursor_.begins_sentence(1)) cursor_.take();
-        sentence.values.push_back(expressions_.parse(owner, "in"));
+        if (cursor_.at(TokenKind::newline) && !cursor_.begins_statement(1)) cursor_.take();
+        statement.values.push_back(expressions_.parse(owner, "in"));
     }
-    if (cursor_.at_name("in")) parse_range(sentence);
+    if (cursor_.at_name("in")) parse_range(statement);
     if (cursor_.at(TokenKind::dots)) {
         cursor_.error(cursor_.peek().span, "'..' has no place here",
                       "a range is written 1..3, or p: 1 in 0 .. 2");
-        cursor_.skip_sentence();
+        cursor_.skip_statement();
     }
     cursor_.mute(false);
 }
 
 /// An expression that may begin on the next line where an operator is the last word of this one.
 /// The ':' is none.
-ast::Expression ScriptParser::parse_behind_operator(const std::string& owner,
+ast::Expression ScriptParser::parse_after_operator(const std::string& owner,
                                                     std::string_view end_word) {
     const bool goes_on = wants_operand(cursor_.previous().kind) &&
-                         cursor_.at(TokenKind::newline) && !cursor_.begins_sentence(1) &&
+                         cursor_.at(TokenKind::newline) && !cursor_.begins_statement(1) &&
                          cursor_.kind(1) != TokenKind::close_curly;
     if (goes_on) cursor_.take();
     return expressions_.parse(owner, end_word);
 }
 
 /// The `.. high` of `i: low .. high`.
-void ScriptParser::parse_end_of_index(ast::Sentence& sentence) {
+void ScriptParser::parse_end_of_index(ast::Statement& statement) {
     const Token dots = cursor_.take();
-    if (sentence.kind != ast::SentenceKind::value || !sentence.index.empty()) {
+    if (statement.kind != ast::StatementKind::value || !statement.index.empty()) {
         cursor_.error(dots.span, "a range declares an index", "write i: 1..3");
-        cursor_.skip_sentence();
+        cursor_.skip_statement();
         return;
     }
-    sentence.kind = ast::SentenceKind::index;
-    sentence.values.push_back(expressions_.parse("the end of the range"));
+    statement.kind = ast::StatementKind::index;
+    statement.values.push_back(expressions_.parse("the end of the range"));
 }
 
-/// The `in low .. high [step e]` behind a value.
-void ScriptParser::parse_range(ast::Sentence& sentence) {
+/// The `in low .. high [step e]` after a value.
+void ScriptParser::parse_range(ast::Statement& statement) {
     const Token word = cursor_.take();
     const std::string form = "write p: 1 in 0 .. 2";
-    if (sentence.kind != ast::SentenceKind::value || sentence.values.size() != 1) {
+    if (statement.kind != ast::StatementKind::value || statement.values.size() != 1) {
         cursor_.error(word.span, "only the value of a parameter has a range", form);
-        cursor_.skip_sentence();
+        cursor_.skip_statement();
         return;
     }
     ast::Range range;
@@ -342,7 +342,7 @@ void ScriptParser::parse_range(ast::Sentence& sentence) {
         if (!std::holds_alternative<ast::Garbage>(low)) {
             cursor_.error(word.span, "a range has two ends with '..' between them", form);
         }
-        cursor_.skip_sentence();
+        cursor_.skip_statement();
         return;
     }
     cursor_.take();
@@ -352,7 +352,7 @@ void ScriptParser::parse_range(ast::Sentence& sentence) {
         range.step = expressions_.parse("the step of the range");
     }
     range.span = join(word.span, cursor_.previous().span);
-    sentence.range = range;
+    statement.range = range;
 }
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// From sentences to statements: indices, members, and what replaces what.
-#include "lang/check/statements.h"
+// From statements to declarations: indices, members, and what replaces what.
+#include "lang/check/declarations.h"
 
 #include "lang/check/check_expression.h"
 #include "lang/check/expand.h"
@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::int64_t most_members = 1000;
 constexpr std::size_t most_indices = 64;
-constexpr std::size_t most_statements = 100'000;
+constexpr std::size_t most_declarations = 100'000;
 
-using Kind = ast::SentenceKind;
+using Kind = ast::StatementKind;
 
 /// One end of an index, or nothing with a message.
-std::optional<std::int64_t> check_end(Workspace& work, const SystemSentence& from,
+std::optional<std::int64_t> check_end(Workspace& work, const SystemStatement& from,
                                       ast::Expression expression) {
     const auto value = check_constant(work, *from.script, expression, "the end of an index");
     if (!value) return std::nullopt;
@@ -34,20 +34,20 @@ std::optional<std::int64_t> check_end(Workspace& work, const SystemSentence& fro
     return std::nullopt;
 }
 
-std::optional<Index> check_index(Workspace& work, const SystemSentence& from) {
-    const ast::Sentence& sentence = *from.sentence;
-    const auto low = check_end(work, from, sentence.values[0]);
-    const auto high = check_end(work, from, sentence.values[1]);
+std::optional<Index> check_index(Workspace& work, const SystemStatement& from) {
+    const ast::Statement& statement = *from.statement;
+    const auto low = check_end(work, from, statement.values[0]);
+    const auto high = check_end(work, from, statement.values[1]);
     if (!low || !high) return std::nullopt;
-    Index index{std::string(sentence.name.text), sentence.name.span, *low, *high};
+    Index index{std::string(statement.name.text), statement.name.span, *low, *high};
     if (*low > *high) {
-        work.diagnostics.error(sentence.span,
+        work.diagnostics.error(statement.span,
                                fmt::format("the index '{}' has no values", index.name),
                                "the lower end comes first");
         return std::nullopt;
     }
     if (*high - *low >= most_members) {
-        work.diagnostics.error(sentence.span,
+        work.diagnostics.error(statement.span,
                                fmt::format("the index '{}' has more than {} values", index.name,
                                            most_members));
         return std::nullopt;
@@ -68,29 +68,29 @@ std::uint32_t number_of(const Workspace& work, const System& system) {
 }
 
 /// The indices, of the highest level each.
-void collect_indices(Workspace& work, System& system, std::span<const SystemSentence> sentences) {
-    std::unordered_map<std::string_view, const SystemSentence*> latest;
-    for (const SystemSentence& each : sentences) {
-        if (each.sentence->kind != Kind::index || each.sentence->values.size() != 2) continue;
-        const auto [first, is_new] = latest.try_emplace(each.sentence->name.text, &each);
+void collect_indices(Workspace& work, System& system, std::span<const SystemStatement> statements) {
+    std::unordered_map<std::string_view, const SystemStatement*> latest;
+    for (const SystemStatement& each : statements) {
+        if (each.statement->kind != Kind::index || each.statement->values.size() != 2) continue;
+        const auto [first, is_new] = latest.try_emplace(each.statement->name.text, &each);
         if (is_new) continue;
         if (first->second->level == each.level) {
-            report_twice(work, each.sentence->name.span, first->second->sentence->name.span,
+            report_twice(work, each.statement->name.span, first->second->statement->name.span,
                          fmt::format("'{}' is given a value twice", first->first));
         }
         first->second = &each;
     }
-    for (const SystemSentence& each : sentences) {
-        const auto found = latest.find(each.sentence->name.text);
+    for (const SystemStatement& each : statements) {
+        const auto found = latest.find(each.statement->name.text);
         if (found == latest.end() || found->second != &each) continue;
-        auto index = can_be_index(work, each.sentence->name) ? check_index(work, each) : std::nullopt;
+        auto index = can_be_index(work, each.statement->name) ? check_index(work, each) : std::nullopt;
         if (!index) {
             work.incomplete[number_of(work, system)] = true;
-            work.faulty_indices.push_back(each.sentence->name.text);
+            work.faulty_indices.push_back(each.statement->name.text);
             continue;
         }
         if (system.indices.size() == most_indices) {
-            work.diagnostics.error(each.sentence->name.span,
+            work.diagnostics.error(each.statement->name.span,
                                    fmt::format("a system has at most {} indices", most_indices));
             return;
         }
@@ -129,27 +129,27 @@ void report_unknown_index(Workspace& work, const System& system, const ast::Word
                            std::move(hint));
 }
 
-/// What one sentence stands for.
-std::vector<Statement> expand_sentence(Workspace& work, const System& system,
-                                       const ast::Script& script, const ast::Sentence& sentence,
+/// What one statement stands for.
+std::vector<Declaration> expand_statement(Workspace& work, const System& system,
+                                       const ast::Script& script, const ast::Statement& statement,
                                        std::uint32_t level) {
-    Statement statement;
-    statement.script = &script;
-    statement.sentence = &sentence;
-    statement.level = level;
-    statement.doc = sentence.doc;
-    if (sentence.range) statement.range = &*sentence.range;
-    statement.range_script = &script;
-    const ast::Word& word = sentence.index;
+    Declaration declaration;
+    declaration.script = &script;
+    declaration.statement = &statement;
+    declaration.level = level;
+    declaration.doc = statement.doc;
+    if (statement.range) declaration.range = &*statement.range;
+    declaration.range_script = &script;
+    const ast::Word& word = statement.index;
     if (word.empty()) {
-        statement.name = std::string(sentence.name.text);
-        return {std::move(statement)};
+        declaration.name = std::string(statement.name.text);
+        return {std::move(declaration)};
     }
     if (is_number(word.text)) {
         const auto number = member_number(work, word);
         if (!number) return {};
-        statement.name = member_name(sentence.name.text, *number);
-        return {std::move(statement)};
+        declaration.name = member_name(statement.name.text, *number);
+        return {std::move(declaration)};
     }
     const auto index = std::find_if(system.indices.begin(), system.indices.end(),
                                     [&](const Index& each) { return each.name == word.text; });
@@ -157,34 +157,34 @@ std::vector<Statement> expand_sentence(Workspace& work, const System& system,
         report_unknown_index(work, system, word);
         return {};
     }
-    std::vector<Statement> statements;
+    std::vector<Declaration> declarations;
     for (std::int64_t value = index->low; value <= index->high; ++value) {
-        statement.name = member_name(sentence.name.text, value);
-        statement.index = IndexValue{word.text, value};
-        statements.push_back(statement);
+        declaration.name = member_name(statement.name.text, value);
+        declaration.index = IndexValue{word.text, value};
+        declarations.push_back(declaration);
     }
-    return statements;
+    return declarations;
 }
 
-/// Puts statements in order and drops those that are replaced.
+/// Puts declarations in order and drops those that are replaced.
 class StatementList {
 public:
-    void add(Statement statement) {
-        switch (statement.kind()) {
+    void add(Declaration declaration) {
+        switch (declaration.kind()) {
             case Kind::value:
-            case Kind::definition: return add_declaration(std::move(statement));
-            case Kind::rate: return add_rate(std::move(statement));
-            case Kind::rate_term: rates_[statement.name].push_back(all_.size()); break;
+            case Kind::definition: return add_declaration(std::move(declaration));
+            case Kind::rate: return add_rate(std::move(declaration));
+            case Kind::rate_term: rates_[declaration.name].push_back(all_.size()); break;
             case Kind::at_least:
-            case Kind::at_most: return add_bound(std::move(statement));
+            case Kind::at_most: return add_bound(std::move(declaration));
             case Kind::index: return;
         }
-        keep(std::move(statement));
+        keep(std::move(declaration));
     }
     std::size_t size() const { return all_.size(); }
 
-    std::vector<Statement> take() {
-        std::vector<Statement> kept;
+    std::vector<Declaration> take() {
+        std::vector<Declaration> kept;
         for (std::size_t i = 0; i < all_.size(); ++i) {
             if (!dropped_[i]) kept.push_back(std::move(all_[i]));
         }
@@ -192,60 +192,60 @@ public:
     }
 
 private:
-    void keep(Statement statement) {
-        all_.push_back(std::move(statement));
+    void keep(Declaration declaration) {
+        all_.push_back(std::move(declaration));
         dropped_.push_back(false);
     }
     /// Of one level: does `later` say something of one member that `earlier` says of all?
-    static bool is_finer(const Statement& later, const Statement& earlier) {
+    static bool is_finer(const Declaration& later, const Declaration& earlier) {
         return !later.index && earlier.index;
     }
 
-    void add_declaration(Statement statement) {
-        const auto [first, is_new] = declarations_.try_emplace(statement.name, all_.size());
-        if (is_new) return keep(std::move(statement));
-        Statement& before = all_[first->second];
-        const bool is_same_level = before.level == statement.level;
-        if (is_same_level && is_finer(before, statement)) return;
-        if (is_same_level && !is_finer(statement, before)) return keep(std::move(statement));
-        if (statement.doc.empty()) statement.doc = std::move(before.doc);
-        if (statement.range == nullptr) {
-            statement.range = before.range;
-            statement.range_script = before.range_script;
+    void add_declaration(Declaration declaration) {
+        const auto [first, is_new] = declarations_.try_emplace(declaration.name, all_.size());
+        if (is_new) return keep(std::move(declaration));
+        Declaration& before = all_[first->second];
+        const bool is_same_level = before.level == declaration.level;
+        if (is_same_level && is_finer(before, declaration)) return;
+        if (is_same_level && !is_finer(declaration, before)) return keep(std::move(declaration));
+        if (declaration.doc.empty()) declaration.doc = std::move(before.doc);
+        if (declaration.range == nullptr) {
+            declaration.range = before.range;
+            declaration.range_script = before.range_script;
         }
-        before = std::move(statement);
+        before = std::move(declaration);
     }
 
-    void add_rate(Statement statement) {
-        std::vector<std::size_t>& before = rates_[statement.name];
+    void add_rate(Declaration declaration) {
+        std::vector<std::size_t>& before = rates_[declaration.name];
         for (const std::size_t i : before) {
-            const Statement& other = all_[i];
-            if (other.level < statement.level) {
+            const Declaration& other = all_[i];
+            if (other.level < declaration.level) {
                 dropped_[i] = true;
-            } else if (other.kind() == Kind::rate && is_finer(statement, other)) {
+            } else if (other.kind() == Kind::rate && is_finer(declaration, other)) {
                 dropped_[i] = true;
-            } else if (other.kind() == Kind::rate && is_finer(other, statement)) {
+            } else if (other.kind() == Kind::rate && is_finer(other, declaration)) {
                 return;
             }
         }
         std::erase_if(before, [&](std::size_t i) { return dropped_[i]; });
         before.push_back(all_.size());
-        keep(std::move(statement));
+        keep(std::move(declaration));
     }
 
-    void add_bound(Statement statement) {
-        auto& before = statement.kind() == Kind::at_least ? lower_[statement.name]
-                                                          : upper_[statement.name];
+    void add_bound(Declaration declaration) {
+        auto& before = declaration.kind() == Kind::at_least ? lower_[declaration.name]
+                                                          : upper_[declaration.name];
         std::erase_if(before, [&](std::size_t i) {
-            if (all_[i].level == statement.level) return false;
+            if (all_[i].level == declaration.level) return false;
             dropped_[i] = true;
             return true;
         });
         before.push_back(all_.size());
-        keep(std::move(statement));
+        keep(std::move(declaration));
     }
 
-    std::vector<Statement> all_;
+    std::vector<Declaration> all_;
     std::vector<bool> dropped_;
     std::unordered_map<std::string, std::size_t> declarations_;
     std::unordered_map<std::string, std::vector<std::size_t>> rates_, lower_, upper_;
@@ -253,35 +253,35 @@ private:
 
 }  // namespace
 
-std::vector<Statement> system_statements(Workspace& work, System& system,
-                                         std::span<const SystemSentence> sentences) {
-    collect_indices(work, system, sentences);
+std::vector<Declaration> system_declarations(Workspace& work, System& system,
+                                         std::span<const SystemStatement> statements) {
+    collect_indices(work, system, statements);
     StatementList list;
-    for (const SystemSentence& each : sentences) {
-        const ast::Sentence& sentence = *each.sentence;
-        if (sentence.kind == Kind::index || sentence.name.empty() || sentence.values.empty()) {
+    for (const SystemStatement& each : statements) {
+        const ast::Statement& statement = *each.statement;
+        if (statement.kind == Kind::index || statement.name.empty() || statement.values.empty()) {
             continue;
         }
-        for (Statement& statement :
-             expand_sentence(work, system, *each.script, sentence, each.level)) {
-            list.add(std::move(statement));
+        for (Declaration& declaration :
+             expand_statement(work, system, *each.script, statement, each.level)) {
+            list.add(std::move(declaration));
         }
-        if (list.size() > most_statements && !sentence.index.empty()) {
-            work.diagnostics.error(sentence.name.span,
+        if (list.size() > most_declarations && !statement.index.empty()) {
+            work.diagnostics.error(statement.name.span,
                                    fmt::format("the families of {} are too large together",
                                                system.name),
-                                   fmt::format("a system has at most {} sentences",
-                                               most_statements));
+                                   fmt::format("a system has at most {} statements",
+                                               most_declarations));
             break;
         }
     }
     return list.take();
 }
 
-std::vector<Statement> stage_statements(Workspace& work, const System& system,
+std::vector<Declaration> stage_declarations(Workspace& work, const System& system,
                                         const ast::Script& script,
-                                        const ast::Sentence& sentence) {
-    return expand_sentence(work, system, script, sentence, 0);
+                                        const ast::Statement& statement) {
+    return expand_statement(work, system, script, statement, 0);
 }
 
 }  // namespace cascade::checking

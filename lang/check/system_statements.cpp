@@ -1,4 +1,4 @@
-#include "lang/check/system_sentences.h"
+#include "lang/check/system_statements.h"
 
 #include "lang/library/library.h"
 #include "lang/syntax/parse.h"
@@ -13,32 +13,32 @@ namespace cascade {
 
 namespace {
 
-bool is_rate(const ast::Sentence& sentence) {
-    return sentence.kind == ast::SentenceKind::rate ||
-           sentence.kind == ast::SentenceKind::rate_term;
+bool is_rate(const ast::Statement& statement) {
+    return statement.kind == ast::StatementKind::rate ||
+           statement.kind == ast::StatementKind::rate_term;
 }
 
-/// What a sentence is about. One of a derived system takes the place of those of its bases about
+/// What a statement is about. One of a derived system takes the place of those of its bases about
 /// the same, unless it is a term to be added.
-std::string subject_of(const ast::Sentence& sentence) {
-    auto kind = is_rate(sentence) ? ast::SentenceKind::rate : sentence.kind;
-    if (kind == ast::SentenceKind::definition) kind = ast::SentenceKind::value;
-    return fmt::format("{} {}", static_cast<int>(kind), sentence.name.text);
+std::string subject_of(const ast::Statement& statement) {
+    auto kind = is_rate(statement) ? ast::StatementKind::rate : statement.kind;
+    if (kind == ast::StatementKind::definition) kind = ast::StatementKind::value;
+    return fmt::format("{} {}", static_cast<int>(kind), statement.name.text);
 }
 
-/// "[2]" of a sentence about one member of a family; empty for others.
-std::string member_of(const ast::Sentence& sentence) {
-    const std::string_view index = sentence.index.text;
+/// "[2]" of a statement about one member of a family; empty for others.
+std::string member_of(const ast::Statement& statement) {
+    const std::string_view index = statement.index.text;
     const bool is_one = !index.empty() && index[0] >= '0' && index[0] <= '9';
     return is_one ? fmt::format("[{}]", index) : "";
 }
 
-SaidSentence said(const ast::Script& script, const Sources& sources,
-                  const ast::Sentence& sentence) {
-    SaidSentence result{&script, &sources, &sentence};
-    if (!sentence.doc.empty()) result.doc = &sentence;
-    if (sentence.range) {
-        result.range = &sentence;
+SaidStatement said(const ast::Script& script, const Sources& sources,
+                  const ast::Statement& statement) {
+    SaidStatement result{&script, &sources, &statement};
+    if (!statement.doc.empty()) result.doc = &statement;
+    if (statement.range) {
+        result.range = &statement;
         result.range_script = &script;
         result.range_sources = &sources;
     }
@@ -55,12 +55,12 @@ SystemBlocks system_blocks(const ast::Script& script) {
     return blocks;
 }
 
-SystemSentences::SystemSentences(const ast::Script& script, const Sources& sources,
+SystemStatements::SystemStatements(const ast::Script& script, const Sources& sources,
                                  const SystemBlocks& blocks, std::string_view system) {
     std::vector<Place> chain;  // From the system to the one that is derived from none.
     Place place = find_block({&script, &sources, &blocks, nullptr}, system);
     if (place.block == nullptr) place = find_in_library(system);
-    constexpr std::size_t longest_chain = 1000;  // The checks allow no circle.
+    constexpr std::size_t longest_chain = 1000;  // The checks allow no cycle.
     while (place.block != nullptr && chain.size() < longest_chain) {
         chain.push_back(place);
         const std::string_view base = place.block->base.text;
@@ -73,25 +73,25 @@ SystemSentences::SystemSentences(const ast::Script& script, const Sources& sourc
     found_ = !chain.empty();
     if (found_) doc_ = chain.front().block->doc;
     for (auto each = chain.rbegin(); each != chain.rend(); ++each) derive(*each);
-    for (const SaidSentence& each : sentences_) {
-        if (is_rate(*each.sentence)) species_.insert(each.sentence->name.text);
+    for (const SaidStatement& each : statements_) {
+        if (is_rate(*each.statement)) species_.insert(each.statement->name.text);
     }
 }
 
-/// Adds the sentences of a block to those it inherits, or puts them in the place of those.
-void SystemSentences::derive(const Place& place) {
+/// Adds the statements of a block to those it inherits, or puts them in the place of those.
+void SystemStatements::derive(const Place& place) {
     struct Change {
-        std::size_t first = SIZE_MAX;  ///< The inherited sentence whose place it takes.
+        std::size_t first = SIZE_MAX;  ///< The inherited statement whose place it takes.
         bool is_used = false;
     };
     std::unordered_map<std::string, Change> changes;
-    for (const ast::Sentence& sentence : place.block->sentences) {
-        if (sentence.kind == ast::SentenceKind::rate_term) continue;
-        changes.try_emplace(subject_of(sentence) + member_of(sentence));
+    for (const ast::Statement& statement : place.block->statements) {
+        if (statement.kind == ast::StatementKind::rate_term) continue;
+        changes.try_emplace(subject_of(statement) + member_of(statement));
     }
-    std::vector<bool> dropped(sentences_.size(), false);
-    for (std::size_t k = 0; k < sentences_.size(); ++k) {
-        const ast::Sentence& inherited = *sentences_[k].sentence;
+    std::vector<bool> dropped(statements_.size(), false);
+    for (std::size_t k = 0; k < statements_.size(); ++k) {
+        const ast::Statement& inherited = *statements_[k].statement;
         // What is said of all members is said of each.
         for (const std::string& member : {std::string(), member_of(inherited)}) {
             const auto change = changes.find(subject_of(inherited) + member);
@@ -100,19 +100,19 @@ void SystemSentences::derive(const Place& place) {
             if (change->second.first == SIZE_MAX) change->second.first = k;
         }
     }
-    for (const ast::Sentence& sentence : place.block->sentences) {
-        SaidSentence added = said(*place.script, *place.sources, sentence);
-        const auto change = changes.find(subject_of(sentence) + member_of(sentence));
-        const bool takes_place = sentence.kind != ast::SentenceKind::rate_term &&
+    for (const ast::Statement& statement : place.block->statements) {
+        SaidStatement added = said(*place.script, *place.sources, statement);
+        const auto change = changes.find(subject_of(statement) + member_of(statement));
+        const bool takes_place = statement.kind != ast::StatementKind::rate_term &&
                                  change != changes.end() && !change->second.is_used &&
                                  change->second.first != SIZE_MAX;
         if (!takes_place) {
-            sentences_.push_back(added);
+            statements_.push_back(added);
             dropped.push_back(false);
             continue;
         }
         change->second.is_used = true;
-        SaidSentence& before = sentences_[change->second.first];
+        SaidStatement& before = statements_[change->second.first];
         if (added.doc == nullptr) added.doc = before.doc;
         if (added.range == nullptr) {
             added.range = before.range;
@@ -123,19 +123,19 @@ void SystemSentences::derive(const Place& place) {
         dropped[change->second.first] = false;
     }
     std::size_t kept = 0;
-    for (std::size_t k = 0; k < sentences_.size(); ++k) {
-        if (!dropped[k]) sentences_[kept++] = sentences_[k];
+    for (std::size_t k = 0; k < statements_.size(); ++k) {
+        if (!dropped[k]) statements_[kept++] = statements_[k];
     }
-    sentences_.resize(kept);
+    statements_.resize(kept);
 }
 
-SystemSentences::Place SystemSentences::find_block(Place beside, std::string_view system) {
+SystemStatements::Place SystemStatements::find_block(Place beside, std::string_view system) {
     const auto found = beside.blocks->find(system);
     beside.block = found == beside.blocks->end() ? nullptr : found->second;
     return beside;
 }
 
-SystemSentences::Place SystemSentences::find_in_library(std::string_view system) {
+SystemStatements::Place SystemStatements::find_in_library(std::string_view system) {
     const LibraryText* const text = find_library_text(system);
     if (text == nullptr) return {};
     LibraryScript& read = library_.emplace_back();
