@@ -3,23 +3,20 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-#include <numeric>
+#include <algorithm>
 #include <tuple>
 
 namespace cascade {
 
 namespace {
 
-constexpr std::size_t most_numbers = std::numeric_limits<int>::max();
-
 class Converter {
 public:
     explicit Converter(const SurfaceMesh& mesh) : mesh_(mesh), half_edges_(mesh.triangles.size()) {}
 
     Result<void> convert(HalfEdges& made) {
-        if (mesh_.points.size() > most_numbers || mesh_.triangles.size() > most_numbers / 6) {
-            return failure("the surface has more points or edges than can be numbered");
+        if (std::max(mesh_.points.size(), mesh_.triangles.size()) > most_faces) {
+            return failure("the surface has more points or triangles than can be numbered");
         }
         if (Result<void> fine = number_edges(); !fine) return fine;
         made.resize(mesh_.points.size(), edges_, mesh_.triangles.size());
@@ -149,20 +146,23 @@ SurfaceMesh surface_mesh(const HalfEdges& mesh, std::span<const std::uint32_t> v
         result.points.push_back(position(mesh, vertex(v)));
     }
     std::vector<TriangleEdge> places(mesh.n_halfedges());  // Of those with a face.
+    const auto place = [&](HalfedgeHandle h) -> TriangleEdge& {
+        return places[static_cast<std::size_t>(h.idx())];
+    };
     for (const FaceHandle f : mesh.faces()) {
         const auto t = static_cast<std::uint32_t>(result.triangles.size());
         auto& triangle = result.triangles.emplace_back();
         HalfedgeHandle h = mesh.halfedge_handle(f);
         for (std::uint32_t k = 0; k < 3; ++k, h = mesh.next_halfedge_handle(h)) {
             triangle[k] = points[number(mesh.from_vertex_handle(h))];
-            places[static_cast<std::size_t>(h.idx())] = {t, k};
+            place(h) = {t, k};
         }
     }
     result.across.resize(result.triangles.size());
-    for (const HalfedgeHandle h : mesh.halfedges()) {
-        const TriangleEdge here = places[static_cast<std::size_t>(h.idx())];
-        const HalfedgeHandle other = mesh.opposite_halfedge_handle(h);
-        if (here.exists()) result.across[here.triangle][here.edge] = places[static_cast<std::size_t>(other.idx())];
+    for (int h = 0; h < static_cast<int>(places.size()); ++h) {
+        const TriangleEdge here = place(HalfedgeHandle(h));
+        if (!here.exists()) continue;
+        result.across[here.triangle][here.edge] = place(mesh.opposite_halfedge_handle(HalfedgeHandle(h)));
     }
     return result;
 }

@@ -6,6 +6,7 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,9 @@ using OpenMesh::EdgeHandle;
 using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
+
+/// The most faces that can be: half-edges, up to six for each, are numbered by `int`.
+inline constexpr std::size_t most_faces = std::numeric_limits<int>::max() / 6;
 
 /// The points and triangles of `mesh` with their numbers; the half-edge of a face is that from its
 /// first corner to its second. Two edges between the same two points stay two: add_face() looks edges

@@ -7,7 +7,7 @@ namespace cascade {
 
 namespace {
 
-/// Of the points of a rim from one to another.
+/// Of the points of a ring from one to another.
 struct Part {
     double worst = std::numeric_limits<double>::infinity();  ///< The worth of the worst triangle between them, at best.
     std::uint32_t middle = 0;  ///< The third corner of the triangle at the line that joins the two.
@@ -23,8 +23,8 @@ public:
         }
     }
 
-    std::vector<RimTriangle> triangles() {
-        std::vector<RimTriangle> found;
+    std::vector<RingTriangle> triangles() {
+        std::vector<RingTriangle> found;
         if (part(0, count_ - 1).worst > 0) collect(0, count_ - 1, found);
         return found;
     }
@@ -43,9 +43,9 @@ private:
         return best;
     }
 
-    /// Those farther out first, so that each cuts its middle corner off. No deeper than the rim is
+    /// Those farther out first, so that each cuts its middle corner off. No deeper than the ring is
     /// long.
-    void collect(std::uint32_t from, std::uint32_t to, std::vector<RimTriangle>& found) {
+    void collect(std::uint32_t from, std::uint32_t to, std::vector<RingTriangle>& found) {
         if (to - from < 2) return;
         const std::uint32_t middle = part(from, to).middle;
         collect(from, middle, found);
@@ -59,7 +59,7 @@ private:
 
 }  // namespace
 
-std::vector<RimTriangle> best_triangles(std::uint32_t count, const Worth& worth) {
+std::vector<RingTriangle> best_triangles(std::uint32_t count, const Worth& worth) {
     if (count < 3) return {};
     return BestFilling(count, worth).triangles();
 }

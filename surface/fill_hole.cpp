@@ -8,7 +8,7 @@ namespace cascade {
 
 namespace {
 
-/// A tip that may be cut off, worth what it was when the rim around it had changed `age` times.
+/// A tip that may be cut off, worth what it was when the ring around it had changed `age` times.
 struct Ear {
     double reach = 0;
     std::uint32_t tip = 0, age = 0;
@@ -19,17 +19,17 @@ struct Ear {
 
 class EarCutter {
 public:
-    EarCutter(std::span<const Vector2d> rim, bool is_closed, const MayMake& may_make)
-        : rim_(rim), is_closed_(is_closed), may_make_(may_make), ages_(rim.size()) {
-        const auto count = static_cast<std::uint32_t>(rim.size());
+    EarCutter(std::span<const Vector2d> ring, bool is_closed, const MayMake& may_make)
+        : ring_(ring), is_closed_(is_closed), may_make_(may_make), ages_(ring.size()) {
+        const auto count = static_cast<std::uint32_t>(ring.size());
         for (std::uint32_t k = 0; k < count; ++k) {
             next_.push_back(k + 1 == count ? 0 : k + 1);
             previous_.push_back(k == 0 ? count - 1 : k - 1);
         }
     }
 
-    std::vector<RimTriangle> cut() {
-        const auto count = static_cast<std::uint32_t>(rim_.size());
+    std::vector<RingTriangle> cut() {
+        const auto count = static_cast<std::uint32_t>(ring_.size());
         for (std::uint32_t k = 0; k < count && count > 3; ++k) consider(k);
         std::uint32_t any = 0;
         while (triangles_.size() + 3 < count) {
@@ -46,26 +46,26 @@ public:
     }
 
 private:
-    RimTriangle around(std::uint32_t tip) const { return {previous_[tip], tip, next_[tip]}; }
+    RingTriangle around(std::uint32_t tip) const { return {previous_[tip], tip, next_[tip]}; }
 
     /// Returns a neighbour.
     std::uint32_t take_off(std::uint32_t tip) {
-        const std::uint32_t before = previous_[tip], behind = next_[tip];
-        next_[before] = behind;
-        previous_[behind] = before;
+        const std::uint32_t before = previous_[tip], after = next_[tip];
+        next_[before] = after;
+        previous_[after] = before;
         ++ages_[tip];
-        for (const std::uint32_t changed : {before, behind}) {
+        for (const std::uint32_t changed : {before, after}) {
             ++ages_[changed];
             consider(changed);
         }
         return before;
     }
 
-    /// The origin sees the whole rim, so that a triangle to whose right or on whose third side it
-    /// lies has no other point of the rim within.
+    /// The origin sees the whole ring, so that a triangle to whose right or on whose third side it
+    /// lies has no other point of the ring within.
     void consider(std::uint32_t tip) {
-        if (!is_closed_ && (tip == 0 || tip + 1 == rim_.size())) return;
-        const Vector2d a = rim_[previous_[tip]], b = rim_[tip], c = rim_[next_[tip]];
+        if (!is_closed_ && (tip == 0 || tip + 1 == ring_.size())) return;
+        const Vector2d a = ring_[previous_[tip]], b = ring_[tip], c = ring_[next_[tip]];
         const double area = cross(b - a, c - a);
         const double ab = cross(a, b), bc = cross(b, c), ca = cross(c, a);
         if (!(area > 0) || ca > 0) return;
@@ -73,12 +73,12 @@ private:
         ears_.push({circle / area, tip, ages_[tip]});
     }
 
-    std::span<const Vector2d> rim_;
+    std::span<const Vector2d> ring_;
     bool is_closed_;
     const MayMake& may_make_;
     std::vector<std::uint32_t> next_, previous_, ages_;
     std::priority_queue<Ear> ears_;
-    std::vector<RimTriangle> triangles_;
+    std::vector<RingTriangle> triangles_;
 };
 
 }  // namespace
@@ -88,18 +88,18 @@ std::vector<Vector2d> unroll(std::span<const double> distances, std::span<const 
     for (const double angle : angles) sum += angle;
     const bool is_closed = angles.size() == distances.size();
     const double scale = sum > 0 ? (is_closed ? 2 : 1) * std::numbers::pi / sum : 0;
-    std::vector<Vector2d> rim;
+    std::vector<Vector2d> ring;
     double direction = 0;
     for (std::size_t k = 0; k < distances.size(); ++k) {
-        rim.push_back({distances[k] * std::cos(direction), distances[k] * std::sin(direction)});
+        ring.push_back({distances[k] * std::cos(direction), distances[k] * std::sin(direction)});
         if (k < angles.size()) direction += angles[k] * scale;
     }
-    return rim;
+    return ring;
 }
 
-std::vector<RimTriangle> cut_ears(std::span<const Vector2d> rim, bool is_closed,
+std::vector<RingTriangle> cut_ears(std::span<const Vector2d> ring, bool is_closed,
                                   const MayMake& may_make) {
-    return EarCutter(rim, is_closed, may_make).cut();
+    return EarCutter(ring, is_closed, may_make).cut();
 }
 
 }  // namespace cascade

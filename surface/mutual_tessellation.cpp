@@ -3,8 +3,6 @@
 #include "core/hash.h"
 #include "surface/place_lattice.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -55,32 +53,35 @@ bool is_in_circle(Vector2d a, Vector2d b, Vector2d c, Vector2d d) {
 
 class Tessellator {
 public:
-    Tessellator(const SurfaceMesh& old, const std::vector<LatticePlace>& places)
-        : old_(old),
-          places_(places),
-          made_{EditedMesh(old), {}, {}},
-          origins_(old.triangles.size()) {
-        for (std::uint32_t t = 0; t < origins_.size(); ++t) origins_[t] = t;
+    Tessellator(HalfEdges& mesh, const SurfaceMesh& old, const std::vector<LatticePlace>& places)
+        : mesh_(mesh), old_(old), places_(places) {
+        mesh.add_property(origin_);
+        for (const FaceHandle f : mesh.faces()) origin(f) = static_cast<std::uint32_t>(f.idx());
         made_.point_of_place.resize(places.size());
         take_normals();
     }
+    ~Tessellator() { mesh_.remove_property(origin_); }
+    Tessellator(const Tessellator&) = delete;
+    Tessellator& operator=(const Tessellator&) = delete;
 
     MutualTessellation tessellate(const std::atomic<bool>& cancel) {
         const std::vector<std::uint32_t> order = insertion_order(places_);
         add_points();
-        std::uint32_t near = TriangleEdge::none;
+        FaceHandle near;
         for (const std::uint32_t place : order) {
             if (cancel) break;
             if (places_[place].corner() < 3) continue;
             const std::uint32_t triangle = places_[place].triangle;
-            if (near == TriangleEdge::none || origins_[near] != triangle) near = triangle;
-            near = insert(made_.point_of_place[place], triangle, near);
+            if (!near.is_valid() || origin(near) != triangle) near = FaceHandle(static_cast<int>(triangle));
+            near = insert(made_.point_of_place[place], near);
         }
         return std::move(made_);
     }
 
 private:
-    const SurfaceMesh& now() const { return made_.mesh.mesh(); }
+    /// The old triangle in which a face lies. Splitting a face or an edge hands it on.
+    std::uint32_t& origin(FaceHandle f) { return mesh_.property(origin_, f); }
+    std::uint32_t origin(FaceHandle f) const { return mesh_.property(origin_, f); }
 
     /// Of the old points, from the triangles around them by their areas.
     void take_normals() {
@@ -106,7 +107,8 @@ private:
             for (std::size_t c = 0; c < 3; ++c) {
                 rounded.weights[c] = static_cast<double>(place.steps[c]) / lattice_steps;
             }
-            point = made_.mesh.add_point(position_of(old_, rounded));
+            const Vector3d at = position_of(old_, rounded);
+            point = number(mesh_.add_vertex({at.x, at.y, at.z}));
             place_of_point_.push_back(static_cast<std::uint32_t>(k));
             Vector3d normal = unit(old_.double_area_normal(place.triangle));
             if (const std::uint32_t edge = place.edge(); edge < 3) {
@@ -118,16 +120,17 @@ private:
     }
 
     /// Where a point of a triangle of the old mesh, or of its sides, lies in it.
-    Steps steps_in(std::uint32_t origin, std::uint32_t point) const {
+    Steps steps_in(std::uint32_t triangle, VertexHandle v) const {
+        const std::uint32_t point = number(v);
         if (point < old_.points.size()) {
             Steps steps{};
             for (std::uint32_t k = 0; k < 3; ++k) {
-                if (old_.triangles[origin][k] == point) steps[k] = lattice_steps;
+                if (old_.triangles[triangle][k] == point) steps[k] = lattice_steps;
             }
             return steps;
         }
         const LatticePlace& place = places_[place_of_point_[point - old_.points.size()]];
-        if (place.triangle == origin) return place.steps;
+        if (place.triangle == triangle) return place.steps;
         const std::uint32_t edge = place.edge();
         return steps_across(place.steps, edge, old_.across[place.triangle][edge].edge);
     }
@@ -137,122 +140,93 @@ private:
                frame_[2] * (static_cast<double>(steps[2]) / lattice_steps);
     }
 
-    std::array<Steps, 3> corners_of(std::uint32_t t) const {
-        const auto [a, b, c] = now().triangles[t];
-        const std::uint32_t origin = origins_[t];
-        return {steps_in(origin, a), steps_in(origin, b), steps_in(origin, c)};
-    }
-
-    /// Where the walk to a point ends: its triangle, and one of its edges if the point lies on it.
+    /// Where the walk to a point ends: a face, and one of its edges if the point lies on it.
     struct Found {
-        std::uint32_t triangle = 0, edge = 3;
+        FaceHandle face;
+        HalfedgeHandle edge;
     };
 
     /// Walks over the edges that lie between, which of two first is left to chance: O. Devillers,
     /// S. Pion and M. Teillaud, "Walking in a triangulation", 2002. That never goes round in
     /// circles.
-    Found locate(const Steps& point, std::uint32_t t) const {
+    Found locate(const Steps& point, FaceHandle f) const {
         for (std::uint32_t step = 0;; ++step) {
-            const std::array<Steps, 3> corners = corners_of(t);
-            const std::uint32_t first = pcg4d({step, t, 0, 3})[0] % 3;
-            std::uint32_t on = 3, leave = 3;
-            for (std::uint32_t k = first; k < first + 3 && leave == 3; ++k) {
-                const std::int64_t side = turn(corners[k % 3], corners[corner_after(k % 3)], point);
-                if (side < 0) leave = k % 3;
-                if (side == 0) on = k % 3;
+            HalfedgeHandle h = mesh_.halfedge_handle(f), on, leave;
+            const auto chance = pcg4d({step, static_cast<std::uint32_t>(f.idx()), 0, 3})[0] % 3;
+            for (std::uint32_t k = 0; k < chance; ++k) h = mesh_.next_halfedge_handle(h);
+            Steps from = steps_in(origin(f), mesh_.from_vertex_handle(h));
+            for (std::uint32_t k = 0; k < 3 && !leave.is_valid(); ++k) {
+                const Steps to = steps_in(origin(f), mesh_.to_vertex_handle(h));
+                const std::int64_t side = turn(from, to, point);
+                if (side < 0) leave = h;
+                if (side == 0) on = h;
+                from = to;
+                h = mesh_.next_halfedge_handle(h);
             }
-            if (leave == 3) return {t, on};
-            t = now().across[t][leave].triangle;
+            if (!leave.is_valid()) return {f, on};
+            f = mesh_.opposite_face_handle(leave);
         }
     }
 
-    /// Returns a triangle at the point.
-    std::uint32_t insert(std::uint32_t point, std::uint32_t origin, std::uint32_t near) {
-        const Found found = locate(steps_in(origin, point), near);
-        const std::uint32_t t = found.triangle;
-        const auto added = static_cast<std::uint32_t>(origins_.size());
-        if (found.edge == 3) {
-            made_.mesh.split_triangle(t, point);
-            origins_.insert(origins_.end(), 2, origin);
-            restore({{t, 0}, {added, 0}, {added + 1, 0}}, origin, point);
-            return t;
-        }
-        const TriangleEdge other = now().across[t][found.edge];
-        made_.mesh.split_edge({t, found.edge}, point);
-        origins_.push_back(origin);
-        if (!other.exists()) {
-            restore({{t, corner_before(found.edge)}, {added, 1}}, origin, point);
-            return t;
-        }
-        const std::uint32_t there = origins_[other.triangle];
-        origins_.push_back(there);
-        restore({{t, corner_before(found.edge)}, {added, 1}}, origin, point);
-        restore({{other.triangle, corner_before(other.edge)}, {added + 1, 1}}, there, point);
-        return t;
+    /// Returns a face at the point, in the same old triangle as `near`.
+    FaceHandle insert(std::uint32_t point, FaceHandle near) {
+        const Found found = locate(steps_in(origin(near), vertex(point)), near);
+        if (found.edge.is_valid()) mesh_.split_copy(mesh_.edge_handle(found.edge), vertex(point));
+        else mesh_.split_copy(found.face, vertex(point));
+        restore(vertex(point));
+        return found.face;
     }
 
-    /// Exchanges edges that face a new point until all its triangles are Delaunay triangles. Each
-    /// edge is replaced by one of the point, of which there is a limited number.
-    void restore(std::initializer_list<TriangleEdge> facing, std::uint32_t origin,
-                 std::uint32_t point) {
-        if (origin != framed_) {
-            frame_ = own_frame(old_, origin);
-            framed_ = origin;
-        }
-        const Steps p = steps_in(origin, point);
-        suspects_.assign(facing);
+    /// Flips edges that face a new point until all its triangles are Delaunay triangles. Each edge is
+    /// replaced by one of the point, of which there is a limited number.
+    void restore(VertexHandle point) {
+        outgoing(mesh_, point, suspects_);
+        std::erase_if(suspects_, [&](HalfedgeHandle h) { return mesh_.is_boundary(h); });
+        for (HalfedgeHandle& h : suspects_) h = mesh_.next_halfedge_handle(h);
         while (!suspects_.empty()) {
-            const TriangleEdge edge = suspects_.back();
+            const HalfedgeHandle h = suspects_.back(), other = mesh_.opposite_halfedge_handle(h);
             suspects_.pop_back();
-            const TriangleEdge other = now().across[edge.triangle][edge.edge];
-            if (!other.exists() || origins_[other.triangle] != origin) continue;
-            const auto& corners = now().triangles[edge.triangle];
-            const Steps a = steps_in(origin, corners[edge.edge]);
-            const Steps b = steps_in(origin, corners[corner_after(edge.edge)]);
-            const Steps d = steps_in(origin, now().triangles[other.triangle][corner_before(other.edge)]);
+            const std::uint32_t triangle = origin(mesh_.face_handle(h));
+            if (mesh_.is_boundary(other) || origin(mesh_.face_handle(other)) != triangle) continue;
+            const Steps a = steps_in(triangle, mesh_.from_vertex_handle(h));
+            const Steps b = steps_in(triangle, mesh_.to_vertex_handle(h));
+            const Steps d = steps_in(triangle, mesh_.opposite_vh(other)), p = steps_in(triangle, point);
             if (turn(p, d, b) <= 0 || turn(d, p, a) <= 0) continue;
+            if (triangle != framed_) {
+                frame_ = own_frame(old_, triangle);
+                framed_ = triangle;
+            }
             if (!is_in_circle(flat(a), flat(b), flat(p), flat(d))) continue;
-            made_.mesh.exchange(edge);  // To (p, d, b) and (d, p, a).
-            suspects_.push_back({edge.triangle, 1});
-            suspects_.push_back({other.triangle, 2});
+            const EdgeHandle edge = mesh_.edge_handle(h);
+            if (!mesh_.is_flip_ok(edge)) continue;
+            suspects_.push_back(mesh_.next_halfedge_handle(other));
+            suspects_.push_back(mesh_.prev_halfedge_handle(other));
+            mesh_.flip(edge);
         }
     }
 
+    HalfEdges& mesh_;
     const SurfaceMesh& old_;
     const std::vector<LatticePlace>& places_;
     MutualTessellation made_;
-    std::vector<std::uint32_t> origins_;         ///< The old triangle in which each triangle lies.
+    OpenMesh::FPropHandleT<std::uint32_t> origin_;
     std::vector<std::uint32_t> place_of_point_;  ///< Of points that are not old.
     std::uint32_t framed_ = TriangleEdge::none;
     FlatTriangle frame_;  ///< Of the old triangle `framed_`.
-    std::vector<TriangleEdge> suspects_;
+    std::vector<HalfedgeHandle> suspects_;
 };
-
-Result<void> check_mesh(const SurfaceMesh& mesh, std::size_t places) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const auto [a, b, c] = mesh.triangles[t];
-        if (a == b || b == c || c == a) {
-            return failure(fmt::format("triangle {} of the surface has a corner twice", t));
-        }
-    }
-    const std::size_t most = TriangleEdge::none;
-    if (places >= most / 2 || mesh.triangles.size() >= most - 2 * places ||
-        mesh.points.size() >= most - places) {
-        return failure("the surface and its places have more points than can be numbered");
-    }
-    return {};
-}
 
 }  // namespace
 
-Result<MutualTessellation> tessellate(const SurfaceMesh& mesh, std::span<const SurfacePlace> places,
+Result<MutualTessellation> tessellate(HalfEdges& mesh, const SurfaceMesh& old,
+                                      std::span<const SurfacePlace> places,
                                       const std::atomic<bool>& cancel) {
-    if (Result<void> fine = check_mesh(mesh, places.size()); !fine) {
-        return tl::unexpected(fine.error());
+    if (places.size() > most_faces / 2 || old.triangles.size() > most_faces - 2 * places.size()) {
+        return failure("the surface and its places have more points than can be numbered");
     }
-    const Result<std::vector<LatticePlace>> lattice = to_lattice(mesh, places);
+    const Result<std::vector<LatticePlace>> lattice = to_lattice(old, places);
     if (!lattice) return tl::unexpected(lattice.error());
-    MutualTessellation made = Tessellator(mesh, *lattice).tessellate(cancel);
+    MutualTessellation made = Tessellator(mesh, old, *lattice).tessellate(cancel);
     if (cancel) return failure("re-tiling the surface was stopped");
     return made;
 }

@@ -4,7 +4,7 @@
 
 #include "core/result.h"
 #include "mesh/flat.h"
-#include "surface/edited_mesh.h"
+#include "mesh/half_edges.h"
 
 #include <atomic>
 #include <span>
@@ -12,7 +12,6 @@
 namespace cascade {
 
 struct MutualTessellation {
-    EditedMesh mesh;  ///< Its first points are those of the old mesh, with their numbers.
     /// A place that lies on an old point has its number; the others have new ones.
     std::vector<std::uint32_t> point_of_place;
     /// Of the old surface at each point; length 1, or 0 at a place without area around it.
@@ -21,14 +20,17 @@ struct MutualTessellation {
 
 /// Cuts each triangle into triangles of its corners and the places in it: the constrained Delaunay
 /// triangulation, its sides (with the places on them) the constraints. Turk chooses the shortest
-/// edges first, in O(n²); here places are inserted one by one and edges exchanged (C. L. Lawson,
+/// edges first, in O(n²); here places are inserted one by one and edges flipped (C. L. Lawson,
 /// "Software for C¹ surface interpolation", 1977), in a random order that is nearly along a curve
 /// (N. Amenta, S. Choi and G. Rote, "Incremental constructions con BRIO", SoCG 2003), which takes
 /// O(n log n). Every triangle turns as the one it lies in does, exactly (surface/place_lattice.h).
 ///
-/// Fails as to_lattice() does, where a triangle has a point twice, where there would be too many
-/// points to number, and when `cancel` becomes true.
-Result<MutualTessellation> tessellate(const SurfaceMesh& mesh, std::span<const SurfacePlace> places,
+/// An edge that would be a second one between its points stays away.
+///
+/// `mesh` is half_edges(old); its points keep their numbers. Fails as to_lattice() does, where there
+/// would be too many points to number, and when `cancel` becomes true.
+Result<MutualTessellation> tessellate(HalfEdges& mesh, const SurfaceMesh& old,
+                                      std::span<const SurfacePlace> places,
                                       const std::atomic<bool>& cancel);
 
 }  // namespace cascade

@@ -1,3 +1,4 @@
+// Which points may go, and how a hole is filled; OpenMesh flips and collapses.
 #include "surface/remove_points.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace {
 constexpr double boundary_may_move = 0.1;            ///< Spacings.
 constexpr double longest_boundary_edge = 2;          ///< Spacings.
 constexpr double high_care = 0.26, low_care = 0.09;  ///< Cosines of 75° and 85°.
-constexpr std::size_t most_tried = 24;  ///< Points of a rim of which all ways to fill it are tried.
+constexpr std::size_t most_tried = 24;  ///< Points of a ring of which all ways to fill it are tried.
 constexpr double least_sine = 1e-9;
 
 bool is_fine(const TriangleQuality& quality, Care care) {
@@ -26,104 +27,122 @@ double distance_to_segment(Vector3d point, Vector3d from, Vector3d to) {
 
 }  // namespace
 
-/// The boundary comes from the rim's last point and goes on to its first.
+void PointRemoval::take_ring(std::uint32_t point) {
+    outgoing(mesh_, vertex(point), spokes_);
+    is_closed_ = !mesh_.is_boundary(spokes_.back());
+    ring_.clear();
+    for (const HalfedgeHandle spoke : spokes_) ring_.push_back(number(mesh_.to_vertex_handle(spoke)));
+}
+
+/// The boundary comes from the ring's last point and goes on to its first.
 bool PointRemoval::may_leave_boundary(std::uint32_t point) {
-    const auto& points = mesh_.mesh().points;
-    const Vector3d from = points[fan_.rim.back()], to = points[fan_.rim.front()];
-    const double moved = distance_to_segment(points[point], from, to) +
-                         std::max(moved_[fan_.rim.back()], moved_[point]);
+    const Vector3d from = place(ring_.back()), to = place(ring_.front());
+    const double moved = distance_to_segment(place(point), from, to) +
+                         std::max(moved_[ring_.back()], moved_[point]);
     return moved <= boundary_may_move * spacing_ &&
            length(to - from) <= longest_boundary_edge * spacing_;
 }
 
 void PointRemoval::note_moved(std::uint32_t point) {
-    const auto& points = mesh_.mesh().points;
-    double& moved = moved_[fan_.rim.back()];
+    double& moved = moved_[ring_.back()];
     moved = std::max(moved, moved_[point]) +
-            distance_to_segment(points[point], points[fan_.rim.back()], points[fan_.rim.front()]);
+            distance_to_segment(place(point), place(ring_.back()), place(ring_.front()));
 }
 
-bool PointRemoval::has_rim_twice() {
-    sorted_ = fan_.rim;
+bool PointRemoval::has_point_twice() {
+    sorted_ = ring_;
     std::sort(sorted_.begin(), sorted_.end());
     return std::adjacent_find(sorted_.begin(), sorted_.end()) != sorted_.end();
 }
 
 /// Whether the hole's last edge, or a hole of three corners as a whole, meets nothing of the kind.
 bool PointRemoval::may_close() {
-    const std::vector<std::uint32_t>& rim = fan_.rim;
-    if (!fan_.is_closed) {
-        if (rim.size() == 2) return fan_.beyond[0].exists();
-        if (mesh_.are_neighbours(rim.back(), rim.front())) return false;
+    const HalfedgeHandle beyond =
+        mesh_.opposite_halfedge_handle(mesh_.next_halfedge_handle(spokes_[0]));
+    if (!is_closed_) {
+        if (ring_.size() == 2) return !mesh_.is_boundary(beyond);
+        if (are_neighbours(mesh_, vertex(ring_.back()), vertex(ring_.front()))) return false;
     }
-    if (rim.size() != 3) return rim.size() > 3 || !fan_.is_closed;
-    const TriangleEdge other = fan_.beyond[0];
-    return !other.exists() ||
-           mesh_.mesh().triangles[other.triangle][corner_before(other.edge)] != rim[2];
+    if (ring_.size() != 3) return ring_.size() > 3 || !is_closed_;
+    return mesh_.is_boundary(beyond) || number(mesh_.opposite_vh(beyond)) != ring_[2];
 }
 
-void PointRemoval::unroll_fan(std::uint32_t point) {
-    const auto& points = mesh_.mesh().points;
+void PointRemoval::unroll_ring(std::uint32_t point) {
     distances_.clear();
     angles_.clear();
-    for (const std::uint32_t other : fan_.rim) {
-        distances_.push_back(length(points[other] - points[point]));
-    }
-    for (std::size_t k = 0; k < fan_.triangles.size(); ++k) {
-        const Vector3d a = points[fan_.rim[k]] - points[point];
-        const Vector3d b = points[fan_.rim[k + 1 == fan_.rim.size() ? 0 : k + 1]] - points[point];
+    for (const std::uint32_t other : ring_) distances_.push_back(length(place(other) - place(point)));
+    for (std::size_t k = 0; k + !is_closed_ < ring_.size(); ++k) {
+        const Vector3d a = place(ring_[k]) - place(point);
+        const Vector3d b = place(ring_[k + 1 == ring_.size() ? 0 : k + 1]) - place(point);
         angles_.push_back(std::atan2(length(cross(a, b)), dot(a, b)));
     }
     flat_ = unroll(distances_, angles_);
 }
 
-TriangleQuality PointRemoval::quality(const RimTriangle& corners) const {
-    const auto& points = mesh_.mesh().points;
-    const std::uint32_t a = fan_.rim[corners[0]], b = fan_.rim[corners[1]];
-    const std::uint32_t c = fan_.rim[corners[2]];
-    return quality_of({points[a], points[b], points[c]}, {normals_[a], normals_[b], normals_[c]});
+TriangleQuality PointRemoval::quality(const RingTriangle& corners) const {
+    const std::uint32_t a = ring_[corners[0]], b = ring_[corners[1]], c = ring_[corners[2]];
+    return quality_of({place(a), place(b), place(c)}, {normals_[a], normals_[b], normals_[c]});
 }
 
-/// Whether the line from the first to the third corner is a side of the rim or no edge yet.
-bool PointRemoval::is_new(const RimTriangle& corners) {
+/// Whether the line from the first to the third corner is a side of the ring or no edge yet.
+bool PointRemoval::is_new(const RingTriangle& corners) {
     const std::uint32_t reach =
         corners[2] > corners[0] ? corners[2] - corners[0] : corners[0] - corners[2];
-    if (reach == 1 || reach + 1 == fan_.rim.size()) return true;
-    const bool is_there = mesh_.are_neighbours(fan_.rim[corners[0]], fan_.rim[corners[2]]);
+    if (reach == 1 || reach + 1 == ring_.size()) return true;
+    const bool is_there = are_neighbours(mesh_, vertex(ring_[corners[0]]), vertex(ring_[corners[2]]));
     meets_edge_ |= is_there;
     return !is_there;
 }
 
 /// All ways to fill the hole are tried.
-std::vector<RimTriangle> PointRemoval::best_filling(Care care) {
-    const auto count = static_cast<std::uint32_t>(fan_.rim.size());
-    return best_triangles(count, [&](const RimTriangle& corners) {
+std::vector<RingTriangle> PointRemoval::best_filling(Care care) {
+    const auto count = static_cast<std::uint32_t>(ring_.size());
+    RingTriangle asked{};  // Triangles on the same edge come after each other.
+    bool may_be = false;
+    return best_triangles(count, [&](const RingTriangle& corners) {
         const TriangleQuality found = quality(corners);
-        return is_fine(found, care) && is_new(corners) ? found.score() : 0;
+        if (!is_fine(found, care)) return 0.0;
+        if (corners[0] != asked[0] || corners[2] != asked[2]) may_be = is_new(corners);
+        asked = corners;
+        return may_be ? found.score() : 0;
     });
 }
 
-/// The same ear by ear, in the plane into which the fan is unrolled.
-std::vector<RimTriangle> PointRemoval::cut_ears_around(std::uint32_t point, Care care) {
-    unroll_fan(point);
-    return cut_ears(flat_, fan_.is_closed, [&](const RimTriangle& corners) {
+/// The same ear by ear, in the plane into which the ring is unrolled.
+std::vector<RingTriangle> PointRemoval::cut_ears_around(std::uint32_t point, Care care) {
+    unroll_ring(point);
+    return cut_ears(flat_, is_closed_, [&](const RingTriangle& corners) {
         return is_new(corners) && is_fine(quality(corners), care);
     });
 }
 
+/// Flipping the edge from the point to the tip of an ear cuts the ear off. In the end the point is in
+/// three triangles, which become one, or in one at the boundary.
+void PointRemoval::fill(std::span<const RingTriangle> triangles) {
+    changed_.clear();
+    for (const HalfedgeHandle spoke : spokes_) {
+        if (!mesh_.is_boundary(spoke)) changed_.push_back(mesh_.face_handle(spoke));
+    }
+    for (const auto& [before, tip, after] : triangles.first(triangles.size() - is_closed_)) {
+        mesh_.flip(mesh_.edge_handle(spokes_[tip]));
+    }
+    if (is_closed_) mesh_.collapse(spokes_[triangles.back()[0]]);
+    else mesh_.delete_face(mesh_.face_handle(spokes_[0]));
+}
+
 std::optional<WhyKept> PointRemoval::remove(std::uint32_t point, Care care) {
-    mesh_.fan_around(point, fan_);
-    if (!fan_.is_closed && !may_leave_boundary(point)) return WhyKept::boundary;
-    if (has_rim_twice() || !may_close()) return WhyKept::topology;
-    std::vector<RimTriangle> triangles;
-    if (fan_.rim.size() > 2) {
+    take_ring(point);
+    if (!is_closed_ && !may_leave_boundary(point)) return WhyKept::boundary;
+    if (has_point_twice() || !may_close()) return WhyKept::topology;
+    std::vector<RingTriangle> triangles;
+    if (ring_.size() > 2) {
         meets_edge_ = false;
         triangles =
-            fan_.rim.size() <= most_tried ? best_filling(care) : cut_ears_around(point, care);
+            ring_.size() <= most_tried ? best_filling(care) : cut_ears_around(point, care);
         if (triangles.empty()) return meets_edge_ ? WhyKept::topology : WhyKept::fold;
     }
-    if (!fan_.is_closed) note_moved(point);
-    mesh_.replace_fan(point, fan_, triangles);
+    if (!is_closed_) note_moved(point);
+    fill(triangles);
     return std::nullopt;
 }
 

@@ -2,20 +2,14 @@
 // (thesis, section 5.3.1).
 #pragma once
 
-#include "surface/edited_mesh.h"
+#include "mesh/half_edges.h"
 #include "surface/fill_hole.h"
+#include "surface/retile.h"
 #include "surface/triangle_quality.h"
 
 #include <optional>
 
 namespace cascade {
-
-/// Why a point could not be taken away.
-enum class WhyKept {
-    boundary,  ///< The boundary would move, or have an edge much longer than places are apart.
-    topology,  ///< Two points would have two edges, or a piece or a boundary would vanish.
-    fold,      ///< A new triangle would lie upside down or have no area.
-};
 
 /// How closely new triangles must follow the surface.
 enum class Care {
@@ -28,37 +22,46 @@ class PointRemoval {
 public:
     /// `normals` are those of the surface at the points, of length 1; `spacing` is how far
     /// places are apart.
-    PointRemoval(EditedMesh& mesh, const std::vector<Vector3d>& normals, double spacing)
-        : mesh_(mesh), normals_(normals), spacing_(spacing), moved_(mesh.mesh().points.size()) {}
+    PointRemoval(HalfEdges& mesh, const std::vector<Vector3d>& normals, double spacing)
+        : mesh_(mesh), normals_(normals), spacing_(spacing), moved_(mesh.n_vertices()) {}
 
-    /// Takes a point away with its fan and fills the hole with triangles of the rim: of all ways
-    /// the one whose worst triangle has the best score. Turk projects the rim to a tangent plane,
-    /// where it may overlap itself; this needs no plane. A rim of more than 24 points, for which
-    /// that would take long, is unrolled into a plane and its ears are cut off.
+    /// Takes a point away and fills the hole with triangles over its one-ring: of all ways the one
+    /// whose worst triangle has the best score. Turk projects the ring to a tangent plane, where it may
+    /// overlap itself; this needs no plane. A ring of more than 24 points, for which that would take
+    /// long, is unrolled into a plane and its ears are cut off.
     ///
     /// Leaves everything as it is and says why where the point must stay. A point at a boundary
     /// goes only where the boundary stays within 1/10 of the spacing and the new edge is no longer
     /// than twice the spacing.
     std::optional<WhyKept> remove(std::uint32_t point, Care care);
 
+    /// The faces that were around the point removed last: some fill its hole, the others are deleted.
+    const std::vector<FaceHandle>& changed() const { return changed_; }
+
 private:
+    Vector3d place(std::uint32_t point) const { return position(mesh_, vertex(point)); }
+    void take_ring(std::uint32_t point);
     bool may_leave_boundary(std::uint32_t point);
     void note_moved(std::uint32_t point);
-    bool has_rim_twice();
+    bool has_point_twice();
     bool may_close();
-    bool is_new(const RimTriangle& corners);
-    TriangleQuality quality(const RimTriangle& corners) const;
-    std::vector<RimTriangle> best_filling(Care care);
-    std::vector<RimTriangle> cut_ears_around(std::uint32_t point, Care care);
-    void unroll_fan(std::uint32_t point);
+    bool is_new(const RingTriangle& corners);
+    TriangleQuality quality(const RingTriangle& corners) const;
+    std::vector<RingTriangle> best_filling(Care care);
+    std::vector<RingTriangle> cut_ears_around(std::uint32_t point, Care care);
+    void unroll_ring(std::uint32_t point);
+    void fill(std::span<const RingTriangle> triangles);
 
-    EditedMesh& mesh_;
+    HalfEdges& mesh_;
     const std::vector<Vector3d>& normals_;
     double spacing_;
     std::vector<double>
         moved_;  ///< How far the boundary edge that begins at a point has moved at most.
-    Fan fan_;
+    std::vector<HalfedgeHandle> spokes_;  ///< Out of the point that is to go, counterclockwise.
+    std::vector<std::uint32_t> ring_;     ///< Their ends.
+    bool is_closed_ = false;              ///< The point is not at a boundary.
     bool meets_edge_ = false;  ///< A triangle was refused because two points had an edge already.
+    std::vector<FaceHandle> changed_;
     std::vector<std::uint32_t> sorted_;
     std::vector<double> distances_, angles_;
     std::vector<Vector2d> flat_;

@@ -1,7 +1,8 @@
 #include "surface/retile.h"
 
-#include "surface/improve_edges.h"
+#include "surface/flip_edges.h"
 #include "surface/mutual_tessellation.h"
+#include "surface/remove_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +15,14 @@ constexpr int most_rounds = 16;  ///< Of tries to remove what could not be remov
 
 class Retiler {
 public:
-    Retiler(const SurfaceMesh& old, std::span<const SurfacePlace> places, MutualTessellation made)
+    Retiler(const SurfaceMesh& old, std::span<const SurfacePlace> places, HalfEdges& mesh,
+            MutualTessellation made)
         : old_(old),
           places_(places),
+          mesh_(mesh),
           made_(std::move(made)),
-          removal_(made_.mesh, made_.normals, spacing(old, places.size())),
-          improver_(made_.mesh, made_.normals) {
+          removal_(mesh, made_.normals, spacing(old, places.size())),
+          flipper_(mesh, made_.normals) {
         std::vector<bool> is_place(old.points.size());
         for (const std::uint32_t point : made_.point_of_place) {
             if (point < is_place.size()) is_place[point] = true;
@@ -30,12 +33,12 @@ public:
     }
 
     Result<Retiled> retile(const std::atomic<bool>& cancel) {
-        improver_.improve(cancel);
+        flipper_.improve(cancel);
         for (const Care care : {Care::high, Care::low}) {
             bool is_changed = true;
             for (int round = 0; round < most_rounds && is_changed && !left_.empty(); ++round) {
                 is_changed = remove_all(care, cancel);
-                if (is_changed) improver_.improve(cancel);
+                if (is_changed) flipper_.improve(cancel);
             }
         }
         if (cancel) return failure("re-tiling the surface was stopped");
@@ -54,8 +57,12 @@ private:
         std::erase_if(left_, [&](KeptPoint& kept) {
             if (cancel) return false;
             const std::optional<WhyKept> why = removal_.remove(kept.old_point, care);
-            if (why) kept.why = *why;
-            return !why;
+            if (why) {
+                kept.why = *why;
+                return false;
+            }
+            for (const FaceHandle f : removal_.changed()) flipper_.look_at(f);
+            return true;
         });
         return left_.size() < before;
     }
@@ -63,7 +70,7 @@ private:
     Retiled result() const {
         std::vector<std::uint32_t> points = made_.point_of_place;
         for (const KeptPoint& kept : left_) points.push_back(kept.old_point);
-        Retiled result{made_.mesh.without_gaps(points), left_};
+        Retiled result{surface_mesh(mesh_, points), left_};
         for (const PointAttribute& attribute : old_.attributes) {
             result.mesh.attributes.push_back({attribute.name, carried(attribute.values)});
         }
@@ -85,9 +92,10 @@ private:
 
     const SurfaceMesh& old_;
     std::span<const SurfacePlace> places_;
+    HalfEdges& mesh_;
     MutualTessellation made_;
     PointRemoval removal_;
-    EdgeImprover improver_;
+    EdgeFlipper flipper_;
     std::vector<KeptPoint> left_;  ///< Old points that are still there.
 };
 
@@ -95,9 +103,11 @@ private:
 
 Result<Retiled> retile(const SurfaceMesh& mesh, std::span<const SurfacePlace> places,
                        const std::atomic<bool>& cancel) {
-    Result<MutualTessellation> made = tessellate(mesh, places, cancel);
+    Result<HalfEdges> edited = half_edges(mesh);
+    if (!edited) return tl::unexpected(edited.error());
+    Result<MutualTessellation> made = tessellate(*edited, mesh, places, cancel);
     if (!made) return tl::unexpected(made.error());
-    return Retiler(mesh, places, *std::move(made)).retile(cancel);
+    return Retiler(mesh, places, *edited, *std::move(made)).retile(cancel);
 }
 
 }  // namespace cascade

@@ -4,13 +4,13 @@
 //
 // The old triangles are cut so that the places are among their points
 // (surface/mutual_tessellation.h), then the old points are taken away one by one
-// (surface/remove_points.h), and at the end edges are exchanged for better ones
-// (surface/improve_edges.h). At every moment there is a surface of the same topology, so nothing
+// (surface/remove_points.h), and at the end edges are flipped for better ones
+// (surface/flip_edges.h). At every moment there is a surface of the same topology, so nothing
 // can tear.
 #pragma once
 
 #include "core/result.h"
-#include "surface/remove_points.h"
+#include "mesh/flat.h"
 
 #include <atomic>
 #include <span>
@@ -18,6 +18,13 @@
 #include <vector>
 
 namespace cascade {
+
+/// Why a point could not be taken away.
+enum class WhyKept {
+    boundary,  ///< The boundary would move, or have an edge much longer than places are apart.
+    topology,  ///< Two points would have two edges, or a piece or a boundary would vanish.
+    fold,      ///< A new triangle would lie upside down or have no area.
+};
 
 /// A point of the old surface that is one of the new surface too.
 struct KeptPoint {
@@ -40,9 +47,10 @@ struct Retiled {
 /// upside down could replace them. A point lies within 10⁻⁷ of its place, measured by the place's
 /// old triangle; where places coincide all but the first move by some 4·10⁻⁶.
 ///
-/// The same for the same arguments. Takes O((n + m) log (n + m)) of n points and m places. Fails
-/// where a place is on no triangle, where a triangle has a corner twice, where there would be 2³²
-/// points or triangles, and when `cancel` becomes true. Throws std::bad_alloc.
+/// The same for the same arguments. Takes O((n + m) log (n + m)) of n points and m places, where no
+/// point has very many neighbours. Fails where a place is on no triangle, as half_edges() does, where
+/// there would be more points or triangles than it can number, and when `cancel` becomes true. Throws
+/// std::bad_alloc.
 Result<Retiled> retile(const SurfaceMesh& mesh, std::span<const SurfacePlace> places,
                        const std::atomic<bool>& cancel);
 

@@ -15,7 +15,7 @@ struct TriangleQuality {
     double least_cosine = 0;  ///< Between its normal and those of the surface at its corners.
     double mean_cosine = 0;   ///< Between its normal and the mean of those; below 0 upside down.
 
-    /// What exchanging edges makes as large as it can: angles, and where the triangle leaves the
+    /// What flipping edges makes as large as it can: angles, and where the triangle leaves the
     /// surface steeply, how well it follows it.
     double score() const { return least_sine * std::clamp(least_cosine / 0.9, 0.01, 1.0); }
 };
@@ -27,11 +27,10 @@ inline TriangleQuality quality_of(const std::array<Vector3d, 3>& corners,
     const Vector3d ca = corners[0] - corners[2];
     const Vector3d normal = cross(ab, -ca);
     const double double_area = length(normal);
-    std::array<double, 3> sides = {length(ab), length(bc), length(ca)};
-    std::sort(sides.begin(), sides.end());
+    const double c = length(ab), a = length(bc), b = length(ca);
     const Vector3d direction = unit(normal);
     TriangleQuality quality;
-    if (double_area > 0) quality.least_sine = double_area / (sides[1] * sides[2]);
+    if (double_area > 0) quality.least_sine = double_area / std::max({a * b, b * c, c * a});
     quality.least_cosine = std::min(
         {dot(direction, normals[0]), dot(direction, normals[1]), dot(direction, normals[2])});
     quality.mean_cosine = dot(direction, unit(normals[0] + normals[1] + normals[2]));

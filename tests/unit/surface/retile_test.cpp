@@ -1,4 +1,5 @@
 // Surfaces over new points, against what theory knows of them.
+#include "surface/triangle_quality.h"
 #include "unit/surface/retiling.h"
 
 #include <gtest/gtest.h>

@@ -67,9 +67,9 @@ double in_circle(Vector3d a, Vector3d b, Vector3d c, Vector3d d) {
 TEST(MutualTessellation, IsDelaunayWithinEachTriangle) {
     const SurfaceMesh mesh = test::square();
     const std::vector<SurfacePlace> places = scatter(mesh, 2000, 5);
-    const auto made = tessellate(mesh, places, never);
-    ASSERT_TRUE(made);
-    const SurfaceMesh& fine = made->mesh.mesh();
+    auto edited = half_edges(mesh);
+    ASSERT_TRUE(edited && tessellate(*edited, mesh, places, never));
+    const SurfaceMesh fine = surface_mesh(*edited);
     test::expect_manifold(fine);
     EXPECT_EQ(fine.triangles.size(), 2u + 2 * 2000);
     EXPECT_NEAR(fine.total_area(), 1, 1e-12);
@@ -94,9 +94,9 @@ TEST(MutualTessellation, LiesInTheOldSurface) {
     const SurfaceMesh mesh = test::box();
     std::vector<SurfacePlace> places = scatter(mesh, 700, 2);
     for (std::uint32_t t = 0; t < 12; ++t) places.push_back({t, {0.5, 0, 0.5}});
-    const auto made = tessellate(mesh, places, never);
-    ASSERT_TRUE(made);
-    const SurfaceMesh& fine = made->mesh.mesh();
+    auto edited = half_edges(mesh);
+    ASSERT_TRUE(edited && tessellate(*edited, mesh, places, never));
+    const SurfaceMesh fine = surface_mesh(*edited);
     test::expect_manifold(fine);
     EXPECT_EQ(fine.points.size(), 8 + places.size());  // On the diagonals places coincide.
     EXPECT_NEAR(fine.total_area(), 6, 1e-12);
@@ -113,10 +113,10 @@ TEST(FillHole, AFlatFanUnrollsToItself) {
     const std::vector<double> distances = {1, 2, 0.5, 3, 1.5};
     const std::vector<double> angles = {1, 0.8, 1.2, 1.5, 2 * std::numbers::pi - 4.5};
     double direction = 0;
-    const std::vector<Vector2d> rim = unroll(distances, angles);
-    for (std::size_t k = 0; k < rim.size(); ++k) {
-        EXPECT_NEAR(rim[k].x, distances[k] * std::cos(direction), 1e-12);
-        EXPECT_NEAR(rim[k].y, distances[k] * std::sin(direction), 1e-12);
+    const std::vector<Vector2d> ring = unroll(distances, angles);
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+        EXPECT_NEAR(ring[k].x, distances[k] * std::cos(direction), 1e-12);
+        EXPECT_NEAR(ring[k].y, distances[k] * std::sin(direction), 1e-12);
         direction += angles[k];
     }
     const std::vector<Vector2d> open =
@@ -127,52 +127,52 @@ TEST(FillHole, AFlatFanUnrollsToItself) {
 
 /// Points in order around the origin, farther and nearer.
 std::vector<Vector2d> star(std::uint32_t count, std::uint32_t seed, double unevenness) {
-    std::vector<Vector2d> rim;
+    std::vector<Vector2d> ring;
     for (std::uint32_t k = 0; k < count; ++k) {
         const double random = pcg4d({k, seed, 0, 1})[0] / 4294967296.0;
         const double angle = 2 * std::numbers::pi * (k + 0.3 * random) / count;
         const double distance = 1 + unevenness * pcg4d({k, seed, 0, 2})[0] / 4294967296.0;
-        rim.push_back({distance * std::cos(angle), distance * std::sin(angle)});
+        ring.push_back({distance * std::cos(angle), distance * std::sin(angle)});
     }
-    return rim;
+    return ring;
 }
 
-double area(const std::vector<Vector2d>& rim, const RimTriangle& t) {
-    return cross(rim[t[1]] - rim[t[0]], rim[t[2]] - rim[t[0]]) / 2;
+double area(const std::vector<Vector2d>& ring, const RingTriangle& t) {
+    return cross(ring[t[1]] - ring[t[0]], ring[t[2]] - ring[t[0]]) / 2;
 }
 
 /// The smallest sine of an angle, below 0 upside down.
-double least_sine(const std::vector<Vector2d>& rim, const RimTriangle& t) {
+double least_sine(const std::vector<Vector2d>& ring, const RingTriangle& t) {
     std::array<double, 3> sides;
-    for (std::size_t k = 0; k < 3; ++k) sides[k] = length(rim[t[(k + 1) % 3]] - rim[t[k]]);
+    for (std::size_t k = 0; k < 3; ++k) sides[k] = length(ring[t[(k + 1) % 3]] - ring[t[k]]);
     std::sort(sides.begin(), sides.end());
-    return 2 * area(rim, t) / (sides[1] * sides[2]);
+    return 2 * area(ring, t) / (sides[1] * sides[2]);
 }
 
-/// The triangles turn the right way and make up the whole rim.
-void expect_filled(const std::vector<Vector2d>& rim, const std::vector<RimTriangle>& triangles) {
-    ASSERT_EQ(triangles.size() + 2, rim.size());
+/// The triangles turn the right way and make up the whole ring.
+void expect_filled(const std::vector<Vector2d>& ring, const std::vector<RingTriangle>& triangles) {
+    ASSERT_EQ(triangles.size() + 2, ring.size());
     double sum = 0, whole = 0;
-    for (const RimTriangle& t : triangles) {
-        EXPECT_GT(area(rim, t), 0);
-        sum += area(rim, t);
+    for (const RingTriangle& t : triangles) {
+        EXPECT_GT(area(ring, t), 0);
+        sum += area(ring, t);
     }
-    for (std::size_t k = 0; k < rim.size(); ++k)
-        whole += cross(rim[k], rim[(k + 1) % rim.size()]) / 2;
+    for (std::size_t k = 0; k < ring.size(); ++k)
+        whole += cross(ring[k], ring[(k + 1) % ring.size()]) / 2;
     EXPECT_NEAR(sum, whole, 1e-12 * whole);
 }
 
 TEST(FillHole, AllTrianglesTogetherAreTheHole) {
     for (std::uint32_t seed = 0; seed < 300; ++seed) {
-        const std::vector<Vector2d> rim = star(3 + seed % 20, seed, seed % 3);
-        const auto cut = cut_ears(rim, true, [](const RimTriangle&) { return true; });
-        expect_filled(rim, cut);
-        const auto worth = [&](const RimTriangle& t) { return std::max(0.0, least_sine(rim, t)); };
-        const auto best = best_triangles(static_cast<std::uint32_t>(rim.size()), worth);
-        expect_filled(rim, best);
-        const auto worst = [&](const std::vector<RimTriangle>& triangles) {
+        const std::vector<Vector2d> ring = star(3 + seed % 20, seed, seed % 3);
+        const auto cut = cut_ears(ring, true, [](const RingTriangle&) { return true; });
+        expect_filled(ring, cut);
+        const auto worth = [&](const RingTriangle& t) { return std::max(0.0, least_sine(ring, t)); };
+        const auto best = best_triangles(static_cast<std::uint32_t>(ring.size()), worth);
+        expect_filled(ring, best);
+        const auto worst = [&](const std::vector<RingTriangle>& triangles) {
             double least = 1;
-            for (const RimTriangle& t : triangles) least = std::min(least, least_sine(rim, t));
+            for (const RingTriangle& t : triangles) least = std::min(least, least_sine(ring, t));
             return least;
         };
         EXPECT_GE(worst(best), worst(cut) - 1e-15);
@@ -181,11 +181,11 @@ TEST(FillHole, AllTrianglesTogetherAreTheHole) {
 
 TEST(FillHole, EarsOfAConvexRimMakeDelaunayTriangles) {
     for (std::uint32_t seed = 0; seed < 100; ++seed) {
-        const std::vector<Vector2d> rim = star(12, seed, 0);  // On a circle.
-        std::vector<Vector2d> bent = rim;
+        const std::vector<Vector2d> ring = star(12, seed, 0);  // On a circle.
+        std::vector<Vector2d> bent = ring;
         for (Vector2d& p : bent) p.x *= 1.5;  // On an ellipse.
         const auto at = [&](std::uint32_t k) { return Vector3d{bent[k].x, bent[k].y, 0}; };
-        for (const RimTriangle& t : cut_ears(bent, true, [](const RimTriangle&) { return true; })) {
+        for (const RingTriangle& t : cut_ears(bent, true, [](const RingTriangle&) { return true; })) {
             for (std::uint32_t k = 0; k < bent.size(); ++k) {
                 if (k == t[0] || k == t[1] || k == t[2]) continue;
                 EXPECT_LT(in_circle(at(t[0]), at(t[1]), at(t[2]), at(k)), 1e-12);
@@ -195,20 +195,20 @@ TEST(FillHole, EarsOfAConvexRimMakeDelaunayTriangles) {
 }
 
 TEST(FillHole, WhatMayNotBeMadeIsNotMade) {
-    const std::vector<Vector2d> rim = star(6, 1, 0);
-    const auto not_from_first = [](const RimTriangle& t) {
+    const std::vector<Vector2d> ring = star(6, 1, 0);
+    const auto not_from_first = [](const RingTriangle& t) {
         return t[0] != 0 && t[1] != 0 && t[2] != 0;
     };
-    EXPECT_TRUE(cut_ears(rim, true, not_from_first).empty());  // Some triangle is at every point.
-    EXPECT_TRUE(best_triangles(6, [&](const RimTriangle& t) {
+    EXPECT_TRUE(cut_ears(ring, true, not_from_first).empty());  // Some triangle is at every point.
+    EXPECT_TRUE(best_triangles(6, [&](const RingTriangle& t) {
                     return not_from_first(t) ? 1.0 : 0;
                 }).empty());
-    const auto no_long_line = [](const RimTriangle& t) {
+    const auto no_long_line = [](const RingTriangle& t) {
         return std::max(t[2], t[0]) - std::min(t[2], t[0]) != 3;
     };
-    const std::vector<RimTriangle> found = cut_ears(rim, true, no_long_line);
+    const std::vector<RingTriangle> found = cut_ears(ring, true, no_long_line);
     EXPECT_EQ(found.size(), 4u);
-    for (const RimTriangle& t : found) EXPECT_TRUE(no_long_line(t));
+    for (const RingTriangle& t : found) EXPECT_TRUE(no_long_line(t));
 }
 
 }  // namespace
