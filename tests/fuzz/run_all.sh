@@ -21,13 +21,18 @@ if [ ${#fuzzers[@]} -gt 0 ]; then
     cmake --preset fuzz >/dev/null
     cmake --build --preset fuzz -j "$jobs" --target "${fuzzers[@]/%/_fuzzer}"
     seconds=$((minutes * 60 / ${#fuzzers[@]}))
+    # Scripts alone: the pictures beside them are large, and slow to complain about.
+    scripts=build/corpora/scripts
+    mkdir -p "$scripts"
+    find examples lang/systems -name '*.cascade' -exec cp -t "$scripts" {} +
     for name in "${fuzzers[@]}"; do
         corpus=build/corpora/$name
         mkdir -p "$corpus"
         seeds=("$corpus")
         options=()
-        [ "$name" = front_end ] && seeds+=(examples lang/systems) && options+=(-dict=tests/fuzz/cascade.dict)
-        [ "$name" = prompt ] && seeds+=(examples) && options+=(-dict=tests/fuzz/cascade.dict)
+        case $name in
+            front_end | prompt) seeds+=("$scripts") options+=(-dict=tests/fuzz/cascade.dict) ;;
+        esac
         [ "$name" = model ] && options+=(-dict=tests/fuzz/models.dict)
         note "$name, $seconds s, $(find "$corpus" -type f | wc -l) inputs known"
         log=build/corpora/$name.log
