@@ -39,14 +39,14 @@ public:
             const TriangleEdge other = mesh_.across[edge.triangle][edge.edge];
             if (!other.exists() || other.triangle == edge.triangle) continue;
             if (mesh_.cotangent(edge) + mesh_.cotangent(other) >= -tolerance) continue;
-            exchange(edge, other);
+            flip(edge, other);
         }
         return std::move(mesh_);
     }
 
 private:
     /// Triangles (a, b, c) and (b, a, d) become (c, d, b) and (d, c, a).
-    void exchange(TriangleEdge edge, TriangleEdge other) {
+    void flip(TriangleEdge edge, TriangleEdge other) {
         const std::uint32_t t = edge.triangle, k = edge.edge, k1 = corner_after(k), k2 = corner_after(k1);
         const std::uint32_t o = other.triangle, m = other.edge, m1 = corner_after(m), m2 = corner_after(m1);
         const double diagonal = length(apex(edge) - mirrored(apex(other), mesh_.lengths[t][k]));

@@ -20,13 +20,13 @@ struct IntrinsicMesh {
     double cotangent(TriangleEdge edge) const;
 };
 
-/// Exchanges edges until no two angles that face one have more than 180° together, which makes all
+/// Flips edges until no two angles that face one have more than 180° together, which makes all
 /// cotangent weights positive except at boundaries: A. Bobenko and B. Springborn, "A Discrete
 /// Laplace–Beltrami Operator for Simplicial Surfaces", Discrete & Computational Geometry 38 (2007);
 /// the algorithm is that of M. Fisher et al., "An Algorithm for the Construction of Intrinsic
 /// Delaunay Triangulations with Applications to Digital Geometry Processing", Computing 81 (2007).
-/// Triangles may end up with two corners at one point. Gives up on edges that rounding would
-/// exchange for ever.
+/// Triangles may end up with two corners at one point. OpenMesh does not know such
+/// triangles, which is why these are not HalfEdges. Gives up on edges that rounding would flip for ever.
 IntrinsicMesh intrinsic_delaunay(const SurfaceMesh& mesh);
 
 }  // namespace cascade

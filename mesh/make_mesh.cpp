@@ -2,7 +2,7 @@
 
 #include "core/counted.h"
 #include "mesh/edge_pairs.h"
-#include "mesh/exchange_edges.h"
+#include "mesh/flat_triangles.h"
 #include "mesh/place_table.h"
 #include "mesh/separate_fans.h"
 #include "mesh/sort_by_point.h"
@@ -31,7 +31,7 @@ public:
         leave_out_doubles();
         pair_and_orient();
         split_fans();
-        exchange_long_edges();
+        if (Result<void> fine = remove_flat(); !fine) return tl::unexpected(fine.error());
         if (mesh().total_area() <= 0) return failure("the model's faces have no area");
         return std::move(made_);
     }
@@ -223,15 +223,15 @@ private:
         }
     }
 
-    void exchange_long_edges() {
-        const ExchangedEdges done = remove_flat_triangles(mesh());
-        if (done.exchanged + done.left_out > 0) {
-            say(counted(done.exchanged + done.left_out, "triangle") +
+    Result<void> remove_flat() {
+        const Result<FlatTriangles> flat = remove_flat_triangles(mesh());
+        if (!flat) return tl::unexpected(flat.error());
+        if (flat->merged + flat->left_out > 0) {
+            say(counted(flat->merged + flat->left_out, "triangle") +
                 " without area merged with neighbours");
         }
-        if (done.remaining > 0) {
-            say(counted(done.remaining, "triangle") + " without area stayed");
-        }
+        if (flat->remaining > 0) say(counted(flat->remaining, "triangle") + " without area stayed");
+        return {};
     }
 
     PolygonSoup soup_;

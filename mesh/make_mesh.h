@@ -23,7 +23,7 @@ struct MadeMesh {
 ///   the others end there; where only a point holds parts together it is doubled;
 /// - faces are turned to agree with their neighbours, closed pieces outwards; a surface with one
 ///   side only is cut open;
-/// - a triangle without area is merged with its neighbour by exchanging its longest edge.
+/// - a triangle without area is merged with its neighbour by flipping its longest edge.
 ///
 /// Fails on coordinates that are not finite or out of 10⁻⁷⁰ … 10⁷⁰ in size, on a polygon too
 /// intricate to cut, and where no area is left. Throws std::bad_alloc.

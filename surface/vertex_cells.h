@@ -13,7 +13,7 @@ namespace cascade {
 ///
 /// Weights below zero, which obtuse angles give and which would let diffusion run uphill, are
 /// avoided: areas and weights are those of the intrinsic Delaunay triangulation of the same surface
-/// (surface/intrinsic_delaunay.h), which changes nothing where no two angles have more than 180°.
+/// (mesh/intrinsic_delaunay.h), which changes nothing where no two angles have more than 180°.
 /// At a boundary an angle alone may be obtuse: such an edge counts as no wall. The areas sum to
 /// that of the surface.
 SurfaceCells vertex_cells(const SurfaceMesh& mesh);
