@@ -57,16 +57,7 @@ std::vector<std::string> PromptSession::names(const std::string& line) const {
         for (const Command& command : commands()) names.emplace_back(command.name);
         return names;
     }
-    for (const char* const word : {"system", "stage", "domain", "picture", "system_name", "fn", "use"}) {
-        names.emplace_back(word);
-    }
-    if (script_) {
-        for (std::string& name : known_names(*script_->program)) names.push_back(std::move(name));
-        return names;
-    }
-    const Script built_in = load_script("", "domain { grid: 64, 64 }", ".");
-    for (std::string& name : known_names(*built_in.program)) names.push_back(std::move(name));
-    return names;
+    return known_names(script_ ? *script_->program : Program());
 }
 
 bool PromptSession::take(const std::string& line) {

@@ -109,7 +109,7 @@ def type_in(text):
     os.write(terminal, text)
 
 expect(b"1> ")
-type_in(b"domain { grid: 16, 8 }\r")
+type_in(b"domain { grid: 16, 8; precis\t: single }\r")
 expect(b"2> ")
 type_in(b"stage s: turing_spots {\r")
 expect(b"3| ")

@@ -8,6 +8,7 @@
 #include "lang/check/check_semi_implicit.h"
 #include "lang/check/user_functions.h"
 #include "lang/library/library.h"
+#include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
 
@@ -119,13 +120,13 @@ std::optional<ast::Expression> picture_expression(const ast::Script& script) {
 }
 
 std::vector<std::string> known_names(const Program& program) {
-    std::set<std::string> names{"system", "stage", "domain", "picture", "system_name", "grid",
-                                "boundary", "seed", "mask", "mesh", "cells", "laplacian", "color", "periodic", "noflux",
-                                "auto", "steady", "coarse",
-                                "directions", "stretch", "axis", "gradient",
-                                "pi", "and", "or", "not"};
+    std::set<std::string> names(std::begin(keywords), std::end(keywords));
     names.insert(builtin_names.begin(), builtin_names.end());
-    names.insert(checking::setting_names().begin(), checking::setting_names().end());
+    for (std::size_t i = 0; i < setting_count; ++i) {
+        const auto setting = static_cast<Setting>(i);
+        names.emplace(info(setting).word);
+        for (std::string& word : words_taken_by(setting)) names.insert(std::move(word));
+    }
     for (std::string& solver : solver_names()) names.insert(std::move(solver));
     for (std::size_t i = 0; i < function_count; ++i) {
         const FunctionInfo& row = info(static_cast<Function>(i));

@@ -68,7 +68,6 @@ bool is_model_surface(const ast::Script& script, const ast::Statement& surface);
 bool check_model(Workspace& work, const ast::Script& script, const ast::Block& domain);
 
 /// Settings of the domain that belong to a surface; looked at when the grid is known.
-bool is_surface_setting(std::string_view name);
 void check_surface(Workspace& work, const ast::Script& script, const ast::Block& domain);
 
 /// The `picture` block, if there is one: read as by the last stage that takes a step.

@@ -1,6 +1,6 @@
 // The `domain` and `picture` blocks.
 #include "lang/check/check_blocks.h"
-#include "lang/vocabulary/words_elsewhere.h"
+#include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
 
@@ -94,7 +94,7 @@ std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& 
     if (word == "noflux") return Boundary::no_flux;
     const auto* call = std::get_if<ast::Call>(&value.node);
     std::string hint(advice_about(call ? call->function.text : word, WordPlace::boundary));
-    if (hint.empty()) hint = did_you_mean(work, word, {"periodic", "noflux"});
+    if (hint.empty()) hint = did_you_mean(work, word, words_taken_by(Setting::boundary));
     work.diagnostics.error(value.span, "the boundary is periodic or noflux", std::move(hint));
     return std::nullopt;
 }
@@ -166,7 +166,7 @@ void check_precision(Workspace& work, const ast::Script& script, const ast::Stat
         return;
     }
     work.diagnostics.error(value.span, "the precision is single or double",
-                           did_you_mean(work, word, {"single", "double"}));
+                           did_you_mean(work, word, words_taken_by(Setting::precision)));
 }
 
 /// Of one species, in a block that knows none.
@@ -178,41 +178,33 @@ void report_sides(Workspace& work, const ast::Block& block) {
     }
 }
 
+void report_no_setting(Workspace& work, const ast::Word& name) {
+    std::string hint = hint_about(work, name.text, WordPlace::domain,
+                                  settings_of({SettingBlock::domain, SettingBlock::side}));
+    if (hint.empty()) {
+        hint = "a domain has grid, spacing, boundary, sides, mask, precision, seed, surface and mesh";
+    }
+    work.diagnostics.error(name.span, fmt::format("'{}' is not a setting of the domain", name.text),
+                           std::move(hint));
+}
+
 void check_domain_statement(Workspace& work, const ast::Script& script,
                            const ast::Statement& statement) {
-    const std::string_view key = statement.name.text;
     if (statement.kind != ast::StatementKind::value) {
         work.diagnostics.error(statement.span, "a domain holds settings only (name: …)");
-    } else if (key == "grid") {
-        check_grid(work, script, statement);
-    } else if (key == "boundary") {
-        check_boundary(work, script, statement);
-    } else if (key == "spacing") {
-        check_spacing(work, script, statement);
-    } else if (is_side_word(key)) {
-        check_domain_side(work, script, statement);
-    } else if (key == "seed") {
-        check_seed(work, script, statement);
-    } else if (key == "mask") {
-        check_mask(work, script, statement);
-    } else if (key == "precision") {
-        check_precision(work, script, statement);
-    } else if (is_surface_setting(key) || is_model_setting(key)) {
-        return;  // They come together, see below.
-    } else {
-        std::string hint(advice_about(key, WordPlace::domain));
-        if (hint.empty()) {
-            hint = did_you_mean(work, key, {"grid", "spacing", "boundary", "seed", "mask",
-                                            "precision", "left", "right", "top", "bottom",
-                                            "front", "back", "sides", "mesh", "cells",
-                                            "laplacian", "directions", "stretch", "up"});
-        }
-        if (hint.empty()) {
-            hint = "a domain has grid, spacing, boundary, sides, mask, precision, seed, surface and mesh";
-        }
-        work.diagnostics.error(statement.name.span,
-                               fmt::format("'{}' is not a setting of the domain", key),
-                               std::move(hint));
+        return;
+    }
+    const std::string_view name = statement.name.text;
+    if (is_side_word(name)) return check_domain_side(work, script, statement);
+    if (!is_setting_of(SettingBlock::domain, name)) return report_no_setting(work, statement.name);
+    switch (*setting_named(name)) {
+        case Setting::grid: return check_grid(work, script, statement);
+        case Setting::boundary: return check_boundary(work, script, statement);
+        case Setting::spacing: return check_spacing(work, script, statement);
+        case Setting::seed: return check_seed(work, script, statement);
+        case Setting::mask: return check_mask(work, script, statement);
+        case Setting::precision: return check_precision(work, script, statement);
+        default: return;  // Those of surfaces and of models come together: see check_domain.
     }
 }
 
@@ -270,11 +262,12 @@ void check_picture(Workspace& work, const ast::Script& script) {
     for (const ast::Statement& statement : block->statements) {
         if (statement.name.empty() || statement.values.empty()) continue;
         if (statement.kind != ast::StatementKind::value || statement.name.text != "color") {
-            const std::string_view advice = advice_about(statement.name.text, WordPlace::picture);
+            const std::string hint = hint_about(work, statement.name.text, WordPlace::picture,
+                                                settings_of({SettingBlock::picture}));
             work.diagnostics.error(
                 statement.name.span,
                 fmt::format("'{}' is not a setting of the picture", statement.name.text),
-                advice.empty() ? "a picture has color: …" : std::string(advice));
+                hint.empty() ? "a picture has color: …" : hint);
         } else if (first != nullptr) {
             report_twice(work, statement.name.span, first->name.span,
                          "'color' is given a value twice");

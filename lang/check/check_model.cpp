@@ -3,6 +3,7 @@
 #include "lang/check/check_directions.h"
 #include "lang/check/setting_words.h"
 #include "lang/program/models.h"
+#include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
 
@@ -74,9 +75,9 @@ private:
     /// Settings of rows and columns.
     void refuse(const ast::Statement& statement) {
         const std::string_view word = statement.name.text;
+        const auto setting = setting_named(word);
+        if (!setting || includes(info(*setting).domains, Domains::model)) return;
         const bool is_shape = word == "grid" || word == "spacing" || word == "metric";
-        const bool is_border = word == "boundary" || word == "mask" || is_side_word(word);
-        if (!is_shape && !is_border) return;
         work_.diagnostics.error(statement.name.span, fmt::format("a model has no {}", word),
                                 is_shape ? "its cells are spread over it: cells: 20000"
                                          : "it ends where its surface ends, and nothing flows out");
@@ -156,7 +157,7 @@ private:
         }
         if (std::holds_alternative<ast::Name>(value_of(script_, statement).node)) {
             work_.diagnostics.error(span_of(statement), "cells are a number, faces or vertices",
-                                    did_you_mean(work_, word, {"faces", "vertices"}));
+                                    did_you_mean(work_, word, words_taken_by(Setting::cells)));
             return;
         }
         const auto count = check_constant(work_, script_, statement.values[0], "cells");
@@ -177,7 +178,7 @@ private:
             model_->laplacian = ModelLaplacian::turk;
         } else if (word != "fv") {
             work_.diagnostics.error(span_of(statement), "the laplacian of a model is fv or turk",
-                                    did_you_mean(work_, word, {"fv", "turk"}));
+                                    did_you_mean(work_, word, words_taken_by(Setting::laplacian)));
         }
     }
 
@@ -230,8 +231,8 @@ private:
 }  // namespace
 
 bool is_model_setting(std::string_view name) {
-    return name == "mesh" || name == "cells" || name == "laplacian" || name == "directions" ||
-           name == "stretch" || name == "up";
+    const auto setting = setting_named(name);
+    return setting && info(*setting).domains == Domains::model;
 }
 
 bool is_model_surface(const ast::Script& script, const ast::Statement& surface) {

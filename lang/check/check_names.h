@@ -8,11 +8,11 @@
 #include "core/diagnostics.h"
 #include "lang/program/program.h"
 #include "lang/syntax/ast.h"
+#include "lang/vocabulary/words_elsewhere.h"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -91,9 +91,6 @@ struct Scope {
 enum class Reserved : std::uint8_t { no, setting, builtin };
 Reserved reserved(std::string_view name);
 
-/// The settings of a stage.
-std::span<const std::string_view> setting_names();
-
 /// The table of a system's names.
 NameTable names_of(const System& system);
 const Meaning* find(const NameTable& table, std::string_view name);
@@ -119,6 +116,11 @@ bool is_hopeless(const Workspace& work);
 /// "did you mean 'beta'?", or nothing.
 std::string did_you_mean(Workspace& work, std::string_view name,
                          const std::vector<std::string>& candidates);
+
+/// What to write in place of a word that is no setting where it stands: what it is called here, the
+/// block that it belongs to, or the nearest of the candidates.
+std::string hint_about(Workspace& work, std::string_view word, WordPlace place,
+                       const std::vector<std::string>& candidates);
 
 /// Is this the name of a family of the system, the u of u[1], u[2], …?
 bool has_family(const System& system, std::string_view name);

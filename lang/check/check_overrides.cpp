@@ -1,6 +1,6 @@
 // Changes from outside the script, as of --set: which stages each of them is for.
 #include "lang/check/check_blocks.h"
-#include "lang/vocabulary/words_elsewhere.h"
+#include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
 
@@ -41,12 +41,11 @@ void report_unknown_override(Workspace& work, const ast::Word& name) {
     Diagnostic diagnostic;
     diagnostic.span = name.span;
     diagnostic.message = fmt::format("no stage has a parameter '{}'", name.text);
-    diagnostic.hint = advice_about(name.text, WordPlace::stage);
     if (!names.empty()) {
         diagnostic.notes.push_back({std::nullopt, "there are " + list_names(names)});
     }
-    names.insert(names.end(), setting_names().begin(), setting_names().end());
-    if (diagnostic.hint.empty()) diagnostic.hint = did_you_mean(work, name.text, names);
+    for (std::string& each : settings_of({SettingBlock::stage})) names.push_back(std::move(each));
+    diagnostic.hint = hint_about(work, name.text, WordPlace::stage, names);
     work.diagnostics.add(std::move(diagnostic));
 }
 
@@ -112,10 +111,8 @@ std::optional<SideChange> as_side(const Workspace& work, const ast::Override& ch
 }
 
 void report_no_side(Workspace& work, const ast::Word& word) {
-    std::vector<std::string> names(side_names.begin(), side_names.end());
-    names.emplace_back("sides");
     work.diagnostics.error(word.span, fmt::format("'{}' is no side of the grid", word.text),
-                           did_you_mean(work, word.text, names));
+                           did_you_mean(work, word.text, settings_of({SettingBlock::side})));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // in check_time.cpp.
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_time.h"
+#include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
 
@@ -65,27 +66,29 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Statem
                    const Scope& scope, Settings& settings) {
     if (!has_one_value(work, script, statement)) return;
     const std::string_view name = statement.name.text;
-    if (name == "iterations") {
+    const Setting setting = *setting_named(name);
+    const bool is_speed = setting == Setting::speed && !is_automatic(script, statement);
+    if (setting == Setting::iterations) {
         settings.iterations = check_count(work, script, statement);
-    } else if (name == "interval") {
+    } else if (setting == Setting::interval) {
         settings.interval = check_count(work, script, statement);
-    } else if (is_time_setting(script, statement)) {
-        check_time_setting(work, script, statement, scope, settings);
-    } else if (name == "show") {
+    } else if (setting == Setting::show) {
         Scope picture = scope;
         picture.place = Place::picture;
         picture.last_stage = scope.stage.value_or(0);
         auto checked = check_expression(work, script, statement.values[0], picture);
         if (checked) settings.show = std::move(checked->formula);
-    } else {
+    } else if (setting == Setting::frozen || is_speed) {
         auto checked = check_number(work, script, statement.values[0], scope);
         if (!checked) return;
-        if (name == "speed" && checked->constant && !(*checked->constant > 0)) {
+        if (is_speed && checked->constant && !(*checked->constant > 0)) {
             work.diagnostics.error(span_of(script, statement.values[0]), "speed must be above 0");
             return;
         }
-        if (name == "speed") settings.time.automatic_speed = false;
-        (name == "speed" ? settings.speed : settings.frozen) = std::move(checked->formula);
+        if (is_speed) settings.time.automatic_speed = false;
+        (is_speed ? settings.speed : settings.frozen) = std::move(checked->formula);
+    } else {
+        check_time_setting(work, script, statement, scope, settings);
     }
     if (is_end_setting(name) && settings.time.duration && settings.iterations) {
         work.diagnostics.error(statement.name.span,

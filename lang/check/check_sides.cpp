@@ -2,7 +2,7 @@
 // `left: fixed(0)` of all species in the domain.
 #include "lang/check/check_blocks.h"
 #include "lang/check/declarations.h"
-#include "lang/vocabulary/words_elsewhere.h"
+#include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
 
@@ -46,7 +46,7 @@ std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
     const auto kind = kind_of_word(word);
     if (!kind) {
         std::string hint(advice_about(word, WordPlace::side));
-        if (hint.empty()) hint = did_you_mean(work, word, {"periodic", "noflux", "fixed", "flux"});
+        if (hint.empty()) hint = did_you_mean(work, word, words_taken_by(Setting::sides));
         work.diagnostics.error(value.span, "a side is periodic, noflux, fixed(…) or flux(…)",
                                std::move(hint));
         return std::nullopt;
@@ -328,7 +328,7 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SpeciesSide>& own)
 
 }  // namespace
 
-bool is_side_word(std::string_view word) { return !sides_of_word(word).empty(); }
+bool is_side_word(std::string_view word) { return is_setting_of(SettingBlock::side, word); }
 
 void check_system_sides(Workspace& work, const ast::Script& script, const ast::Block& block,
                         std::uint32_t index, std::optional<std::uint32_t> base) {

@@ -6,7 +6,7 @@
 #include "lang/check/check_time.h"
 #include "lang/library/library.h"
 #include "lang/program/dependencies.h"
-#include "lang/vocabulary/words_elsewhere.h"
+#include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
 
@@ -191,9 +191,8 @@ void StageChecker::report_unknown(const Declaration& declaration) {
         std::vector<std::string> names = quantity_names(system());
         diagnostic.notes.push_back({std::nullopt, fmt::format("{} has {}", system().name,
                                                               list_names(names))});
-        names.insert(names.end(), setting_names().begin(), setting_names().end());
-        diagnostic.hint = advice_about(declaration.name, WordPlace::stage);
-        if (diagnostic.hint.empty()) diagnostic.hint = did_you_mean(work_, declaration.name, names);
+        for (std::string& each : settings_of({SettingBlock::stage})) names.push_back(std::move(each));
+        diagnostic.hint = hint_about(work_, declaration.name, WordPlace::stage, names);
         if (is_side_word(declaration.name)) {
             diagnostic.hint = fmt::format("a side of one species is SPECIES.{0}: …, of all {0}: … in the domain",
                                           declaration.name);

@@ -63,10 +63,6 @@ const ast::Statement* find_statement(const ast::Block& block, std::string_view n
 
 }  // namespace
 
-bool is_surface_setting(std::string_view name) {
-    return name == "surface" || name == "metric" || name == "unit";
-}
-
 void check_surface(Workspace& work, const ast::Script& script, const ast::Block& domain) {
     const ast::Statement* surface = find_statement(domain, "surface");
     const ast::Statement* metric = find_statement(domain, "metric");

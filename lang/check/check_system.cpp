@@ -4,6 +4,7 @@
 #include "lang/check/check_expression.h"
 #include "lang/check/check_time.h"
 #include "lang/program/dependencies.h"
+#include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
 
@@ -40,6 +41,7 @@ private:
 
     void declare(const Declaration& declaration);
     bool can_declare(const Declaration& declaration);
+    bool is_misspelt_text(const Declaration& declaration);
     void collect_rate(const Declaration& declaration);
     void report_rate_of_definition(const Declaration& rate);
     void report_no_species(const Declaration& declaration, const Meaning* meaning);
@@ -134,11 +136,22 @@ bool SystemChecker::can_declare(const Declaration& declaration) {
     return false;
 }
 
+/// No quantity is a text: one whose name is near that of a text is told so.
+bool SystemChecker::is_misspelt_text(const Declaration& declaration) {
+    const ast::ExprId value = declaration.statement->values[0].root;
+    if (!std::holds_alternative<ast::Text>(declaration.script->expressions[value].node)) return false;
+    std::string hint = did_you_mean(work_, declaration.name, settings_of({SettingBlock::system}));
+    if (hint.empty()) return false;
+    work_.diagnostics.error(declaration.span(), fmt::format("'{}' cannot be a text", declaration.name),
+                            std::move(hint));
+    return true;
+}
+
 void SystemChecker::declare(const Declaration& declaration) {
     switch (declaration.kind()) {
         case ast::StatementKind::value: {
             if (!can_declare(declaration)) return;
-            if (take_text(system(), declaration)) return;
+            if (take_text(system(), declaration) || is_misspelt_text(declaration)) return;
             if (reserved(declaration.name) == Reserved::setting) {
                 settings_.push_back(&declaration);
                 return;

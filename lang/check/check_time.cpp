@@ -122,12 +122,8 @@ void check_start(Workspace& work, const ast::Script& script, ast::Expression val
 
 }  // namespace
 
-bool is_time_setting(const ast::Script& script, const ast::Statement& statement) {
-    static constexpr std::array<std::string_view, 7> names{
-        "solver", "tolerance", "largest_step", "duration", "until", "check", "start"};
-    const std::string_view name = statement.name.text;
-    if (name == "speed") return word_of(script, statement.values[0]) == "auto";
-    return std::find(names.begin(), names.end(), name) != names.end();
+bool is_automatic(const ast::Script& script, const ast::Statement& speed) {
+    return word_of(script, speed.values[0]) == "auto";
 }
 
 bool is_end_setting(std::string_view name) { return name == "iterations" || name == "duration"; }

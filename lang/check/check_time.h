@@ -13,8 +13,8 @@ namespace cascade::checking {
 /// The most steps a stage may take.
 inline constexpr std::int64_t most_iterations = 1'000'000'000;
 
-/// Is this one of the settings above? `speed` is where it is `auto`.
-bool is_time_setting(const ast::Script& script, const ast::Statement& statement);
+/// Is this `speed: auto`?
+bool is_automatic(const ast::Script& script, const ast::Statement& speed);
 
 /// `iterations` and `duration`: a stage ends by one of them, and what replaces either replaces both.
 bool is_end_setting(std::string_view name);

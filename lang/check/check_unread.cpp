@@ -1,6 +1,6 @@
 // What nothing reads: mostly a name that was misspelt.
 #include "lang/check/check_blocks.h"
-#include "lang/vocabulary/words_elsewhere.h"
+#include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
 
@@ -73,10 +73,12 @@ void warn_unread(Workspace& work) {
                 report_change_of_nothing(work, system, unread);
             } else {
                 const bool is_parameter = unread.kind == std::string_view("parameter");
-                const auto place = WordPlace::stage;  // Its settings are those of a system, too.
+                // A system gives defaults of the settings of its stages.
+                const auto place = WordPlace::stage;
+                const auto settings = settings_of({SettingBlock::stage, SettingBlock::system});
                 work.diagnostics.warning(
                     unread.span, fmt::format("{} '{}' is never read", unread.kind, *unread.name),
-                    std::string(is_parameter ? advice_about(*unread.name, place) : ""));
+                    is_parameter ? hint_about(work, *unread.name, place, settings) : "");
             }
         }
     }

@@ -1,11 +1,11 @@
 // Words of the checker: which are reserved, which are near to each other, how lists are written.
 #include "core/near_name.h"
 #include "lang/check/check_names.h"
+#include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 namespace cascade::checking {
 
@@ -16,24 +16,13 @@ constexpr std::size_t most_suggestions = 200;
 constexpr std::size_t most_names_compared = 1'000'000;
 constexpr std::size_t most_listed = 24;
 
-constexpr std::array<std::string_view, 12> settings{
-    "iterations", "interval", "frozen", "speed", "show", "duration",
-    "solver",     "tolerance", "largest_step", "until", "check", "start"};
-
-template <std::size_t count>
-bool among(const std::array<std::string_view, count>& words, std::string_view word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 }  // namespace
 
 Reserved reserved(std::string_view name) {
-    if (among(settings, name)) return Reserved::setting;
+    if (is_setting_of(SettingBlock::stage, name)) return Reserved::setting;
     if (name == "pi" || builtin_named(name)) return Reserved::builtin;
     return Reserved::no;
 }
-
-std::span<const std::string_view> setting_names() { return settings; }
 
 NameTable names_of(const System& system) {
     NameTable table;
@@ -67,6 +56,13 @@ std::string did_you_mean(Workspace& work, std::string_view name,
     work.names_compared += candidates.size();
     const std::string near = nearest_name(name, candidates);
     return near.empty() ? "" : fmt::format("did you mean '{}'?", near);
+}
+
+std::string hint_about(Workspace& work, std::string_view word, WordPlace place,
+                       const std::vector<std::string>& candidates) {
+    std::string hint(advice_about(word, place));
+    if (hint.empty()) hint = home_of(word);
+    return hint.empty() ? did_you_mean(work, word, candidates) : hint;
 }
 
 namespace {

@@ -3,6 +3,7 @@
 // spec/README.md says what the words after the fences mean. CASCADE_UPDATE=1 rewrites the expected
 // messages.
 #include "lang/library/library.h"
+#include "lang/vocabulary/settings.h"
 #include "run/script/script.h"
 #include "support/same_meaning.h"
 #include "tests/spec/code_blocks.h"
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -181,6 +183,50 @@ TEST(FunctionsPage, HasARowForEveryFunction) {
         EXPECT_EQ((*row)[2], word_of(info(function).places)) << beginning;
     }
     EXPECT_EQ(rows.size(), function_count) << "a row is for no function";
+}
+
+std::string_view word_of(SettingBlock block) {
+    constexpr std::array<std::string_view, 5> words{"stage", "domain", "side", "picture", "system"};
+    return words[static_cast<std::size_t>(block)];
+}
+
+std::string_view word_of(Domains domains) {
+    switch (domains) {
+        case Domains::plane: return "plane";
+        case Domains::surface: return "surface";
+        case Domains::grid: return "grid";
+        case Domains::model: return "model";
+        case Domains::straight: return "straight";
+        case Domains::bent: return "bent";
+        case Domains::all: return "all";
+    }
+    return "";
+}
+
+std::string_view word_of(SettingValue value) {
+    constexpr std::array<std::string_view, 8> words{
+        "count", "number", "numbers", "expression", "expressions", "word", "words", "text"};
+    return words[static_cast<std::size_t>(value)];
+}
+
+TEST(NamesPage, HasARowForEverySetting) {
+    auto rows = table_rows(read_text(spec_folder / "names.md"));
+    std::erase_if(rows, [](const auto& row) { return row.size() < 6 || !setting_named(row[0].substr(1, row[0].size() - 2)); });
+    ASSERT_EQ(rows.size(), setting_count);
+    for (std::size_t k = 0; k < setting_count; ++k) {
+        const SettingInfo& setting = info(static_cast<Setting>(k));
+        const std::vector<std::string>& row = rows[k];
+        EXPECT_EQ(row[0], "`" + std::string(setting.word) + "`");
+        EXPECT_EQ(row[1], word_of(setting.block)) << row[0];
+        EXPECT_EQ(row[2], word_of(setting.domains)) << row[0];
+        EXPECT_EQ(row[3], word_of(setting.value)) << row[0];
+        EXPECT_EQ(row[4], setting.meaning) << row[0];
+        std::string words;
+        for (const std::string& word : words_taken_by(static_cast<Setting>(k))) {
+            words += (words.empty() ? "`" : " `") + word + "`";
+        }
+        EXPECT_EQ(row[5], words) << row[0];
+    }
 }
 
 TEST(LibraryPage, HasARowForEverySystem) {

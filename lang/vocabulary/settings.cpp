@@ -1,0 +1,61 @@
+// The table of settings.
+#include "lang/vocabulary/settings.h"
+
+#include <algorithm>
+#include <iterator>
+#include <sstream>
+
+namespace cascade {
+
+namespace {
+
+constexpr SettingInfo setting_table[] = {
+#define CASCADE_SETTING(word, block, domains, value, words, meaning) \
+    {#word, SettingBlock::block, Domains::domains, SettingValue::value, words, meaning},
+#include "lang/vocabulary/settings.def"
+};
+
+}  // namespace
+
+const SettingInfo& info(Setting setting) { return setting_table[static_cast<std::size_t>(setting)]; }
+
+std::optional<Setting> setting_named(std::string_view word) {
+    for (std::size_t i = 0; i < setting_count; ++i) {
+        if (setting_table[i].word == word) return static_cast<Setting>(i);
+    }
+    return std::nullopt;
+}
+
+bool is_setting_of(SettingBlock block, std::string_view word) {
+    const auto setting = setting_named(word);
+    return setting && info(*setting).block == block;
+}
+
+std::vector<std::string> settings_of(std::initializer_list<SettingBlock> blocks) {
+    std::vector<std::string> words;
+    for (const SettingInfo& row : setting_table) {
+        if (std::find(blocks.begin(), blocks.end(), row.block) == blocks.end()) continue;
+        words.emplace_back(row.word);
+    }
+    return words;
+}
+
+std::vector<std::string> words_taken_by(Setting setting) {
+    std::istringstream words{std::string(info(setting).words)};
+    return {std::istream_iterator<std::string>(words), {}};
+}
+
+std::string_view home_of(std::string_view word) {
+    const auto setting = setting_named(word);
+    if (!setting) return "";
+    switch (info(*setting).block) {
+        case SettingBlock::stage: return "it is a setting of a stage";
+        case SettingBlock::domain:
+        case SettingBlock::side: return "it is a setting of the domain";
+        case SettingBlock::picture: return "it is a setting of the picture";
+        case SettingBlock::system: return "it is a text of a system";
+    }
+    return "";
+}
+
+}  // namespace cascade
