@@ -8,8 +8,10 @@ namespace {
 constexpr double least_cosine = 0.26;  ///< Of the angle by which a triangle may turn: 75°.
 constexpr unsigned most_neighbours = 10;
 
-/// Whether the triangles around a vertex stay good when it moves to `to` and becomes one with `other`.
-bool stays_smooth(const HalfEdges& mesh, VertexHandle v, VertexHandle other, Vector3d to, double longest) {
+/// Whether the triangles around a vertex stay good when it moves to `to` and becomes one with
+/// `other`.
+bool stays_smooth(const HalfEdges& mesh, VertexHandle v, VertexHandle other, Vector3d to,
+                  double longest) {
     const Vector3d from = position(mesh, v);
     for (const HalfedgeHandle h : mesh.voh_range(v)) {
         const VertexHandle b = mesh.to_vertex_handle(h), c = mesh.opposite_vh(h);
@@ -37,7 +39,8 @@ void try_edge(HalfEdges& mesh, HalfedgeHandle h, double shortest, double longest
     if (mesh.valence(mesh.opposite_vh(h)) < 4 || mesh.valence(mesh.opposite_vh(other)) < 4) return;
     if (mesh.valence(a) + mesh.valence(b) > most_neighbours + 4) return;
     const Vector3d middle = from + apart * 0.5;
-    if (!stays_smooth(mesh, a, b, middle, longest) || !stays_smooth(mesh, b, a, middle, longest)) return;
+    if (!stays_smooth(mesh, a, b, middle, longest) || !stays_smooth(mesh, b, a, middle, longest))
+        return;
     if (!mesh.is_collapse_ok(other)) return;
     mesh.set_point(a, {middle.x, middle.y, middle.z});
     mesh.collapse(other);  // b becomes a.

@@ -27,7 +27,7 @@ std::span<const Bone> creature_bones();
 /// on Graphics 1(3), 1982, along segments. Above 0 inside.
 double creature_function(Vector3d p);
 
-/// Its surface: one piece, closed like a sphere, with the lowest point on y = 0. `edge` as in
+/// Its surface: one component, closed like a sphere, with the lowest point on y = 0. `edge` as in
 /// implicit_surface(), whose failures it passes on; the ears and the tail need 0.06 or less.
 Result<SurfaceMesh> creature_mesh(double edge, const std::atomic<bool>& cancel);
 

@@ -26,7 +26,9 @@ struct HalfEdge {
     bool same_points(const HalfEdge& other) const { return low == other.low && high == other.high; }
 };
 
-std::uint32_t from(Triangles triangles, TriangleEdge e) { return triangles[e.triangle][e.edge]; }
+std::uint32_t from(Triangles triangles, TriangleEdge e) {
+    return triangles[e.triangle][e.edge];
+}
 std::uint32_t apex(Triangles triangles, TriangleEdge e) {
     return triangles[e.triangle][(e.edge + 2) % 3];
 }
@@ -38,7 +40,7 @@ Vector3d inwards(std::span<const Vector3d> points, Triangles triangles, const Ha
     return unit(side - along * dot(side, along));
 }
 
-/// Two of the triangles at a crowded edge, the better the smaller.
+/// Two of the triangles at a non-manifold edge, the better the smaller.
 struct Match {
     bool is_elsewhere_apart = false;
     bool turns_against = false;
@@ -70,18 +72,18 @@ public:
             }
         }
         sort_by_point(edges, points_.size(), [](const HalfEdge& edge) { return edge.low; });
-        std::vector<std::span<const HalfEdge>> crowded;
+        std::vector<std::span<const HalfEdge>> non_manifold;
         for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
             while (end < edges.size() && edges[end].same_points(edges[begin])) ++end;
             if (end - begin == 2) {
                 join(edges[begin].place, edges[begin + 1].place);
                 sheets_.join(edges[begin].place.triangle, edges[begin + 1].place.triangle);
             } else if (end - begin > 2) {
-                crowded.emplace_back(edges.data() + begin, end - begin);
+                non_manifold.emplace_back(edges.data() + begin, end - begin);
             }
         }
-        result_.crowded_edges = crowded.size();
-        for (const std::span<const HalfEdge> group : crowded) pair_crowded(group);
+        result_.non_manifold_edges = non_manifold.size();
+        for (const std::span<const HalfEdge> group : non_manifold) pair_non_manifold(group);
         return std::move(result_);
     }
 
@@ -95,10 +97,11 @@ private:
         const HalfEdge &a = group[first], &b = group[second];
         return {sheets_.find(a.place.triangle) != sheets_.find(b.place.triangle),
                 from(triangles_, a.place) == from(triangles_, b.place),
-                dot(inwards(points_, triangles_, a), inwards(points_, triangles_, b)), first, second};
+                dot(inwards(points_, triangles_, a), inwards(points_, triangles_, b)), first,
+                second};
     }
 
-    void pair_crowded(std::span<const HalfEdge> group) {
+    void pair_non_manifold(std::span<const HalfEdge> group) {
         if (group.size() > most_at_edge) return;
         std::vector<Match> matches;
         for (std::size_t a = 0; a < group.size(); ++a) {
@@ -117,11 +120,11 @@ private:
 
     std::span<const Vector3d> points_;
     Triangles triangles_;
-    DisjointSets sheets_;  ///< Triangles that hang together by edges of two.
+    DisjointSets sheets_;  ///< Triangles that are connected by edges of two.
     EdgePairs result_;
 };
 
-/// One piece: its triangles, whether it is closed, its volume if they turn as they are marked.
+/// One component: its triangles, whether it is closed, its volume if they turn as they are marked.
 class Orienter {
 public:
     Orienter(std::span<const Vector3d> points, Triangles triangles,
@@ -132,21 +135,21 @@ public:
 
     Orientation orient() {
         for (std::uint32_t start = 0; start < triangles_.size(); ++start) {
-            if (!seen_[start]) orient_piece(start);
+            if (!seen_[start]) orient_component(start);
         }
         return std::move(result_);
     }
 
 private:
-    /// Breadth first, so that a one-sided piece is cut where two fronts meet.
-    void orient_piece(std::uint32_t start) {
-        std::vector<std::uint32_t> piece = {start};
+    /// Breadth first, so that a one-sided component is cut where two fronts meet.
+    void orient_component(std::uint32_t start) {
+        std::vector<std::uint32_t> component = {start};
         seen_[start] = true;
-        for (std::size_t k = 0; k < piece.size(); ++k) visit(piece[k], piece);
-        turn_outwards(piece);
+        for (std::size_t k = 0; k < component.size(); ++k) visit(component[k], component);
+        turn_outwards(component);
     }
 
-    void visit(std::uint32_t triangle, std::vector<std::uint32_t>& piece) {
+    void visit(std::uint32_t triangle, std::vector<std::uint32_t>& component) {
         for (std::uint32_t k = 0; k < 3; ++k) {
             const TriangleEdge here = {triangle, k};
             const TriangleEdge other = across_[triangle][k];
@@ -156,7 +159,7 @@ private:
             if (!seen_[other.triangle]) {
                 seen_[other.triangle] = true;
                 result_.is_turned[other.triangle] = wanted;
-                piece.push_back(other.triangle);
+                component.push_back(other.triangle);
             } else if (result_.is_turned[other.triangle] != wanted) {
                 across_[triangle][k] = {};
                 across_[other.triangle][other.edge] = {};
@@ -165,11 +168,11 @@ private:
         }
     }
 
-    void turn_outwards(const std::vector<std::uint32_t>& piece) {
-        const Vector3d origin = points_[triangles_[piece[0]][0]];
+    void turn_outwards(const std::vector<std::uint32_t>& component) {
+        const Vector3d origin = points_[triangles_[component[0]][0]];
         double volume = 0, kept = 0, turned = 0;
         bool is_closed = true;
-        for (const std::uint32_t t : piece) {
+        for (const std::uint32_t t : component) {
             const Vector3d a = points_[triangles_[t][0]] - origin;
             const Vector3d b = points_[triangles_[t][1]] - origin;
             const Vector3d c = points_[triangles_[t][2]] - origin;
@@ -179,7 +182,7 @@ private:
         }
         const bool was_uniform = turned == 0;
         const bool reversed = is_closed ? volume < 0 : turned > kept;
-        for (const std::uint32_t t : piece) {
+        for (const std::uint32_t t : component) {
             if (reversed) result_.is_turned[t] = !result_.is_turned[t];
             result_.turned += result_.is_turned[t] && !was_uniform;
         }

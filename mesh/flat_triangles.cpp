@@ -98,8 +98,10 @@ private:
         }
         const EdgeHandle e = mesh_.edge_handle(h);
         if (is_flat(corners_of(other)) || !mesh_.is_flip_ok(e)) return false;
-        const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h), bc = mesh_.next_halfedge_handle(h);
-        if (!texture_.empty()) texture(bc) = texture(o);  // Both triangles lie in the other one now.
+        const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h),
+                             bc = mesh_.next_halfedge_handle(h);
+        if (!texture_.empty())
+            texture(bc) = texture(o);  // Both triangles lie in the other one now.
         mesh_.flip(e);
         if (!texture_.empty()) {
             texture(h) = texture(mesh_.next_halfedge_handle(o));
@@ -134,7 +136,8 @@ private:
             return values;
         };
         old_.points = taken(old_.points);
-        for (PointAttribute& attribute : old_.attributes) attribute.values = taken(attribute.values);
+        for (PointAttribute& attribute : old_.attributes)
+            attribute.values = taken(attribute.values);
     }
 
     SurfaceMesh& old_;

@@ -27,7 +27,9 @@ public:
 
 private:
     static FaceHandle face(std::size_t t) { return FaceHandle(static_cast<int>(t)); }
-    VertexHandle corner(TriangleEdge e) const { return vertex(mesh_.triangles[e.triangle][e.edge]); }
+    VertexHandle corner(TriangleEdge e) const {
+        return vertex(mesh_.triangles[e.triangle][e.edge]);
+    }
     TriangleEdge across(TriangleEdge e) const { return mesh_.across[e.triangle][e.edge]; }
     static TriangleEdge next(TriangleEdge e) { return {e.triangle, corner_after(e.edge)}; }
 
@@ -59,10 +61,13 @@ private:
                 const TriangleEdge here{t, k}, other = across(here);
                 if (corner(here).idx() >= static_cast<int>(mesh_.points.size()) ||
                     (other.exists() && !fits(here, other))) {
-                    return failure(fmt::format("edge {} of triangle {} of the surface does not fit "
-                                               "what lies across it", k, t));
+                    return failure(
+                        fmt::format("edge {} of triangle {} of the surface does not fit "
+                                    "what lies across it",
+                                    k, t));
                 }
-                const bool is_first = !other.exists() || std::tie(t, k) < std::tie(other.triangle, other.edge);
+                const bool is_first =
+                    !other.exists() || std::tie(t, k) < std::tie(other.triangle, other.edge);
                 half_edge(here) = HalfedgeHandle(is_first ? static_cast<int>(2 * edges_++)
                                                           : half_edge(other).idx() + 1);
             }
@@ -105,7 +110,8 @@ private:
     }
 
     static tl::unexpected<Failure> several_fans(std::size_t point) {
-        return failure(fmt::format("the triangles around point {} of the surface are not one fan", point));
+        return failure(
+            fmt::format("the triangles around point {} of the surface are not one fan", point));
     }
 
     /// Walking around each point must meet all of its triangles.
@@ -134,7 +140,8 @@ private:
 
 Result<HalfEdges> half_edges(const SurfaceMesh& mesh) {
     Result<HalfEdges> made;  // The only thing that is returned, so that it is not copied.
-    if (Result<void> fine = Converter(mesh).convert(*made); !fine) made = tl::unexpected(fine.error());
+    if (Result<void> fine = Converter(mesh).convert(*made); !fine)
+        made = tl::unexpected(fine.error());
     return made;
 }
 
@@ -162,7 +169,8 @@ SurfaceMesh surface_mesh(const HalfEdges& mesh, std::span<const std::uint32_t> v
     for (int h = 0; h < static_cast<int>(places.size()); ++h) {
         const TriangleEdge here = place(HalfedgeHandle(h));
         if (!here.exists()) continue;
-        result.across[here.triangle][here.edge] = place(mesh.opposite_halfedge_handle(HalfedgeHandle(h)));
+        result.across[here.triangle][here.edge] =
+            place(mesh.opposite_halfedge_handle(HalfedgeHandle(h)));
     }
     return result;
 }

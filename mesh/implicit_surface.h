@@ -27,7 +27,7 @@ inline constexpr std::size_t most_cut_triangles = std::size_t{1} << 24;
 /// cube of the edge. Some hundred more are needed for each corner of the triangles, to bring it there.
 double lattice_points(const ImplicitRequest& request);
 
-/// The surface f = 0 as closed pieces of even triangles that face outwards, with corners on it. The
+/// The surface f = 0 as closed components of even triangles that face outwards, with corners on it. The
 /// function is looked at on a lattice of corners and centres of cells as wide as `edge`; the tetrahedra
 /// between them are cut where it changes its sign (A. Doi and A. Koide, "An Efficient Method of
 /// Triangulating Equi-Valued Surfaces", IEICE Transactions E74(1), 1991), which leaves no choice and so

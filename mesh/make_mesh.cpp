@@ -165,10 +165,10 @@ private:
                 {point_of(corners[0]), point_of(corners[1]), point_of(corners[2])});
         }
         EdgePairs pairs = pair_edges(soup_.points, mesh().triangles);
-        if (pairs.crowded_edges > 0) {
+        if (pairs.non_manifold_edges > 0) {
             say(fmt::format("{} of more than two faces: faces that continue each other stay "
                             "together, the others end there",
-                            counted(pairs.crowded_edges, "edge")));
+                            counted(pairs.non_manifold_edges, "edge")));
         }
         const Orientation sides = orient(soup_.points, mesh().triangles, pairs.across);
         mesh().across = std::move(pairs.across);
@@ -181,7 +181,7 @@ private:
                             counted(sides.cut_edges, "edge")));
         }
         if (sides.inside_out > 0) {
-            say(counted(sides.inside_out, "piece was", "pieces were") + " turned inside out");
+            say(counted(sides.inside_out, "component was", "components were") + " turned inside out");
         }
     }
 
@@ -204,7 +204,7 @@ private:
         for (std::size_t k = 1; k < sources.size(); ++k) doubled += sources[k] == sources[k - 1];
         if (doubled > 0) {
             say(counted(doubled, "point was", "points were") +
-                " doubled where faces do not hang together around it");
+                " doubled where the faces around it are not connected by edges");
         }
         take_from_soup(sources);
     }

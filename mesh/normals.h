@@ -19,7 +19,7 @@ Vector3d normal_at(const SurfaceMesh& mesh, const std::vector<Vector3d>& normals
                    const SurfacePlace& place);
 
 /// Normals that are smooth where the surface is meant to be round: a point has one for each group of its
-/// triangles that hang together over edges at which they meet at no more than 60°.
+/// triangles that are connected over edges at which they meet at no more than 60°.
 struct CornerNormals {
     std::vector<Vector3d> normals;        ///< Found as in point_normals(), each over its group.
     std::vector<std::uint32_t> points;    ///< Of each normal, ascending.

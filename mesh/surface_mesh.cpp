@@ -15,31 +15,32 @@ SurfaceMesh::Box SurfaceMesh::box() const {
     if (!points.empty()) box.low = box.high = points[0];
     for (const Vector3d& p : points) {
         box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y),
+                    std::max(box.high.z, p.z)};
     }
     return box;
 }
 
-std::vector<std::uint32_t> pieces_of(const SurfaceMesh& mesh) {
-    std::vector<std::uint32_t> pieces(mesh.triangles.size(), TriangleEdge::none);
+std::vector<std::uint32_t> connected_components(const SurfaceMesh& mesh) {
+    std::vector<std::uint32_t> components(mesh.triangles.size(), TriangleEdge::none);
     std::vector<std::uint32_t> waiting;
     std::uint32_t count = 0;
-    for (std::uint32_t start = 0; start < pieces.size(); ++start) {
-        if (pieces[start] != TriangleEdge::none) continue;
-        pieces[start] = count;
+    for (std::uint32_t start = 0; start < components.size(); ++start) {
+        if (components[start] != TriangleEdge::none) continue;
+        components[start] = count;
         waiting.push_back(start);
         while (!waiting.empty()) {
             const std::uint32_t triangle = waiting.back();
             waiting.pop_back();
             for (const TriangleEdge& other : mesh.across[triangle]) {
-                if (!other.exists() || pieces[other.triangle] != TriangleEdge::none) continue;
-                pieces[other.triangle] = count;
+                if (!other.exists() || components[other.triangle] != TriangleEdge::none) continue;
+                components[other.triangle] = count;
                 waiting.push_back(other.triangle);
             }
         }
         ++count;
     }
-    return pieces;
+    return components;
 }
 
 namespace {
@@ -82,8 +83,9 @@ MeshFacts facts_of(const SurfaceMesh& mesh) {
     }
     facts.edges = (3 * facts.triangles + facts.boundary_edges) / 2;
     facts.boundaries = count_boundaries(mesh);
-    const std::vector<std::uint32_t> pieces = pieces_of(mesh);
-    facts.pieces = pieces.empty() ? 0 : *std::max_element(pieces.begin(), pieces.end()) + 1;
+    const std::vector<std::uint32_t> components = connected_components(mesh);
+    facts.components =
+        components.empty() ? 0 : *std::max_element(components.begin(), components.end()) + 1;
     facts.euler_characteristic = static_cast<std::int64_t>(facts.points + facts.triangles) -
                                  static_cast<std::int64_t>(facts.edges);
     const SurfaceMesh::Box box = mesh.box();

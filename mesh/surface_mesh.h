@@ -2,7 +2,7 @@
 //
 // Every edge lies between two triangles or at a boundary, every point has one fan of triangles
 // around it, and neighbours turn the same way round: the surface is an oriented manifold with
-// boundary, of one or several pieces.
+// boundary, of one or several components.
 #pragma once
 
 #include "mesh/polygon_soup.h"
@@ -67,16 +67,16 @@ struct SurfaceMesh {
 /// What a mesh is, in numbers.
 struct MeshFacts {
     std::size_t points = 0, triangles = 0, edges = 0;
-    std::size_t pieces = 0;           ///< Parts that do not hang together.
+    std::size_t components = 0;  ///< Connected components, over edges.
     std::size_t boundary_edges = 0;
-    std::size_t boundaries = 0;       ///< Closed loops of boundary edges.
+    std::size_t boundaries = 0;             ///< Closed loops of boundary edges.
     std::int64_t euler_characteristic = 0;  ///< points − edges + triangles.
     double area = 0;
-    Vector3d low, high;               ///< The smallest box that holds it.
+    Vector3d low, high;  ///< The smallest box that holds it.
 };
 MeshFacts facts_of(const SurfaceMesh& mesh);
 
-/// The number of each triangle's piece, 0 … pieces − 1, in order of their first triangles.
-std::vector<std::uint32_t> pieces_of(const SurfaceMesh& mesh);
+/// The number of each triangle's component, 0 … components − 1, in order of their first triangles.
+std::vector<std::uint32_t> connected_components(const SurfaceMesh& mesh);
 
 }  // namespace cascade

@@ -190,7 +190,7 @@ void CellFilter::fill_boxes(std::span<const CellImage> images) {
 }
 
 /// For triangles from which no cell is seen: that of the triangle on the way to the next cell, or,
-/// on pieces without any, that nearest in space to the piece's first triangle.
+/// on components without any, that nearest in space to the component's first triangle.
 void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& cells) {
     std::vector<std::uint32_t> waiting;
     std::vector<bool> is_found(patches_.size());
@@ -214,12 +214,12 @@ void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& c
         waiting.clear();
     };
     spread();
-    const std::vector<std::uint32_t> pieces = pieces_of(mesh);
-    std::vector<std::uint32_t> bare;  // The first triangles of pieces.
+    const std::vector<std::uint32_t> components = connected_components(mesh);
+    std::vector<std::uint32_t> bare;  // The first triangles of components.
     std::vector<Vector3d> positions, bare_positions;
     std::uint32_t seen = 0;
     for (std::uint32_t t = 0; t < patches_.size(); ++t) {
-        const bool is_first = pieces[t] == seen;
+        const bool is_first = components[t] == seen;
         seen += is_first;
         if (!is_first || is_found[t]) continue;
         bare.push_back(t);

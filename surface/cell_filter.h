@@ -44,7 +44,7 @@ public:
     CellFilter(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team);
 
     /// The cells near a place, by their numbers, with weights ≥ 0 that sum to 1. There is always one: where
-    /// none is near it is the nearest, along the surface if its piece has cells. Replaces `out`.
+    /// none is near it is the nearest, along the surface if its component has cells. Replaces `out`.
     void shares(const SurfacePlace& place, std::vector<CellShare>& out) const;
 
     /// The same cells with slopes that sum to 0, true to some hundredths where the surface is curved.

@@ -21,7 +21,7 @@ public:
     CellFinder(const SurfaceMesh& mesh, std::span<const SurfacePlace> cells);
 
     /// The nearest cell in the unfolded surface around the place, or in space if none is on the
-    /// same piece; of equally near ones that of the lowest number. `nothing` without cells.
+    /// same component; of equally near ones that of the lowest number. `nothing` without cells.
     std::uint32_t at(const SurfacePlace& place);
 
 private:

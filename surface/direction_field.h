@@ -17,7 +17,7 @@ enum class DirectionKind { arrows, lines };
 
 /// Vectors brought into the planes, of which each has one. Where a vector is not finite, or less than
 /// `least_part` of the longest of all is left of it in its plane, the plane takes the mean of its
-/// neighbours, carried over as if the surface were unfolded, from what is known outwards. On a piece
+/// neighbours, carried over as if the surface were unfolded, from what is known outwards. On a component
 /// where nothing is known one plane takes the x axis of its frame. Always of length 1 and finite.
 std::vector<Vector3d> directions(const TangentPlanes& planes, std::span<const Vector3d> vectors,
                                  DirectionKind kind, double least_part = 1e-6);

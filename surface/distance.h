@@ -30,7 +30,7 @@ struct DistanceOptions {
 /// the mean, and ten times that where ways from all directions meet. Time is n log n and does not
 /// depend on the number of sources.
 ///
-/// What does not hang together with a source is infinitely far. Places must be on the mesh. Means
+/// What is not connected with a source is infinitely far. Places must be on the mesh. Means
 /// nothing if `cancel` became true.
 class SurfaceDistance {
 public:

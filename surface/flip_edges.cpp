@@ -13,7 +13,9 @@ constexpr double least_gain = 1e-9;   ///< Of a score: more than rounding can do
 constexpr double upside_down = 0.05;  ///< A mean cosine.
 
 /// Of an edge between triangles: 1 up to a right angle, 0 where they lie on each other.
-double openness_between(Vector3d one, Vector3d other) { return std::min(1.0, 1 + dot(one, other)); }
+double openness_between(Vector3d one, Vector3d other) {
+    return std::min(1.0, 1 + dot(one, other));
+}
 
 }  // namespace
 
@@ -34,7 +36,8 @@ void EdgeFlipper::look_at(FaceHandle f) {
     if (mesh_.status(f).deleted()) return;
     const HalfedgeHandle h = mesh_.halfedge_handle(f);
     at(f) = face(mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h), mesh_.opposite_vh(h));
-    for (const HalfedgeHandle side : {h, mesh_.next_halfedge_handle(h), mesh_.prev_halfedge_handle(h)}) {
+    for (const HalfedgeHandle side :
+         {h, mesh_.next_halfedge_handle(h), mesh_.prev_halfedge_handle(h)}) {
         suspect(side);
     }
 }
@@ -52,7 +55,8 @@ EdgeFlipper::Face EdgeFlipper::face(VertexHandle a, VertexHandle b, VertexHandle
     const Vector3d at_a = position(mesh_, a), at_b = position(mesh_, b), at_c = position(mesh_, c);
     const TriangleQuality quality = quality_of(
         {at_a, at_b, at_c}, {normals_[number(a)], normals_[number(b)], normals_[number(c)]});
-    return {quality.score(), quality.mean_cosine > upside_down, unit(cross(at_b - at_a, at_c - at_a))};
+    return {quality.score(), quality.mean_cosine > upside_down,
+            unit(cross(at_b - at_a, at_c - at_a))};
 }
 
 /// Between a triangle and what lies across a side that it has.
@@ -77,9 +81,9 @@ void EdgeFlipper::flip_if_better(EdgeHandle e) {
     if (!first.is_upright || first.score <= before) return;
     const Face second = face(d, c, mesh_.from_vertex_handle(h));
     if (!second.is_upright || second.score <= before) return;
-    const double folds = std::min({openness_between(first.direction, second.direction),
-                                   openness(first, bc), openness(first, db), openness(second, ca),
-                                   openness(second, ad)});
+    const double folds =
+        std::min({openness_between(first.direction, second.direction), openness(first, bc),
+                  openness(first, db), openness(second, ca), openness(second, ad)});
     if (folds <= before || are_neighbours(mesh_, c, d)) return;
     mesh_.flip(e);
     at(mesh_.face_handle(bc)) = first;

@@ -22,9 +22,9 @@ public:
     /// Notes that a face has changed, unless it is gone.
     void look_at(FaceHandle f);
 
-    /// Looks at the edges of all faces that were noted, and then at those of faces it changes itself.
-    /// Ends because the scores of all triangles and edges, sorted, grow with every flip. Stops early
-    /// when `cancel` becomes true.
+    /// Looks at the edges of all faces that were noted, and then at those of faces it changes
+    /// itself. Ends because the scores of all triangles and edges, sorted, grow with every flip.
+    /// Stops early when `cancel` becomes true.
     void improve(const std::atomic<bool>& cancel);
 
 private:

@@ -17,8 +17,8 @@ struct KeyDirection {
 };
 
 /// Each plane takes the direction of the nearest key, carried along the shortest way from plane to
-/// plane as if the surface were unfolded there; on pieces without a key, that of the key nearest in
-/// space, brought into the first plane of the piece and carried on. Keys that are not finite, stand
+/// plane as if the surface were unfolded there; on components without a key, that of the key nearest in
+/// space, brought into the first plane of the component and carried on. Keys that are not finite, stand
 /// upright on the surface, or share a plane with an earlier one are left out; without keys the
 /// field is that of no vectors. Where keys disagree directions jump: `smoothed_directions` is the
 /// next step, as with values at key positions. Means nothing if `cancel` became true.

@@ -34,8 +34,8 @@ std::vector<double> nearest_key_values(const SurfaceMesh& mesh, const SurfaceCel
     std::vector<double> values(cells.places.size());
     if (placed.empty()) return values;
     const SurfaceDistance distance(mesh, places, cancel);
-    // The first cell of a piece that no key reaches chooses for all of the piece.
-    std::vector<std::uint32_t> pieces;
+    // The first cell of a component that no key reaches chooses for all of the component.
+    std::vector<std::uint32_t> components;
     std::vector<const KeyValue*> chosen;
     for (std::size_t cell = 0; cell < values.size() && !cancel; ++cell) {
         const SurfacePlace& place = cells.places[cell];
@@ -44,11 +44,11 @@ std::vector<double> nearest_key_values(const SurfaceMesh& mesh, const SurfaceCel
             values[cell] = placed[source].value;
             continue;
         }
-        if (pieces.empty()) {
-            pieces = pieces_of(mesh);
-            chosen.resize(1 + *std::max_element(pieces.begin(), pieces.end()));
+        if (components.empty()) {
+            components = connected_components(mesh);
+            chosen.resize(1 + *std::max_element(components.begin(), components.end()));
         }
-        const KeyValue*& key = chosen[pieces[place.triangle]];
+        const KeyValue*& key = chosen[components[place.triangle]];
         if (!key) key = &nearest_in_space(placed, position_of(mesh, place));
         values[cell] = key->value;
     }

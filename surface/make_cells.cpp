@@ -21,9 +21,10 @@ constexpr std::uint64_t most_cells = 0xfffffffe;
 Result<void> check_anisotropy(const SurfaceMesh& mesh, const Anisotropy& anisotropy) {
     const std::size_t count = mesh.triangles.size();
     if (anisotropy.direction.size() != count || anisotropy.ratio.size() != count) {
-        return failure(fmt::format("a surface of {} triangles is stretched by {} directions and {} "
-                                   "ratios",
-                                   count, anisotropy.direction.size(), anisotropy.ratio.size()));
+        return failure(
+            fmt::format("a surface of {} triangles is stretched by {} directions and {} "
+                        "ratios",
+                        count, anisotropy.direction.size(), anisotropy.ratio.size()));
     }
     for (std::size_t t = 0; t < count; ++t) {
         const double ratio = anisotropy.ratio[t];
@@ -44,21 +45,25 @@ Result<void> check_count(const SurfaceMesh& mesh, std::uint64_t count) {
         return failure(fmt::format("a surface cannot have {} cells", count),
                        fmt::format("the number of cells is 1 … {}", most_cells));
     }
-    const std::vector<std::uint32_t> pieces = pieces_of(mesh);
-    const std::uint64_t needed = *std::max_element(pieces.begin(), pieces.end()) + std::uint64_t{1};
+    const std::vector<std::uint32_t> components = connected_components(mesh);
+    const std::uint64_t needed =
+        *std::max_element(components.begin(), components.end()) + std::uint64_t{1};
     if (count >= needed) return {};
-    return failure(fmt::format("{} cannot cover a surface of {} pieces that do not hang together",
+    return failure(fmt::format("{} cannot cover a surface of {} connected components",
                                counted(count, "cell"), with_commas(needed)),
-                   fmt::format("use {} cells or more, or join the pieces", with_commas(needed)));
+                   fmt::format("use {} cells or more, or join components", with_commas(needed)));
 }
 
 }  // namespace
 
 std::uint64_t count_cells(const SurfaceMesh& mesh, const CellOptions& options) {
     switch (options.kind) {
-        case CellKind::places: return options.count;
-        case CellKind::vertices: return mesh.points.size();
-        case CellKind::faces: break;
+        case CellKind::places:
+            return options.count;
+        case CellKind::vertices:
+            return mesh.points.size();
+        case CellKind::faces:
+            break;
     }
     std::vector<std::uint32_t> faces = mesh.faces;
     std::sort(faces.begin(), faces.end());
@@ -77,7 +82,8 @@ Result<SurfaceCells> make_cells(const SurfaceMesh& mesh, const CellOptions& opti
     if (mesh.triangles.empty()) return failure("the surface has no triangles");
     if (options.kind == CellKind::faces) return face_cells(mesh);
     if (options.kind == CellKind::vertices) return vertex_cells(mesh);
-    if (Result<void> fine = check_count(mesh, options.count); !fine) return tl::unexpected(fine.error());
+    if (Result<void> fine = check_count(mesh, options.count); !fine)
+        return tl::unexpected(fine.error());
     if (options.anisotropy) {
         Result<void> fine = check_anisotropy(mesh, *options.anisotropy);
         if (!fine) return tl::unexpected(fine.error());

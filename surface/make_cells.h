@@ -35,7 +35,7 @@ std::uint64_t count_cells(const SurfaceMesh& mesh, const CellOptions& options);
 /// for refusing what cannot be before it is begun.
 double memory_of_cells(const SurfaceMesh& mesh, const CellOptions& options);
 
-/// The cells. Fails on a number of cells out of range, fewer cells than pieces of the surface (each
+/// The cells. Fails on a number of cells out of range, fewer cells than components of the surface (each
 /// needs one to be covered; `places` only), and on an anisotropy that is not one direction and
 /// ratio ≥ 1 for each triangle. Throws std::bad_alloc. What it returns means nothing if `cancel`
 /// became true. The same on any number of threads.

@@ -72,7 +72,8 @@ public:
             if (cancel) break;
             if (places_[place].corner() < 3) continue;
             const std::uint32_t triangle = places_[place].triangle;
-            if (!near.is_valid() || origin(near) != triangle) near = FaceHandle(static_cast<int>(triangle));
+            if (!near.is_valid() || origin(near) != triangle)
+                near = FaceHandle(static_cast<int>(triangle));
             near = insert(made_.point_of_place[place], near);
         }
         return std::move(made_);
@@ -171,14 +172,16 @@ private:
     /// Returns a face at the point, in the same old triangle as `near`.
     FaceHandle insert(std::uint32_t point, FaceHandle near) {
         const Found found = locate(steps_in(origin(near), vertex(point)), near);
-        if (found.edge.is_valid()) mesh_.split_copy(mesh_.edge_handle(found.edge), vertex(point));
-        else mesh_.split_copy(found.face, vertex(point));
+        if (found.edge.is_valid())
+            mesh_.split_copy(mesh_.edge_handle(found.edge), vertex(point));
+        else
+            mesh_.split_copy(found.face, vertex(point));
         restore(vertex(point));
         return found.face;
     }
 
-    /// Flips edges that face a new point until all its triangles are Delaunay triangles. Each edge is
-    /// replaced by one of the point, of which there is a limited number.
+    /// Flips edges that face a new point until all its triangles are Delaunay triangles. Each edge
+    /// is replaced by one of the point, of which there is a limited number.
     void restore(VertexHandle point) {
         outgoing(mesh_, point, suspects_);
         std::erase_if(suspects_, [&](HalfedgeHandle h) { return mesh_.is_boundary(h); });
@@ -190,7 +193,8 @@ private:
             if (mesh_.is_boundary(other) || origin(mesh_.face_handle(other)) != triangle) continue;
             const Steps a = steps_in(triangle, mesh_.from_vertex_handle(h));
             const Steps b = steps_in(triangle, mesh_.to_vertex_handle(h));
-            const Steps d = steps_in(triangle, mesh_.opposite_vh(other)), p = steps_in(triangle, point);
+            const Steps d = steps_in(triangle, mesh_.opposite_vh(other)),
+                        p = steps_in(triangle, point);
             if (turn(p, d, b) <= 0 || turn(d, p, a) <= 0) continue;
             if (triangle != framed_) {
                 frame_ = own_frame(old_, triangle);

@@ -27,8 +27,8 @@ struct MutualTessellation {
 ///
 /// An edge that would be a second one between its points stays away.
 ///
-/// `mesh` is half_edges(old); its points keep their numbers. Fails as to_lattice() does, where there
-/// would be too many points to number, and when `cancel` becomes true.
+/// `mesh` is half_edges(old); its points keep their numbers. Fails as to_lattice() does, where
+/// there would be too many points to number, and when `cancel` becomes true.
 Result<MutualTessellation> tessellate(HalfEdges& mesh, const SurfaceMesh& old,
                                       std::span<const SurfacePlace> places,
                                       const std::atomic<bool>& cancel);

@@ -10,7 +10,8 @@ namespace {
 constexpr double boundary_may_move = 0.1;            ///< Spacings.
 constexpr double longest_boundary_edge = 2;          ///< Spacings.
 constexpr double high_care = 0.26, low_care = 0.09;  ///< Cosines of 75° and 85°.
-constexpr std::size_t most_tried = 24;  ///< Points of a ring of which all ways to fill it are tried.
+constexpr std::size_t most_tried =
+    24;  ///< Points of a ring of which all ways to fill it are tried.
 constexpr double least_sine = 1e-9;
 
 bool is_fine(const TriangleQuality& quality, Care care) {
@@ -31,14 +32,15 @@ void PointRemoval::take_ring(std::uint32_t point) {
     outgoing(mesh_, vertex(point), spokes_);
     is_closed_ = !mesh_.is_boundary(spokes_.back());
     ring_.clear();
-    for (const HalfedgeHandle spoke : spokes_) ring_.push_back(number(mesh_.to_vertex_handle(spoke)));
+    for (const HalfedgeHandle spoke : spokes_)
+        ring_.push_back(number(mesh_.to_vertex_handle(spoke)));
 }
 
 /// The boundary comes from the ring's last point and goes on to its first.
 bool PointRemoval::may_leave_boundary(std::uint32_t point) {
     const Vector3d from = place(ring_.back()), to = place(ring_.front());
-    const double moved = distance_to_segment(place(point), from, to) +
-                         std::max(moved_[ring_.back()], moved_[point]);
+    const double moved =
+        distance_to_segment(place(point), from, to) + std::max(moved_[ring_.back()], moved_[point]);
     return moved <= boundary_may_move * spacing_ &&
            length(to - from) <= longest_boundary_edge * spacing_;
 }
@@ -70,7 +72,8 @@ bool PointRemoval::may_close() {
 void PointRemoval::unroll_ring(std::uint32_t point) {
     distances_.clear();
     angles_.clear();
-    for (const std::uint32_t other : ring_) distances_.push_back(length(place(other) - place(point)));
+    for (const std::uint32_t other : ring_)
+        distances_.push_back(length(place(other) - place(point)));
     for (std::size_t k = 0; k + !is_closed_ < ring_.size(); ++k) {
         const Vector3d a = place(ring_[k]) - place(point);
         const Vector3d b = place(ring_[k + 1 == ring_.size() ? 0 : k + 1]) - place(point);
@@ -89,7 +92,8 @@ bool PointRemoval::is_new(const RingTriangle& corners) {
     const std::uint32_t reach =
         corners[2] > corners[0] ? corners[2] - corners[0] : corners[0] - corners[2];
     if (reach == 1 || reach + 1 == ring_.size()) return true;
-    const bool is_there = are_neighbours(mesh_, vertex(ring_[corners[0]]), vertex(ring_[corners[2]]));
+    const bool is_there =
+        are_neighbours(mesh_, vertex(ring_[corners[0]]), vertex(ring_[corners[2]]));
     meets_edge_ |= is_there;
     return !is_there;
 }
@@ -116,8 +120,8 @@ std::vector<RingTriangle> PointRemoval::cut_ears_around(std::uint32_t point, Car
     });
 }
 
-/// Flipping the edge from the point to the tip of an ear cuts the ear off. In the end the point is in
-/// three triangles, which become one, or in one at the boundary.
+/// Flipping the edge from the point to the tip of an ear cuts the ear off. In the end the point is
+/// in three triangles, which become one, or in one at the boundary.
 void PointRemoval::fill(std::span<const RingTriangle> triangles) {
     changed_.clear();
     for (const HalfedgeHandle spoke : spokes_) {
@@ -126,8 +130,10 @@ void PointRemoval::fill(std::span<const RingTriangle> triangles) {
     for (const auto& [before, tip, after] : triangles.first(triangles.size() - is_closed_)) {
         mesh_.flip(mesh_.edge_handle(spokes_[tip]));
     }
-    if (is_closed_) mesh_.collapse(spokes_[triangles.back()[0]]);
-    else mesh_.delete_face(mesh_.face_handle(spokes_[0]));
+    if (is_closed_)
+        mesh_.collapse(spokes_[triangles.back()[0]]);
+    else
+        mesh_.delete_face(mesh_.face_handle(spokes_[0]));
 }
 
 std::optional<WhyKept> PointRemoval::remove(std::uint32_t point, Care care) {
@@ -137,8 +143,7 @@ std::optional<WhyKept> PointRemoval::remove(std::uint32_t point, Care care) {
     std::vector<RingTriangle> triangles;
     if (ring_.size() > 2) {
         meets_edge_ = false;
-        triangles =
-            ring_.size() <= most_tried ? best_filling(care) : cut_ears_around(point, care);
+        triangles = ring_.size() <= most_tried ? best_filling(care) : cut_ears_around(point, care);
         if (triangles.empty()) return meets_edge_ ? WhyKept::topology : WhyKept::fold;
     }
     if (!is_closed_) note_moved(point);

@@ -26,16 +26,17 @@ public:
         : mesh_(mesh), normals_(normals), spacing_(spacing), moved_(mesh.n_vertices()) {}
 
     /// Takes a point away and fills the hole with triangles over its one-ring: of all ways the one
-    /// whose worst triangle has the best score. Turk projects the ring to a tangent plane, where it may
-    /// overlap itself; this needs no plane. A ring of more than 24 points, for which that would take
-    /// long, is unrolled into a plane and its ears are cut off.
+    /// whose worst triangle has the best score. Turk projects the ring to a tangent plane, where it
+    /// may overlap itself; this needs no plane. A ring of more than 24 points, for which that would
+    /// take long, is unrolled into a plane and its ears are cut off.
     ///
     /// Leaves everything as it is and says why where the point must stay. A point at a boundary
     /// goes only where the boundary stays within 1/10 of the spacing and the new edge is no longer
     /// than twice the spacing.
     std::optional<WhyKept> remove(std::uint32_t point, Care care);
 
-    /// The faces that were around the point removed last: some fill its hole, the others are deleted.
+    /// The faces that were around the point removed last: some fill its hole, the others are
+    /// deleted.
     const std::vector<FaceHandle>& changed() const { return changed_; }
 
 private:

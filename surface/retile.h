@@ -22,7 +22,7 @@ namespace cascade {
 /// Why a point could not be taken away.
 enum class WhyKept {
     boundary,  ///< The boundary would move, or have an edge much longer than places are apart.
-    topology,  ///< Two points would have two edges, or a piece or a boundary would vanish.
+    topology,  ///< Two points would have two edges, or a component or a boundary would vanish.
     fold,      ///< A new triangle would lie upside down or have no area.
 };
 
@@ -39,24 +39,25 @@ struct Retiled {
     std::vector<KeptPoint> kept;
 };
 
-/// The surface as triangles whose corners are the places, in their order. It has the same pieces,
-/// boundaries and Euler characteristic, and no two points have two edges if they had not before.
-/// The normal of a triangle and the mean of the old normals at its corners are less than 90° apart,
-/// unless it was so before. Old points stay where a boundary bends or has no places, where too few
-/// places are left for the topology (a sphere takes 4 points, a torus 7), and where only triangles
-/// upside down could replace them. A point lies within 10⁻⁷ of its place, measured by the place's
-/// old triangle; where places coincide all but the first move by some 4·10⁻⁶.
+/// The surface as triangles whose corners are the places, in their order. It has the same
+/// components, boundaries and Euler characteristic, and no two points have two edges if they had
+/// not before. The normal of a triangle and the mean of the old normals at its corners are less
+/// than 90° apart, unless it was so before. Old points stay where a boundary bends or has no
+/// places, where too few places are left for the topology (a sphere takes 4 points, a torus 7), and
+/// where only triangles upside down could replace them. A point lies within 10⁻⁷ of its place,
+/// measured by the place's old triangle; where places coincide all but the first move by some
+/// 4·10⁻⁶.
 ///
 /// The same for the same arguments. Takes O((n + m) log (n + m)) of n points and m places, where no
-/// point has very many neighbours. Fails where a place is on no triangle, as half_edges() does, where
-/// there would be more points or triangles than it can number, and when `cancel` becomes true. Throws
-/// std::bad_alloc.
+/// point has very many neighbours. Fails where a place is on no triangle, as half_edges() does,
+/// where there would be more points or triangles than it can number, and when `cancel` becomes
+/// true. Throws std::bad_alloc.
 Result<Retiled> retile(const SurfaceMesh& mesh, std::span<const SurfacePlace> places,
                        const std::atomic<bool>& cancel);
 
 /// Values of places as an attribute of the new surface. A kept point gets the mean of its
-/// neighbours that have a value, those next to places first; on a piece without any place all stay
-/// NaN. `values` has one for each place.
+/// neighbours that have a value, those next to places first; on a component without any place all
+/// stay NaN. `values` has one for each place.
 PointAttribute attribute_of(const Retiled& retiled, std::string name,
                             std::span<const float> values);
 

@@ -12,7 +12,9 @@ namespace cascade {
 namespace {
 
 /// In (0, 1).
-double uniform(std::uint32_t word) { return (word + 0.5) / 4294967296.0; }
+double uniform(std::uint32_t word) {
+    return (word + 0.5) / 4294967296.0;
+}
 
 /// Of two random numbers a place in a triangle (G. Turk, "Generating random points in triangles",
 /// Graphics Gems, 1990).
@@ -31,18 +33,20 @@ std::uint64_t every_third(std::uint64_t bits) {
     return (bits | bits << 2) & 0x1249249249249249;
 }
 
-/// The triangles, piece after piece, each along Morton's curve through the cube around the surface
-/// (G. M. Morton, "A computer oriented geodetic data base", IBM, 1966).
-std::vector<std::uint32_t> in_order(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& pieces) {
+/// The triangles, component after component, each along Morton's curve through the cube around the
+/// surface (G. M. Morton, "A computer oriented geodetic data base", IBM, 1966).
+std::vector<std::uint32_t> in_order(const SurfaceMesh& mesh,
+                                    const std::vector<std::uint32_t>& components) {
     const auto [low, high] = mesh.box();
     const Vector3d size = high - low;
     const double scale = 2097151 / std::max({size.x, size.y, size.z});
     std::vector<std::tuple<std::uint32_t, std::uint64_t, std::uint32_t>> keys;
     keys.reserve(mesh.triangles.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Vector3d middle = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) * (1.0 / 3);
+        const Vector3d middle =
+            (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) * (1.0 / 3);
         const Vector3d at = (middle - low) * scale;
-        keys.push_back({pieces[t],
+        keys.push_back({components[t],
                         every_third(static_cast<std::uint64_t>(std::max(0.0, at.x))) |
                             every_third(static_cast<std::uint64_t>(std::max(0.0, at.y))) << 1 |
                             every_third(static_cast<std::uint64_t>(std::max(0.0, at.z))) << 2,
@@ -55,12 +59,12 @@ std::vector<std::uint32_t> in_order(const SurfaceMesh& mesh, const std::vector<s
     return order;
 }
 
-/// How many of `count` places each piece gets: by area, and one at least if there are enough.
+/// How many of `count` places each component gets: by area, and one at least if there are enough.
 std::vector<std::size_t> shared_out(const std::vector<double>& areas, std::size_t count) {
     std::vector<std::size_t> shares(areas.size(), 0);
     double area = std::accumulate(areas.begin(), areas.end(), 0.0);
     std::size_t left = count;
-    // Pieces that would get less than one get one, and the others have the rest: which may make
+    // Components that would get less than one get one, and the others have the rest: which may make
     // more of them too small.
     for (bool is_found = count >= areas.size(); is_found;) {
         is_found = false;
@@ -92,12 +96,12 @@ std::vector<std::size_t> shared_out(const std::vector<double>& areas, std::size_
 }  // namespace
 
 std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, std::uint32_t seed) {
-    const std::vector<std::uint32_t> pieces = pieces_of(mesh);
-    const std::vector<std::uint32_t> order = in_order(mesh, pieces);
-    std::vector<double> sums;                  // Of areas in that order, within each piece.
-    std::vector<std::size_t> ends;             // Of pieces in it.
+    const std::vector<std::uint32_t> components = connected_components(mesh);
+    const std::vector<std::uint32_t> order = in_order(mesh, components);
+    std::vector<double> sums;       // Of areas in that order, within each component.
+    std::vector<std::size_t> ends;  // Of components in it.
     for (std::size_t k = 0; k < order.size(); ++k) {
-        const bool is_first = k == 0 || pieces[order[k]] != pieces[order[k - 1]];
+        const bool is_first = k == 0 || components[order[k]] != components[order[k - 1]];
         if (is_first && k > 0) ends.push_back(k);
         sums.push_back((is_first ? 0 : sums.back()) + mesh.area(order[k]));
     }

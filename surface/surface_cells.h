@@ -26,7 +26,7 @@ struct SurfaceCells {
     std::vector<double> areas;
     std::vector<std::size_t> ends;   ///< Cell i's walls end before walls[ends[i]].
     std::vector<CellWall> walls;     ///< Cell after cell, by the numbers of the neighbours.
-    double bare_area = 0;            ///< Of pieces of the surface without any cell.
+    double bare_area = 0;            ///< Of components of the surface without any cell.
 
     std::span<const CellWall> walls_of(std::size_t cell) const {
         const std::size_t first = cell == 0 ? 0 : ends[cell - 1];

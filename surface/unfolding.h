@@ -55,7 +55,7 @@ public:
     /// directions are those of the frame of its triangle. Valid until the next call.
     std::span<const Piece> around(const SurfacePlace& place, double radius);
 
-    /// Of the patch that was unfolded last: is it all that hangs together with the place?
+    /// Of the patch that was unfolded last: is it all that is connected with the place?
     bool is_everything() const { return is_everything_; }
 
     /// Where another place lies in the patch that was unfolded last; null if it is not in it.

@@ -21,7 +21,7 @@ f 3 4 8 7
 f 4 1 5 8
 END
 run 0 mesh cube.obj
-says out "8 points, 12 triangles, 1 piece"
+says out "8 points, 12 triangles, 1 connected component"
 says out "closed like a sphere, Euler characteristic 2"
 says out "size 1 × 1 × 1, area 6"
 [ "$(wc -l < out)" = 4 ] || fail "a cube has nothing else to say"
@@ -50,7 +50,7 @@ says err "1,000,000,000 cells need about 900 GB, but"
 sed 's/^f 5 6 7 8$//; s/^f 1 2 6 5$//; s/^f 2 3 7 6$//; s/^f 3 4 8 7$//; s/^f 4 1 5 8$//' cube.obj > parts.obj
 printf 'v 9 0 0\nv 9 1 0\nv 9 0 1\nf 9 10 11\n' >> parts.obj
 run 3 mesh parts.obj --cells 1
-says err "'parts.obj': 1 cell cannot cover a surface of 2 pieces that do not hang together"
+says err "'parts.obj': 1 cell cannot cover a surface of 2 connected components"
 
 # Several models; a broken one does not hide the others.
 head -n 12 cube.obj > open.obj

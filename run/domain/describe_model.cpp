@@ -15,12 +15,12 @@ namespace cascade {
 
 namespace {
 
-/// What a closed surface of one piece can be bent into.
+/// What a closed surface of one component can be bent into.
 std::string kind_of(const MeshFacts& facts) {
     if (facts.boundaries > 0) {
         return counted(facts.boundaries, "boundary", "boundaries");
     }
-    if (facts.pieces > 1) return "closed";
+    if (facts.components > 1) return "closed";
     const std::int64_t holes = 1 - facts.euler_characteristic / 2;
     if (holes == 0) return "closed like a sphere";
     if (holes == 1) return "closed like a torus";
@@ -31,7 +31,7 @@ void describe_mesh(const MadeMesh& made, std::vector<std::string>& lines) {
     const MeshFacts facts = facts_of(made.mesh);
     lines.push_back(fmt::format("{}, {}, {}", counted(facts.points, "point"),
                                 counted(facts.triangles, "triangle"),
-                                counted(facts.pieces, "piece")));
+                                counted(facts.components, "connected component")));
     lines.push_back(fmt::format("{}, Euler characteristic {}", kind_of(facts),
                                 facts.euler_characteristic));
     const Vector3d size = facts.high - facts.low;

@@ -25,7 +25,7 @@ void expect_refined(const SurfaceMesh& mesh, const RefinedMesh& fine) {
     test::expect_manifold(fine.mesh);
     const MeshFacts before = facts_of(mesh), after = facts_of(fine.mesh);
     EXPECT_EQ(after.euler_characteristic, before.euler_characteristic);
-    EXPECT_EQ(after.pieces, before.pieces);
+    EXPECT_EQ(after.components, before.components);
     EXPECT_EQ(after.boundaries, before.boundaries);
     EXPECT_NEAR(after.area, before.area, 1e-9 * before.area);
     ASSERT_EQ(fine.places.size(), fine.mesh.points.size());

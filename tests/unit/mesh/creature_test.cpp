@@ -15,7 +15,7 @@ TEST(Creature, IsOneSmoothPieceAtAllResolutions) {
         ASSERT_TRUE(made) << made.error().message;
         test::expect_closed(*made);
         const MeshFacts facts = facts_of(*made);
-        EXPECT_EQ(facts.pieces, 1u);
+        EXPECT_EQ(facts.components, 1u);
         EXPECT_EQ(facts.euler_characteristic, 2);
         EXPECT_GT(test::volume_of(*made), 0);
         EXPECT_GT(test::smallest_angle(*made), 15);

@@ -12,12 +12,14 @@ namespace {
 /// Texture places and an attribute that say where a corner lies, and a face for each triangle.
 SurfaceMesh told(SurfaceMesh mesh) {
     mesh.attributes.push_back({"x", {}});
-    for (const Vector3d& p : mesh.points) mesh.attributes[0].values.push_back(static_cast<float>(p.x));
+    for (const Vector3d& p : mesh.points)
+        mesh.attributes[0].values.push_back(static_cast<float>(p.x));
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         mesh.faces.push_back(t);
         auto& places = mesh.texture.emplace_back();
         for (std::size_t k = 0; k < 3; ++k) {
-            places[k] = {static_cast<float>(mesh.corner(t, k).x), static_cast<float>(mesh.corner(t, k).y)};
+            places[k] = {static_cast<float>(mesh.corner(t, k).x),
+                         static_cast<float>(mesh.corner(t, k).y)};
         }
     }
     return mesh;
@@ -53,8 +55,9 @@ TEST(FlatTriangles, OneBetweenOthersIsFlippedIntoTheFaceBesideIt) {
 }
 
 TEST(FlatTriangles, OneAtABoundaryIsLeftOut) {
-    SurfaceMesh mesh = told(mesh_of({{9, 9, 9}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0, 0}, {0.25, 0, 0}},
-                                    {{1, 2, 5}, {5, 2, 3}, {1, 5, 4}, {5, 3, 4}}));
+    SurfaceMesh mesh = told(
+        mesh_of({{9, 9, 9}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0, 0}, {0.25, 0, 0}},
+                {{1, 2, 5}, {5, 2, 3}, {1, 5, 4}, {5, 3, 4}}));
     const auto done = remove_flat_triangles(mesh);
     ASSERT_TRUE(done);
     EXPECT_EQ(done->left_out, 1u);
@@ -66,8 +69,8 @@ TEST(FlatTriangles, OneAtABoundaryIsLeftOut) {
 }
 
 TEST(FlatTriangles, WhereAPointHeldPartsTogetherItIsDoubled) {
-    // Corner 2 of the flat triangle lies on its longest edge, which is at the boundary, and two others
-    // lie on its short edges.
+    // Corner 2 of the flat triangle lies on its longest edge, which is at the boundary, and two
+    // others lie on its short edges.
     SurfaceMesh mesh = told(mesh_of({{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {1.5, 1, 0}},
                                     {{0, 1, 2}, {0, 2, 3}, {2, 1, 4}}));
     const auto done = remove_flat_triangles(mesh);
@@ -75,12 +78,12 @@ TEST(FlatTriangles, WhereAPointHeldPartsTogetherItIsDoubled) {
     EXPECT_EQ(done->left_out, 1u);
     expect_told(mesh);
     EXPECT_EQ(mesh.points.size(), 6u);
-    EXPECT_EQ(facts_of(mesh).pieces, 2u);
+    EXPECT_EQ(facts_of(mesh).components, 2u);
 }
 
 TEST(FlatTriangles, NoTwoPointsGetASecondEdge) {
-    // A closed surface of four triangles that lie in one plane: the flat one's edge would become another
-    // edge from 2 to 3.
+    // A closed surface of four triangles that lie in one plane: the flat one's edge would become
+    // another edge from 2 to 3.
     SurfaceMesh mesh = mesh_of({{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, -1, 0}},
                                {{0, 1, 2}, {1, 0, 3}, {0, 2, 3}, {2, 1, 3}});
     const SurfaceMesh before = mesh;

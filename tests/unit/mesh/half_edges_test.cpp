@@ -19,8 +19,8 @@ namespace {
 /// What OpenMesh itself finds wrong.
 std::string faults_of(const HalfEdges& mesh) {
     std::ostringstream faults;
-    OpenMesh::Utils::MeshCheckerT<HalfEdges>(mesh).check(OpenMesh::Utils::MeshCheckerT<HalfEdges>::CHECK_ALL,
-                                                         faults);
+    OpenMesh::Utils::MeshCheckerT<HalfEdges>(mesh).check(
+        OpenMesh::Utils::MeshCheckerT<HalfEdges>::CHECK_ALL, faults);
     return faults.str();
 }
 
@@ -39,7 +39,8 @@ SurfaceMesh pillow() {
     return mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 0, 2}});
 }
 
-/// A closed surface cut open along the edge from 0 to 1, so that a hole of two edges is between them.
+/// A closed surface cut open along the edge from 0 to 1, so that a hole of two edges is between
+/// them.
 SurfaceMesh two_edges_between_two_points() {
     SurfaceMesh mesh;
     mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
@@ -80,23 +81,26 @@ TEST(HalfEdges, RefusesWhatIsNoSurface) {
     EXPECT_EQ(message(twice), "triangle 0 of the surface has a corner twice");
 
     // Two triangles that only a point holds together, and two tetrahedra.
-    const SurfaceMesh bow = mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}},
-                                    {{0, 1, 2}, {0, 3, 4}});
+    const SurfaceMesh bow =
+        mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
     EXPECT_EQ(message(bow), "the triangles around point 0 of the surface are not one fan");
-    const SurfaceMesh hourglass =
-        mesh_of({{0, 0, 0}, {1, 0, 1}, {0, 1, 1}, {-1, -1, 1}, {1, 0, -1}, {-1, -1, -1}, {0, 1, -1}},
-                {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {3, 2, 1}, {0, 4, 5}, {0, 5, 6}, {0, 6, 4}, {6, 5, 4}});
+    const SurfaceMesh hourglass = mesh_of(
+        {{0, 0, 0}, {1, 0, 1}, {0, 1, 1}, {-1, -1, 1}, {1, 0, -1}, {-1, -1, -1}, {0, 1, -1}},
+        {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {3, 2, 1}, {0, 4, 5}, {0, 5, 6}, {0, 6, 4}, {6, 5, 4}});
     EXPECT_EQ(message(hourglass), "the triangles around point 0 of the surface are not one fan");
 
     SurfaceMesh turned = test::square();
     std::swap(turned.triangles[1][0], turned.triangles[1][1]);
-    EXPECT_EQ(message(turned), "edge 2 of triangle 0 of the surface does not fit what lies across it");
+    EXPECT_EQ(message(turned),
+              "edge 2 of triangle 0 of the surface does not fit what lies across it");
     SurfaceMesh one_way = test::square();
     one_way.across[1] = {};
-    EXPECT_EQ(message(one_way), "edge 2 of triangle 0 of the surface does not fit what lies across it");
+    EXPECT_EQ(message(one_way),
+              "edge 2 of triangle 0 of the surface does not fit what lies across it");
     SurfaceMesh outside = test::square();
     outside.points.pop_back();
-    EXPECT_EQ(message(outside), "edge 2 of triangle 1 of the surface does not fit what lies across it");
+    EXPECT_EQ(message(outside),
+              "edge 2 of triangle 1 of the surface does not fit what lies across it");
     SurfaceMesh unlinked = test::square();
     unlinked.across.clear();
     EXPECT_EQ(message(unlinked), "the surface has triangles whose neighbours are not known");
@@ -120,7 +124,8 @@ TEST(HalfEdges, OneRingsGoCounterclockwise) {
         EXPECT_EQ(spokes.size(), made->valence(vertex(p)));
         for (std::size_t k = 0; k < spokes.size(); ++k) {
             const auto to = [&](std::size_t j) {
-                return position(*made, made->to_vertex_handle(spokes[j % spokes.size()])) - mesh.points[p];
+                return position(*made, made->to_vertex_handle(spokes[j % spokes.size()])) -
+                       mesh.points[p];
             };
             EXPECT_GT(dot(cross(to(k), to(k + 1)), mesh.points[p]), 0);
         }
@@ -132,7 +137,8 @@ TEST(HalfEdges, OneRingsGoCounterclockwise) {
         EXPECT_TRUE(open->is_boundary(spokes.back()));
         EXPECT_EQ(spokes.size(), open->valence(vertex(p)));
     }
-    EXPECT_TRUE(are_neighbours(*open, vertex(0), vertex(2)) != are_neighbours(*open, vertex(1), vertex(3)));
+    EXPECT_TRUE(are_neighbours(*open, vertex(0), vertex(2)) !=
+                are_neighbours(*open, vertex(1), vertex(3)));
 }
 
 /// Flips, splits and collapses wherever the hash says and OpenMesh allows.
@@ -143,19 +149,21 @@ void edit(HalfEdges& mesh, std::uint32_t seed, int edits) {
         if (mesh.status(e).deleted()) continue;
         const HalfedgeHandle h = mesh.halfedge_handle(e, random[1] % 2);
         switch (random[2] % 4) {
-        case 0:
-            if (mesh.is_flip_ok(e)) mesh.flip(e);
-            break;
-        case 1: mesh.split(e, mesh.calc_edge_midpoint(e)); break;
-        case 2:
-            if (!mesh.is_boundary(h)) {
-                const FaceHandle f = mesh.face_handle(h);
-                mesh.split(f, mesh.calc_face_centroid(f));
-            }
-            break;
-        default:
-            // A tetrahedron passes OpenMesh's test and would be gone.
-            if (mesh.is_collapse_ok(h) && mesh.n_faces() > 20) mesh.collapse(h);
+            case 0:
+                if (mesh.is_flip_ok(e)) mesh.flip(e);
+                break;
+            case 1:
+                mesh.split(e, mesh.calc_edge_midpoint(e));
+                break;
+            case 2:
+                if (!mesh.is_boundary(h)) {
+                    const FaceHandle f = mesh.face_handle(h);
+                    mesh.split(f, mesh.calc_face_centroid(f));
+                }
+                break;
+            default:
+                // A tetrahedron passes OpenMesh's test and would be gone.
+                if (mesh.is_collapse_ok(h) && mesh.n_faces() > 20) mesh.collapse(h);
         }
     }
 }
@@ -171,7 +179,7 @@ TEST(HalfEdges, EditsKeepTheTopology) {
             test::expect_manifold(after);
             EXPECT_EQ(facts_of(after).euler_characteristic, before.euler_characteristic) << seed;
             EXPECT_EQ(facts_of(after).boundaries, before.boundaries) << seed;
-            EXPECT_EQ(facts_of(after).pieces, before.pieces) << seed;
+            EXPECT_EQ(facts_of(after).components, before.components) << seed;
             expect_round_trip(after);
         }
     }

@@ -51,7 +51,7 @@ TEST(ImplicitSurface, ASphere) {
     for (const double edge : {0.2, 0.1, 0.05}) {
         const SurfaceMesh sphere = surface(ball, {{-1, -1, -1}, {1, 1, 1}, edge});
         EXPECT_EQ(facts_of(sphere).euler_characteristic, 2);
-        EXPECT_EQ(facts_of(sphere).pieces, 1u);
+        EXPECT_EQ(facts_of(sphere).components, 1u);
         EXPECT_GT(test::smallest_angle(sphere), 25);
         EXPECT_NEAR(test::mean_edge(sphere) / edge, 1, 0.2);
         const double area = 4 * pi * 0.64 - sphere.total_area();
@@ -75,7 +75,7 @@ TEST(ImplicitSurface, ATorus) {
     for (const double edge : {0.1, 0.05}) {
         const SurfaceMesh torus = surface(ring, {{-1.5, -0.5, -1.5}, {1.5, 0.5, 1.5}, edge});
         EXPECT_EQ(facts_of(torus).euler_characteristic, 0);
-        EXPECT_EQ(facts_of(torus).pieces, 1u);
+        EXPECT_EQ(facts_of(torus).components, 1u);
         EXPECT_GT(test::smallest_angle(torus), 20);
         EXPECT_NEAR(torus.total_area() / (4 * pi * pi * 0.3), 1, 3 * edge * edge);
         const double volume = 2 * pi * pi * 0.09 - test::volume_of(torus);
@@ -103,7 +103,7 @@ TEST(ImplicitSurface, TwoHoles) {
     };
     const SurfaceMesh mesh = surface(eight, {{-1.3, -1, -0.3}, {1.3, 1, 0.3}, 0.03});
     EXPECT_EQ(facts_of(mesh).euler_characteristic, -2);
-    EXPECT_EQ(facts_of(mesh).pieces, 1u);
+    EXPECT_EQ(facts_of(mesh).components, 1u);
     EXPECT_GT(test::smallest_angle(mesh), 10);
 }
 
@@ -112,7 +112,7 @@ TEST(ImplicitSurface, SeveralPieces) {
         return std::min(0.8 - length(p), length(p) - 0.5);
     };
     const SurfaceMesh mesh = surface(shell, {{-1, -1, -1}, {1, 1, 1}, 0.08});
-    EXPECT_EQ(facts_of(mesh).pieces, 2u);
+    EXPECT_EQ(facts_of(mesh).components, 2u);
     EXPECT_EQ(facts_of(mesh).euler_characteristic, 4);
     EXPECT_NEAR(test::volume_of(mesh), 4 * pi / 3 * (0.512 - 0.125), 0.02);
 }

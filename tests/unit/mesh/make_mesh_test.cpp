@@ -33,7 +33,7 @@ TEST(MakeMesh, ACubeIsAClosedSurface) {
     EXPECT_EQ(facts.points, 8u);
     EXPECT_EQ(facts.triangles, 12u);
     EXPECT_EQ(facts.edges, 18u);
-    EXPECT_EQ(facts.pieces, 1u);
+    EXPECT_EQ(facts.components, 1u);
     EXPECT_EQ(facts.boundaries, 0u);
     EXPECT_EQ(facts.euler_characteristic, 2);
     EXPECT_DOUBLE_EQ(facts.area, 6);
@@ -58,7 +58,7 @@ TEST(MakeMesh, ATorusHasTheEulerCharacteristicOfATorus) {
     }
     const MeshFacts facts = facts_of(made(soup).mesh);
     EXPECT_EQ(facts.euler_characteristic, 0);
-    EXPECT_EQ(facts.pieces, 1u);
+    EXPECT_EQ(facts.components, 1u);
 }
 
 TEST(MakeMesh, BoundariesArePiecesOfRim) {
@@ -95,7 +95,7 @@ TEST(MakeMesh, TwoCubesAtAnEdgeBecomeTwoPieces) {
     const MeshFacts facts = facts_of(parted.mesh);
     EXPECT_EQ(facts.boundaries, 0u);
     EXPECT_DOUBLE_EQ(facts.area, 12);
-    EXPECT_EQ(facts.pieces, 2u);
+    EXPECT_EQ(facts.components, 2u);
     EXPECT_EQ(facts.euler_characteristic, 4);
     EXPECT_THAT(parted.repairs, testing::Contains(HasSubstr("1 edge of more than two faces")));
 }
@@ -104,10 +104,10 @@ TEST(MakeMesh, TwoCubesAtAPointShareNoPoint) {
     PolygonSoup two = cube();
     append(two, cube(), {1, 1, 1});
     const MadeMesh parted = made(two);
-    EXPECT_EQ(facts_of(parted.mesh).pieces, 2u);
+    EXPECT_EQ(facts_of(parted.mesh).components, 2u);
     EXPECT_EQ(facts_of(parted.mesh).euler_characteristic, 4);
     EXPECT_THAT(parted.repairs,
-                testing::Contains("1 point was doubled where faces do not hang together around it"));
+                testing::Contains("1 point was doubled where the faces around it are not connected by edges"));
 }
 
 TEST(MakeMesh, AFinEndsWhereItMeetsTheSurface) {
@@ -118,7 +118,7 @@ TEST(MakeMesh, AFinEndsWhereItMeetsTheSurface) {
     finned.ends.push_back(finned.corners.size());
     const MeshFacts facts = facts_of(made(finned).mesh);
     EXPECT_DOUBLE_EQ(facts.area, 7);
-    EXPECT_EQ(facts.pieces, 2u);
+    EXPECT_EQ(facts.components, 2u);
     EXPECT_EQ(facts.boundaries, 1u);  // The fin's own; the cube stays closed.
 }
 
@@ -132,7 +132,7 @@ TEST(MakeMesh, FacesAreTurnedToAgree) {
     PolygonSoup inside_out = cube();
     for (std::size_t p = 0; p < 6; ++p) std::swap(inside_out.corners[4 * p], inside_out.corners[4 * p + 2]);
     const MadeMesh turned = made(inside_out);
-    EXPECT_THAT(turned.repairs, ElementsAre("1 piece was turned inside out"));
+    EXPECT_THAT(turned.repairs, ElementsAre("1 component was turned inside out"));
     EXPECT_DOUBLE_EQ(volume_of(turned.mesh), 1);
 }
 
@@ -154,7 +154,7 @@ TEST(MakeMesh, AMoebiusStripIsCutOnce) {
     }
     const MadeMesh cut = made(strip);
     const MeshFacts facts = facts_of(cut.mesh);
-    EXPECT_EQ(facts.pieces, 1u);
+    EXPECT_EQ(facts.components, 1u);
     EXPECT_EQ(facts.boundaries, 1u);
     EXPECT_EQ(facts.euler_characteristic, 1);
     EXPECT_THAT(cut.repairs, testing::Contains("the surface had one side only and was cut along 1 edge"));

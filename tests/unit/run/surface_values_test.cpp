@@ -75,7 +75,7 @@ TEST_F(SurfaceValuesTest, TheNearestOfSeveralPlacesCounts) {
 }
 
 TEST_F(SurfaceValuesTest, WhereNoWayLeadsADistanceIsFiniteAndLarge) {
-    // Two triangles that do not hang together.
+    // Two triangles that are not connected.
     std::ofstream(path("two.off")) << "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 0\n4 0 0\n3 1 0\n"
                                       "3 0 1 2\n3 3 4 5\n";
     const std::vector<double> found = values("mesh: \"two.off\"; cells: 40", "distance(0, 0, 0)");

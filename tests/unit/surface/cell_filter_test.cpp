@@ -184,13 +184,13 @@ TEST(CellFilter, PiecesHaveNothingToDoWithEachOther) {
     PolygonSoup soup = cube();
     append(soup, cube(), {1e-3, 1e-3, 1e-3});
     const SurfaceMesh mesh = make_mesh(std::move(soup))->mesh;
-    const std::vector<std::uint32_t> pieces = pieces_of(mesh);
+    const std::vector<std::uint32_t> components = connected_components(mesh);
     const SurfaceCells cells = cells_of(mesh, 3000);
     const CellFilter filter = filter_of(mesh, cells);
     std::vector<float> values;
-    for (const SurfacePlace& place : cells.places) values.push_back(static_cast<float>(pieces[place.triangle]));
+    for (const SurfacePlace& place : cells.places) values.push_back(static_cast<float>(components[place.triangle]));
     for (const SurfacePlace& place : scatter(mesh, 3000, 2)) {
-        EXPECT_NEAR(filtered(filter, values, place), pieces[place.triangle], 1e-6);
+        EXPECT_NEAR(filtered(filter, values, place), components[place.triangle], 1e-6);
     }
 }
 
@@ -198,13 +198,13 @@ TEST(CellFilter, WhereNoCellIsNearTheNextOneIsSeen) {
     PolygonSoup soup = cube();
     append(soup, cube(), {50, 0, 0});
     const SurfaceMesh mesh = make_mesh(std::move(soup))->mesh;
-    const std::vector<std::uint32_t> pieces = pieces_of(mesh);
+    const std::vector<std::uint32_t> components = connected_components(mesh);
     SurfaceCells cells = cells_of(mesh, 400);
     // All cells of the second cube are taken away, and most of the first.
     std::vector<SurfacePlace> left;
     for (const SurfacePlace& place : cells.places) {
         const Vector3d p = position_of(mesh, place);
-        if (pieces[place.triangle] == 0 && p.x > 0.5 && p.y > 0.5) left.push_back(place);
+        if (components[place.triangle] == 0 && p.x > 0.5 && p.y > 0.5) left.push_back(place);
     }
     ASSERT_GT(left.size(), 10u);
     Team team(2);
@@ -219,7 +219,7 @@ TEST(CellFilter, WhereNoCellIsNearTheNextOneIsSeen) {
             sum += share.weight;
         }
         EXPECT_NEAR(sum, 1, 1e-6);
-        if (pieces[place.triangle] == 1) {
+        if (components[place.triangle] == 1) {
             EXPECT_GT(position_of(mesh, left[shares[0].cell]).x, 0.5);
         }
     }

@@ -24,7 +24,7 @@ void expect_fine(const SurfaceMesh& mesh, std::uint64_t count) {
     test::expect_areas_sum_to(mesh, *cells);
     test::expect_symmetric_walls(*cells);
     EXPECT_EQ(cells->bare_area, 0);
-    EXPECT_EQ(test::parts_of(*cells), facts_of(mesh).pieces);
+    EXPECT_EQ(test::parts_of(*cells), facts_of(mesh).components);
 }
 
 SurfaceMesh mesh_of(PolygonSoup soup) { return make_mesh(std::move(soup))->mesh; }
@@ -126,8 +126,8 @@ TEST(HardCells, EveryPieceHasACell) {
     const auto few = cells_of(mesh, 40);
     ASSERT_FALSE(few);
     EXPECT_EQ(few.error().message,
-              "40 cells cannot cover a surface of 41 pieces that do not hang together");
-    EXPECT_EQ(few.error().hint, "use 41 cells or more, or join the pieces");
+              "40 cells cannot cover a surface of 41 connected components");
+    EXPECT_EQ(few.error().hint, "use 41 cells or more, or join components");
 }
 
 TEST(HardCells, RefusesWhatCannotBe) {

@@ -45,7 +45,7 @@ void expect_cells(const SurfaceMesh& mesh, const SurfaceCells& cells, std::size_
     ASSERT_EQ(cells.places.size(), count);
     test::expect_areas_sum_to(mesh, cells);
     test::expect_symmetric_walls(cells);
-    EXPECT_EQ(test::parts_of(cells), facts_of(mesh).pieces);
+    EXPECT_EQ(test::parts_of(cells), facts_of(mesh).components);
     EXPECT_EQ(cells.bare_area, 0);
 }
 

@@ -29,7 +29,7 @@ inline PolygonSoup torus_soup(std::uint32_t n, std::uint32_t m) {
     return soup;
 }
 
-/// All triangles at a point hang together around it.
+/// All triangles at a point are connected around it.
 inline void expect_one_fan_each(const SurfaceMesh& mesh) {
     std::vector<std::uint32_t> triangles(mesh.points.size()), any(mesh.points.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -69,7 +69,7 @@ inline void expect_same_topology(const SurfaceMesh& old, const Retiled& retiled,
     const MeshFacts before = facts_of(old), behind = facts_of(retiled.mesh);
     EXPECT_EQ(behind.points, places + retiled.kept.size());
     EXPECT_EQ(behind.euler_characteristic, before.euler_characteristic);
-    EXPECT_EQ(behind.pieces, before.pieces);
+    EXPECT_EQ(behind.components, before.components);
     EXPECT_EQ(behind.boundaries, before.boundaries);
     for (std::size_t k = 0; k < retiled.kept.size(); ++k) {
         EXPECT_EQ(retiled.mesh.points[places + k], old.points[retiled.kept[k].old_point]);
