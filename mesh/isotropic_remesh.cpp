@@ -22,6 +22,7 @@ constexpr double flattest_fold = 0.7;  ///< Cosine between triangles whose edge 
 /// The angle that faces a half-edge: its cosine and sine, times the lengths of its sides.
 struct FacingAngle {
     double cosine = 0, sine = 0;
+    double size() const { return std::sqrt(cosine * cosine + sine * sine); }
 };
 FacingAngle facing_angle(const HalfEdges& mesh, HalfedgeHandle h) {
     const Vector3d apex = position(mesh, mesh.opposite_vh(h));
@@ -32,12 +33,13 @@ FacingAngle facing_angle(const HalfEdges& mesh, HalfedgeHandle h) {
 
 /// Whether two angles sum up to half a turn at most, by the sine of their sum.
 bool is_delaunay(FacingAngle a, FacingAngle b) {
-    const double size = std::sqrt((a.cosine * a.cosine + a.sine * a.sine) *
-                                  (b.cosine * b.cosine + b.sine * b.sine));
-    return a.cosine * b.sine + a.sine * b.cosine >= -tolerance * size;
+    const double sine = a.cosine * b.sine + a.sine * b.cosine;
+    return sine >= 0 || sine >= -tolerance * a.size() * b.size();
 }
 
-Vector3d double_area_normal(Vector3d a, Vector3d b, Vector3d c) { return cross(b - a, c - a); }
+Vector3d double_area_normal(Vector3d a, Vector3d b, Vector3d c) {
+    return cross(b - a, c - a);
+}
 
 /// Whether flipping the edge makes its angles better and leaves the surface as it is.
 bool wants_flip(const HalfEdges& mesh, EdgeHandle e) {
@@ -45,7 +47,8 @@ bool wants_flip(const HalfEdges& mesh, EdgeHandle e) {
     if (is_delaunay(facing_angle(mesh, h), facing_angle(mesh, other))) return false;
     const VertexHandle from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
     const Vector3d a = position(mesh, from), b = position(mesh, to);
-    const Vector3d c = position(mesh, mesh.opposite_vh(h)), d = position(mesh, mesh.opposite_vh(other));
+    const Vector3d c = position(mesh, mesh.opposite_vh(h)),
+                   d = position(mesh, mesh.opposite_vh(other));
     const Vector3d one = double_area_normal(a, b, c), two = double_area_normal(b, a, d);
     if (dot(one, two) < flattest_fold * length(one) * length(two)) return false;
     if (dot(double_area_normal(c, d, b), one + two) <= 0) return false;
@@ -61,7 +64,8 @@ void flip_edges(HalfEdges& mesh) {
         for (const EdgeHandle e : suspects) {
             if (!wants_flip(mesh, e)) continue;
             mesh.flip(e);
-            for (const HalfedgeHandle h : {mesh.halfedge_handle(e, 0), mesh.halfedge_handle(e, 1)}) {
+            for (const HalfedgeHandle h :
+                 {mesh.halfedge_handle(e, 0), mesh.halfedge_handle(e, 1)}) {
                 next.push_back(mesh.edge_handle(mesh.next_halfedge_handle(h)));
                 next.push_back(mesh.edge_handle(mesh.prev_halfedge_handle(h)));
             }
@@ -71,14 +75,15 @@ void flip_edges(HalfEdges& mesh) {
     }
 }
 
-/// Where points would lie in the middle of the triangles around them, each of which counts as much as
-/// its area, but only along the surface.
+/// Where points would lie in the middle of the triangles around them, each of which counts as much
+/// as its area, but only along the surface.
 std::vector<Vector3d> spread(const SurfaceMesh& mesh, std::span<const Vector3d> normals) {
     std::vector<Vector3d> sums(mesh.points.size());
     std::vector<double> areas(mesh.points.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const double area = mesh.area(t);
-        const Vector3d middle = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) * (area / 3);
+        const Vector3d middle =
+            (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) * (area / 3);
         for (const std::uint32_t point : mesh.triangles[t]) {
             sums[point] = sums[point] + middle;
             areas[point] += area;

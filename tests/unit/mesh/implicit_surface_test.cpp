@@ -154,6 +154,13 @@ TEST(ImplicitSurface, SizesAndPlacesOfAllOrders) {
             surface(sphere, {{-size, -size, -size}, {size, size, size}, 0.2 * size});
         EXPECT_NEAR(mesh.total_area() / (4 * pi * 0.64 * size * size), 1, 0.03);
     }
+    // Nothing but powers of two apart, triangles are the same.
+    const auto triangles = [](double size) {
+        const auto sphere = [size](Vector3d p) { return 0.8 - length(p * (1 / size)); };
+        return surface(sphere, {{-size, -size, -size}, {size, size, size}, 0.25 * size}).triangles;
+    };
+    EXPECT_EQ(triangles(std::ldexp(1, 160)), triangles(1));
+    EXPECT_EQ(triangles(std::ldexp(1, -160)), triangles(1));
     const auto small = [](Vector3d p) { return 0.3 - length(p - Vector3d{5, 6, 7}); };
     const SurfaceMesh mesh = surface(small, {{4.5, 5.5, 6.6}, {5.5, 6.5, 7.4}, 0.1});
     EXPECT_NEAR(mesh.total_area(), 4 * pi * 0.09, 0.1);
