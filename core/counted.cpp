@@ -1,3 +1,4 @@
+// Nouns take -s or -es; irregular plurals are given by the caller.
 #include "core/counted.h"
 
 #include "core/with_commas.h"

@@ -1,3 +1,4 @@
+// Calls that a signal interrupts are made again; a write that writes nothing counts as a full disk.
 #include "core/descriptor.h"
 
 #include <cerrno>

@@ -1,3 +1,6 @@
+// Links are followed before a path is compared with the granted folders; the file is then opened
+// below its folder by core/open_below, so that a name that changes in between cannot lead
+// elsewhere.
 #include "core/granted_files.h"
 
 #include "core/file.h"

@@ -1,3 +1,4 @@
+// One pass counts brackets and commas outside of quoted texts; nothing is parsed.
 #include "core/json_size.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Builds the slices: a cell's links in the order of its list, then links of weight 0 to the cell
+// itself.
 #include "core/links.h"
 
 #include "core/check.h"

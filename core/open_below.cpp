@@ -1,3 +1,5 @@
+// Linux's openat2() with RESOLVE_BENEATH where there is one, else openat() folder by folder with
+// O_NOFOLLOW.
 #include "core/open_below.h"
 
 #include <cerrno>

@@ -1,3 +1,4 @@
+// The owner of the nearest folder that exists decides: this user, or root.
 #include "core/own_folder.h"
 
 #include <sys/stat.h>

@@ -1,3 +1,4 @@
+// Three digits and a prefix of the SI, from nano to tera.
 #include "core/quantities.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Restriction takes the mean of the cells that a coarse cell covers; refinement interpolates
+// linearly along each axis, with weights 3/4 and 1/4.
 #include "core/resample.h"
 
 #include "core/check.h"

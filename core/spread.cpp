@@ -1,3 +1,4 @@
+// Merges two samples by the pairwise update of sums of squares, which avoids cancellation.
 #include "core/spread.h"
 
 namespace cascade {

@@ -1,3 +1,5 @@
+// Creates with O_EXCL, locks with flock(), calls fsync() before renaming, and removes files whose
+// writers are dead: those that can be locked and are older than an hour.
 #include "core/temporary_file.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The one mutex of the process: solvers/ and measure/ both make plans.
 #include "core/transform_planner.h"
 
 namespace cascade {

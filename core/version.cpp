@@ -1,3 +1,4 @@
+// A file of its own, so that a new version compiles this file alone.
 #include "core/version.h"
 
 namespace cascade {

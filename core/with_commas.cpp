@@ -1,3 +1,4 @@
+// Commas between groups of three digits, counted from the right.
 #include "core/with_commas.h"
 
 #include <fmt/format.h>
