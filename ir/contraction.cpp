@@ -1,3 +1,5 @@
+// One pass in the order of the code writes the kernel anew; a sum of two products fuses the first,
+// unless only the second has a factor that is the same in all cells.
 #include "ir/contraction.h"
 
 #include "ir/builder.h"

@@ -1,3 +1,4 @@
+// Counts instruction by instruction; loads of the same place, mask or table of links count once.
 #include "ir/kernel_cost.h"
 
 #include <cstddef>

@@ -1,3 +1,5 @@
+// Periodic axes take a whole number of lattice cells. Points are hashed in three parts, one for
+// each axis, which are computed once for all points that share them, and then mixed with the key.
 #include "ir/lattice.h"
 
 #include "core/hash.h"

@@ -1,3 +1,5 @@
+// A loop for each choice of scalar operands, compiled for AVX2 and FMA by an attribute of the
+// function.
 #include "ir/multiply_add.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Rows are reduced in eight partial results, as the lanes of a vector; then pairs are folded.
 #include "ir/reduction.h"
 
 #include <array>

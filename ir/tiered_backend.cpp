@@ -1,3 +1,5 @@
+// One worker thread compiles the kernels that are wanted, in order, and then those that are
+// expected; a kernel switches to native code by one atomic pointer.
 #include "ir/tiered_backend.h"
 
 #include "ir/interpreter.h"
