@@ -1,3 +1,5 @@
+// Lays out tiles, labels and margins in whole pixels first, then draws; the vertical axis points
+// up.
 #include "picture/map.h"
 
 #include "core/check.h"

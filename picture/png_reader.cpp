@@ -1,3 +1,4 @@
+// The callbacks that libpng calls: they take bytes from memory, and leave by longjmp on an error.
 #include "picture/png_reader.h"
 
 #include <cstring>

@@ -1,3 +1,4 @@
+// Copies cell by cell; across x the slices become columns, across y they become rows.
 #include "picture/slice.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Powers are computed in binary64 and rounded once to binary32.
 #include "picture/srgb.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// XML with offsets first, then the arrays as raw bytes; cells outside of a mask are marked as
+// hidden.
 #include "picture/vti.h"
 
 #include "core/check.h"

@@ -1,3 +1,4 @@
+// Escapes the four characters that would end a text or a quoted attribute.
 #include "picture/xml_text.h"
 
 namespace cascade {
