@@ -1,3 +1,5 @@
+// A field that is even has a mean and nothing to measure; spots are counted halfway between the
+// ends.
 #include "measure/features.h"
 
 #include "core/spread.h"

@@ -1,3 +1,4 @@
+// Sums products of central differences; the eigenvectors of a symmetric 2 x 2 matrix by atan2.
 #include "measure/orientation.h"
 
 #include <cmath>

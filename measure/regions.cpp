@@ -1,3 +1,4 @@
+// Flood fill with a stack; cells are neighbours across their sides, not across their corners.
 #include "measure/regions.h"
 
 #include <cmath>

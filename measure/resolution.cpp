@@ -1,3 +1,4 @@
+// The correlation of neighbours, which is cheap, decides whether a spectrum is computed at all.
 #include "measure/resolution.h"
 
 #include "core/spread.h"

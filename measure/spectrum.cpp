@@ -1,3 +1,6 @@
+// FFTW's transform along each axis, Fourier where it is periodic and cosines elsewhere; the power
+// is summed over rings of wave numbers, and the wavelength is the mean of those around the
+// strongest.
 #include "measure/spectrum.h"
 
 #include "core/transform_planner.h"
