@@ -1,3 +1,4 @@
+// Embree with one instruction set and one thread for building, so that all machines draw the same.
 #include "render/ray_caster.h"
 
 #include "core/check.h"
