@@ -1,3 +1,4 @@
+// Maps rows of a plane to the cells beside each side and back, and runs the side's kernel on those.
 #include "solvers/changing_side.h"
 
 #include <algorithm>

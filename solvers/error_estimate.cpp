@@ -1,3 +1,6 @@
+// The trapezoidal rule gives the other solution: the mean of the rates at both ends times the step,
+// less the change of the step. A solver with a solution of lower order of its own is compared with
+// that.
 #include "solvers/error_estimate.h"
 
 #include <algorithm>

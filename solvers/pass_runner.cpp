@@ -1,3 +1,5 @@
+// Rows are computed in bands that fit into a cache, and the halo of a band is filled while it is
+// there. Each thread folds the aggregates of all rows itself, which takes one barrier and not two.
 #include "solvers/pass_runner.h"
 
 #include "core/check.h"

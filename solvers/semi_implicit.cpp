@@ -1,3 +1,5 @@
+// The schemes as lists of sweeps: rates, then sums of rates that a filter has damped. The
+// Rosenbrock method has γ = 1 − 1/√2.
 #include "solvers/semi_implicit.h"
 
 #include <cmath>

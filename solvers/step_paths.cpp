@@ -1,3 +1,4 @@
+// A path's length is the sum of the root mean squares of its changes from look to look.
 #include "solvers/step_paths.h"
 
 #include "solvers/field_norms.h"

@@ -1,3 +1,4 @@
+// Counts the tiles of a step from the passes that need all rows, which begin a new one.
 #include "solvers/stepping.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The four phases, one after the other; within a tile, a wavefront over the layers and the levels.
 #include "solvers/tile_runner.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// A state machine fed with the times of batches: it rests, or tries the candidates round by round.
 #include "solvers/tile_tuner.h"
 
 #include "core/check.h"

@@ -1,3 +1,5 @@
+// Counts the bytes that a step touches and fits layers into part of the second- or third-level
+// cache; the constants are measured (docs/time_tiling.md).
 #include "solvers/tiling.h"
 
 #include <algorithm>
