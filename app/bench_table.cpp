@@ -1,3 +1,5 @@
+// Numbers come from run/commands/bench.h; this file has the words and the columns, and the row of
+// CSV.
 #include "app/bench_table.h"
 
 #include "core/counted.h"

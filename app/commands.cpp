@@ -1,3 +1,4 @@
+// `check`, `compile` and `--dump`, and how every command reads its script.
 #include "app/commands.h"
 
 #include "app/exit_status.h"

@@ -1,3 +1,4 @@
+// Writes by write(2), so that a reader that has gone or a full disk is noticed and told at the end.
 #include "app/console.h"
 
 #include "app/exit_status.h"

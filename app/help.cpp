@@ -1,3 +1,4 @@
+// The texts by themselves, apart from the files that include CLI11 and take long to compile.
 #include "app/help.h"
 
 #include "core/version.h"

@@ -1,3 +1,4 @@
+// Appends by O_APPEND; reading keeps each line where it was typed last, and shortens a long file.
 #include "app/history_file.h"
 
 #include "core/descriptor.h"

@@ -1,3 +1,4 @@
+// Signal handlers set lock-free atomic flags or call _exit(): little else is allowed in them.
 #include "app/interrupt.h"
 
 #include "app/exit_status.h"

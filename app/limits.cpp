@@ -1,3 +1,4 @@
+// Time by setitimer() and SIGALRM, memory by RLIMIT_DATA with an allowance for the program itself.
 #include "app/limits.h"
 
 #include "core/check.h"

@@ -1,3 +1,4 @@
+// Each function adds one group to a command, with texts of help that tests/help_test.sh checks.
 #include "app/option_groups.h"
 
 #include "app/add_value.h"

@@ -1,3 +1,4 @@
+// Numbers are read by from_chars(), which knows no locale, and must take all of the text.
 #include "app/option_values.h"
 
 #include "core/near_name.h"

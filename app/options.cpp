@@ -1,3 +1,5 @@
+// One CLI11 application with a subcommand for each command; its errors are put into words of our
+// own.
 #include "app/options.h"
 
 #include "app/exit_status.h"

@@ -1,3 +1,4 @@
+// Lines from a pipe or a file, read in pieces; a last line without its end counts.
 #include "app/line_reader.h"
 
 #include <cerrno>

@@ -1,3 +1,4 @@
+// Drawn over itself by carriage return and "erase line"; facts that do not fit are left out.
 #include "app/progress_display.h"
 
 #include <fmt/format.h>

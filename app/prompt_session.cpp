@@ -1,3 +1,4 @@
+// The table of commands, and those that change the script; app/prompt_run.cpp has those of the run.
 #include "app/prompt_session.h"
 
 #include "app/prompt_text.h"

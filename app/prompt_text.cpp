@@ -1,3 +1,5 @@
+// Counts brackets and looks at the last character, outside of comments and quotes; nothing is
+// parsed.
 #include "app/prompt_text.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The loop: a line editor at a terminal, plain lines from a pipe, which sets the exit status.
 #include "app/repl.h"
 
 #include "app/exit_status.h"

@@ -1,3 +1,4 @@
+// Each part's time is read once before drawing, since the account goes on while the table is made.
 #include "app/time_table.h"
 
 #include "core/counted.h"
