@@ -1,3 +1,5 @@
+// Threads paint bands of rows of texels, each texel the mean of its samples in linear light; then
+// gaps are filled and colours stored. Normals are bent by J. F. Blinn's method (SIGGRAPH 1978).
 #include "export/bake.h"
 
 #include "core/check.h"

@@ -1,3 +1,4 @@
+// Collects the same arrays for both formats; links are written once, from the lower cell number.
 #include "export/cell_writer.h"
 
 #include "core/check.h"

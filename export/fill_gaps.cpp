@@ -1,3 +1,5 @@
+// Pull and push through a pyramid of halved textures, each texel the mean of those that have values
+// (S. J. Gortler et al., "The Lumigraph", SIGGRAPH 1996).
 #include "export/fill_gaps.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// The JSON chunk by nlohmann's library, then the one binary buffer; coordinates that binary32
+// cannot hold are written relative to the model's middle, which the node's translation adds again.
 #include "export/glb.h"
 
 #include "core/check.h"

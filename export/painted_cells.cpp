@@ -1,3 +1,5 @@
+// Weighs the values of nearby cells by the filter of surface/cell_filter, then colours the result:
+// values are blended and not colours.
 #include "export/painted_cells.h"
 
 #include "export/channels.h"

@@ -1,3 +1,4 @@
+// Each point is a place in the first triangle that has it; threads filter ranges of places.
 #include "export/point_values.h"
 
 namespace cascade {

@@ -1,3 +1,6 @@
+// Halves all edges that are too long, again and again, and splits each triangle by which of its
+// edges are halved; of two diagonals the shorter one is taken. Links across edges are kept all the
+// way.
 #include "export/refine.h"
 
 #include <array>

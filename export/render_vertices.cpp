@@ -1,3 +1,5 @@
+// Sorts corners by normal, side and texture place; those that agree are one vertex. A tangent is
+// the mean of its triangles', weighed by their angles.
 #include "export/render_vertices.h"
 
 #include "mesh/flat.h"

@@ -1,3 +1,5 @@
+// Rasterises triangles by edge functions with a rule for points on edges (as graphics cards have),
+// so that two triangles that share an edge never share a sample.
 #include "export/texture_layout.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The XML head and the raw block grow together, array by array.
 #include "export/vtp.h"
 
 #include "export/model_writer.h"

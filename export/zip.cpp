@@ -1,3 +1,4 @@
+// Checksums by zlib's crc32_z(); dates are constant, so that the same cells give the same bytes.
 #include "export/zip.h"
 
 #include "picture/float_bytes.h"
