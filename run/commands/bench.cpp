@@ -1,3 +1,5 @@
+// Warms up with growing numbers of steps, then times batches of whole tiles; a step's time is the
+// median over the batches. A stage that ends too soon is begun again.
 #include "run/commands/bench.h"
 
 #include "ir/solver.h"

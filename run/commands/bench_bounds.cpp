@@ -1,3 +1,5 @@
+// The roofline model (S. Williams, A. Waterman, D. Patterson, CACM 52(4), 2009): measured work over
+// measured peaks, for each level of the memory.
 #include "core/check.h"
 #include "run/commands/bench.h"
 

@@ -1,3 +1,4 @@
+// Quotes only the cells that need it; numbers that are not finite are empty cells.
 #include "run/commands/csv.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Each kind makes its text anew from the script with the printer of the room that owns it.
 #include "run/commands/dump.h"
 
 #include "ir/cell_kernel.h"

@@ -1,3 +1,5 @@
+// Twelve independent chains of sums and products, a kernel of divisions and a triad, run on planes
+// sized for each cache; of several times the best one counts.
 #include "run/commands/machine_limits.h"
 
 #include "core/cache_sizes.h"

@@ -1,3 +1,5 @@
+// The order of a run: what can be refused is refused first, then the stages run, then each output
+// is tried, so that one that fails costs no other.
 #include "run/commands/run.h"
 
 #include "core/counted.h"

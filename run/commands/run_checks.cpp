@@ -1,3 +1,4 @@
+// Options are refused with a diagnostic at the option's text; files are tried by creating them.
 #include "run/commands/run_checks.h"
 
 #include "core/file.h"

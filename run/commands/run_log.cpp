@@ -1,3 +1,4 @@
+// Each expression is checked against every stage; where it has no meaning its cells stay empty.
 #include "run/commands/run_log.h"
 
 #include "core/file.h"

@@ -1,3 +1,4 @@
+// The protocol of files and renames, with flock() for writers and readers and fsync() in between.
 #include "run/commands/saved_folder.h"
 
 #include "core/file.h"

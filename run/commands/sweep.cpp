@@ -1,3 +1,5 @@
+// A pool of threads, each doing whole runs of one thread with a shared compiler; results are
+// written as they come, so that the next sweep takes them over.
 #include "run/commands/sweep.h"
 
 #include "core/file.h"

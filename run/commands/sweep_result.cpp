@@ -1,3 +1,5 @@
+// A run's key hashes its tokens, files and overrides, so that comments and blanks change nothing;
+// the picture is kept as means over squares of cells.
 #include "run/commands/sweep_result.h"
 
 #include "core/file.h"

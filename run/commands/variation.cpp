@@ -1,3 +1,5 @@
+// Lists are split at commas outside of brackets; runs are numbered with the first name varying
+// fastest.
 #include "run/commands/variation.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Scales the model to a longest side of 1 around the origin before it is rounded to binary32.
 #include "run/domain/creased_mesh.h"
 
 #include "mesh/normals.h"

@@ -1,3 +1,5 @@
+// Reads and repairs as a run does; genus by the Euler characteristic, evenness of cells by areas
+// and distances to the nearest neighbour.
 #include "run/domain/describe_model.h"
 
 #include "core/counted.h"

@@ -1,3 +1,5 @@
+// The halo of the mask is filled by the grid's boundary before the bits of neighbours are taken. A
+// value counts as inside unless it is 0, denormal or NaN.
 #include "run/domain/domain_mask.h"
 
 #include "ir/word_format.h"

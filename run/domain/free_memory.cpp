@@ -1,3 +1,5 @@
+// /proc/meminfo, and the limits of both versions of control groups from this process's group up to
+// the top; file pages that can be given back count as free.
 #include "run/domain/free_memory.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Every text is read once, through GrantedFiles; what is wrong is told at its place in the script.
 #include "run/domain/input_files.h"
 
 #include "core/check.h"

@@ -1,3 +1,4 @@
+// Evaluates the script's formulas in binary64 and hands the metric's fields to their planes.
 #include "run/domain/metric_planes.h"
 
 #include "lang/program/evaluate.h"

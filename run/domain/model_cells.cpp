@@ -1,3 +1,5 @@
+// Reads or makes the mesh, turns it upright, makes or finds the cells, then builds links and planes
+// in the order of memory (surface/cell_order).
 #include "run/domain/model_cells.h"
 
 #include "core/check.h"

@@ -1,3 +1,5 @@
+// Each value is made when it is first read, and once; distances are capped where nothing is
+// reached.
 #include "run/domain/surface_values.h"
 
 #include "core/near_name.h"

@@ -1,3 +1,5 @@
+// Keeps comment marks, trigraphs and backslashes from forming: they would end the comment or the
+// line.
 #include "run/emit_c/c_comment.h"
 
 #include "core/utf8.h"

@@ -1,3 +1,5 @@
+// Fills the patterns of run/emit_c/c_header_text.h, in which $ is the stage's name and $$ the same
+// in capitals, and writes the tables, the struct and the functions between them.
 #include "run/emit_c/c_header.h"
 
 #include "core/plane.h"

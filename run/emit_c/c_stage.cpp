@@ -1,3 +1,5 @@
+// Binds the solver's scheme to placeholder planes as a run would, then writes each pass as C
+// statements from the slots that were bound.
 #include "run/emit_c/c_stage.h"
 
 #include "lang/lower/lower.h"

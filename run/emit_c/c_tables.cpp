@@ -1,3 +1,4 @@
+// Tables grow as slots are met; identifiers are upper-case names, with a number where one is taken.
 #include "run/emit_c/c_tables.h"
 
 #include "lang/lower/lower.h"

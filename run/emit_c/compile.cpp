@@ -1,3 +1,4 @@
+// Refuses what C cannot describe, then compiles kernels and data into one object file.
 #include "run/emit_c/compile.h"
 
 #include "core/near_name.h"

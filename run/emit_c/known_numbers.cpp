@@ -1,3 +1,5 @@
+// Interprets the uniform starting values on one cell; a value that depends on an unknown one is
+// unknown.
 #include "run/emit_c/known_numbers.h"
 
 #include "ir/interpreter.h"

@@ -1,3 +1,4 @@
+// Allocates every plane of every stage on a tiny grid.
 #include "run/emit_c/placeholders.h"
 
 namespace cascade {

@@ -1,3 +1,5 @@
+// Cells are blurred to levels, each twice as wide as the last, as in a mipmap; a sample blends the
+// two levels that fit the square of the surface that it covers.
 #include "run/pictures/cell_picture.h"
 
 #include "core/check.h"

@@ -1,3 +1,4 @@
+// Frames are known by the form of their names and by the script in their text chunks.
 #include "run/pictures/frame_folder.h"
 
 #include "run/script/embedded_script.h"

@@ -1,3 +1,4 @@
+// Planes go to an unnamed temporary file and are painted when the run is over.
 #include "run/pictures/frames.h"
 
 #include "run/pictures/frame_folder.h"

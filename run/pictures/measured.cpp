@@ -1,3 +1,4 @@
+// Copies the rows without padding; of a picture in colours the stage's usual number is measured.
 #include "run/pictures/measured.h"
 
 namespace cascade {

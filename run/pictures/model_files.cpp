@@ -1,3 +1,5 @@
+// Chooses between refined, retiled and baked models; meshes and filters are made once for all
+// files.
 #include "run/pictures/model_files.h"
 
 #include "export/bake.h"

@@ -1,3 +1,5 @@
+// Checks --show once, evaluates it in the stage that is shown, and paints a plane, a slice, a
+// surface or a model.
 #include "run/pictures/painter.h"
 
 #include "core/near_name.h"

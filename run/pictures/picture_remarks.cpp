@@ -1,3 +1,4 @@
+// Looks for pictures of one colour, and for waves too short for the grid.
 #include "run/pictures/picture_remarks.h"
 
 #include "measure/resolution.h"

@@ -1,3 +1,5 @@
+// A lattice of triangles over the parameters; texels are interpolated bilinearly where rays meet
+// it.
 #include "run/pictures/surface_picture.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Overrides as JSON in PNG text chunks. What is read back may come from anywhere and is checked.
 #include "run/script/embedded_script.h"
 
 #include "core/file.h"

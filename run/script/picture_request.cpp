@@ -1,3 +1,4 @@
+// To and from JSON; usual values are left out, so that pictures stay the same bytes.
 #include "run/script/picture_request.h"
 
 #include "core/json_size.h"

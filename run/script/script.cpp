@@ -1,3 +1,5 @@
+// Parses the script, then what it uses, then --set; checks it all, and applies the other overrides
+// to the checked program.
 #include "run/script/script.h"
 
 #include "core/file.h"

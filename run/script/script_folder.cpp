@@ -1,3 +1,4 @@
+// A script is known again by its text, among the files of its name in two folders.
 #include "run/script/script_folder.h"
 
 #include "core/granted_files.h"

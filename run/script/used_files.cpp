@@ -1,3 +1,4 @@
+// Works through a list that grows as used files use others; each file is parsed once.
 #include "run/script/used_files.h"
 
 #include "lang/syntax/parse.h"

@@ -1,3 +1,4 @@
+// Restricts and refines whole stage states by core/resample; sides that vary are restricted too.
 #include "run/simulation/coarse_start.h"
 
 #include "core/resample.h"

@@ -1,3 +1,5 @@
+// Creates the run, starts and advances stages, and provides the tools with which a stage chooses
+// its steps. Other parts of Simulation::Implementation have files of their own beside it.
 #include "run/simulation/simulation.h"
 
 #include "ir/interpreter.h"

@@ -1,3 +1,4 @@
+// Copies the planes that a side's formula reads to strips along the side, once.
 #include "run/stage/bind_side.h"
 
 #include "core/check.h"

@@ -1,3 +1,5 @@
+// Factors that are constant are found once; those that change become the largest value of a plane,
+// an aggregate of each step.
 #include "run/stage/bound_diffusion.h"
 
 #include "lang/lower/lower.h"

@@ -1,3 +1,5 @@
+// The Binder goes through a plan's passes and resolves each slot to a register, a plane or a
+// number; it notes which planes need a halo, and for which moment.
 #include "run/stage/bound_kernel.h"
 
 #include "core/check.h"

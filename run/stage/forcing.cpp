@@ -1,3 +1,5 @@
+// Samples the parts that depend on time alone, and finds from each sample how far they stay close
+// to it.
 #include "run/stage/forcing.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// One line of numbers under a key of text; a tiling counts as sure when it was found twice in a
+// row.
 #include "run/stage/kept_tilings.h"
 
 #include "core/cache_sizes.h"

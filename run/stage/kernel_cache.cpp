@@ -1,3 +1,4 @@
+// By the XDG Base Directory Specification, unless CASCADE_KERNEL_CACHE names a folder.
 #include "run/stage/kernel_cache.h"
 
 #include "core/own_folder.h"

@@ -1,3 +1,4 @@
+// Counts planes from the plans of all stages, before any of them is allocated.
 #include "run/stage/memory.h"
 
 #include "core/plane.h"

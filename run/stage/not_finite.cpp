@@ -1,3 +1,5 @@
+// Compares the step with the stability limits at the start and before the blow-up, and advises by
+// what that shows: shorter steps, or a look at the formulas.
 #include "run/stage/not_finite.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Binds a plan anew for each run, since planes may have moved, and runs its passes once.
 #include "run/stage/plan_runner.h"
 
 #include <array>

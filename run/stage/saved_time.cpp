@@ -1,3 +1,4 @@
+// To and from JSON. What is read may have been changed, so ranges are checked.
 #include "run/stage/saved_time.h"
 
 #include "ir/solver.h"

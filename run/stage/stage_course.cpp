@@ -1,3 +1,5 @@
+// Keeps a limited number of moments, dropping every other one when there are too many, and judges
+// trends by tenths of the stage's age.
 #include "run/stage/stage_course.h"
 
 #include <algorithm>

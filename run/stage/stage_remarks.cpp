@@ -1,3 +1,4 @@
+// The first remark that applies is made: frozen, even, not ended by 'until', growing, fading.
 #include "run/stage/stage_remarks.h"
 
 #include "core/with_commas.h"

@@ -1,3 +1,4 @@
+// Gives each species its place in the list of those that solvers step.
 #include "run/stage/stage_state.h"
 
 #include <fmt/format.h>

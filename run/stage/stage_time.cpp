@@ -1,3 +1,5 @@
+// Builds the step's problem for the number of stages in use, and chooses steps by stability bounds,
+// estimates of errors and the forcing.
 #include "run/stage/stage_time.h"
 
 #include "lang/calculus/derivative.h"

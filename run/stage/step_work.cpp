@@ -1,3 +1,4 @@
+// Counts each kernel's operations (ir/kernel_cost.h), and each plane of a pass once.
 #include "run/stage/step_work.h"
 
 #include "core/check.h"

@@ -1,3 +1,4 @@
+// A clock that is read whenever the scope changes; the time since then goes to the scope that ends.
 #include "run/stage/time_account.h"
 
 #include <ctime>
