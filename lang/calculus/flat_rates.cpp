@@ -1,3 +1,4 @@
+// Expands definitions in topological order and numbers equal parts once (hash consing).
 #include "lang/calculus/flat_rates.h"
 
 #include "lang/program/dependencies.h"

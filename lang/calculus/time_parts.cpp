@@ -1,3 +1,4 @@
+// Marks parts bottom-up, then takes the largest ones that depend on nothing but time.
 #include "lang/calculus/time_parts.h"
 
 #include "lang/calculus/flat_rates.h"

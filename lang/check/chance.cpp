@@ -1,3 +1,5 @@
+// Searches formulas for calls that draw; a rate that draws at each step needs to know the step's
+// length.
 #include "lang/check/chance.h"
 
 #include <fmt/format.h>

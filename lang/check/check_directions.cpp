@@ -1,3 +1,4 @@
+// A table of names with their arities; numbers are folded, and vectors of length 0 are refused.
 #include "lang/check/check_directions.h"
 
 #include "lang/check/setting_words.h"

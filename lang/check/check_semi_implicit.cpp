@@ -1,3 +1,4 @@
+// Looks at the diffusion found by lang/calculus, and refuses domains without plane waves.
 #include "lang/check/check_semi_implicit.h"
 
 #include "lang/calculus/diffusion.h"

@@ -1,3 +1,4 @@
+// Orders systems topologically by their bases, reports cycles, and merges statements base first.
 #include "lang/check/system_inheritance.h"
 
 #include "lang/check/check_blocks.h"

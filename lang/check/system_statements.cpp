@@ -1,3 +1,5 @@
+// Follows the chain of bases on the syntax tree alone, so that equations can be printed of any
+// script.
 #include "lang/check/system_statements.h"
 
 #include "lang/library/library.h"

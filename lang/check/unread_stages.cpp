@@ -1,3 +1,4 @@
+// Marks the stages that formulas and the picture read, and warns of the others.
 #include "lang/check/unread_stages.h"
 
 #include <fmt/format.h>

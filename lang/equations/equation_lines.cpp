@@ -1,3 +1,4 @@
+// Breaks sums at their top-level terms when an estimate of their width is too large.
 #include "lang/equations/equation_lines.h"
 
 #include <algorithm>

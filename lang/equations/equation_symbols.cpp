@@ -1,3 +1,4 @@
+// Splits a name into stem, digits and subscript; names of Greek letters become the letters.
 #include "lang/equations/equation_symbols.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Sorts a system's statements into rates, definitions, functions and parameters, and prints each
+// kind.
 #include "lang/equations/equations.h"
 
 #include "lang/check/check_names.h"

@@ -1,3 +1,4 @@
+// Checks its own result: the words before and after must be the same.
 #include "lang/format/format_script.h"
 
 #include "core/check.h"

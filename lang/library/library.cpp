@@ -1,3 +1,5 @@
+// Finds the systems that a script names, and those that they derive from, and parses those texts
+// alone.
 #include "lang/library/library.h"
 
 #include "core/check.h"

@@ -1,3 +1,4 @@
+// Takes the comments at the top of a text, without parsing it.
 #include "lang/print/library_note.h"
 
 #include "lang/format/format_words.h"

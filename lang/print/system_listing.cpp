@@ -1,3 +1,4 @@
+// Reads statements of the syntax tree, so that values stay as they were written.
 #include "lang/print/system_listing.h"
 
 #include "lang/check/check_names.h"

@@ -1,3 +1,4 @@
+// Lists the functions without meaning on a model, each with the reason that messages give.
 #include "lang/program/models.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The table, and the search in it, which is blind to case.
 #include "lang/vocabulary/words_elsewhere.h"
 
 #include <algorithm>
