@@ -1,4 +1,5 @@
-// Takes the comments at the top of a text, without parsing it.
+// The comments at the top of a text are its description; they are found among its words, without
+// the syntax tree.
 #include "lang/print/library_note.h"
 
 #include "lang/format/format_words.h"

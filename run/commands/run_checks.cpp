@@ -1,4 +1,5 @@
-// Options are refused with a diagnostic at the option's text; files are tried by creating them.
+// Options are refused with a diagnostic at the option's text; files and folders are tried for
+// writing.
 #include "run/commands/run_checks.h"
 
 #include "core/file.h"

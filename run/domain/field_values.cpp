@@ -1,4 +1,4 @@
-// Values are compared in order of cells, so that a NaN is found wherever it stands.
+// Values are compared in order of cells; a NaN ends the search.
 #include "run/domain/field_values.h"
 
 #include "core/check.h"

@@ -1,5 +1,5 @@
-// Keeps comment marks, trigraphs and backslashes from forming: they would end the comment or the
-// line.
+// A space parts the characters of comment marks and trigraphs; backslashes and what cannot be
+// printed become question marks.
 #include "run/emit_c/c_comment.h"
 
 #include "core/utf8.h"

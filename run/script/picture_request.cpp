@@ -1,4 +1,5 @@
-// To and from JSON; usual values are left out, so that pictures stay the same bytes.
+// To and from JSON; what only some domains have is left out where it is not used, so that pictures
+// of planes stay the same bytes.
 #include "run/script/picture_request.h"
 
 #include "core/json_size.h"

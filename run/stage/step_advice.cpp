@@ -1,4 +1,4 @@
-// Rounds the limit down to two digits, and adjusts the iterations so that the time stays the same.
+// Proposes nine tenths of the limit, in two digits, and iterations that keep the time the same.
 #include "run/stage/step_advice.h"
 
 #include <fmt/format.h>
