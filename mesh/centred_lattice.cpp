@@ -1,3 +1,5 @@
+// Marching tetrahedra, a table of cases by which corners are inside; points are numbered layer by
+// layer.
 #include "mesh/centred_lattice.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// A table of tapered bones whose distances are blended by the logarithm of a sum of exponentials.
 #include "mesh/creature.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Sorts half-edges by their two points; where more than two triangles meet, those that continue
+// each other best are paired. Orientation spreads breadth first.
 #include "mesh/edge_pairs.h"
 
 #include "mesh/disjoint_sets.h"

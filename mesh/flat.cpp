@@ -1,3 +1,4 @@
+// Walks from triangle to triangle, each laid flat beside the last one, up to a limited number.
 #include "mesh/flat.h"
 
 #include <algorithm>

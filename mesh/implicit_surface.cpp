@@ -1,3 +1,5 @@
+// Crosses the lattice layer by layer, makes the triangles even, and brings the points onto the
+// surface by regula falsi with the Illinois rule.
 #include "mesh/implicit_surface.h"
 
 #include "mesh/centred_lattice.h"

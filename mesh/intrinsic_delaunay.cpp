@@ -1,3 +1,5 @@
+// Flips edges whose opposite cotangents sum to less than zero; only the lengths of edges are
+// needed.
 #include "mesh/intrinsic_delaunay.h"
 
 #include "mesh/flat.h"

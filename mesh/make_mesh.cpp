@@ -1,3 +1,5 @@
+// The repairs in order: points joined, polygons cut, doubles left out, triangles paired and
+// oriented, fans separated, flat triangles removed.
 #include "mesh/make_mesh.h"
 
 #include "core/counted.h"

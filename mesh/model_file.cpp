@@ -1,3 +1,4 @@
+// Chooses the reader by the ending of the name.
 #include "mesh/model_file.h"
 
 #include "core/file.h"

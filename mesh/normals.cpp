@@ -1,3 +1,5 @@
+// Corners are joined across edges that are not creases (disjoint sets), and each group has one
+// normal.
 #include "mesh/normals.h"
 
 #include "mesh/disjoint_sets.h"

@@ -1,3 +1,4 @@
+// Reads line by line; types are known by their old names and by those with sizes.
 #include "mesh/ply_header.h"
 
 #include "mesh/text_words.h"

@@ -1,3 +1,5 @@
+// An icosahedron whose sides are cut along great circles, a lattice of angles for the torus, and
+// six lattices for the box; each with texture coordinates.
 #include "mesh/shapes.h"
 
 #include "mesh/edge_pairs.h"

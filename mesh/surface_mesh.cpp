@@ -1,3 +1,5 @@
+// Facts that follow from the connectivity: connected components, boundaries, the Euler
+// characteristic.
 #include "mesh/surface_mesh.h"
 
 #include <algorithm>

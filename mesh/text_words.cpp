@@ -1,3 +1,4 @@
+// Numbers by from_chars(); those out of range become 0 or infinity.
 #include "mesh/text_words.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Ear clipping in the plane nearest to the polygon's own; quadrilaterals have a rule of their own.
 #include "mesh/triangulate.h"
 
 #include <algorithm>
