@@ -1,3 +1,4 @@
+// A stretch is a symmetric 2 x 2 matrix in the frame of its triangle.
 #include "surface/anisotropy.h"
 
 #include <algorithm>

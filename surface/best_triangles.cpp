@@ -1,3 +1,5 @@
+// Dynamic programming over stretches of the ring: the best filling of a stretch comes from the best
+// fillings of its two parts (G. T. Klincsek, "Minimal triangulations of polygonal domains", 1980).
 #include "surface/fill_hole.h"
 
 #include <algorithm>

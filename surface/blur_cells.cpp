@@ -1,3 +1,5 @@
+// The exponential of the diffusion as a sum of Chebyshev polynomials, which takes far fewer
+// applications of the operator than explicit steps.
 #include "surface/blur_cells.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Two hashes over mesh and options are the key; whatever is read is checked before it is used.
 #include "surface/cell_file.h"
 
 #include "core/file.h"

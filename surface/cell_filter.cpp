@@ -1,3 +1,5 @@
+// Each triangle is cut into boxes that list the images of cells within reach; a place looks in its
+// box.
 #include "surface/cell_filter.h"
 
 #include "surface/point_index.h"

@@ -1,3 +1,4 @@
+// A weighted least-squares fit to the unfolded neighbours, by a pseudo-inverse of a 2 x 2 matrix.
 #include "surface/cell_gradient.h"
 
 #include "surface/cell_unfolding.h"

@@ -1,3 +1,6 @@
+// Hilbert's curve orders cells by place; breadth-first levels along links, as in Cuthill and
+// McKee's algorithm, order them for steps. Within a window, cells with equally many links stand
+// together.
 #include "surface/cell_order.h"
 
 #include "core/check.h"

@@ -1,3 +1,5 @@
+// Looks for each neighbour among the unfolded triangles; both sides of a wall then get the same
+// turn.
 #include "surface/cell_unfolding.h"
 
 #include "surface/tangent_frame.h"

@@ -1,3 +1,4 @@
+// Unfolds around the place with a growing radius until the nearest cell is certain.
 #include "surface/cells_near.h"
 
 #include "surface/distance.h"

@@ -1,3 +1,5 @@
+// The second fundamental form of each triangle, by least squares from the normals at its corners,
+// turned into the tangent planes of these and averaged there.
 #include "surface/curvature.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Lines are added as vectors of twice their angle, since a line has no head; what is open is filled
+// in layers from what is known.
 #include "surface/direction_field.h"
 
 #include "surface/coded_directions.h"

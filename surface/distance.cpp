@@ -1,3 +1,5 @@
+// Distances spread from point to point over unfolded triangles, the least first, on a mesh whose
+// long edges are cut.
 #include "surface/distance.h"
 
 #include <algorithm>

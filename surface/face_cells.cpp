@@ -1,3 +1,5 @@
+// Triangles of one polygon are one cell; walls are its edges, and distances the sums of the two
+// centres' heights above them.
 #include "surface/face_cells.h"
 
 #include "surface/wall_list.h"

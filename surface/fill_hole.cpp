@@ -1,3 +1,5 @@
+// Cuts ears off the ring, the one with the best circumcircle first, from a priority queue in which
+// outdated ears are skipped.
 #include "surface/fill_hole.h"
 
 #include <algorithm>

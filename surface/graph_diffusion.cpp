@@ -1,3 +1,5 @@
+// Implicit Euler steps, each solved by conjugate gradients; sums are taken in blocks of fixed size,
+// so that any number of threads gives the same bits.
 #include "surface/graph_diffusion.h"
 
 #include <algorithm>

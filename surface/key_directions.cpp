@@ -1,3 +1,5 @@
+// Dijkstra's algorithm carries each key's direction to the planes nearest to it; smoothing is
+// diffusion of the directions (surface/graph_diffusion).
 #include "surface/key_directions.h"
 
 #include "surface/cells_near.h"

@@ -1,3 +1,4 @@
+// Checks what is asked for, then calls the maker of each kind.
 #include "surface/make_cells.h"
 
 #include "core/counted.h"

@@ -1,3 +1,5 @@
+// Inserts places one by one, in random rounds along a curve, and flips edges until the triangles
+// within each old one are Delaunay. Places are found by walks over edges.
 #include "surface/mutual_tessellation.h"
 
 #include "core/hash.h"

@@ -1,3 +1,4 @@
+// A tree of boxes, halved by the number of triangles; of equal distances the lower triangle wins.
 #include "surface/nearest_place.h"
 
 #include <algorithm>

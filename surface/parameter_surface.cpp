@@ -1,3 +1,5 @@
+// The metric tensor by central differences of the function, and from it the planes that operators
+// read.
 #include "surface/parameter_surface.h"
 
 #include <fmt/format.h>

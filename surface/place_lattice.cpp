@@ -1,3 +1,4 @@
+// Weights are rounded to whole steps; places that coincide move to the next free ones of a spiral.
 #include "surface/place_lattice.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Points sorted by the slots of a hash table, in which a slot stands for a box as wide as the
+// reach.
 #include "surface/point_index.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Cuts the longest edge first, from a priority queue, and remembers the tree of cuts of each
+// triangle.
 #include "surface/refinement.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Rounds of repulsion on lists of neighbours with a skin (Verlet lists, as molecular dynamics has
+// them), made anew when places have moved too far.
 #include "surface/relax.h"
 
 #include "core/hash.h"

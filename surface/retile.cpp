@@ -1,3 +1,5 @@
+// Old points are removed in rounds, with edges improved after each, first under strict tests of the
+// new triangles and then under weaker ones.
 #include "surface/retile.h"
 
 #include "surface/flip_edges.h"

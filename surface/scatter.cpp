@@ -1,3 +1,5 @@
+// Stratified sampling along Morton's curve: within a connected component each place has an equal
+// share of the area and falls at random within it.
 #include "surface/scatter.h"
 
 #include "core/hash.h"

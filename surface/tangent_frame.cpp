@@ -1,3 +1,4 @@
+// Gram and Schmidt's orthogonalisation from two edges of the triangle, brought to length 1 first.
 #include "surface/tangent_frame.h"
 
 namespace cascade {

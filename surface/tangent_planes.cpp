@@ -1,3 +1,4 @@
+// A link's turn is the difference of the angles at which the two planes see the edge between them.
 #include "surface/tangent_planes.h"
 
 #include "surface/cell_unfolding.h"

@@ -1,3 +1,5 @@
+// Spreads over edges from the place's triangle, turning each next one into the plane, until all
+// edges of the front are out of reach.
 #include "surface/unfolding.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Areas and cotangents of the intrinsic Delaunay triangulation (mesh/intrinsic_delaunay), so that
+// no weight of a wall is negative.
 #include "surface/vertex_cells.h"
 
 #include "mesh/intrinsic_delaunay.h"

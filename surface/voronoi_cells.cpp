@@ -1,3 +1,5 @@
+// Each cell unfolds what lies around it and cuts the triangles by the bisectors to its neighbours;
+// what the two cells of a wall see is averaged afterwards.
 #include "surface/voronoi_cells.h"
 
 #include "surface/convex_region.h"

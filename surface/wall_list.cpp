@@ -1,3 +1,4 @@
+// Sorts the walls by their cells and adds up those of the same pair.
 #include "surface/wall_list.h"
 
 #include <algorithm>
