@@ -30,15 +30,15 @@ Result<PolygonSoup> read_model_bytes(std::string_view bytes, std::string_view en
 
 // One format each; `bytes` is the whole file.
 
-/// PLY, text or binary of either order, with polygons or triangle strips (surface/ply_file.cpp).
+/// PLY, text or binary of either order, with polygons or triangle strips (mesh/ply_file.cpp).
 Result<PolygonSoup> read_ply(std::string_view bytes);
-/// OFF of text, with colours (surface/off_file.cpp).
+/// OFF of text, with colours (mesh/off_file.cpp).
 Result<PolygonSoup> read_off(std::string_view bytes);
-/// OBJ, with texture coordinates and colours of points (surface/obj_file.cpp).
+/// OBJ, with texture coordinates and colours of points (mesh/obj_file.cpp).
 Result<PolygonSoup> read_obj(std::string_view bytes);
-/// STL, text or binary (surface/stl_file.cpp).
+/// STL, text or binary (mesh/stl_file.cpp).
 Result<PolygonSoup> read_stl(std::string_view bytes);
-/// glTF as text or binary by tinygltf (surface/gltf_file.cpp); all meshes of the scene, placed by
+/// glTF as text or binary by tinygltf (mesh/gltf_file.cpp); all meshes of the scene, placed by
 /// its nodes. `files` reads buffers in files of their own.
 Result<PolygonSoup> read_gltf(std::string_view bytes,
                               const GrantedFiles& files = GrantedFiles::none());

@@ -1,5 +1,5 @@
 // What a model's file holds: polygons over points, as they were written. Nothing is checked but
-// that every corner is one of the points; `surface/mesh.h` is what is made of it.
+// that every corner is one of the points; `mesh/surface_mesh.h` is what is made of it.
 #pragma once
 
 #include "core/vector3.h"

@@ -5,7 +5,7 @@
 
 namespace cascade {
 
-/// Three directions of length 1 at right angles: two of a triangle's own frame (surface/flat.h) and
+/// Three directions of length 1 at right angles: two of a triangle's own frame (mesh/flat.h) and
 /// its normal, outwards. A triangle without area has some such frame that holds its longest edge.
 struct TangentFrame {
     Vector3d along;   ///< The x axis: from corner 0 to corner 1.
