@@ -11,10 +11,10 @@ fail() {
 count() { grep -c "$1" calls || true; }
 
 rm -rf ./* && mkdir -p bin elsewhere
-rooms=$(sed -n "s/^rooms='\(.*\)'$/\1/p" "$SOURCE/tests/include_rule_test.sh")
+rooms=$(sed -nE 's#^([a-z/]+):.*#\1#p' "$SOURCE/cmake/rooms.txt")
 mkdir -p tree/{app,include,cmake}
 for room in $rooms; do mkdir -p "tree/$room"; done
-cp "$SOURCE/cascade" tree/ && cp "$SOURCE"/cmake/{setup.sh,packages.txt} tree/cmake/
+cp "$SOURCE/cascade" tree/ && cp "$SOURCE"/cmake/{setup.sh,packages.txt,rooms.txt} tree/cmake/
 touch tree/CMakeLists.txt tree/core/a.cpp
 
 calls=$PWD/calls
