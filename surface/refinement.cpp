@@ -1,5 +1,5 @@
-// Cuts the longest edge first, from a priority queue, and remembers the tree of cuts of each
-// triangle.
+// Cuts the longest edge first, from a priority queue, and remembers the cuts of each triangle, so
+// that places of the old mesh can be found in the new one.
 #include "surface/refinement.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Orders systems topologically by their bases, reports cycles, and merges statements base first.
+// Orders systems topologically by their bases, reports cycles, and puts the statements of a base
+// before those of the system derived from it.
 #include "lang/check/system_inheritance.h"
 
 #include "lang/check/check_blocks.h"

@@ -1,4 +1,5 @@
-// Breaks sums at their top-level terms when an estimate of their width is too large.
+// Sums are broken at their top-level terms, and lines are filled up to an estimate of their width;
+// of a fraction with a long numerator the numerator is broken.
 #include "lang/equations/equation_lines.h"
 
 #include <algorithm>

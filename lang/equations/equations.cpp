@@ -1,5 +1,5 @@
-// Sorts a system's statements into rates, definitions, functions and parameters, and prints each
-// kind.
+// Sorts a system's statements by kind (rates, definitions, bounds, starting values, parameters) and
+// prints one kind after the other.
 #include "lang/equations/equations.h"
 
 #include "lang/check/check_names.h"
