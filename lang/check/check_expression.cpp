@@ -17,29 +17,6 @@ std::uint32_t add_text(Program& program, const std::string& text) {
     return static_cast<std::uint32_t>(count);
 }
 
-Function function_of(ast::UnaryOp op) {
-    return op == ast::UnaryOp::negate ? Function::negate : Function::logical_not;
-}
-
-Function function_of(ast::BinaryOp op) {
-    switch (op) {
-        case ast::BinaryOp::logical_or: return Function::logical_or;
-        case ast::BinaryOp::logical_and: return Function::logical_and;
-        case ast::BinaryOp::less: return Function::less;
-        case ast::BinaryOp::less_equal: return Function::less_equal;
-        case ast::BinaryOp::greater: return Function::greater;
-        case ast::BinaryOp::greater_equal: return Function::greater_equal;
-        case ast::BinaryOp::equal: return Function::equal;
-        case ast::BinaryOp::not_equal: return Function::not_equal;
-        case ast::BinaryOp::add: return Function::add;
-        case ast::BinaryOp::subtract: return Function::subtract;
-        case ast::BinaryOp::multiply: return Function::multiply;
-        case ast::BinaryOp::divide: return Function::divide;
-        case ast::BinaryOp::power: return Function::power;
-    }
-    return Function::add;
-}
-
 /// Leaves out the parts that the part `root` does not need, directly or through others, so that it
 /// becomes the last one.
 Formula keep_needed(const Formula& formula, std::uint32_t root) {
@@ -158,11 +135,11 @@ void ExpressionChecker::take(std::optional<Node> node) {
 }
 
 void ExpressionChecker::visit(const ast::Unary& unary) {
-    apply(function_of(unary.op), {part_of(unary.operand)}, 1);
+    apply(unary.op, {part_of(unary.operand)}, 1);
 }
 
 void ExpressionChecker::visit(const ast::Binary& binary) {
-    apply(function_of(binary.op), {part_of(binary.left), part_of(binary.right)}, 2);
+    apply(binary.op, {part_of(binary.left), part_of(binary.right)}, 2);
 }
 
 std::optional<CheckedExpression> check_expression(Workspace& work, const ast::Script& script,

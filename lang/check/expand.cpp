@@ -254,7 +254,7 @@ void Expander::combine(const Task& task) {
             arguments.insert(arguments.end(), {before, next});
             emit(here.span, ast::Call{over.function, first, 2});
         } else {
-            const auto op = name == "product" ? ast::BinaryOp::multiply : ast::BinaryOp::add;
+            const auto op = name == "product" ? Function::multiply : Function::add;
             emit(here.span, ast::Binary{op, before, next});
         }
     }
@@ -263,7 +263,7 @@ void Expander::combine(const Task& task) {
     const ast::ExprId sum = take();
     const auto count = static_cast<double>(index->high - index->low + 1);
     const ast::ExprId divisor = append(here.span, ast::Number{count});
-    emit(here.span, ast::Binary{ast::BinaryOp::divide, sum, divisor});
+    emit(here.span, ast::Binary{Function::divide, sum, divisor});
 }
 
 void Expander::finish(const Task& task) {

@@ -42,6 +42,24 @@ constexpr Around arounds[] = {
     {"tanh", "tanh(", ")", "\\tanh\\left(", "\\right)"},
 };
 
+/// Operators between their operands.
+struct Infix {
+    Function function;
+    std::string_view unicode, tex;
+};
+constexpr Infix infixes[] = {
+    {Function::logical_or, " or ", " \\lor "},
+    {Function::logical_and, " and ", " \\land "},
+    {Function::less, " < ", " < "},
+    {Function::less_equal, " ≤ ", " \\le "},
+    {Function::greater, " > ", " > "},
+    {Function::greater_equal, " ≥ ", " \\ge "},
+    {Function::equal, " = ", " = "},
+    {Function::not_equal, " ≠ ", " \\ne "},
+    {Function::add, " + ", " + "},
+    {Function::subtract, " − ", " - "},
+};
+
 /// Operators before what they act on.
 struct Prefix {
     std::string_view function, unicode, tex;
@@ -53,7 +71,7 @@ constexpr Prefix prefixes[] = {
 };
 
 template <typename Row, std::size_t count>
-const Row* find(const Row (&rows)[count], std::string_view function) {
+const Row* find(const Row (&rows)[count], decltype(Row::function) function) {
     const auto* const end = rows + count;
     const auto* const found =
         std::find_if(rows, end, [&](const Row& row) { return row.function == function; });
@@ -158,7 +176,7 @@ private:
         else text_ += symbol;
     }
     void write_unary(const ast::Unary& node, int least) {
-        if (node.op == ast::UnaryOp::logical_not) {
+        if (node.op == Function::logical_not) {
             return push_operator({both("not ", "\\lnot "), Operand{node.operand, a_comparison}},
                                  a_negation, least);
         }
@@ -167,27 +185,17 @@ private:
     }
 
     void write_binary(const ast::Binary& node, int least) {
-        using Op = ast::BinaryOp;
-        const auto join = [&](std::string between, int own, int left, int right) {
-            push_operator({Operand{node.left, left}, std::move(between), Operand{node.right, right}},
-                          own, least);
-        };
-        switch (node.op) {
-            case Op::logical_or: return join(both(" or ", " \\lor "), 1, 1, 2);
-            case Op::logical_and: return join(both(" and ", " \\land "), 2, 2, 3);
-            case Op::less: return join(" < ", 4, a_sum, a_sum);
-            case Op::less_equal: return join(both(" ≤ ", " \\le "), 4, a_sum, a_sum);
-            case Op::greater: return join(" > ", 4, a_sum, a_sum);
-            case Op::greater_equal: return join(both(" ≥ ", " \\ge "), 4, a_sum, a_sum);
-            case Op::equal: return join(" = ", 4, a_sum, a_sum);
-            case Op::not_equal: return join(both(" ≠ ", " \\ne "), 4, a_sum, a_sum);
-            case Op::add: return join(" + ", a_sum, a_sum, right_of_sum(node.right, a_sum));
-            case Op::subtract:
-                return join(both(" − ", " - "), a_sum, a_sum, right_of_sum(node.right, a_product));
-            case Op::multiply: return write_product(node, least);
-            case Op::divide: return write_quotient(node, least);
-            case Op::power: return write_power(node.left, node.right, least);
-        }
+        if (node.op == Function::multiply) return write_product(node, least);
+        if (node.op == Function::divide) return write_quotient(node, least);
+        if (node.op == Function::power) return write_power(node.left, node.right, least);
+        const Infix& infix = *find(infixes, node.op);
+        const int own = info(node.op).precedence;
+        const int left = is_comparison(node.op) ? own + 1 : own;
+        int right = node.op == Function::add ? own : own + 1;
+        if (own == a_sum) right = right_of_sum(node.right, right);
+        push_operator({Operand{node.left, left}, both(infix.unicode, infix.tex),
+                       Operand{node.right, right}},
+                      own, least);
     }
     /// A sign directly after `+` or `−` stands in brackets.
     int right_of_sum(ast::ExprId right, int least) const {
@@ -205,13 +213,13 @@ private:
     void write_product(const ast::Binary& node, int least) {
         const auto* const left = as<ast::Binary>(node.left);
         const auto* const right = as<ast::Binary>(node.right);
-        const bool right_is_power = right && right->op == ast::BinaryOp::power;
-        const bool right_is_product = right && right->op == ast::BinaryOp::multiply;
+        const bool right_is_power = right && right->op == Function::power;
+        const bool right_is_product = right && right->op == Function::multiply;
         const ast::ExprId first =
             right_is_power || right_is_product ? right->left : node.right;
         const bool meets_number = as<ast::Number>(first) != nullptr;
         // On one line `a / b c` would read as a / (b c).
-        const bool left_is_quotient = !tex_ && left && left->op == ast::BinaryOp::divide;
+        const bool left_is_quotient = !tex_ && left && left->op == Function::divide;
         push_operator({Operand{node.left, left_is_quotient ? a_sign : factor(node.left, a_product)},
                        meets_number ? both(" · ", " \\cdot ") : both(" ", " \\, "),
                        Operand{node.right,

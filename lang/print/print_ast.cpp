@@ -14,16 +14,6 @@ namespace cascade {
 
 namespace {
 
-std::string_view spelling(ast::UnaryOp op) {
-    return op == ast::UnaryOp::negate ? "-" : "not";
-}
-
-std::string_view spelling(ast::BinaryOp op) {
-    static constexpr std::array<std::string_view, 13> spellings = {
-        "or", "and", "<", "<=", ">", ">=", "==", "!=", "+", "-", "*", "/", "^"};
-    return spellings[static_cast<std::size_t>(op)];
-}
-
 std::string print_number(double value) {
     std::array<char, 32> buffer{};
     const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
@@ -77,9 +67,9 @@ private:
         text_ += fmt::format("{}.{}", node.stage.text, node.name.text);
     }
     void print_head(const ast::RateOf& node) { text_ += fmt::format("{}'", node.name.text); }
-    void print_head(const ast::Unary& node) { begin(spelling(node.op), {node.operand}); }
+    void print_head(const ast::Unary& node) { begin(info(node.op).spelling, {node.operand}); }
     void print_head(const ast::Binary& node) {
-        begin(spelling(node.op), {node.left, node.right});
+        begin(info(node.op).spelling, {node.left, node.right});
     }
     void print_head(const ast::Call& node) {
         const auto first = script_.arguments.begin() + node.first_argument;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/source.h"
+#include "lang/vocabulary/functions.h"
 
 #include <cstdint>
 #include <optional>
@@ -32,14 +33,8 @@ struct Name { std::string_view name; };                ///< p
 struct Bracketed { Word name; };                       ///< [p]
 struct Qualified { Word stage, name; };                ///< large.p
 struct RateOf { Word name; };                          ///< p'
-enum class UnaryOp : std::uint8_t { negate, logical_not };
-struct Unary { UnaryOp op; ExprId operand; };
-enum class BinaryOp : std::uint8_t {
-    logical_or, logical_and,
-    less, less_equal, greater, greater_equal, equal, not_equal,
-    add, subtract, multiply, divide, power,
-};
-struct Binary { BinaryOp op; ExprId left, right; };
+struct Unary { Function op; ExprId operand; };
+struct Binary { Function op; ExprId left, right; };
 /// Arguments are Script::arguments[first_argument …], in order.
 struct Call { Word function; std::uint32_t first_argument, argument_count; };
 /// sum(operand over index); `index` is the word `domain` or an index of the system.

@@ -40,8 +40,7 @@ ExpressionParser::Progress ExpressionParser::read_operand() {
         case TokenKind::minus: {
             Pending negate;
             negate.kind = PendingKind::unary;
-            negate.precedence = 7;
-            negate.unary = ast::UnaryOp::negate;
+            negate.op = Function::negate;
             negate.token = cursor_.take();
             pending_.push_back(negate);
             return Progress::going_on;
@@ -165,14 +164,12 @@ ExpressionParser::Progress ExpressionParser::read_own_member() {
 
 /// `not` binds loosely: in `a + not b` it would not take b alone.
 ExpressionParser::Progress ExpressionParser::read_not() {
-    constexpr std::uint8_t precedence = 3;
     Pending logical_not;
     logical_not.kind = PendingKind::unary;
-    logical_not.precedence = precedence;
-    logical_not.unary = ast::UnaryOp::logical_not;
+    logical_not.op = Function::logical_not;
     logical_not.token = cursor_.take();
     const bool is_misplaced = !pending_.empty() && !pending_.back().is_bracket() &&
-                              pending_.back().precedence > precedence;
+                              pending_.back().precedence() > logical_not.precedence();
     if (is_misplaced) {
         cursor_.error(logical_not.token.span,
                       fmt::format("'not' cannot stand directly after {}",

@@ -10,28 +10,22 @@ namespace cascade {
 
 namespace {
 
-struct BinaryToken {
-    ast::BinaryOp op;
-    std::uint8_t precedence;
-};
-
-/// Loosest 1, tightest 8; `not` is 3 and the sign 7.
-std::optional<BinaryToken> binary_of(TokenKind kind) {
+std::optional<Function> binary_of(TokenKind kind) {
     switch (kind) {
-        case TokenKind::keyword_or: return {{ast::BinaryOp::logical_or, 1}};
-        case TokenKind::keyword_and: return {{ast::BinaryOp::logical_and, 2}};
-        case TokenKind::less: return {{ast::BinaryOp::less, 4}};
-        case TokenKind::less_equal: return {{ast::BinaryOp::less_equal, 4}};
-        case TokenKind::greater: return {{ast::BinaryOp::greater, 4}};
-        case TokenKind::greater_equal: return {{ast::BinaryOp::greater_equal, 4}};
+        case TokenKind::keyword_or: return Function::logical_or;
+        case TokenKind::keyword_and: return Function::logical_and;
+        case TokenKind::less: return Function::less;
+        case TokenKind::less_equal: return Function::less_equal;
+        case TokenKind::greater: return Function::greater;
+        case TokenKind::greater_equal: return Function::greater_equal;
         case TokenKind::equal:
-        case TokenKind::assign: return {{ast::BinaryOp::equal, 4}};
-        case TokenKind::not_equal: return {{ast::BinaryOp::not_equal, 4}};
-        case TokenKind::plus: return {{ast::BinaryOp::add, 5}};
-        case TokenKind::minus: return {{ast::BinaryOp::subtract, 5}};
-        case TokenKind::star: return {{ast::BinaryOp::multiply, 6}};
-        case TokenKind::slash: return {{ast::BinaryOp::divide, 6}};
-        case TokenKind::caret: return {{ast::BinaryOp::power, 8}};
+        case TokenKind::assign: return Function::equal;
+        case TokenKind::not_equal: return Function::not_equal;
+        case TokenKind::plus: return Function::add;
+        case TokenKind::minus: return Function::subtract;
+        case TokenKind::star: return Function::multiply;
+        case TokenKind::slash: return Function::divide;
+        case TokenKind::caret: return Function::power;
         default: return std::nullopt;
     }
 }
@@ -49,7 +43,7 @@ ExpressionParser::Progress ExpressionParser::read_operator() {
         cursor_.error(token.span, "'=' inside an expression", "write '==' to compare");
     }
     if (const auto binary = binary_of(token.kind)) {
-        push_binary(binary->op, binary->precedence);
+        push_binary(*binary);
         return Progress::going_on;
     }
     switch (token.kind) {

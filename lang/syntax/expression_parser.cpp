@@ -46,30 +46,28 @@ void ExpressionParser::push_bracket(PendingKind kind, Token bracket, Span name) 
 }
 
 /// Takes the operator at the cursor; what binds tighter on its left is complete now.
-void ExpressionParser::push_binary(ast::BinaryOp op, std::uint8_t precedence) {
-    constexpr std::uint8_t comparison = 4, power = 8;
+void ExpressionParser::push_binary(Function op) {
     Pending pending;
     pending.kind = PendingKind::binary;
-    pending.precedence = precedence;
-    pending.binary = op;
+    pending.op = op;
     pending.token = cursor_.take();
-    reduce_above(precedence);
+    reduce_above(pending.precedence());
     const bool meets_equal = !pending_.empty() && pending_.back().kind == PendingKind::binary &&
-                             pending_.back().precedence == precedence;
-    if (meets_equal && precedence == comparison) {
+                             pending_.back().precedence() == pending.precedence();
+    if (meets_equal && is_comparison(op)) {
         pending.chain =
             pending_.back().chain == Chain::none ? Chain::to_report : Chain::reported;
         pending.detail = operands_.back().outer;
     }
-    if (meets_equal && precedence != power) reduce();
+    if (meets_equal && op != Function::power) reduce();
     pending_.push_back(pending);
     expects_operand_ = true;
 }
 
 /// Reduces what is pending up to the next bracket and binds tighter than `precedence`.
-void ExpressionParser::reduce_above(std::uint8_t precedence) {
+void ExpressionParser::reduce_above(int precedence) {
     while (!pending_.empty() && !pending_.back().is_bracket() &&
-           pending_.back().precedence > precedence) {
+           pending_.back().precedence() > precedence) {
         reduce();
     }
 }
@@ -81,14 +79,14 @@ void ExpressionParser::reduce() {
     const Operand right = operands_.back();
     operands_.pop_back();
     if (pending.kind == PendingKind::unary) {
-        push_operand(join(pending.token.span, right.outer), ast::Unary{pending.unary, right.id});
+        push_operand(join(pending.token.span, right.outer), ast::Unary{pending.op, right.id});
         return;
     }
     CHECK(pending.kind == PendingKind::binary && !operands_.empty(), "brackets are not reduced");
     const Operand left = operands_.back();
     operands_.pop_back();
     if (pending.chain == Chain::to_report) report_chain(pending, left, right);
-    push_operand(join(left.outer, right.outer), ast::Binary{pending.binary, left.id, right.id});
+    push_operand(join(left.outer, right.outer), ast::Binary{pending.op, left.id, right.id});
 }
 
 void ExpressionParser::report_chain(const Pending& comparison, const Operand& left,

@@ -36,14 +36,13 @@ private:
     /// An operator or an open bracket that waits for what is right of it.
     struct Pending {
         PendingKind kind = PendingKind::group;
-        std::uint8_t precedence = 0;
         Chain chain = Chain::none;
-        ast::BinaryOp binary{};
-        ast::UnaryOp unary{};
+        Function op{};
         Token token;                       ///< The operator or the bracket.
         Span detail;                       ///< Name of a call; middle operand of a chain.
         std::uint32_t argument_count = 0;  ///< Of a call: complete ones so far.
         bool is_own = false;               ///< Of an index: the inner bracket of [u[i]].
+        int precedence() const { return info(op).precedence; }
         bool is_bracket() const {
             return kind == PendingKind::group || kind == PendingKind::call ||
                    kind == PendingKind::index;
@@ -78,8 +77,8 @@ private:
 
     void push_operand(Span span, decltype(ast::Expr::node) node);
     void push_bracket(PendingKind kind, Token bracket, Span name);
-    void push_binary(ast::BinaryOp op, std::uint8_t precedence);
-    void reduce_above(std::uint8_t precedence);
+    void push_binary(Function op);
+    void reduce_above(int precedence);
     void reduce();
     void report_chain(const Pending& comparison, const Operand& left, const Operand& right);
     ast::Expression finish();
