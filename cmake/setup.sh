@@ -56,13 +56,29 @@ install_packages() {
     fi
 }
 
-# show_progress LOG: how many files of how many are built, as ninja and make tell it, until it is ended.
+# time_left SECONDS DONE ALL: "about 3 minutes left", once a twentieth is done; nothing before.
+time_left() {
+    [ $(($2 * 20)) -ge "$3" ] || return 0
+    local seconds=$(($1 * ($3 - $2) / $2))
+    if [ "$seconds" -ge 90 ]; then
+        printf ', about %d minutes left' $(((seconds + 30) / 60))
+    else
+        printf ', about a minute left'
+    fi
+}
+
+# show_progress LOG: the number of steps done and of all, as ninja and make tell it, and the time left,
+# until it is ended.
 show_progress() {
-    local line shown=''
+    local line begun=$SECONDS
     while sleep 0.5; do
-        line=$(tail -c 4000 "$1" | grep -oE '^\[ *[0-9]+(/[0-9]+|%)\]' | tail -n 1)
-        [ -n "$line" ] && [ "$line" != "$shown" ] && printf '\rcascade: %s \033[K' "$line" >&2
-        shown=$line
+        line=$(tail -c 4000 "$1" | grep -oE '^\[ *[0-9]+(/[0-9]+|%)\]' | tail -n 1 | tr -d '[] ')
+        case $line in
+            */*) printf '\rcascade: %s steps%s\033[K' "${line/\// of }" \
+                "$(time_left $((SECONDS - begun)) "${line%/*}" "${line#*/}")" >&2 ;;
+            *%) printf '\rcascade: %s%s\033[K' "$line" \
+                "$(time_left $((SECONDS - begun)) "${line%\%}" 100)" >&2 ;;
+        esac
     done
 }
 
@@ -76,7 +92,7 @@ configure_and_build() {
     if [ -n "$home" ] && [ "$home" != "$root" ]; then
         rm -rf "$build/CMakeCache.txt" "$build/CMakeFiles"
     fi
-    local options=(-DCMAKE_BUILD_TYPE=Release "$@")
+    local options=(-DCMAKE_BUILD_TYPE=Release -DCASCADE_UNITY=ON "$@")
     if [ ! -e "$build/CMakeCache.txt" ] && command -v ninja >/dev/null; then
         options+=(-G Ninja)
     fi

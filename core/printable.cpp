@@ -7,8 +7,6 @@ namespace cascade {
 
 namespace {
 
-constexpr std::string_view replacement = "\xef\xbf\xbd";  // U+FFFD.
-
 std::string cleaned(std::string_view text, std::string_view kept) {
     std::string result;
     result.reserve(text.size());
@@ -16,7 +14,7 @@ std::string cleaned(std::string_view text, std::string_view kept) {
         const CodePoint point = decode_utf8(text, offset);
         const bool good = kept.find(text[offset]) != std::string_view::npos ||
                           (point.valid && !is_unprintable(point.value));
-        result += good ? text.substr(offset, point.size) : replacement;
+        result += good ? text.substr(offset, point.size) : replacement_character;
         offset += point.size;
     }
     return result;

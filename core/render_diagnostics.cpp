@@ -18,7 +18,6 @@ constexpr std::size_t widest_excerpt = 100;    // Columns of a source line that 
 constexpr std::size_t columns_in_front = 60;   // A span further right has its line cut in front.
 constexpr std::size_t columns_kept = 40;       // So many characters stay before it then.
 constexpr std::size_t tab_stop = 8;
-constexpr std::string_view replacement = "\xef\xbf\xbd";  // U+FFFD.
 constexpr std::string_view ellipsis = "\xe2\x80\xa6";     // U+2026.
 
 /// The colours of a message; all empty when it goes to a file.
@@ -69,7 +68,7 @@ Excerpt make_excerpt(std::string_view line, std::size_t span_begin, std::size_t 
             width = tab_stop - column % tab_stop;
             excerpt.text.append(width, ' ');
         } else if (!point.valid || is_unprintable(point.value)) {
-            excerpt.text += replacement;
+            excerpt.text += replacement_character;
         } else {
             width = static_cast<std::size_t>(display_width(point.value));
             excerpt.text += line.substr(offset, point.size);

@@ -14,6 +14,9 @@ struct CodePoint {
     bool valid = true;
 };
 
+/// What stands for what is no text: U+FFFD.
+inline constexpr std::string_view replacement_character = "\xef\xbf\xbd";
+
 /// The code point at `offset`, which must be inside the text. Overlong forms, surrogates and values
 /// above U+10FFFF are invalid (RFC 3629).
 CodePoint decode_utf8(std::string_view text, std::size_t offset);

@@ -32,6 +32,11 @@ struct BasicVector3 {
     }
 };
 
+template <typename Number>
+bool is_finite(BasicVector3<Number> v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
 using Vector3 = BasicVector3<float>;    ///< Of pictures.
 using Vector3d = BasicVector3<double>;  ///< Of geometry that is measured.
 

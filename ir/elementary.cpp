@@ -18,13 +18,9 @@
 // Denormal arguments count as zeros and denormal results are flushed.
 #include "ir/expression.h"
 
-#include <limits>
 
 namespace cascade {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 constexpr ByPrecision<double> log2_of_e = {0x1.715476p+0, 0x1.71547652b82fep+0};
 

@@ -7,9 +7,13 @@
 #include "ir/builder.h"
 
 #include <array>
+#include <limits>
 #include <span>
 
 namespace cascade {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// What an algorithm takes from the number format: a row for binary32 and one for binary64. Numbers of
 /// the first are binary32 numbers, so that nothing is rounded when they are read.

@@ -5,13 +5,9 @@
 // multiple of π/4, is added as a head and a tail. Coefficients as in ir/elementary.cpp.
 #include "ir/expression.h"
 
-#include <limits>
 
 namespace cascade {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // (atan(t)/t − 1) / t² in t², for |t| ≤ tan(π/8); error 2^−30 (2^−63) of the angle.
 constexpr double atan_single[] = {-0x1.55554cp-2, 0x1.99929cp-3, -0x1.23c4f2p-3, 0x1.b2b4cep-4,

@@ -11,14 +11,11 @@
 #include "ir/expression.h"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace cascade {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double largest_multiplied = 64;
 
 // Beyond this the result is infinite or 0 for every x but 1: |log2 x| is at least 2^−25 (2^−53).

@@ -5,12 +5,9 @@
 // rest m − t³ is exact, t being a number of 12 bits (in binary64 26).
 #include "ir/expression.h"
 
-#include <limits>
 
 namespace cascade {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // ∛m for m in [√½, √2); error 2^−16 (2^−22).
 constexpr double cube_root_single[] = {0x1.ce7218p-2, 0x1.cf6544p-1, -0x1.127106p-1, 0x1.bcd31ap-3,

@@ -2,13 +2,9 @@
 // which is rounded once, and `smooth_step`.
 #include "ir/expression.h"
 
-#include <limits>
 
 namespace cascade {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Quotients from here on leave no rest that could be found: below, both halves of a whole quotient have
 // few enough bits for their products to be exact.

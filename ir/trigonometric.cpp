@@ -12,12 +12,9 @@
 #include "ir/expression.h"
 
 #include <array>
-#include <limits>
 
 namespace cascade {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// How angles are reduced.
 struct Reduction {

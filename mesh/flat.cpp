@@ -14,14 +14,14 @@ constexpr int most_crossings = 100'000;
 Vector2d left_of(Vector2d edge) { return {-edge.y, edge.x}; }
 
 /// Which edge is crossed first on the way from `point` by `step`, and after what part of it.
-struct Crossing {
+struct EdgeCrossing {
     std::uint32_t edge = 3;
     double part = 1;
 };
 
-Crossing first_crossing(const FlatTriangle& flat, Vector2d point, Vector2d step,
+EdgeCrossing first_crossing(const FlatTriangle& flat, Vector2d point, Vector2d step,
                         std::uint32_t entered) {
-    Crossing first;
+    EdgeCrossing first;
     for (std::uint32_t k = 0; k < 3; ++k) {
         if (k == entered) continue;
         const Vector2d edge = flat[corner_after(k)] - flat[k];
@@ -75,7 +75,7 @@ WalkEnd walk(const SurfaceMesh& mesh, const SurfacePlace& from, Vector2d step) {
     std::uint32_t entered = 3;
     double left = 1;
     for (int crossings = 0; crossings < most_crossings; ++crossings) {
-        const Crossing crossing = first_crossing(flat, point, step * left, entered);
+        const EdgeCrossing crossing = first_crossing(flat, point, step * left, entered);
         if (crossing.edge == 3) {
             point = point + step * left;
             left = 0;

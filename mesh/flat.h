@@ -1,23 +1,13 @@
-// Triangles laid flat: vectors of a plane, and triangles in it that are as large as in space.
+// Triangles laid flat: in a plane, as large as in space.
 #pragma once
 
+#include "core/vector2.h"
 #include "mesh/surface_mesh.h"
 
 #include <array>
 #include <cmath>
 
 namespace cascade {
-
-struct Vector2d {
-    double x = 0, y = 0;
-    friend Vector2d operator+(Vector2d a, Vector2d b) { return {a.x + b.x, a.y + b.y}; }
-    friend Vector2d operator-(Vector2d a, Vector2d b) { return {a.x - b.x, a.y - b.y}; }
-    friend Vector2d operator*(Vector2d a, double s) { return {a.x * s, a.y * s}; }
-    friend double dot(Vector2d a, Vector2d b) { return a.x * b.x + a.y * b.y; }
-    /// Above 0 where b lies to the left of a.
-    friend double cross(Vector2d a, Vector2d b) { return a.x * b.y - a.y * b.x; }
-    friend double length(Vector2d a) { return std::sqrt(dot(a, a)); }
-};
 
 using FlatTriangle = std::array<Vector2d, 3>;
 

@@ -16,7 +16,7 @@ constexpr double longest = 4.0 / 3;  ///< Edges, in units of the one that is wan
 constexpr std::array shortest = {0.3, 0.5, 0.65, 0.8, 0.8, 0.0, 0.0, 0.0};
 constexpr int most_flip_passes = 6;
 constexpr double smoothing = 0.6;
-constexpr double tolerance = 1e-6;     ///< Of a sum of angles.
+constexpr double angle_tolerance = 1e-6;     ///< Of a sum of angles.
 constexpr double flattest_fold = 0.7;  ///< Cosine between triangles whose edge may be flipped.
 
 /// The angle that faces a half-edge: its cosine and sine, times the lengths of its sides.
@@ -34,7 +34,7 @@ FacingAngle facing_angle(const HalfEdges& mesh, HalfedgeHandle h) {
 /// Whether two angles sum up to half a turn at most, by the sine of their sum.
 bool is_delaunay(FacingAngle a, FacingAngle b) {
     const double sine = a.cosine * b.sine + a.sine * b.cosine;
-    return sine >= 0 || sine >= -tolerance * a.size() * b.size();
+    return sine >= 0 || sine >= -angle_tolerance * a.size() * b.size();
 }
 
 Vector3d double_area_normal(Vector3d a, Vector3d b, Vector3d c) {

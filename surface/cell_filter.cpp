@@ -16,7 +16,7 @@ namespace {
 constexpr float least_sum = 1e-5F;
 
 /// In radii: two images of a cell that are no farther apart are one.
-constexpr float same_place = 0.004F;
+constexpr float same_point_distance = 0.004F;
 
 Vector3 single(Vector3d v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -137,7 +137,7 @@ CellFilter::Sightings CellFilter::sightings_in(const CellImage& image) {
         for (std::size_t j = 0; j < found.count && !is_shared; ++j) {
             Sighting& other = found.all[j];
             const float dx = x - other.x, dy = y - other.y;
-            is_shared = dx * dx + dy * dy < same_place * same_place;
+            is_shared = dx * dx + dy * dy < same_point_distance * same_point_distance;
             if (is_shared) other.edges |= bit;
         }
         if (!is_shared) found.all[found.count++] = {image.cell, bit, x, y};

@@ -10,21 +10,6 @@ namespace cascade {
 /// Sums of directions shorter than this part of what was added cancel out.
 constexpr double cancelled_part = 1e-6;
 
-/// Of two complex numbers.
-inline Vector2d product(Vector2d a, Vector2d b) {
-    return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
-}
-
-/// Of length 1; the zero vector stays zero.
-inline Vector2d unit_of(Vector2d v) {
-    const double size = std::hypot(v.x, v.y);
-    return size > 0 ? Vector2d{v.x / size, v.y / size} : Vector2d{};
-}
-
-inline bool is_finite(Vector3d v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// Directions in the frames of their planes; those of lines have twice the angle, so that v and −v
 /// are the same and lines at right angles cancel out.
 class CodedDirections {

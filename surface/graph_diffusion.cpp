@@ -11,7 +11,7 @@ namespace cascade {
 namespace {
 
 constexpr int steps = 4;
-constexpr double tolerance = 1e-6;
+constexpr double residual_tolerance = 1e-6;
 constexpr double rounding = 1e-14;
 constexpr int most_rounds = 2'000;
 constexpr double longest_time = 100;  ///< In units of the total mass: nothing is left to smooth.
@@ -23,7 +23,6 @@ constexpr std::size_t block = 2'048;
 constexpr std::size_t least_for_thread = 50'000;
 
 double product(double a, double b) { return a * b; }
-Vector2d product(Vector2d a, Vector2d b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
 double inner(double a, double b) { return a * b; }
 double inner(Vector2d a, Vector2d b) { return dot(a, b); }
 
@@ -54,7 +53,7 @@ public:
             return inner(values[k], values[k]) * mass(k);
         });
         double gain = sum([&](std::size_t k) { return inner(rest[k], towards[k]); });
-        const double enough = tolerance * tolerance * gain + rounding * rounding * scale;
+        const double enough = residual_tolerance * residual_tolerance * gain + rounding * rounding * scale;
         for (int round = 0; round < most_rounds && gain > enough && !cancel; ++round) {
             const double bend = sum([&](std::size_t k) {
                 image[k] = towards[k] * mass(k) - rest_at(towards, k);

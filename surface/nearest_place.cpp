@@ -24,10 +24,6 @@ double part_of_edge(Vector3d a, Vector3d b, Vector3d point) {
 
 double square_distance(Vector3d a, Vector3d b) { return dot(a - b, a - b); }
 
-bool is_finite(Vector3d p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 double square_distance(Vector3d low, Vector3d high, Vector3d point) {
     const Vector3d inside = {std::clamp(point.x, low.x, high.x), std::clamp(point.y, low.y, high.y),
                              std::clamp(point.z, low.z, high.z)};

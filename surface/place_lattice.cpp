@@ -12,16 +12,16 @@ namespace cascade {
 
 namespace {
 
-constexpr double tolerance = 1e-6;       ///< Of weights.
+constexpr double weight_tolerance = 1e-6;       ///< Of weights.
 constexpr std::int64_t stride = 1 << 6;  ///< Steps between places that coincided.
 
 bool is_on(const SurfaceMesh& mesh, const SurfacePlace& place) {
     double sum = 0;
     for (const double weight : place.weights) {
-        if (!(weight >= -tolerance)) return false;
+        if (!(weight >= -weight_tolerance)) return false;
         sum += weight;
     }
-    return place.triangle < mesh.triangles.size() && std::abs(sum - 1) <= tolerance;
+    return place.triangle < mesh.triangles.size() && std::abs(sum - 1) <= weight_tolerance;
 }
 
 std::int64_t rounded(double weight) {

@@ -14,9 +14,6 @@ namespace cascade {
 
 namespace {
 
-/// Formulas larger than this cost more than they tell.
-constexpr std::size_t most_parts = 100'000;
-
 /// The slopes by a species of all parts of the rates. Empty where there is no rule for one that a
 /// rate needs, and where they are too many.
 std::optional<std::vector<Slopes>> slopes_of(FlatRates& rates, SlopeRules& rules,
@@ -25,7 +22,7 @@ std::optional<std::vector<Slopes>> slopes_of(FlatRates& rates, SlopeRules& rules
     slopes.reserve(rates.part_count());
     for (PartId id = 0; id < rates.part_count(); ++id) {
         auto slope = rules.slopes_of(id, species, slopes);
-        if (!slope || rates.builder().size() > most_parts) return std::nullopt;
+        if (!slope || rates.builder().size() > most_calculus_parts) return std::nullopt;
         slopes.push_back(std::move(*slope));
     }
     return slopes;
@@ -188,7 +185,7 @@ std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_
         }
     }
     const PartId whole = matrix.whole(), reaction = matrix.reaction();
-    if (builder.size() > most_parts) return std::nullopt;
+    if (builder.size() > most_calculus_parts) return std::nullopt;
     return JacobianBound{over_domain(builder, whole), over_domain(builder, reaction), matrix.jumps()};
 }
 

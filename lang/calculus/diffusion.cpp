@@ -13,9 +13,6 @@ namespace cascade {
 
 namespace {
 
-/// Formulas larger than this cost more than they save.
-constexpr std::size_t most_parts = 100'000;
-
 /// How a part changes with the species: itself, then the operators of DiffusionTerms.
 struct Operators {
     PartId own = 0;
@@ -30,7 +27,7 @@ public:
     /// The operators of all parts; fewer where they become too many.
     std::vector<Operators> run() && {
         found_.reserve(rates_.part_count());
-        for (PartId id = 0; id < rates_.part_count() && builder_.size() < most_parts; ++id) {
+        for (PartId id = 0; id < rates_.part_count() && builder_.size() < most_calculus_parts; ++id) {
             found_.push_back(operators_of(id));
         }
         return std::move(found_);

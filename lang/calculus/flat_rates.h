@@ -11,6 +11,9 @@
 
 namespace cascade {
 
+/// The rules of calculus give up on formulas larger than this, which cost more than they tell.
+inline constexpr std::size_t most_calculus_parts = 100'000;
+
 class FlatRates {
 public:
     explicit FlatRates(const System& system);

@@ -3,33 +3,29 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace cascade::checking {
 
-namespace {
-
-constexpr std::size_t most_named = 12;
-
-std::string describe(const std::vector<std::string>& names) {
+std::string describe_cycle(const std::vector<std::string>& names) {
+    constexpr std::size_t most_named = 12;
     std::string path;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (i == most_named) {
-            path += "… -> ";
-            break;
-        }
-        path += names[i] + " -> ";
-    }
+    for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i) path += names[i] + " -> ";
+    if (names.size() > most_named) path += "… -> ";
     return path + names.front();
 }
+
+namespace {
 
 void report_cycle(Workspace& work, Span span, const char* what,
                    const std::vector<std::string>& names) {
     if (names.size() == 1) {
         work.diagnostics.error(span, fmt::format("{} needs itself: {}", names[0],
-                                                 describe(names)));
+                                                 describe_cycle(names)));
         return;
     }
     work.diagnostics.error(span, fmt::format("{} need each other in a cycle: {}", what,
-                                             describe(names)));
+                                             describe_cycle(names)));
 }
 
 /// Where a formula reads a node of this kind and index.

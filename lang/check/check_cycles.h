@@ -4,9 +4,13 @@
 #include "lang/check/check_names.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace cascade::checking {
+
+/// "a -> b -> a". Of a long cycle only the first members are named.
+std::string describe_cycle(const std::vector<std::string>& names);
 
 /// Reports a cycle of values at the place in `items` where it is read; `from_system[i]` tells
 /// which formulas are defaults, whose places are of less use to the reader.

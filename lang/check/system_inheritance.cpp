@@ -3,6 +3,7 @@
 #include "lang/check/system_inheritance.h"
 
 #include "lang/check/check_blocks.h"
+#include "lang/check/check_cycles.h"
 #include "lang/program/order.h"
 
 #include <fmt/format.h>
@@ -12,7 +13,6 @@ namespace cascade::checking {
 namespace {
 
 constexpr std::size_t most_statements = 1'000'000;
-constexpr std::size_t most_named = 12;
 
 class Derivation {
 public:
@@ -55,19 +55,16 @@ std::optional<std::uint32_t> Derivation::find_base(std::uint32_t index) {
 }
 
 void Derivation::report_cycle(const std::vector<std::uint32_t>& cycle) {
-    std::string path;
-    for (std::size_t i = 0; i < cycle.size(); ++i) {
-        is_known_[cycle[i]] = false;
-        if (i == most_named) path += "… -> ";
-        if (i < most_named) path += fmt::format("{} -> ", blocks_[cycle[i]].block->name.text);
+    std::vector<std::string> names;
+    for (const std::uint32_t system : cycle) {
+        is_known_[system] = false;
+        names.emplace_back(blocks_[system].block->name.text);
     }
-    const ast::Block& first = *blocks_[cycle[0]].block;
     work_.diagnostics.error(
-        first.base.span,
+        blocks_[cycle[0]].block->base.span,
         cycle.size() == 1
-            ? fmt::format("'{}' is derived from itself", first.name.text)
-            : fmt::format("systems are derived from each other in a cycle: {}{}", path,
-                          first.name.text));
+            ? fmt::format("'{}' is derived from itself", names[0])
+            : fmt::format("systems are derived from each other in a cycle: {}", describe_cycle(names)));
 }
 
 DerivedSystem Derivation::derive(std::uint32_t index, const std::vector<DerivedSystem>& before) {

@@ -2,6 +2,7 @@
 #include "lang/check/user_functions.h"
 
 #include "core/counted.h"
+#include "lang/check/check_cycles.h"
 #include "lang/program/order.h"
 
 #include <fmt/format.h>
@@ -13,7 +14,6 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr std::size_t most_named = 12;
 constexpr const char* what_it_reads = "a function reads its parameters and built-in values only";
 
 }  // namespace
@@ -144,28 +144,23 @@ void FunctionTableMaker::check_call(std::uint32_t index, const ast::Call& call, 
 }
 
 void FunctionTableMaker::report_cycle(const std::vector<std::uint32_t>& cycle) {
-    std::string path;
-    for (std::size_t i = 0; i < cycle.size(); ++i) {
-        table_.functions_[cycle[i]].faulty = true;
-        if (i == most_named) path += "… -> ";
-        if (i >= most_named) continue;
-        path += fmt::format("{} -> ", table_.functions_[cycle[i]].definition->name.text);
+    std::vector<std::string> names;
+    for (const std::uint32_t function : cycle) {
+        table_.functions_[function].faulty = true;
+        names.emplace_back(table_.functions_[function].definition->name.text);
     }
-    const ast::Word& first = table_.functions_[cycle[0]].definition->name;
-    path += first.text;
     // The place of the call: that of `cycle[1]`, or of itself, in the first one's value.
     const ast::Expression body = table_.functions_[cycle[0]].definition->body;
-    const std::string_view next =
-        table_.functions_[cycle[1 % cycle.size()]].definition->name.text;
-    Span span = first.span;
+    const std::string& next = names[1 % names.size()];
+    Span span = table_.functions_[cycle[0]].definition->name.span;
     for (ast::ExprId id = body.first; id <= body.root; ++id) {
         const auto* call = std::get_if<ast::Call>(&script_.expressions[id].node);
         if (call != nullptr && call->function.text == next) span = call->function.span;
     }
     work_.diagnostics.error(
         span,
-        cycle.size() == 1 ? fmt::format("the function '{}' calls itself", first.text)
-                           : fmt::format("functions call each other in a cycle: {}", path),
+        cycle.size() == 1 ? fmt::format("the function '{}' calls itself", names[0])
+                           : fmt::format("functions call each other in a cycle: {}", describe_cycle(names)),
         "a function cannot be computed by itself");
 }
 
