@@ -67,9 +67,9 @@ for bad in '-1|at least 0' '2.5|a whole number' '1e30|at most' 'x|varying by cel
     refused 2 "number.cascade:1:37: error: iterations must be" run number.cascade
     grep -qF "${bad#*|}" err || fail "iterations: ${bad%|*}"
 done
-refused 2 '<--grid>:1:1: error: a grid has at least' run good.cascade --grid 0x4
-refused 2 '<--grid>:1:1: error: a grid of one cell' run good.cascade --grid 1x1
-refused 2 '<--grid>:1:1: error: a grid of more than' run good.cascade --grid 1000000x1000000
+refused 2 '<--grid>:1:1: error: a side of the grid must be' run good.cascade --grid 0x4
+refused 2 '<--grid>:1:1: error: a grid needs more than one cell' run good.cascade --grid 1x1
+refused 2 '<--grid>:1:1: error: the grid is too large' run good.cascade --grid 1000000x1000000
 refused 3 'needs' run good.cascade --grid 46000x46000
 stage 'speed: x - 0.5' slow.cascade
 refused 3 'but a time step must be above 0' run slow.cascade -q

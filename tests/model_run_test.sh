@@ -156,7 +156,7 @@ refused() {
 for name in refused.ply refused.obj refused.glb refused.vtp refused.npz refused.cells.vtp; do
     refused "only what grows on a model is written so" run -q spots.cascade -o $name
 done
-refused "only a model has an axis that points upwards" run -q spots.cascade -o refused.png --up z
+refused "only a domain with a model has this setting" run -q spots.cascade -o refused.png --up z
 for option in "--retile" "--bake 64" "--bump 0.1" "--cache kept2"; do
     refused "the domain is no model" run -q spots.cascade -o refused.png $option
 done

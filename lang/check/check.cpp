@@ -6,6 +6,7 @@
 #include "core/check.h"
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_semi_implicit.h"
+#include "lang/check/check_time.h"
 #include "lang/check/user_functions.h"
 #include "lang/library/library.h"
 #include "lang/vocabulary/settings.h"
@@ -84,6 +85,10 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
             checking::warn_unread(work);
             for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
                 checking::check_semi_implicit(program, k, program.stages[k].time.solver_span, own);
+            }
+            checking::check_coarse_starts(program, own);
+            for (const Formula* formula : formulas_of(program)) {
+                (void)has_meaning_on_domain(program, *formula, own);
             }
         }
     }

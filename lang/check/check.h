@@ -27,16 +27,6 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
 /// The `color:` statement of the script's picture block, if it has one.
 std::optional<ast::Expression> picture_expression(const ast::Script& script);
 
-/// Every stage takes `solver` from now on (`--solver`). Each keeps the time it takes: iterations ·
-/// speed where it has no duration. Stabilised and semi-implicit solvers choose their steps as with
-/// `speed: auto`.
-/// Stages that cannot take it are errors at `span`.
-void change_solver(Program& program, Solver solver, Span span, Diagnostics& diagnostics);
-
-/// Stages that start on coarser grids need sides that can be halved so often, and a flat grid. For
-/// when the grid is known.
-void check_coarse_starts(const Program& program, Diagnostics& diagnostics);
-
 /// All names a user can type at the top of an expression or statement, for completion.
 std::vector<std::string> known_names(const Program& program);
 

@@ -16,6 +16,9 @@ std::uint32_t check_system(Workspace& work, const DerivedSystem& derived,
 /// The statement if it gives a value; else null.
 const ast::Statement* value_statement(const ast::Statement& statement);
 
+/// What an option of the command line says of this setting; null where it was not given.
+const ast::Statement* find_option(const ast::Script& script, std::string_view name);
+
 /// The overrides of each stage, in order.
 using StageOverrides = std::vector<std::vector<const ast::Statement*>>;
 
@@ -36,7 +39,7 @@ void warn_outside(Workspace& work, const Quantity& quantity, std::optional<doubl
 /// Says that there is no system of this name.
 void report_unknown_system(Workspace& work, const ast::Word& name);
 
-/// All stages of a script, with the overrides.
+/// All stages of a script, with the overrides and the options about all stages.
 void check_stages(Workspace& work, const ast::Script& script);
 
 /// The sides that the block of system `index` gives its species, after those of system `base`,
@@ -57,11 +60,11 @@ SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& scri
 /// left, right, top, bottom, front, back or sides.
 bool is_side_word(std::string_view word);
 
-/// The `domain` block, if there is one.
+/// The `domain` block, if there is one, and the options about the domain.
 void check_domain(Workspace& work, const ast::Script& script);
 
-/// Settings of the domain that belong to a model. Does the block name one? Else the settings are
-/// faults.
+/// Settings of the domain that belong to a model. True where the block or an option names one; else
+/// the settings are faults.
 bool is_model_setting(std::string_view name);
 /// Does `surface:` name a shape, such as sphere, instead of giving three expressions?
 bool is_model_surface(const ast::Script& script, const ast::Statement& surface);

@@ -1,4 +1,5 @@
 // The `domain` and `picture` blocks.
+#include "ir/multiply_add.h"
 #include "lang/check/check_blocks.h"
 #include "lang/vocabulary/settings.h"
 
@@ -77,10 +78,14 @@ void check_grid(Workspace& work, const ast::Script& script, const ast::Statement
         return;
     }
     Grid& grid = work.program.domain.grid;
+    const bool was_line = grid.height == 1 && grid.depth == 1;
+    if (&statement == find_option(script, "grid") && statement.values.size() == 1 && !was_line) {
+        work.diagnostics.warning(sides, fmt::format("this is a line of {} cells", counts[0]),
+                                 fmt::format("for a square write --grid {0}x{0}", counts[0]));
+    }
     grid.width = counts[0];
     grid.height = counts[1];
     grid.depth = counts[2];
-    work.program.domain.grid_span = sides;
 }
 
 /// `periodic` or `noflux`, or nothing with a message.
@@ -169,6 +174,14 @@ void check_precision(Workspace& work, const ast::Script& script, const ast::Stat
                            did_you_mean(work, word, words_taken_by(Setting::precision)));
 }
 
+/// What the processor has no instruction for is left aside.
+void check_fast(Workspace& work, const ast::Statement& option) {
+    work.program.domain.fast = has_multiply_add();
+    if (work.program.domain.fast) return;
+    work.diagnostics.warning(option.span, "this processor does not multiply and add in one operation: "
+                                          "--fast changes nothing");
+}
+
 /// Of one species, in a block that knows none.
 void report_sides(Workspace& work, const ast::Block& block) {
     for (const ast::Statement& statement : block.sides) {
@@ -236,10 +249,10 @@ void check_color(Workspace& work, const ast::Script& script, const ast::Statemen
 }  // namespace
 
 void check_domain(Workspace& work, const ast::Script& script) {
-    const ast::Block* block = find_block(work, script, ast::BlockKind::domain, "domain");
-    if (block == nullptr) return;
+    const ast::Block* written = find_block(work, script, ast::BlockKind::domain, "domain");
+    const ast::Block block = written == nullptr ? ast::Block() : *written;
     std::unordered_map<std::string, Span> seen;
-    for (const ast::Statement& statement : block->statements) {
+    for (const ast::Statement& statement : block.statements) {
         if (statement.name.empty() || statement.values.empty()) continue;
         const auto [first, is_new] =
             seen.try_emplace(std::string(statement.name.text), statement.name.span);
@@ -250,8 +263,12 @@ void check_domain(Workspace& work, const ast::Script& script) {
                          fmt::format("'{}' is given a value twice", statement.name.text));
         }
     }
-    report_sides(work, *block);
-    if (!check_model(work, script, *block)) check_surface(work, script, *block);
+    report_sides(work, block);
+    for (const std::string_view name : {"grid", "seed", "precision"}) {
+        if (const auto* option = find_option(script, name)) check_domain_statement(work, script, *option);
+    }
+    if (const auto* option = find_option(script, "fast")) check_fast(work, *option);
+    if (!check_model(work, script, block)) check_surface(work, script, block);
 }
 
 void check_picture(Workspace& work, const ast::Script& script) {

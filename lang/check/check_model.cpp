@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -39,33 +40,62 @@ const ShapeName* shape_of(std::string_view word) {
     return nullptr;
 }
 
+/// The statement of a block that names a model; null where none does.
+const ast::Statement* model_of(const ast::Script& script, const ast::Block& domain) {
+    for (const ast::Statement& statement : domain.statements) {
+        if (statement.values.empty()) continue;
+        if (statement.name.text == "mesh") return &statement;
+        if (statement.name.text == "surface" && is_model_surface(script, statement)) return &statement;
+    }
+    return nullptr;
+}
+
+/// --mesh, which names a file or a shape; null without it.
+const ast::Statement* model_option(const ast::Script& script) {
+    const ast::Statement* mesh = find_option(script, "mesh");
+    return mesh != nullptr ? mesh : find_option(script, "surface");
+}
+
 class ModelChecker {
 public:
     ModelChecker(Workspace& work, const ast::Script& script, const ast::Block& domain)
-        : work_(work), script_(script), domain_(domain) {}
+        : work_(work), script_(script), domain_(domain), option_(model_option(script)) {}
 
     void check() {
-        const ast::Statement* mesh = find("mesh");
-        const ast::Statement* surface = find("surface");
-        if (surface != nullptr && !is_model_surface(script_, *surface)) surface = nullptr;
-        if (mesh != nullptr && surface != nullptr) {
-            return report_twice(work_, surface->name.span, mesh->name.span,
-                                "a domain has a mesh or a surface, not both");
+        if (option_ != nullptr) {
+            check_named(*option_);
+        } else {
+            const ast::Statement* mesh = find("mesh");
+            const ast::Statement* surface = find("surface");
+            if (surface != nullptr && !is_model_surface(script_, *surface)) surface = nullptr;
+            if (mesh != nullptr && surface != nullptr) {
+                return report_twice(work_, surface->name.span, mesh->name.span,
+                                    "a domain has a mesh or a surface, not both");
+            }
+            check_named(mesh != nullptr ? *mesh : *surface);
         }
-        if (mesh != nullptr) check_mesh(*mesh);
-        if (surface != nullptr) check_shape(*surface);
         if (!model_) return;
+        // A unit is a length of the surface of parameters that the script would have without --mesh, and
+        // an axis that points upwards is that of the script's own model.
+        const bool is_own = option_ == nullptr;
         if (const auto* cells = find("cells")) check_cells(*cells);
         if (const auto* laplacian = find("laplacian")) check_laplacian(*laplacian);
-        if (const auto* unit = find("unit")) check_unit(*unit);
-        if (const auto* up = find("up")) check_up(*up);
+        const auto* unit = is_own || model_of(script_, domain_) ? find("unit") : nullptr;
+        if (unit != nullptr) check_unit(*unit);
+        if (const auto* up = is_own ? find("up") : find_option(script_, "up")) check_up(*up);
         check_anisotropy(find("directions"), find("stretch"));
-        for (const ast::Statement& other : domain_.statements) refuse(other);
-        set_model(work_.program, *std::move(model_));
+        if (is_own) {
+            for (const ast::Statement& other : domain_.statements) refuse(other);
+        } else {
+            leave_borders();
+            if (const auto* grid = find_option(script_, "grid")) refuse(*grid);
+        }
+        take_model();
     }
 
 private:
     const ast::Statement* find(std::string_view name) const {
+        if (const auto* option = find_option(script_, name)) return option;
         for (const ast::Statement& statement : domain_.statements) {
             if (statement.name.text == name && !statement.values.empty()) return &statement;
         }
@@ -79,8 +109,35 @@ private:
         if (!setting || includes(info(*setting).domains, Domains::model)) return;
         const bool is_shape = word == "grid" || word == "spacing" || word == "metric";
         work_.diagnostics.error(statement.name.span, fmt::format("a model has no {}", word),
-                                is_shape ? "its cells are spread over it: cells: 20000"
+                                is_shape ? "its cells are spread over it: cells: 20000, or --cells 20000"
                                          : "it ends where its surface ends, and nothing flows out");
+    }
+
+    /// Those of the plane that --mesh takes the place of.
+    void leave_borders() {
+        const DomainSettings& domain = work_.program.domain;
+        if (domain.mask) {
+            work_.diagnostics.warning(domain.mask->span, "a model has no mask: this is left aside");
+        }
+        for (const auto& side : domain.sides) {
+            if (!side || !takes_value(side->kind)) continue;
+            work_.diagnostics.warning(side->span, "a model has no sides: this is left aside");
+        }
+    }
+
+    /// Seed and precision are all that a model leaves of a plane.
+    void take_model() {
+        DomainSettings& domain = work_.program.domain;
+        domain.grid = rows_of_cells(model_->count);
+        domain.mask.reset();
+        domain.surface.reset();
+        domain.sides = {};
+        domain.model = std::move(model_);
+    }
+
+    void check_named(const ast::Statement& statement) {
+        if (statement.name.text == "mesh") check_mesh(statement);
+        else check_shape(statement);
     }
 
     Span span_of(const ast::Statement& statement) const { return value_of(script_, statement).span; }
@@ -150,7 +207,6 @@ private:
     void check_cells(const ast::Statement& statement) {
         if (!has_one_value(work_, script_, statement)) return;
         const std::string_view word = word_of(value_of(script_, statement));
-        model_->cells_span = span_of(statement);
         if (word == "faces" || word == "vertices") {
             model_->cells = word == "faces" ? ModelCellKind::faces : ModelCellKind::vertices;
             return;
@@ -165,7 +221,7 @@ private:
         if (!(*count >= 1 && *count <= most_cells) || *count != std::floor(*count)) {
             work_.diagnostics.error(span_of(statement),
                                     "cells must be a whole number from 1 to 268435456",
-                                    "cells: 20000");
+                                    "cells: 20000, or --cells 20000");
             return;
         }
         model_->count = static_cast<std::int64_t>(*count);
@@ -205,6 +261,11 @@ private:
 
     void check_anisotropy(const ast::Statement* directions, const ast::Statement* stretch) {
         if (directions != nullptr) model_->directions = check_directions(work_, script_, *directions);
+        if (model_->directions && model_->cells != ModelCellKind::spread) {
+            work_.diagnostics.error(model_->directions->span,
+                                    "only cells that are spread over a model can be stretched",
+                                    "cells: 20000, or --cells 20000");
+        }
         if (stretch == nullptr) return;
         if (directions == nullptr) {
             work_.diagnostics.error(stretch->name.span, "cells are stretched along directions",
@@ -225,6 +286,7 @@ private:
     Workspace& work_;
     const ast::Script& script_;
     const ast::Block& domain_;
+    const ast::Statement* option_;  ///< That names the model; null where the block does.
     std::optional<ModelSettings> model_;
 };
 
@@ -240,22 +302,24 @@ bool is_model_surface(const ast::Script& script, const ast::Statement& surface) 
 }
 
 bool check_model(Workspace& work, const ast::Script& script, const ast::Block& domain) {
-    bool names_model = false;
-    for (const ast::Statement& statement : domain.statements) {
-        if (statement.values.empty()) continue;
-        names_model |= statement.name.text == "mesh" ||
-                       (statement.name.text == "surface" && is_model_surface(script, statement));
-    }
-    if (names_model) {
+    const ast::Statement* own = model_of(script, domain);
+    const bool gives_way = own != nullptr && find_option(script, "grid") != nullptr;
+    if (model_option(script) != nullptr || (own != nullptr && !gives_way)) {
         ModelChecker(work, script, domain).check();
         return true;
     }
-    for (const ast::Statement& statement : domain.statements) {
-        if (statement.values.empty() || !is_model_setting(statement.name.text)) continue;
-        work.diagnostics.error(statement.name.span, "only a domain with a model has this setting",
-                               "mesh: \"horse.ply\" or surface: sphere");
+    if (gives_way) {
+        work.diagnostics.warning(value_of(script, *own).span,
+                                 "the grid asked for takes the place of this model");
     }
-    return false;
+    const auto refuse = [&](const ast::Statement& statement) {
+        if (statement.values.empty() || !is_model_setting(statement.name.text)) return;
+        work.diagnostics.error(statement.name.span, "only a domain with a model has this setting",
+                               "mesh: \"horse.ply\", surface: sphere or --mesh sphere makes it one");
+    };
+    std::for_each(script.options.begin(), script.options.end(), refuse);
+    if (!gives_way) std::for_each(domain.statements.begin(), domain.statements.end(), refuse);
+    return gives_way;
 }
 
 }  // namespace cascade::checking

@@ -1,4 +1,4 @@
-// Changes from outside the script, as of --set: which stages each of them is for.
+// Changes from outside the script: options, and which stages each --set is for.
 #include "lang/check/check_blocks.h"
 #include "lang/vocabulary/settings.h"
 
@@ -15,6 +15,12 @@ const ast::Statement* value_statement(const ast::Statement& statement) {
     const bool usable = statement.kind == ast::StatementKind::value && !statement.name.empty() &&
                         !statement.values.empty();
     return usable ? &statement : nullptr;
+}
+
+const ast::Statement* find_option(const ast::Script& script, std::string_view name) {
+    const auto found = std::find_if(script.options.begin(), script.options.end(),
+                                    [&](const ast::Statement& option) { return option.name.text == name; });
+    return found == script.options.end() ? nullptr : &*found;
 }
 
 namespace {

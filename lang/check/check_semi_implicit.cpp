@@ -49,6 +49,12 @@ void check_semi_implicit(const Program& program, std::uint32_t stage, Span span,
     const Stage& checked = program.stages[stage];
     const Solver solver = checked.time.solver;
     if (!is_semi_implicit(solver)) return;
+    if (program.domain.model) {
+        diagnostics.error(span, fmt::format("stage '{}': the solver {} needs the waves of a grid, which "
+                                            "a model does not have", checked.name, name_of(solver)),
+                          "rkl1 takes long steps on models");
+        return;
+    }
     if (program.domain.surface && program.domain.surface->has_metric) {
         diagnostics.error(span, fmt::format("stage '{}': {} needs cells that are squares, and these "
                                             "lie on a surface", checked.name, name_of(solver)),

@@ -320,6 +320,16 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SpeciesSide>& own)
             stage.sides[number[rule.species]][static_cast<std::size_t>(rule.side)] = rule.setting;
         }
     }
+    if (work.program.domain.model) {
+        // Boundaries of a model have no flux through them.
+        for (const AllSides& sides : stage.sides) {
+            for (const SideSetting& side : sides) {
+                if (!takes_value(side.kind)) continue;
+                work.diagnostics.warning(side.span, "a model has no sides: this is left aside");
+            }
+        }
+        return stage.sides.clear();
+    }
     for (const AllSides& sides : stage.sides) {
         if (!are_pairs(work, sides)) return;
         if (work.program.domain.mask && !are_periodic_as_boundary(work, sides)) return;

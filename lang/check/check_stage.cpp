@@ -34,8 +34,10 @@ public:
                  std::size_t& copied)
         : work_(work), script_(script), index_(index), copied_(copied) {}
 
-    /// `overrides` come from outside the script; of two with one name the last counts.
-    void run(const ast::Block& block, const std::vector<const ast::Statement*>& overrides);
+    /// `overrides` come from outside the script; of two with one name the last counts. `asked` is what
+    /// options say of every stage's time.
+    void run(const ast::Block& block, const std::vector<const ast::Statement*>& overrides,
+             const TimeSettings& asked);
 
 private:
     Stage& stage() { return work_.program.stages[index_]; }
@@ -120,7 +122,8 @@ std::vector<Declaration> StageChecker::collect(const ast::Block& block,
 }
 
 void StageChecker::run(const ast::Block& block,
-                       const std::vector<const ast::Statement*>& overrides) {
+                       const std::vector<const ast::Statement*>& overrides,
+                       const TimeSettings& asked) {
     const std::vector<Declaration> declarations = collect(block, overrides);
     if (stage().system == unknown_system) return;
     stage().items.resize(system().item_count());
@@ -144,6 +147,7 @@ void StageChecker::run(const ast::Block& block,
     fill_defaults();
     order_items();
     find_uniform();
+    if (asked.solver) change_solver(stage(), asked);
     check_time(work_, index_);
 }
 
@@ -345,9 +349,21 @@ void check_stages(Workspace& work, const ast::Script& script) {
         add_stage(work, block);
     }
     const StageOverrides overrides = distribute_overrides(work, script);
+    const ast::Statement* const steps = find_option(script, "steps");
+    const double most_steps =
+        steps != nullptr ? check_constant(work, script, steps->values[0], "steps").value_or(0)
+                         : static_cast<double>(most_iterations);
+    Settings asked;
+    if (const auto* solver = find_option(script, "solver")) {
+        check_time_setting(work, script, *solver, {}, asked);
+    }
     std::size_t copied = 0;
     for (std::uint32_t i = 0; i < blocks.size(); ++i) {
-        StageChecker(work, script, i, copied).run(*blocks[i], overrides[i]);
+        StageChecker(work, script, i, copied).run(*blocks[i], overrides[i], asked.time);
+        Stage& stage = work.program.stages[i];
+        if (static_cast<double>(stage.iterations) > most_steps) {
+            stage.iterations = static_cast<std::int64_t>(most_steps);
+        }
     }
 }
 

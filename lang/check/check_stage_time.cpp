@@ -139,36 +139,16 @@ void check_time(Workspace& work, std::uint32_t index) {
     if (time.until) check_condition(work, index);
 }
 
-}  // namespace cascade::checking
-
-namespace cascade {
-
-void change_solver(Program& program, Solver solver, Span span, Diagnostics& diagnostics) {
-    for (std::uint32_t index = 0; index < program.stages.size(); ++index) {
-        Stage& stage = program.stages[index];
-        const System& system = program.systems[stage.system];
-        if (!takes_speed_by_cell(solver) && !stage.uniform[system.speed_item()]) {
-            diagnostics.error(span, fmt::format("{} cannot take the speed of stage '{}', which varies "
-                                                "by cell", name_of(solver), stage.name));
-            continue;
-        }
-        stage.time.solver = solver;
-        checking::check_semi_implicit(program, index, span, diagnostics);
-        if (is_adaptive(solver) || takes_long_steps(solver)) {
-            checking::count_duration_in_steps(stage);
-            if (stage.time.has_duration()) stage.interval = 0;
-        }
-        if (takes_long_steps(solver)) stage.time.automatic_speed = true;
-        if (!stage.time.chooses_steps()) continue;
-        if (const Node* reader = checking::reader_of_speed(program, stage)) {
-            Diagnostic diagnostic;
-            diagnostic.span = span;
-            diagnostic.message = fmt::format("{} chooses its steps as stage '{}' runs, whose speed is "
-                                             "read", name_of(solver), stage.name);
-            diagnostic.notes.push_back({reader->span, "it is read here"});
-            diagnostics.add(std::move(diagnostic));
-        }
+void change_solver(Stage& stage, const TimeSettings& asked) {
+    StageTime& time = stage.time;
+    time.solver = *asked.solver;
+    time.solver_span = asked.solver_span;
+    if (is_adaptive(time.solver) || takes_long_steps(time.solver)) {
+        count_duration_in_steps(stage);
+        if (time.has_duration()) stage.interval = 0;
     }
+    if (takes_long_steps(time.solver)) time.automatic_speed = true;
+    if (!time.chooses_steps()) time.largest_step.reset();
 }
 
 void check_coarse_starts(const Program& program, Diagnostics& diagnostics) {
@@ -177,6 +157,12 @@ void check_coarse_starts(const Program& program, Diagnostics& diagnostics) {
     for (const Stage& stage : program.stages) {
         const std::int64_t times = stage.time.coarse;
         if (times == 1) continue;
+        if (program.domain.model) {
+            diagnostics.error(stage.time.coarse_span,
+                              fmt::format("stage '{}' starts on a coarser grid, which a model does "
+                                          "not have", stage.name));
+            continue;
+        }
         if (program.domain.surface) {
             diagnostics.error(stage.time.coarse_span,
                               fmt::format("stage '{}' starts on a coarser grid, which a surface does "
@@ -201,4 +187,4 @@ void check_coarse_starts(const Program& program, Diagnostics& diagnostics) {
     }
 }
 
-}  // namespace cascade
+}  // namespace cascade::checking

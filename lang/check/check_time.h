@@ -27,8 +27,15 @@ void check_time_setting(Workspace& work, const ast::Script& script, const ast::S
 /// language's.
 void fill_time(Stage& stage, const Settings& own, const Settings& defaults);
 
+/// The stage takes the solver of `asked` (`--solver`) and keeps the time it takes: iterations · speed
+/// where it has no duration. Stabilised and semi-implicit solvers choose their steps as with `speed: auto`.
+void change_solver(Stage& stage, const TimeSettings& asked);
+
 /// Faults that only show when the whole stage is known: settings that do not go together, a speed
 /// that varies where it must not, a condition that varies by cell.
 void check_time(Workspace& work, std::uint32_t stage);
+
+/// Stages that start on coarser grids need a flat grid, all of whose sides can be halved so often.
+void check_coarse_starts(const Program& program, Diagnostics& diagnostics);
 
 }  // namespace cascade::checking

@@ -141,6 +141,9 @@ std::string print_ast(const ast::Script& script, const Sources& sources) {
             result += "    " + print_statement(statement, printer);
         }
     }
+    for (const ast::Statement& option : script.options) {
+        result += "option " + print_statement(option, printer);
+    }
     for (const ast::Override& change : script.overrides) {
         result += "set ";
         if (!change.stage.empty()) result += fmt::format("{}.", change.stage.text);

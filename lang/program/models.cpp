@@ -68,31 +68,6 @@ bool has_meaning_on_plane(const Program& program, const Formula& formula, Diagno
     return has_meaning;
 }
 
-void check_time(const Stage& stage, Diagnostics& diagnostics) {
-    if (is_semi_implicit(stage.time.solver)) {
-        diagnostics.error(stage.time.solver_span.end > 0 ? stage.time.solver_span : stage.span,
-                          fmt::format("stage '{}': the solver {} needs the waves of a grid, which "
-                                      "a model does not have", stage.name, name_of(stage.time.solver)),
-                          "rkl1 takes long steps on models");
-    }
-    if (stage.time.coarse > 1) {
-        diagnostics.error(stage.time.coarse_span,
-                          fmt::format("stage '{}' starts on a coarser grid, which a model does "
-                                      "not have", stage.name));
-    }
-}
-
-/// Boundaries of a model have no flux through them.
-void leave_sides(Stage& stage, Diagnostics& diagnostics) {
-    for (const auto& sides : stage.sides) {
-        for (const SideSetting& side : sides) {
-            if (!takes_value(side.kind)) continue;
-            diagnostics.warning(side.span, "a model has no sides: this is left aside");
-        }
-    }
-    stage.sides.clear();
-}
-
 }  // namespace
 
 Grid rows_of_cells(std::int64_t cells) {
@@ -102,16 +77,6 @@ Grid rows_of_cells(std::int64_t cells) {
     grid.boundary = Boundary::no_flux;
     grid.linked = true;
     return grid;
-}
-
-void set_model(Program& program, ModelSettings model) {
-    DomainSettings& domain = program.domain;
-    domain.grid = rows_of_cells(model.count);
-    domain.grid_span = model.cells_span;
-    domain.mask.reset();
-    domain.surface.reset();
-    domain.sides = {};
-    domain.model = std::move(model);
 }
 
 std::optional<ModelShape> shape_named(std::string_view word) {
@@ -160,24 +125,6 @@ std::vector<const Formula*> formulas_of(const Program& program) {
         }
     }
     return formulas;
-}
-
-void check_on_domain(Program& program, Diagnostics& diagnostics) {
-    auto& model = program.domain.model;
-    if (model) {
-        for (Stage& stage : program.stages) {
-            check_time(stage, diagnostics);
-            leave_sides(stage, diagnostics);
-        }
-        if (model->directions && model->cells != ModelCellKind::spread) {
-            diagnostics.error(model->directions->span,
-                              "only cells that are spread over a model can be stretched",
-                              "cells: 20000");
-        }
-    }
-    for (const Formula* formula : formulas_of(program)) {
-        (void)has_meaning_on_domain(program, *formula, diagnostics);
-    }
 }
 
 }  // namespace cascade

@@ -14,18 +14,10 @@ namespace cascade {
 /// The rows in which so many cells lie, as a grid: see Grid::linked.
 Grid rows_of_cells(std::int64_t cells);
 
-/// Replaces the domain by a model: grid, mask, sides and the surface of parameters go, seed and precision
-/// stay.
-void set_model(Program& program, ModelSettings model);
-
 /// The shape of a surface that has a name, such as sphere; nothing for other words.
 std::optional<ModelShape> shape_named(std::string_view word);
 /// The word for a shape in scripts; empty for a file.
 std::string_view word_of(ModelShape shape);
-
-/// Adds an error for whatever of the program cannot be done on its domain, a model or a plane, and on a
-/// model a warning for what is left aside (the sides of the plane).
-void check_on_domain(Program& program, Diagnostics& diagnostics);
 
 /// Adds an error for every function of a formula that has no meaning on the domain, such as second
 /// derivatives by name on a model and distances along it on a plane; true where there is none.

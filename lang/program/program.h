@@ -290,7 +290,6 @@ struct ModelSettings {
     std::optional<DirectionSettings> directions;
     double stretch = 2;           ///< How many times as long as wide cells are along the directions.
     Span span;                    ///< Of what names the model.
-    Span cells_span;              ///< Of the number of cells; empty where it is not written.
     /// The largest sum of the weights of a cell's links: known when the cells are made.
     double largest_weight = 12;
 };
@@ -313,7 +312,6 @@ struct DomainSettings {
     Precision precision = Precision::single;  ///< Of all numbers of a run.
     bool fast = false;           ///< Steps are computed with fewer roundings (ir/contraction.h).
     std::array<std::optional<SideSetting>, side_count> sides;  ///< Of all species.
-    Span grid_span;              ///< For messages about its size; empty when it is the default.
 };
 
 struct Program {

@@ -135,6 +135,10 @@ struct Script {
     std::vector<FunctionDefinition> functions;
     std::vector<Use> uses;
     std::vector<Override> overrides;
+    /// What other options of the command line say of the domain and of all stages: --grid 64x32 is
+    /// `grid: 64, 32`. An option has the last word. Each has a source of its own, the typed text;
+    /// --fast has no value.
+    std::vector<Statement> options;
     std::vector<Expr> expressions;
     std::vector<ExprId> arguments;
 };

@@ -4,14 +4,13 @@
 
 #include "core/file.h"
 #include "core/near_name.h"
-#include "ir/multiply_add.h"
 #include "lang/check/chance.h"
 #include "lang/check/check.h"
 #include "lang/check/unread_stages.h"
-#include "lang/program/models.h"
 #include "lang/syntax/parse.h"
 #include "picture/image.h"
 #include "run/script/embedded_script.h"
+#include "run/script/option_statements.h"
 #include "run/script/used_files.h"
 
 #include <fmt/format.h>
@@ -97,136 +96,6 @@ std::optional<std::uint32_t> find_stage_of_option(Script& script, const std::str
 
 namespace {
 
-void apply_grid(Script& script) {
-    if (!script.overrides.grid) return;
-    DomainSettings& domain = script.program->domain;
-    if (domain.model && !script.overrides.model) {
-        script.diagnostics.warning(domain.model->span,
-                                   "the grid asked for takes the place of this model");
-    }
-    if (domain.model) domain.grid = Grid{};  // Its rows say nothing of a plane.
-    domain.model.reset();
-    const auto [width, height, depth] = *script.overrides.grid;
-    const bool is_one_number = script.overrides.grid_is_one_number;
-    const std::string value = is_one_number ? fmt::format("{}", width)
-                              : depth == 1  ? fmt::format("{}x{}", width, height)
-                                            : fmt::format("{}x{}x{}", width, height, depth);
-    const Span span = option_span(script.sources, "--grid", value);
-    constexpr std::int64_t most_cells = std::int64_t{1} << 31;
-    script.program->domain.grid_span = span;
-    if (width < 1 || height < 1 || depth < 1) {
-        script.diagnostics.error(span, depth == 1 ? "a grid has at least one column and one row"
-                                                  : "a grid has at least one cell along each axis");
-    } else if (width == 1 && height == 1 && depth == 1) {
-        script.diagnostics.error(span, "a grid of one cell has no neighbours",
-                                 "patterns need at least two cells");
-    } else if (width > most_cells / height || width * height > most_cells / depth) {
-        script.diagnostics.error(span, "a grid of more than 2147483648 cells is too large");
-    } else {
-        Grid& grid = script.program->domain.grid;
-        const bool was_a_line = grid.height == 1 && grid.depth == 1;
-        if (is_one_number && !was_a_line) {
-            script.diagnostics.warning(
-                span, fmt::format("this is a line of {} cells", width),
-                fmt::format("for a square write --grid {}x{}", width, width));
-        }
-        grid.width = width;
-        grid.height = height;
-        grid.depth = depth;
-    }
-}
-
-/// A number of cells, or what becomes a cell.
-void set_cells(ModelSettings& model, const std::string& cells, Span span, Diagnostics& diagnostics) {
-    model.cells_span = span;
-    if (cells == "faces" || cells == "vertices") {
-        model.cells = cells == "faces" ? ModelCellKind::faces : ModelCellKind::vertices;
-        return;
-    }
-    constexpr std::int64_t most = std::int64_t{1} << 28;
-    std::int64_t count = 0;
-    const auto [end, fault] = std::from_chars(cells.data(), cells.data() + cells.size(), count);
-    if (fault != std::errc() || end != cells.data() + cells.size() || count < 1 || count > most) {
-        return diagnostics.error(span, "cells are a number from 1 to 268435456, faces or vertices",
-                                 "as in --cells 64000");
-    }
-    model.cells = ModelCellKind::spread;
-    model.count = count;
-}
-
-void apply_model(Script& script) {
-    DomainSettings& domain = script.program->domain;
-    const Overrides& overrides = script.overrides;
-    if (overrides.model) {
-        ModelSettings model = domain.model.value_or(ModelSettings{});
-        // The unit of a surface is a length of that surface, and stays with a script's model alone.
-        model.span = option_span(script.sources, "--mesh", *overrides.model);
-        model.implicit.reset();
-        model.sizes.clear();
-        model.up = ModelSettings().up;
-        if (const auto shape = shape_named(*overrides.model)) {
-            model.shape = *shape;
-        } else {
-            model.shape = ModelShape::file;
-            model.path = *overrides.model;
-        }
-        if (overrides.grid) {
-            script.diagnostics.error(model.span, "a run has a model or a grid, not both",
-                                     "--cells is the number of cells on a model");
-        }
-        if (domain.mask) {
-            script.diagnostics.warning(domain.mask->span, "a model has no mask: this is left aside");
-        }
-        set_model(*script.program, std::move(model));
-    }
-    if (overrides.cells) {
-        const Span span = option_span(script.sources, "--cells", *overrides.cells);
-        if (!domain.model) {
-            script.diagnostics.error(span, "only a run on a model spreads cells", "--mesh names one");
-            return;
-        }
-        ModelSettings model = *std::move(domain.model);
-        set_cells(model, *overrides.cells, span, script.diagnostics);
-        set_model(*script.program, std::move(model));
-    }
-    if (overrides.up) {
-        if (!domain.model) {
-            script.diagnostics.error(
-                option_span(script.sources, "--up", std::string(name_of(*overrides.up))),
-                "only a model has an axis that points upwards", "--mesh names one");
-            return;
-        }
-        domain.model->up = *overrides.up;
-    }
-    check_on_domain(*script.program, script.diagnostics);
-}
-
-/// What the processor has no instruction for is left aside.
-void apply_fast(Script& script) {
-    if (!script.overrides.fast) return;
-    script.program->domain.fast = has_multiply_add();
-    if (script.program->domain.fast) return;
-    script.diagnostics.warning(option_span(script.sources, "--fast", ""),
-                               "this processor does not multiply and add in one operation: --fast changes nothing");
-}
-
-void apply_solver(Script& script) {
-    if (!script.overrides.solver) return;
-    const Span span = option_span(script.sources, "--solver", *script.overrides.solver);
-    if (const auto solver = solver_of(*script.overrides.solver)) {
-        change_solver(*script.program, *solver, span, script.diagnostics);
-    } else {
-        script.diagnostics.error(span, "there is no such solver");
-    }
-}
-
-void apply_steps(Script& script) {
-    if (!script.overrides.steps) return;
-    for (Stage& stage : script.program->stages) {
-        stage.iterations = std::min(stage.iterations, *script.overrides.steps);
-    }
-}
-
 void check_until_stage(Script& script) {
     if (!script.overrides.until_stage) return;
     const std::string& name = *script.overrides.until_stage;
@@ -236,13 +105,15 @@ void check_until_stage(Script& script) {
 void check_chance(Script& script) {
     const Program& program = *script.program;
     warn_of_draws_by_step(program, script.diagnostics);
+    const auto& options = script.tree.options;
+    const auto seed = std::find_if(options.begin(), options.end(), [](const ast::Statement& option) {
+        return option.name.text == "seed";
+    });
     // The cells of a model are spread by chance, too.
-    const bool is_for_nothing = script.overrides.seed && !program.stages.empty() &&
+    const bool is_for_nothing = seed != options.end() && !program.stages.empty() &&
                                 !program.domain.model && !draws_random_numbers(program);
     if (!is_for_nothing) return;
-    const Span span =
-        option_span(script.sources, "--seed", fmt::format("{}", *script.overrides.seed));
-    script.diagnostics.warning(span,
+    script.diagnostics.warning(seed->span,
                                "nothing in this script is random, so no seed changes its result",
                                "random(0, 0.01) in a starting value would be");
 }
@@ -286,18 +157,10 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
         const SourceId id = script.sources.add("<--set>", set);
         parse_override(id, script.sources, script.tree, script.diagnostics);
     }
+    add_option_statements(script);
     script.program = check(script.tree, script.sources, script.diagnostics);
     if (!script.program) return script;
 
-    DomainSettings& domain = script.program->domain;
-    domain.seed = script.overrides.seed.value_or(domain.seed);
-    domain.precision = script.overrides.precision.value_or(domain.precision);
-    apply_fast(script);
-    apply_grid(script);
-    apply_solver(script);
-    apply_model(script);
-    apply_steps(script);
-    check_coarse_starts(*script.program, script.diagnostics);
     check_until_stage(script);
     check_chance(script);
     if (!script.diagnostics.has_errors()) check_views(script);

@@ -312,7 +312,7 @@ TEST(CheckFaults, Models) {
                 ElementsAre("1:16: a mesh is the name of a file in quotes | "
                             "mesh: \"horse.ply\""));
     EXPECT_THAT(faults("domain { mesh: \"horse.ply\"; grid: 20, 20 }"),
-                ElementsAre("1:29: a model has no grid | its cells are spread over it: cells: 20000"));
+                ElementsAre("1:29: a model has no grid | its cells are spread over it: cells: 20000, or --cells 20000"));
     EXPECT_THAT(faults("domain { mesh: \"horse.ply\"; surface: sphere }"),
                 ElementsAre("1:29: a domain has a mesh or a surface, not both"));
     EXPECT_THAT(faults("domain { surface: torus(1) }"),
@@ -321,7 +321,7 @@ TEST(CheckFaults, Models) {
                 ElementsAre("1:19: the tube of a torus is thinner than its ring | "
                             "surface: torus(1, 0.4)"));
     EXPECT_THAT(faults("domain { surface: sphere; cells: 2.5 }"),
-                ElementsAre("1:34: cells must be a whole number from 1 to 268435456 | cells: 20000"));
+                ElementsAre("1:34: cells must be a whole number from 1 to 268435456 | cells: 20000, or --cells 20000"));
     EXPECT_THAT(faults("domain { surface: sphere; cells: edges }"),
                 ElementsAre("1:34: cells are a number, faces or vertices"));
     EXPECT_THAT(faults("domain { surface: sphere; laplacian: cotan }"),
@@ -330,7 +330,7 @@ TEST(CheckFaults, Models) {
                 ElementsAre("1:33: the unit of length must be above 0"));
     EXPECT_THAT(faults("domain { cells: 100 }"),
                 ElementsAre("1:10: only a domain with a model has this setting | "
-                            "mesh: \"horse.ply\" or surface: sphere"));
+                            "mesh: \"horse.ply\", surface: sphere or --mesh sphere makes it one"));
 }
 
 TEST(CheckFaults, Pictures) {

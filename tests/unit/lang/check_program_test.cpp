@@ -207,7 +207,6 @@ TEST(CheckProgram, Domain) {
     ASSERT_TRUE(checked->program);
     EXPECT_EQ(checked->program->domain.grid, (Grid{60, 1, Boundary::no_flux}));
     EXPECT_EQ(checked->program->domain.seed, 7u);
-    EXPECT_EQ(checked->sources.text(checked->program->domain.grid_span), "2*30");
 }
 
 TEST(CheckProgram, Views) {

@@ -153,7 +153,7 @@ TEST(CheckTime, WrongConditions) {
 TEST(CheckTime, CoarseStarts) {
     EXPECT_EQ(time_of("").coarse, 1);
     EXPECT_EQ(time_of("start: coarse(4)").coarse, 4);
-    EXPECT_EQ(time_of("start: coarse(2 * 32)").coarse, 64);
+    EXPECT_EQ(time_of("start: coarse(2 * 8)").coarse, 16);
     for (const char* wrong : {"1", "3", "128", "0.5", "-2"}) {
         EXPECT_THAT(faults(std::string("start: coarse(") + wrong + ")"),
                     ElementsAre("2:32: coarse takes 2, 4, 8, … 64 | each grid has cells half as wide "

@@ -8,7 +8,6 @@
 // something must be the hint of a case. Hints that only explain are no concern of this test.
 #include "check_helpers.h"
 #include "hint_cases.h"
-#include "lang/program/models.h"
 #include "lang/vocabulary/words_elsewhere.h"
 
 #include <gtest/gtest.h>
@@ -67,7 +66,6 @@ std::unique_ptr<Checked> check_option(const std::string& change) {
 
 void expect_sound(const std::string& script, std::unique_ptr<Checked> checked,
                   const Diagnostic& fault) {
-    if (checked->program) check_on_domain(*checked->program, checked->diagnostics);
     EXPECT_FALSE(checked->diagnostics.has_errors())
         << script << ::testing::PrintToString(checked->faults());
     for (const Diagnostic& each : checked->diagnostics.sorted()) {
@@ -81,7 +79,6 @@ TEST(Hints, MendWhatTheyStandAt) {
         const std::string before(is_option ? std::string(each.before)
                                            : framed(each.frame, each.before));
         auto checked = is_option ? check_option(before) : check_text(before);
-        if (checked->program) check_on_domain(*checked->program, checked->diagnostics);
         const auto fault = find_hint(*checked, each.hint);
         if (!fault) {
             ADD_FAILURE() << before << "\nhas no hint " << each.hint << ", but "

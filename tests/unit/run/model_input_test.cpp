@@ -51,7 +51,7 @@ TEST(ModelInput, AMaskIsLeftAsideWhereAModelIsAskedFor) {
                   .find("warning: a model has no mask: this is left aside"),
               std::string::npos);
     overrides.grid = GridSize{20, 20};
-    EXPECT_NE(messages_of("grid: 20, 20", "lap(u)", "", overrides).find("a model or a grid, not both"),
+    EXPECT_NE(messages_of("grid: 20, 20", "lap(u)", "", overrides).find("<--grid>:1:1: error: a model has no grid"),
               std::string::npos);
 }
 

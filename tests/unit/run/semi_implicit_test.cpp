@@ -250,7 +250,7 @@ TEST(SemiImplicit, SaysWhatItCannotTake) {
     Overrides changes;
     changes.solver = "imex2";
     EXPECT_THAT(faults_of("stage one: turing_spots { speed: 0.5 + x }", changes),
-                HasSubstr("imex2 cannot take the speed of stage 'one'"));
+                HasSubstr("1:34: error: with imex2 the speed is the same in all cells"));
     EXPECT_THAT(faults_of("stage one: turing_spots { frozen: x > 0.5 }", changes),
                 HasSubstr("stage 'one' freezes cells, which imex2 cannot"));
 }

@@ -338,7 +338,7 @@ TEST(Solvers, TheOptionSaysWhichStageCannotTakeIt) {
         "test", "system decay { u: 1; u' = -u }\nstage s: decay { speed: 0.25 + 0.1 * x }", ".", changes);
     EXPECT_FALSE(script.program);
     EXPECT_THAT(script.messages(false),
-                HasSubstr("rk4 cannot take the speed of stage 's', which varies by cell"));
+                HasSubstr("2:25: error: with rk4 the speed is the same in all cells"));
 }
 
 }  // namespace

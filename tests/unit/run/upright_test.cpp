@@ -123,7 +123,7 @@ TEST_F(Upright, ItIsRefusedOnPlanesAndTravelsInPictures) {
     Overrides overrides;
     overrides.up = Axis::z;
     EXPECT_THAT(load("domain { grid: 9, 9 }\nstage one: turing_spots { }\n", overrides).messages(false),
-                ::testing::HasSubstr("only a model has an axis that points upwards"));
+                ::testing::HasSubstr("<--up>:1:1: error: only a domain with a model has this setting"));
     const auto back = overrides_from_json(overrides_to_json(overrides));
     ASSERT_TRUE(back);
     EXPECT_EQ(back->up, Axis::z);
