@@ -2,6 +2,7 @@
 // and rates share.
 #include "lang/calculus/derivative.h"
 
+#include "core/check.h"
 #include "lang/calculus/flat_rates.h"
 #include "lang/calculus/slopes.h"
 
@@ -161,17 +162,19 @@ private:
 std::optional<Formula> rate_derivative(const Program& program, std::uint32_t stage,
                                        std::uint32_t of, std::uint32_t by) {
     FlatRates rates(program.system_of(stage));
-    SlopeRules rules(rates.builder(), program);
+    SlopeRules rules(rates.builder(), program, nullptr);
     const auto slopes = slopes_of(rates, rules, by);
     if (!slopes) return std::nullopt;
     return rates.builder().formula((*slopes)[rates.rate(of)][0].own);
 }
 
-std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_t stage) {
+std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_t stage,
+                                            const ModelFacts* model) {
+    CHECK(!program.domain.model || model, "a bound on a model depends on its cells");
     const System& system = program.system_of(stage);
     FlatRates rates(system);
     FormulaBuilder& builder = rates.builder();
-    SlopeRules rules(builder, program);
+    SlopeRules rules(builder, program, model);
     std::vector<std::uint32_t> species;
     for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
         if (system.is_species(item)) species.push_back(item);

@@ -1,7 +1,7 @@
 // Derivatives of a system's rates by its species, found by the rules of calculus and simplified.
 #pragma once
 
-#include "lang/program/program.h"
+#include "lang/program/models.h"
 
 #include <cstdint>
 #include <optional>
@@ -28,7 +28,9 @@ struct JacobianBound {
     bool jumps = false;
 };
 
-/// Empty as above, or where the formulas become too large.
-std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_t stage);
+/// Empty as above, or where the formulas become too large. `model` is what is known of the model that is the
+/// domain; null on grids.
+std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_t stage,
+                                            const ModelFacts* model = nullptr);
 
 }  // namespace cascade

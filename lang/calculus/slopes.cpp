@@ -7,12 +7,11 @@
 
 namespace cascade {
 
-SlopeRules::SlopeRules(FormulaBuilder& builder, const Program& program)
+SlopeRules::SlopeRules(FormulaBuilder& builder, const Program& program, const ModelFacts* model)
     : builder_(builder),
-      grid_(program.domain.grid),
+      grid_(model ? model->grid : program.domain.grid),
       has_metric_(program.domain.surface && program.domain.surface->has_metric),
-      links_(program.domain.model ? std::optional(program.domain.model->largest_weight)
-                                  : std::nullopt),
+      links_(model ? std::optional(model->largest_weight) : std::nullopt),
       zero_(builder.number(0)) {}
 
 bool SlopeRules::is_zero(const Slope& slope) const {

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "lang/program/formula_builder.h"
-#include "lang/program/program.h"
+#include "lang/program/models.h"
 
 #include <array>
 #include <cstdint>
@@ -39,7 +39,8 @@ using Slopes = std::array<Slope, 3>;
 
 class SlopeRules {
 public:
-    SlopeRules(FormulaBuilder& builder, const Program& program);
+    /// `model` may be null where nothing beyond the own cell is asked for.
+    SlopeRules(FormulaBuilder& builder, const Program& program, const ModelFacts* model);
 
     /// The slopes of part `id` by species item `species`, given those of all parts before it. Empty
     /// where the part depends on the species and there is no rule for it.

@@ -14,6 +14,13 @@ namespace cascade {
 /// The rows in which so many cells lie, as a grid: see Grid::linked.
 Grid rows_of_cells(std::int64_t cells);
 
+/// What is known of the cells of a model when they are made. DomainSettings::grid are the rows of as many
+/// as the script asks for.
+struct ModelFacts {
+    Grid grid;                  ///< The rows in which they lie.
+    double largest_weight = 0;  ///< The largest sum of the weights of a cell's links.
+};
+
 /// The shape of a surface that has a name, such as sphere; nothing for other words.
 std::optional<ModelShape> shape_named(std::string_view word);
 /// The word for a shape in scripts; empty for a file.

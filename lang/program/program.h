@@ -290,8 +290,6 @@ struct ModelSettings {
     std::optional<DirectionSettings> directions;
     double stretch = 2;           ///< How many times as long as wide cells are along the directions.
     Span span;                    ///< Of what names the model.
-    /// The largest sum of the weights of a cell's links: known when the cells are made.
-    double largest_weight = 12;
 };
 
 /// What is known of the cells of a model from places on it: distance(…) and keys(…), whose values are

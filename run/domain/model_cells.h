@@ -8,7 +8,7 @@
 #include "core/plane.h"
 #include "core/result.h"
 #include "core/run_control.h"
-#include "lang/program/program.h"
+#include "lang/program/models.h"
 #include "mesh/surface_mesh.h"
 #include "surface/surface_cells.h"
 
@@ -20,7 +20,7 @@
 
 namespace cascade {
 
-struct ModelCells {
+struct ModelCells : ModelFacts {
     /// Turned upright: y points upwards, whatever axis does so in the file. Nothing but what writes files
     /// of the model, in whose own coordinates they are, has to know.
     SurfaceMesh mesh;
@@ -31,10 +31,8 @@ struct ModelCells {
     /// column k mod W of row k / W. Only planes and links do; whatever leaves a run, and random numbers,
     /// have the cells in their own order.
     std::vector<std::uint32_t> order;
-    Grid grid;
     Mask inside;                       ///< 0 in what fills up the last row, else 1.
     double unit = 1;                   ///< In lengths of the model.
-    double largest_weight = 0;         ///< The largest sum of the weights of a cell's links.
     std::vector<Field> planes;         ///< By ModelPlane.
     /// Without weights of gradients until need_gradients() has been called: few scripts ask for them.
     mutable Links links;

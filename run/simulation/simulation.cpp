@@ -59,14 +59,15 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     for (std::uint32_t k = 0; self.account != nullptr && k < script.stage_count(); ++k) {
         self.account->stage(k).name = self.stage(k).name;
     }
-    if (auto planned = self.plan(options); !planned) return tl::unexpected(planned.error());
-    if (self.program->domain.model) {
-        const Grid expected = self.grid;
+    self.plans = std::make_unique<StagePlans>(*self.program, options.planning);
+    // How many faces or points a model has is known only when it has been read.
+    const auto& model = self.program->domain.model;
+    if (!model || model->cells == ModelCellKind::spread) {
+        if (auto fits = self.check_memory(options.memory_limit); !fits) return tl::unexpected(fits.error());
+    }
+    if (model) {
         if (auto made = self.make_cells(options); !made) return tl::unexpected(made.error());
-        // How many faces or points a model has is known only now.
-        if (self.grid != expected) {
-            if (auto planned = self.plan(options); !planned) return tl::unexpected(planned.error());
-        }
+        if (auto fits = self.check_memory(options.memory_limit); !fits) return tl::unexpected(fits.error());
     }
     auto files = [&] {
         const TimeAccount::Scope spent(self.account, Spent::reading);
@@ -357,6 +358,7 @@ StageTools Simulation::Implementation::tools(std::uint32_t k, Compile steps) con
         return values;
     };
     tools.inside = counted();
+    tools.model = model.get();
     tools.is_true = [this, k](const Formula& formula) {
         look_at_until(k);
         return evaluate(plan_view(*program, formula, k), k)[0].number_at(0, 0) != 0;

@@ -36,7 +36,7 @@ StepInUse Simulation::Implementation::step_in_use(std::uint32_t k) const {
 bool Simulation::Implementation::diffusion_limits(std::uint32_t k) const {
     constexpr double worth_changing = 4;
     if (stage(k).time.solver == Solver::symplectic || takes_long_steps(stage(k).time.solver)) return false;
-    const auto bound = jacobian_bound(*program, k);
+    const auto bound = jacobian_bound(*program, k, model.get());
     if (!bound || bound->jumps) return false;
     const Formula* const formulas[] = {&bound->whole, &bound->reaction};
     const std::vector<Field> bounds = evaluate(plan_view(*program, formulas, k), k);

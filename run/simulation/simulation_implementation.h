@@ -103,8 +103,9 @@ struct Simulation::Implementation {
 
     // What a run and its stages start with (simulation_start.cpp).
 
-    /// How stages are computed, and whether there is memory for it.
-    Result<void> plan(const SimulationOptions& options);
+    /// Finds how much memory the run takes, and whether it may: no more than `limit` bytes, where that is
+    /// above 0, and than are free.
+    Result<void> check_memory(std::uint64_t limit);
     /// Of a model.
     Result<void> make_cells(const SimulationOptions& options);
     /// What formulas of the program read of places on a model.

@@ -43,15 +43,13 @@ std::vector<Formula> written_areas(const Program& program) {
 
 }  // namespace
 
-Result<void> Simulation::Implementation::plan(const SimulationOptions& options) {
+Result<void> Simulation::Implementation::check_memory(std::uint64_t limit) {
     const TimeAccount::Scope spent(account, Spent::compiling);
-    plans = std::make_unique<StagePlans>(*program, options.planning);
-    memory = memory_of(*program, *plans);
-    return check_memory(grid, memory, options.memory_limit);
+    memory = memory_of(*program, *plans, model.get());
+    return cascade::check_memory(grid, memory, limit);
 }
 
 Result<void> Simulation::Implementation::make_cells(const SimulationOptions& options) {
-    DomainSettings& domain = script->program->domain;
     const TimeAccount::Scope spent(account, Spent::cells);
     Team makers(threads);
     RunControl nobody;
@@ -61,15 +59,14 @@ Result<void> Simulation::Implementation::make_cells(const SimulationOptions& opt
     auto made = make_model_cells(*program, access, makers, control);
     if (control.cancel) return failure("stopped while the cells of the model were made");
     if (!made) {
-        script->diagnostics.error(domain.model->span, made.error().message, made.error().hint);
+        script->diagnostics.error(program->domain.model->span, made.error().message, made.error().hint);
         return failure("the model cannot be used");
     }
     model = std::move(*made);
     if (control.warn) {
         for (const std::string& repair : model->repairs) control.warn("the model was repaired: " + repair);
     }
-    domain.grid = grid = model->grid;
-    domain.model->largest_weight = model->largest_weight;
+    grid = model->grid;
     return {};
 }
 

@@ -31,7 +31,8 @@ namespace {
 
 /// Planes that live as long as a stage is run: temporaries of passes, the registers besides the old
 /// step, and the kept copy of the species.
-std::uint64_t planes_while_running(const Program& program, std::uint32_t k, StagePlans& plans) {
+std::uint64_t planes_while_running(const Program& program, std::uint32_t k, StagePlans& plans,
+                                   const Grid& grid) {
     const Stage& stage = program.stages[k];
     const std::uint32_t species = program.system_of(k).species_count();
     Scheme scheme = make_scheme(stage.time.solver, species, steps_by_item(stage));
@@ -45,10 +46,9 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
     // What no step changes is kept beside them, and computed with temporaries of its own.
     const StepPlan& step_invariants = plans.step_invariants(k);
     temporaries = std::max(temporaries, step_invariants.temporaries) + step_invariants.result_count;
-    const DomainSettings& domain = program.domain;
     Schedule schedule;
     schedule.judges_all = judges_all_steps(stage);
-    const bool keeps = keeps_copy(schedule, species, domain.grid, domain.precision);
+    const bool keeps = keeps_copy(schedule, species, grid, program.domain.precision);
     std::uint64_t planes = temporaries + std::uint64_t{scheme.registers - (keeps ? 0 : 1)} * species;
     if (!is_semi_implicit(stage.time.solver)) return planes;
     // Factors of diffusion that change are written to planes.
@@ -62,8 +62,7 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
 
 /// The elements of a plane and of those of the coarser grids that live beside it: of the one that is
 /// run and of the one before it.
-std::int64_t plane_size(const Program& program) {
-    const Grid& grid = program.domain.grid;
+std::int64_t plane_size(const Program& program, const Grid& grid) {
     std::int64_t size = PlaneLayout(grid).size(), coarse = 0;
     for (const Stage& stage : program.stages) {
         if (stage.time.coarse == 1) continue;
@@ -76,10 +75,11 @@ std::int64_t plane_size(const Program& program) {
 
 /// Planes that choosing steps and stages takes for a moment: what bounds are computed in, or an
 /// eigenvalue is estimated with (two planes of each species and four vectors in double precision).
-std::uint64_t planes_to_choose(const Program& program, std::uint32_t stage) {
+std::uint64_t planes_to_choose(const Program& program, std::uint32_t stage, const ModelFacts* model) {
+    if (program.domain.model && model == nullptr) return 0;
     const StageTime& time = program.stages[stage].time;
     if (!is_stabilised(time.solver) && !(time.automatic_speed && !is_adaptive(time.solver))) return 0;
-    const auto bound = jacobian_bound(program, stage);
+    const auto bound = jacobian_bound(program, stage, model);
     if (!bound) return std::uint64_t{10} * program.system_of(stage).species_count();
     const Formula* const formulas[] = {&bound->whole, &bound->reaction};
     const StepPlan plan = plan_view(program, formulas, stage);
@@ -93,7 +93,8 @@ double memory_of(const Program& program) {
     return memory_of(program, plans);
 }
 
-double memory_of(const Program& program, StagePlans& plans) {
+double memory_of(const Program& program, StagePlans& plans, const ModelFacts* model) {
+    const Grid& grid = model ? model->grid : program.domain.grid;
     // Every species, its last look at whether it has settled, and every varying parameter, of all stages:
     // later stages and pictures may read any of them.
     std::uint64_t planes = 4;
@@ -109,13 +110,13 @@ double memory_of(const Program& program, StagePlans& plans) {
     }
     std::uint64_t while_running = 0;
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
-        while_running = std::max(while_running, planes_while_running(program, k, plans) +
-                                                    planes_to_choose(program, k));
+        while_running = std::max(while_running, planes_while_running(program, k, plans, grid) +
+                                                    planes_to_choose(program, k, model));
     }
     planes += while_running;
     if (program.domain.surface) planes += metric_plane_count;
     if (program.domain.mask) planes += 2;  // One of words, one of bytes.
-    return static_cast<double>(planes) * static_cast<double>(plane_size(program)) *
+    return static_cast<double>(planes) * static_cast<double>(plane_size(program, grid)) *
            static_cast<double>(bytes_of(program.domain.precision));
 }
 

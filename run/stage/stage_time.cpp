@@ -62,7 +62,7 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     speed_ = uniform_speed_ ? state.numbers[system.speed_item()] : 1;
     duration_ = duration_of(stage_, system, state);
     if (chooses()) {
-        if (const auto bound = jacobian_bound(program, stage)) {
+        if (const auto bound = jacobian_bound(program, stage, tools_.model)) {
             const Formula* const formulas[] = {&bound->whole, &bound->reaction};
             bounds_by_rule_ = tools_.numbers(formulas);
             jumps_ = bound->jumps;
@@ -117,7 +117,7 @@ std::uint32_t StageTimer::substeps(const Program& program, std::uint32_t stage) 
                           uniform_speed_;
     if (!is_split) return state_.time.stages;
     double decay = 0;
-    if (const auto bound = jacobian_bound(program, stage)) {
+    if (const auto bound = jacobian_bound(program, stage, tools_.model)) {
         const Formula* const formulas[] = {&bound->whole, &bound->reaction};
         const std::vector<double> bounds = tools_.numbers(formulas)();
         decay = bounds[0] - bounds[1];

@@ -1,7 +1,7 @@
 // The time of one stage in a run: the passes of its solver, how long steps are, when it ends.
 #pragma once
 
-#include "lang/program/program.h"
+#include "lang/program/models.h"
 #include "run/stage/automatic_speed.h"
 #include "run/stage/forcing.h"
 #include "run/stage/stage_state.h"
@@ -34,6 +34,7 @@ struct StageTools {
     /// A bound of the eigenvalues by a power iteration, where there is none by rule.
     std::function<double()> estimate;
     const Mask* inside = nullptr;  ///< Of a mask or a model: the cells that count.
+    const ModelFacts* model = nullptr;  ///< Of the model that is the domain; null on grids.
 };
 
 class StageTimer {

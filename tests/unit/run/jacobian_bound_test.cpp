@@ -36,7 +36,9 @@ public:
     }
 
     bool ok() const { return simulation_ != nullptr; }
-    std::optional<JacobianBound> bound() const { return jacobian_bound(*script_.program, 0); }
+    std::optional<JacobianBound> bound() const {
+        return jacobian_bound(*script_.program, 0, simulation_->model().get());
+    }
 
     std::pair<double, double> bounds(const JacobianBound& bound) const {
         const Formula* const formulas[] = {&bound.whole, &bound.reaction};

@@ -1,4 +1,6 @@
 // What a script may not ask of a model: each has its message.
+#include "core/file.h"
+#include "lang/program/models.h"
 #include "run/emit_c/compile.h"
 #include "run/script/script.h"
 #include "run/simulation/simulation.h"
@@ -7,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 namespace cascade {
@@ -66,6 +69,24 @@ TEST(ModelInput, MoreCellsThanMemoryAreRefusedBeforeTheyAreMade) {
     EXPECT_TRUE(made.error().message.starts_with("the cells of this model need ")) << made.error().message;
     EXPECT_NE(made.error().message.find("the limit (--limit-memory)"), std::string::npos);
     EXPECT_EQ(made.error().hint, "use fewer cells");
+}
+
+TEST(ModelInput, FacesAreCountedBeforeTheirMemoryIs) {
+    const std::filesystem::path folder = ::testing::TempDir();
+    ASSERT_TRUE(write_file(folder / "tetrahedron.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                                       "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
+    Script script = load_script("test", "domain { mesh: \"tetrahedron.obj\"; cells: faces }\n"
+                                        "stage one: turing_spots { solver: rkl1 }\n", folder);
+    ASSERT_TRUE(script.program) << script.messages(false);
+    SimulationOptions options{BackendKind::interpreter, 0, 1};
+    const auto free = Simulation::create(script, options);
+    ASSERT_TRUE(free) << free.error().message;
+    EXPECT_EQ((*free)->grid(), rows_of_cells(4));
+    options.memory_limit = static_cast<std::uint64_t>((*free)->memory());
+    EXPECT_LT(options.memory_limit, 10'000);
+    EXPECT_TRUE(Simulation::create(script, options));
+    options.memory_limit -= 1;
+    EXPECT_FALSE(Simulation::create(script, options));
 }
 
 TEST(ModelInput, AGridTakesThePlaceOfAModelAndThatIsSaid) {
