@@ -52,7 +52,7 @@ bool measures_on_surface(const DomainSettings& domain) {
 }
 
 /// The workspace of a program that is checked already.
-Workspace workspace_of(Program& program, Diagnostics& diagnostics) {
+Workspace workspace_of(const Program& program, Diagnostics& diagnostics) {
     Workspace work{program, diagnostics, {}, {}, {}, {}, {}, 0};
     work.on_surface = measures_on_surface(program.domain);
     for (const System& system : program.systems) {
@@ -72,6 +72,7 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
     Diagnostics own;
     {
         Workspace work{program, own, {}, {}, {}, {}, {}, 0};
+        work.draft = &program;
         const std::vector<LibraryScript> library = read_library(script, sources, own);
         checking::check_domain(work, script);
         work.on_surface = measures_on_surface(program.domain);
@@ -98,7 +99,8 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
 }
 
 std::optional<Formula> check_view(const ast::Script& script, ast::Expression expression,
-                                  std::uint32_t stage, std::uint32_t last_stage, Program& program,
+                                  std::uint32_t stage, std::uint32_t last_stage,
+                                  const Program& program,
                                   const Sources& /*sources*/, Diagnostics& diagnostics) {
     Workspace work = workspace_of(program, diagnostics);
     checking::Scope scope;

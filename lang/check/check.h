@@ -19,9 +19,11 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
                              Diagnostics& diagnostics);
 
 /// Checks an expression for a picture (`--show`, `picture { color: … }`): bare names are items of
-/// `stage`, `[p]` too, `other.p` any stage up to `last_stage`. Texts are added to `program`.
+/// `stage`, `[p]` too, `other.p` any stage up to `last_stage`. What it names by number is added to
+/// the literals of the program.
 std::optional<Formula> check_view(const ast::Script& script, ast::Expression expression,
-                                  std::uint32_t stage, std::uint32_t last_stage, Program& program,
+                                  std::uint32_t stage, std::uint32_t last_stage,
+                                  const Program& program,
                                   const Sources& sources, Diagnostics& diagnostics);
 
 /// The `color:` statement of the script's picture block, if it has one.

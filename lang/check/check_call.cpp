@@ -76,10 +76,7 @@ void ExpressionChecker::take_surface_value(Function function, const ast::Call& c
     }
     Node& node = formula_.nodes.back();
     node.kind = NodeKind::surface_value;
-    std::vector<SurfaceValue>& known = work_.program.surface_values;
-    const auto found = std::find(known.begin(), known.end(), value);
-    node.index = static_cast<std::uint32_t>(found - known.begin());
-    if (found == known.end()) known.push_back(std::move(value));
+    node.index = work_.program.literals->number_of(value);
 }
 
 /// mean(e over domain). Aggregates over an index have been written out before.
@@ -249,7 +246,7 @@ void ExpressionChecker::check_palette(const Node& node) {
     need(node.operands[3], ValueType::text);
     if (parts_.back().faulty) return;
     const Node& text = formula_.nodes[node.operands[3]];
-    const std::string& name = work_.program.texts[text.index];
+    const std::string& name = work_.program.literals->texts()[text.index];
     if (find_palette(name) == nullptr) {
         std::vector<std::string> names;
         for (const Palette& palette : palettes()) names.emplace_back(palette.name);

@@ -77,7 +77,7 @@ void check_grid(Workspace& work, const ast::Script& script, const ast::Statement
                                "the largest has 2147483648 cells");
         return;
     }
-    Grid& grid = work.program.domain.grid;
+    Grid& grid = work.draft->domain.grid;
     const bool was_line = grid.height == 1 && grid.depth == 1;
     if (&statement == find_option(script, "grid") && statement.values.size() == 1 && !was_line) {
         work.diagnostics.warning(sides, fmt::format("this is a line of {} cells", counts[0]),
@@ -117,7 +117,7 @@ void check_boundary(Workspace& work, const ast::Script& script, const ast::State
         if (!boundary) return;
         along.push_back(*boundary);
     }
-    Boundaries& target = work.program.domain.grid.boundary;
+    Boundaries& target = work.draft->domain.grid.boundary;
     target = Boundaries(along[0]);
     if (along.size() > 1) target.y = along[1];
     if (along.size() > 1) target.z = along.size() > 2 ? along[2] : Boundary::periodic;
@@ -134,7 +134,7 @@ void check_spacing(Workspace& work, const ast::Script& script, const ast::Statem
                                "it is the side of a cell in your unit of length");
         return;
     }
-    work.program.domain.grid.spacing = *spacing;
+    work.draft->domain.grid.spacing = *spacing;
 }
 
 void check_seed(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
@@ -146,7 +146,7 @@ void check_seed(Workspace& work, const ast::Script& script, const ast::Statement
                                "seed must be a whole number from 0 to 4294967295");
         return;
     }
-    work.program.domain.seed = static_cast<std::uint32_t>(*seed);
+    work.draft->domain.seed = static_cast<std::uint32_t>(*seed);
 }
 
 /// What is not 0 where the domain is.
@@ -157,7 +157,7 @@ void check_mask(Workspace& work, const ast::Script& script, const ast::Statement
     scope.system = unknown_system;
     auto checked = check_number(work, script, statement.values[0], scope);
     if (!checked) return;
-    work.program.domain.mask = {std::move(checked->formula), span_of(script, statement.values[0])};
+    work.draft->domain.mask = {std::move(checked->formula), span_of(script, statement.values[0])};
 }
 
 void check_precision(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
@@ -167,7 +167,7 @@ void check_precision(Workspace& work, const ast::Script& script, const ast::Stat
     const auto* name = std::get_if<ast::Name>(&value.node);
     const std::string_view word = name != nullptr ? name->name : std::string_view();
     if (const auto precision = precision_of_name(word)) {
-        work.program.domain.precision = *precision;
+        work.draft->domain.precision = *precision;
         return;
     }
     work.diagnostics.error(value.span, "the precision is single or double",
@@ -176,7 +176,7 @@ void check_precision(Workspace& work, const ast::Script& script, const ast::Stat
 
 /// What the processor has no instruction for is left aside.
 void check_fast(Workspace& work, const ast::Statement& option) {
-    work.program.domain.fast = has_multiply_add();
+    work.draft->domain.fast = has_multiply_add();
     if (work.program.domain.fast) return;
     work.diagnostics.warning(option.span, "this processor does not multiply and add in one operation: "
                                           "--fast changes nothing");

@@ -7,16 +7,6 @@ namespace cascade::checking {
 
 namespace {
 
-/// Texts are looked for among the last few only, so that very many cost no time.
-std::uint32_t add_text(Program& program, const std::string& text) {
-    const std::size_t count = program.texts.size();
-    for (std::size_t i = count; i > 0 && count - i < 64; --i) {
-        if (program.texts[i - 1] == text) return static_cast<std::uint32_t>(i - 1);
-    }
-    program.texts.push_back(text);
-    return static_cast<std::uint32_t>(count);
-}
-
 /// Leaves out the parts that the part `root` does not need, directly or through others, so that it
 /// becomes the last one.
 Formula keep_needed(const Formula& formula, std::uint32_t root) {
@@ -102,7 +92,7 @@ void ExpressionChecker::visit(const ast::Text& text) {
         return fault(node.span, "a text can only name a palette or a file",
                      "palette(v, low, high, \"grey\"), field(\"a.npy\")");
     }
-    node.index = add_text(work_.program, text.value);
+    node.index = work_.program.literals->number_of(text.value);
 }
 
 void ExpressionChecker::visit(const ast::Name& name) {

@@ -127,7 +127,7 @@ private:
 
     /// Seed and precision are all that a model leaves of a plane.
     void take_model() {
-        DomainSettings& domain = work_.program.domain;
+        DomainSettings& domain = work_.draft->domain;
         domain.grid = rows_of_cells(model_->count);
         domain.mask.reset();
         domain.surface.reset();

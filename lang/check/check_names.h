@@ -37,7 +37,7 @@ class FunctionTable;
 
 /// What one check shares: the program as far as it is known, and look-ups into it.
 struct Workspace {
-    Program& program;
+    const Program& program;
     Diagnostics& diagnostics;
     std::vector<NameTable> names;                            ///< By system.
     std::unordered_map<std::string, std::uint32_t> systems;  ///< By name.
@@ -58,6 +58,7 @@ struct Workspace {
     std::vector<bool> incomplete = {};
     /// Indices that have no values, with a message: what they were to number is passed over.
     std::vector<std::string_view> faulty_indices = {};
+    Program* draft = nullptr;  ///< The program while it is made; null for views of one that is.
 };
 
 /// Where an expression stands: it decides which names and functions it may read.

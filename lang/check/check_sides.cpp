@@ -345,7 +345,7 @@ void check_system_sides(Workspace& work, const ast::Script& script, const ast::B
     if (index >= work.program.systems.size()) return;  // It could not be made.
     Scope scope;
     scope.system = index;
-    System& system = work.program.systems[index];
+    System& system = work.draft->systems[index];
     if (base && *base < work.program.systems.size()) {
         const System& from = work.program.systems[*base];
         // Species keep their names, but not always their numbers.
@@ -381,7 +381,7 @@ void check_domain_side(Workspace& work, const ast::Script& script, const ast::St
     }
     const bool is_for_all = statement.name.text == "sides";
     for (const Side side : sides_of_word(statement.name.text)) {
-        auto& target = work.program.domain.sides[static_cast<std::size_t>(side)];
+        auto& target = work.draft->domain.sides[static_cast<std::size_t>(side)];
         if (!is_for_all || !target) target = setting;
     }
 }
@@ -395,7 +395,7 @@ void check_stage_sides(Workspace& work, const ast::Script& script) {
         const bool is_stage =
             block.kind == ast::BlockKind::stage || block.kind == ast::BlockKind::classic_stage;
         if (!is_stage) continue;
-        Stage& stage = work.program.stages[index];
+        Stage& stage = work.draft->stages[index];
         Scope scope;
         scope.system = stage.system;
         scope.stage = scope.last_stage = index;

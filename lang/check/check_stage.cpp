@@ -40,7 +40,7 @@ public:
              const TimeSettings& asked);
 
 private:
-    Stage& stage() { return work_.program.stages[index_]; }
+    Stage& stage() { return work_.draft->stages[index_]; }
     const System& system() const {
         return work_.program.systems[work_.program.stages[index_].system];
     }
@@ -313,7 +313,7 @@ void add_stage(Workspace& work, const ast::Block& block) {
         report_twice(work, stage.span, work.program.stages[first->second].span,
                      fmt::format("there are two stages '{}'", stage.name));
     }
-    work.program.stages.push_back(std::move(stage));
+    work.draft->stages.push_back(std::move(stage));
 }
 
 }  // namespace
@@ -360,7 +360,7 @@ void check_stages(Workspace& work, const ast::Script& script) {
     std::size_t copied = 0;
     for (std::uint32_t i = 0; i < blocks.size(); ++i) {
         StageChecker(work, script, i, copied).run(*blocks[i], overrides[i], asked.time);
-        Stage& stage = work.program.stages[i];
+        Stage& stage = work.draft->stages[i];
         if (static_cast<double>(stage.iterations) > most_steps) {
             stage.iterations = static_cast<std::int64_t>(most_steps);
         }

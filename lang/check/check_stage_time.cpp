@@ -153,26 +153,18 @@ void change_solver(Stage& stage, const TimeSettings& asked) {
 
 void check_coarse_starts(const Program& program, Diagnostics& diagnostics) {
     constexpr std::int64_t fewest_cells = 4;
-    const Grid& grid = program.domain.grid;
+    const DomainSettings& domain = program.domain;
+    const Grid& grid = domain.grid;
+    const char* const obstacle = domain.model     ? "which a model does not have"
+                                 : domain.surface ? "which a surface does not have"
+                                 : domain.mask    ? "on which a masked domain has another shape"
+                                                  : nullptr;
     for (const Stage& stage : program.stages) {
         const std::int64_t times = stage.time.coarse;
         if (times == 1) continue;
-        if (program.domain.model) {
+        if (obstacle != nullptr) {
             diagnostics.error(stage.time.coarse_span,
-                              fmt::format("stage '{}' starts on a coarser grid, which a model does "
-                                          "not have", stage.name));
-            continue;
-        }
-        if (program.domain.surface) {
-            diagnostics.error(stage.time.coarse_span,
-                              fmt::format("stage '{}' starts on a coarser grid, which a surface does "
-                                          "not have", stage.name));
-            continue;
-        }
-        if (program.domain.mask) {
-            diagnostics.error(stage.time.coarse_span,
-                              fmt::format("stage '{}' starts on a coarser grid, on which a masked domain "
-                                          "has another shape", stage.name));
+                              fmt::format("stage '{}' starts on a coarser grid, {}", stage.name, obstacle));
             continue;
         }
         for (const std::int64_t cells : {grid.width, grid.height, grid.depth}) {

@@ -21,7 +21,7 @@ void check_position(Workspace& work, const ast::Script& script, const ast::State
         if (!checked) return;
         position[k] = std::move(checked->formula);
     }
-    SurfaceSettings& surface = work.program.domain.surface.emplace();
+    SurfaceSettings& surface = work.draft->domain.surface.emplace();
     surface.position = std::move(position);
     surface.span = statement.name.span;
 }
@@ -39,7 +39,7 @@ void check_metric(Workspace& work, const ast::Script& script, const ast::Stateme
         work.diagnostics.error(span_of_value(script, statement), "metric is 0 or 1");
         return;
     }
-    work.program.domain.surface->has_metric = *metric != 0;
+    work.draft->domain.surface->has_metric = *metric != 0;
 }
 
 void check_unit(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
@@ -51,7 +51,7 @@ void check_unit(Workspace& work, const ast::Script& script, const ast::Statement
                                "the unit of length must be above 0");
         return;
     }
-    work.program.domain.surface->unit = *unit;
+    work.draft->domain.surface->unit = *unit;
 }
 
 const ast::Statement* find_statement(const ast::Block& block, std::string_view name) {

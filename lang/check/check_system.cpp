@@ -30,7 +30,7 @@ public:
     void run();
 
 private:
-    System& system() { return work_.program.systems[index_]; }
+    System& system() { return work_.draft->systems[index_]; }
     Scope scope(Place place, const Declaration& declaration) const {
         Scope result;
         result.place = place;
@@ -459,7 +459,7 @@ std::uint32_t check_system(Workspace& work, const DerivedSystem& derived,
         }
     }
     if (!derived.is_known) return unknown_system;
-    work.program.systems.push_back(std::move(system));
+    work.draft->systems.push_back(std::move(system));
     work.names.emplace_back();
     work.items_read.emplace_back();
     work.definitions_read.emplace_back();

@@ -11,7 +11,7 @@ namespace cascade::lowering {
 ///
 /// A position that is no number gives colour_of_nan.
 Value KernelAssembly::palette(const Node& node, const Cursor& cursor) {
-    const Palette* palette = find_palette(program_.texts[cursor.operand(3).index]);
+    const Palette* palette = find_palette(program_.literals->texts()[cursor.operand(3).index]);
     CHECK(palette != nullptr, "lowering: the checker has found every palette");
     const ValueId low = cursor.number(node, 1);
     const ValueId range = builder_.subtract(cursor.number(node, 2), low);

@@ -50,7 +50,7 @@ std::uint32_t KernelAssembly::field_slot(std::uint32_t stage, std::uint32_t item
 std::uint32_t KernelAssembly::surface_value_slot(std::uint32_t number) {
     // The numbers of a long list would not fit into a name; this one is as unlike the others.
     const std::uint32_t slot = builder_.field_slot(
-        fmt::format("({} {})", info(program_.surface_values[number].function).spelling, number));
+        fmt::format("({} {})", info(program_.literals->surface_values()[number].function).spelling, number));
     if (slot == bound_.fields.size()) {
         bound_.fields.push_back({SlotSource::Kind::surface_value, 0, number});
     }
@@ -59,7 +59,7 @@ std::uint32_t KernelAssembly::surface_value_slot(std::uint32_t number) {
 
 std::uint32_t KernelAssembly::file_slot(Function function, std::uint32_t text) {
     const std::uint32_t slot = builder_.field_slot(
-        fmt::format("{}(\"{}\")", info(function).spelling, program_.texts[text]));
+        fmt::format("{}(\"{}\")", info(function).spelling, program_.literals->texts()[text]));
     if (slot == bound_.fields.size()) {
         bound_.fields.push_back({slot_of_text(function), 0, text});
     }

@@ -20,11 +20,11 @@ namespace cascade {
 struct SlotSource {
     enum class Kind {
         item,       ///< Item `item` of stage `stage` (a field slot, a mask slot or a uniform slot).
-        file,       ///< The array named Program::texts[item], as a field slot.
-        image,      ///< The picture named Program::texts[item], as a field slot.
-        attribute,  ///< The model's attribute Program::texts[item], as a field slot.
-        texture,    ///< The picture painted on the model Program::texts[item], as a field slot.
-        surface_value,  ///< Program::surface_values[item], as a field slot.
+        file,       ///< The array named Literals::texts()[item], as a field slot.
+        image,      ///< The picture named Literals::texts()[item], as a field slot.
+        attribute,  ///< The model's attribute Literals::texts()[item], as a field slot.
+        texture,    ///< The picture painted on the model Literals::texts()[item], as a field slot.
+        surface_value,  ///< Literals::surface_values()[item], as a field slot.
         metric,     ///< MetricPlane `item` of the surface, as a field slot.
         model,      ///< ModelPlane `item` of the cells of a model, as a field slot.
         neighbourhood,  ///< Which cells around are inside the mask, as a field slot of words.

@@ -36,7 +36,7 @@ std::string_view reason_against(Function function) {
 
 /// What a value is of that only a model has; nothing for all else.
 std::optional<Function> of_model_only(const Program& program, const Node& node) {
-    if (node.kind == NodeKind::surface_value) return program.surface_values[node.index].function;
+    if (node.kind == NodeKind::surface_value) return program.literals->surface_values()[node.index].function;
     if (node.kind == NodeKind::call && needs_model(node.function)) return node.function;
     return std::nullopt;
 }

@@ -13,6 +13,23 @@ std::size_t operand_count(const Node& call) {
                     static_cast<std::size_t>(arity.least));
 }
 
+std::uint32_t Literals::number_of(const std::string& text) {
+    // Looked for among the last few only, so that very many cost no time.
+    const std::size_t count = texts_.size();
+    for (std::size_t i = count; i > 0 && count - i < 64; --i) {
+        if (texts_[i - 1] == text) return static_cast<std::uint32_t>(i - 1);
+    }
+    texts_.push_back(text);
+    return static_cast<std::uint32_t>(count);
+}
+
+std::uint32_t Literals::number_of(const SurfaceValue& value) {
+    const auto found = std::find(surface_values_.begin(), surface_values_.end(), value);
+    const auto number = static_cast<std::uint32_t>(found - surface_values_.begin());
+    if (found == surface_values_.end()) surface_values_.push_back(value);
+    return number;
+}
+
 bool differs_by_cell(const Node& node, bool operand_differs, const Program& program,
                      std::uint32_t stage) {
     const auto item_differs = [&](std::uint32_t of, std::uint32_t item) {

@@ -12,6 +12,8 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,14 +47,14 @@ constexpr bool is_made_when_read(ModelPlane plane) { return plane >= ModelPlane:
 
 enum class NodeKind : std::uint8_t {
     number,      ///< `number`
-    text,        ///< Program::texts[index]
+    text,        ///< Literals::texts()[index]
     own,         ///< item `index` of this stage
     earlier,     ///< item `index` of stage `stage`
     builtin,     ///< Builtin `index`
     definition,  ///< definition `index` of the stage's system
     rate,        ///< rate of species item `index`
     call,        ///< `function` of `operands`
-    surface_value,  ///< Program::surface_values[index]
+    surface_value,  ///< Literals::surface_values()[index]
     metric,      ///< MetricPlane `index`; only lowering makes such nodes
     model,       ///< ModelPlane `index`; only lowering makes such nodes
     inside,      ///< true where the cell is inside the mask; only lowering makes such nodes
@@ -312,12 +314,28 @@ struct DomainSettings {
     std::array<std::optional<SideSetting>, side_count> sides;  ///< Of all species.
 };
 
+/// What formulas name by its number, as it does not fit into a Node. Entries never change; a view of a
+/// checked program that names something new adds it at the end. From one thread at a time.
+class Literals {
+public:
+    /// The number of an equal one that is there already, or of a new one.
+    std::uint32_t number_of(const std::string& text);
+    std::uint32_t number_of(const SurfaceValue& value);
+
+    /// In quotes: palette names, paths.
+    const std::deque<std::string>& texts() const { return texts_; }
+    const std::deque<SurfaceValue>& surface_values() const { return surface_values_; }
+
+private:
+    std::deque<std::string> texts_;
+    std::deque<SurfaceValue> surface_values_;
+};
+
 struct Program {
     std::vector<System> systems;   ///< Built-in ones first.
     std::vector<Stage> stages;
     DomainSettings domain;
-    std::vector<std::string> texts;  ///< Texts in quotes: palette names, paths.
-    std::vector<SurfaceValue> surface_values;  ///< Each different one once.
+    std::shared_ptr<Literals> literals = std::make_shared<Literals>();  ///< Never null; shared by copies.
 
     const System& system_of(std::uint32_t stage) const { return systems[stages[stage].system]; }
 };

@@ -171,7 +171,9 @@ public:
             only = *found;
         }
         // Coarser grids are other steps than those that are measured.
-        for (Stage& stage : script_.program->stages) stage.time.coarse = 1;
+        auto measured = std::make_shared<Program>(*script_.program);
+        for (Stage& stage : measured->stages) stage.time.coarse = 1;
+        script_.program = std::move(measured);
         SimulationOptions options = request_.simulation;
         options.account = &account_;
         options.control = &control_;

@@ -30,7 +30,7 @@ auto read_granted(const Script& script, const std::string& name, std::uint64_t l
 }
 
 void read_one(Script& script, const Node& node, InputFiles& files) {
-    const std::string& name = script.program->texts[node.index];
+    const std::string& name = script.program->literals->texts()[node.index];
     const Grid& grid = script.program->domain.grid;
     const Precision precision = script.program->domain.precision;
     const auto array = read_granted(script, name, largest_npy_file, [&](std::string_view bytes) {
@@ -59,7 +59,7 @@ void read_one(Script& script, const Node& node, InputFiles& files) {
 
 /// The pixels of a PNG; nothing with a diagnostic.
 std::optional<GreyPicture> read_picture(Script& script, const Node& node) {
-    const std::string& name = script.program->texts[node.index];
+    const std::string& name = script.program->literals->texts()[node.index];
     auto picture = read_granted(script, name, largest_picture_file, parse_grey_picture);
     if (picture) return *std::move(picture);
     script.diagnostics.error(node.span, picture.error().message, picture.error().hint);
@@ -80,7 +80,7 @@ void read_of_model(Script& script, const Node& node, SlotSource::Kind kind, cons
     const Precision precision = script.program->domain.precision;
     Result<Field> plane;
     if (kind == SlotSource::Kind::attribute) {
-        plane = attribute_plane(script.program->texts[node.index], model, precision);
+        plane = attribute_plane(script.program->literals->texts()[node.index], model, precision);
     } else {
         const auto picture = read_picture(script, node);
         if (!picture) return;

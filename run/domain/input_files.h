@@ -14,7 +14,7 @@
 
 namespace cascade {
 
-/// Planes by what reads them and the number of their text in Program::texts.
+/// Planes by what reads them and the number of their text in Literals::texts().
 class InputFiles {
 public:
     using Kind = SlotSource::Kind;  ///< One of those of a text.

@@ -87,7 +87,7 @@ void SurfaceValues::make(std::span<const Formula* const> formulas, const std::at
         for (const Node& node : formula->nodes) {
             if (cancel) return;
             if (node.kind == NodeKind::surface_value && !values_.contains(node.index)) {
-                values_[node.index] = make_value(program_.surface_values[node.index], cancel);
+                values_[node.index] = make_value(program_.literals->surface_values()[node.index], cancel);
             }
             if (node.kind != NodeKind::builtin) continue;
             const auto read = lowering::model_plane_of(static_cast<Builtin>(node.index));
@@ -99,7 +99,7 @@ void SurfaceValues::make(std::span<const Formula* const> formulas, const std::at
 const Field& SurfaceValues::value(std::uint32_t number) {
     const auto known = values_.find(number);
     if (known != values_.end()) return known->second;
-    return values_[number] = make_value(program_.surface_values[number], never);
+    return values_[number] = make_value(program_.literals->surface_values()[number], never);
 }
 
 const Field& SurfaceValues::plane(ModelPlane plane) {

@@ -34,7 +34,7 @@ public:
     /// Those that formulas read. They mean nothing if `cancel` became true.
     void make(std::span<const Formula* const> formulas, const std::atomic<bool>& cancel);
 
-    /// Program::surface_values[number].
+    /// Literals::surface_values()[number].
     const Field& value(std::uint32_t number);
     /// One of those that are made when they are read.
     const Field& plane(ModelPlane plane);

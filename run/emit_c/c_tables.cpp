@@ -112,7 +112,7 @@ void CTables::add_plane(const SlotSource& source) {
     switch (source.kind) {
         case SlotSource::Kind::file:
         case SlotSource::Kind::image:
-            plane.meaning = fmt::format("\"{}\"", program_.texts[source.item]);
+            plane.meaning = fmt::format("\"{}\"", program_.literals->texts()[source.item]);
             name = fmt::format("file{}", planes_.size());
             plane.data = add_data(request_.files.plane(source.kind, source.item));
             break;

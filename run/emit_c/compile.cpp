@@ -107,10 +107,6 @@ Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
         return failure("a stage in double precision is not compiled to an object file",
                        "'cascade run' compiles it in memory; --precision single is compiled");
     }
-    if (program.domain.model) {
-        return failure("a stage on a model is not compiled to an object file",
-                       "'cascade run' compiles it in memory");
-    }
     for (const auto& sides : program.stages[stage].sides) {
         for (std::size_t side = 0; side < side_count; ++side) {
             if (!takes_value(sides[side].kind)) continue;
@@ -120,10 +116,6 @@ Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
                                        program.stages[stage].name),
                            "'cascade run' compiles it in memory");
         }
-    }
-    if (program.domain.model) {
-        return failure("a stage on a model is not compiled to an object file",
-                       "'cascade run' compiles it in memory");
     }
     if (program.domain.mask) {
         return failure("a domain with a mask is not compiled to an object file",

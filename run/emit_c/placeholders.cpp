@@ -11,7 +11,7 @@ Placeholders::Placeholders(const Program& program, std::uint32_t last) {
         for (Field& field : state.species) field = Field(layout);
         state.frozen = Mask(layout);
     }
-    for (std::uint32_t text = 0; text < program.texts.size(); ++text) {
+    for (std::uint32_t text = 0; text < program.literals->texts().size(); ++text) {
         files_.add(SlotSource::Kind::file, text, Field(layout));
         files_.add(SlotSource::Kind::image, text, Field(layout));
     }

@@ -158,8 +158,9 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
         parse_override(id, script.sources, script.tree, script.diagnostics);
     }
     add_option_statements(script);
-    script.program = check(script.tree, script.sources, script.diagnostics);
-    if (!script.program) return script;
+    auto program = check(script.tree, script.sources, script.diagnostics);
+    if (!program) return script;
+    script.program = std::make_shared<const Program>(*std::move(program));
 
     check_until_stage(script);
     check_chance(script);

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -42,7 +43,7 @@ struct Overrides {
     friend bool operator==(const Overrides&, const Overrides&) = default;
 };
 
-/// A loaded script. `program` is empty when `diagnostics` has errors.
+/// A loaded script. `program` is null when `diagnostics` has errors.
 struct Script {
     Script() = default;
     Script(Script&&) = default;
@@ -61,7 +62,7 @@ struct Script {
     Sources sources;
     Diagnostics diagnostics;
     ast::Script tree;
-    std::optional<Program> program;
+    std::shared_ptr<const Program> program;
 
     /// All diagnostics, drawn.
     std::string messages(bool colour) const;

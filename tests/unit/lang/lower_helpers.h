@@ -103,7 +103,7 @@ private:
         std::vector<const float*> fields;
         for (const SlotSource& source : bound.fields) {
             Field& field = source.kind == SlotSource::Kind::file
-                               ? files.at(program_.texts[source.item])
+                               ? files.at(program_.literals->texts()[source.item])
                                : stages_[source.stage].fields[source.item];
             EXPECT_FALSE(field.empty());
             fill_halo(field.origin(), layout, program_.domain.grid.boundary);

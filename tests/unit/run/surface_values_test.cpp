@@ -135,7 +135,7 @@ TEST_F(SurfaceValuesTest, ValuesMayBeReadByRatesAndLate) {
     const auto simulation = start(ball, "show: distance(0.5, 1, 0.5)\n");
     ASSERT_TRUE(simulation);
     const auto shown = simulation->evaluate(script_.program->stages[0].show, 0);
-    script_.program->surface_values.push_back({Function::distance, {0.5, 0, 0.5}});
+    script_.program->literals->number_of(SurfaceValue{Function::distance, {0.5, 0, 0.5}});
     Formula late;
     Node node;
     node.kind = NodeKind::surface_value;
