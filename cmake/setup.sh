@@ -92,7 +92,7 @@ configure_and_build() {
     if [ -n "$home" ] && [ "$home" != "$root" ]; then
         rm -rf "$build/CMakeCache.txt" "$build/CMakeFiles"
     fi
-    local options=(-DCMAKE_BUILD_TYPE=Release -DCASCADE_UNITY=ON "$@")
+    local options=(-DCMAKE_BUILD_TYPE=Release "$@")
     if [ ! -e "$build/CMakeCache.txt" ] && command -v ninja >/dev/null; then
         options+=(-G Ninja)
     fi

@@ -84,6 +84,8 @@ ValueId PassLowering::laplacian(PartId operand) {
     if (axes.has(2)) add(2, -1), add(2, 1);
     const auto neighbours = static_cast<double>(2 * axes.present.size());
     const ValueId own = builder_.multiply(builder_.number(neighbours), number_at(operand, {}));
+    // As the operation on a plane rounds it, so that contraction cannot tell which of the two was taken.
+    builder_.keep(own);
     return scaled(builder_.subtract(*sum, own), factor);
 }
 
