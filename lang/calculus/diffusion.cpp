@@ -3,6 +3,7 @@
 
 #include "lang/calculus/derivative_rules.h"
 #include "lang/calculus/flat_rates.h"
+#include "lang/program/nodes_of_rates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -127,14 +128,6 @@ private:
     std::vector<Operators> found_;
 };
 
-bool draws(const Node& node) {
-    return node.kind == NodeKind::call && is_random(node.function);
-}
-
-bool any_node(const Formula& formula, const auto& test) {
-    return std::any_of(formula.nodes.begin(), formula.nodes.end(), test);
-}
-
 }  // namespace
 
 std::vector<SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t stage) {
@@ -153,7 +146,7 @@ std::vector<SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t
             const bool is_even_power = k < laplacian_powers && k % 2 == 1;
             if (is_even_power) factor = builder.negate(factor);
             Formula formula = builder.formula(factor);
-            if (!any_node(formula, draws)) of_species[k] = std::move(formula);
+            if (!holds_in(formula, is_draw)) of_species[k] = std::move(formula);
         }
     }
     return result;
@@ -161,7 +154,7 @@ std::vector<SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t
 
 bool changes_in_time(const Program& program, std::uint32_t stage, const Formula& formula) {
     const System& system = program.system_of(stage);
-    return any_node(formula, [&](const Node& node) {
+    return holds_in(formula, [&](const Node& node) {
         if (node.kind == NodeKind::own) return system.is_species(node.index);
         if (node.kind != NodeKind::builtin) return false;
         const auto builtin = static_cast<Builtin>(node.index);

@@ -1,6 +1,8 @@
 // Comparisons whose operands may be NaN.
 #include "lang/calculus/lost_numbers.h"
 
+#include "lang/program/nodes_of_rates.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -43,10 +45,7 @@ void LostNumbers::know_all_parts() {
 }
 
 bool LostNumbers::is_random(PartId root) const {
-    const Formula formula = flat_.builder().formula(root);
-    return std::any_of(formula.nodes.begin(), formula.nodes.end(), [](const Node& node) {
-        return node.kind == NodeKind::call && cascade::is_random(node.function);
-    });
+    return holds_in(flat_.builder().formula(root), is_draw);
 }
 
 /// Finds the comparisons of a formula and the conditions under which they matter. It does not

@@ -2,6 +2,9 @@
 // length.
 #include "lang/check/chance.h"
 
+#include "lang/check/check_blocks.h"
+#include "lang/program/nodes_of_rates.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,58 +13,38 @@ namespace cascade {
 
 namespace {
 
-bool is_draw(const Node& node) {
-    return node.kind == NodeKind::call && is_random(node.function);
-}
+bool draws(const Formula& formula) { return holds_in(formula, is_draw); }
 
-bool draws(const Formula& formula) {
-    return std::any_of(formula.nodes.begin(), formula.nodes.end(), is_draw);
-}
+bool draws_by_step(const Node& node) { return is_draw(node) && node.function != Function::white; }
 
-/// The first node of the rates, and of what they are made of, that draws anew at each step without
-/// knowing how long it is; nullptr where there is none.
-const Node* find_draw_by_step(const System& system) {
-    const auto find_in = [](const Formula& formula) -> const Node* {
-        for (const Node& node : formula.nodes) {
-            if (is_draw(node) && node.function != Function::white) return &node;
-        }
-        return nullptr;
-    };
-    for (const Definition& definition : system.definitions) {
-        if (const Node* const found = find_in(definition.formula)) return found;
-    }
-    for (const Formula& rate : system.rates) {
-        if (const Node* const found = find_in(rate)) return found;
-    }
-    return nullptr;
+bool draws_random_numbers(const Program& program) {
+    if (program.domain.mask && draws(program.domain.mask->formula)) return true;
+    return std::any_of(program.stages.begin(), program.stages.end(), [&](const Stage& stage) {
+        return holds_in_rates(program.systems[stage.system], is_draw) ||
+               holds_in_sides(stage, is_draw) ||
+               std::any_of(stage.items.begin(), stage.items.end(), draws);
+    });
 }
 
 }  // namespace
 
-bool draws_random_numbers(const Program& program) {
-    if (program.domain.mask && draws(program.domain.mask->formula)) return true;
-    for (const Stage& stage : program.stages) {
-        const System& system = program.systems[stage.system];
-        const bool is_in_steps =
-            std::any_of(system.rates.begin(), system.rates.end(), draws) ||
-            std::any_of(system.definitions.begin(), system.definitions.end(),
-                        [](const Definition& each) { return draws(each.formula); });
-        const bool is_in_sides =
-            std::any_of(stage.sides.begin(), stage.sides.end(), [](const auto& sides) {
-                return std::any_of(sides.begin(), sides.end(),
-                                   [](const SideSetting& side) { return draws(side.value); });
-            });
-        if (is_in_steps || is_in_sides ||
-            std::any_of(stage.items.begin(), stage.items.end(), draws))
-            return true;
+void warn_of_idle_seed(const ast::Script& script, const Program& program,
+                       Diagnostics& diagnostics) {
+    const ast::Statement* const seed = checking::find_option(script, "seed");
+    // The cells of a model are spread by chance, too.
+    if (seed == nullptr || program.stages.empty() || program.domain.model ||
+        draws_random_numbers(program)) {
+        return;
     }
-    return false;
+    diagnostics.warning(seed->span,
+                        "nothing in this script is random, so no seed changes its result",
+                        "random(0, 0.01) in a starting value would be");
 }
 
 void warn_of_draws_by_step(const Program& program, Diagnostics& diagnostics) {
     for (const Stage& stage : program.stages) {
         if (!stage.time.chooses_steps()) continue;
-        const Node* const draw = find_draw_by_step(program.systems[stage.system]);
+        const Node* const draw = find_in_rates(program.systems[stage.system], draws_by_step);
         if (draw == nullptr) continue;
         return diagnostics.warning(draw->span,
                                    fmt::format("this is drawn anew at each step, and stage '{}' "

@@ -1,17 +1,18 @@
-// Random numbers of a program: whether there are any, and whether they are as strong as one would
-// think.
+// Warnings about random numbers: a seed that nothing reads, and noise that depends on the step.
 #pragma once
 
 #include "core/diagnostics.h"
 #include "lang/program/program.h"
+#include "lang/syntax/ast.h"
 
 namespace cascade {
 
-/// Does anything that the stages compute draw random numbers, or the mask?
-bool draws_random_numbers(const Program& program);
+/// Warns of --seed where neither a stage nor the mask draws random numbers.
+void warn_of_idle_seed(const ast::Script& script, const Program& program,
+                       Diagnostics& diagnostics);
 
-/// Warns of draws at each step where steps are of chosen length: the noise is the weaker, the
-/// shorter they are. `white` makes up for that.
+/// Warns of draws at each step in stages that choose their steps: the shorter the steps, the weaker
+/// the noise. `white` makes up for that.
 void warn_of_draws_by_step(const Program& program, Diagnostics& diagnostics);
 
 }  // namespace cascade

@@ -107,7 +107,7 @@ PartId PartGraph::intern(Part part) {
     if (has_mask_ && is_aggregate) {
         part.operands[0] = inside_mask(part.operands[0], part.node.function);
     }
-    const bool is_own = part.node.kind == NodeKind::call && is_random(part.node.function);
+    const bool is_own = is_draw(part.node);
     const std::uint64_t hash = hash_of(part);
     if (!is_own) {
         const auto [first, last] = known_.equal_range(hash);

@@ -1,4 +1,4 @@
-// What the rates of a system are made of.
+// What the rates of a system, and the sides of a stage, are made of.
 #pragma once
 
 #include "lang/program/program.h"
@@ -7,15 +7,41 @@
 
 namespace cascade {
 
-/// Does `test` hold for a node of a rate, or of a definition?
+/// Does `test` hold for a node of the formula?
+template <typename Test>
+bool holds_in(const Formula& formula, const Test& test) {
+    return std::any_of(formula.nodes.begin(), formula.nodes.end(), test);
+}
+
+/// The first node of a definition, or else of a rate, for which `test` holds; nullptr where it holds
+/// for none.
+template <typename Test>
+const Node* find_in_rates(const System& system, const Test& test) {
+    const auto find_in = [&](const Formula& formula) -> const Node* {
+        const auto found = std::find_if(formula.nodes.begin(), formula.nodes.end(), test);
+        return found == formula.nodes.end() ? nullptr : &*found;
+    };
+    for (const Definition& definition : system.definitions) {
+        if (const Node* found = find_in(definition.formula)) return found;
+    }
+    for (const Formula& rate : system.rates) {
+        if (const Node* found = find_in(rate)) return found;
+    }
+    return nullptr;
+}
+
 template <typename Test>
 bool holds_in_rates(const System& system, const Test& test) {
-    const auto holds = [&](const Formula& formula) {
-        return std::any_of(formula.nodes.begin(), formula.nodes.end(), test);
-    };
-    return std::any_of(system.rates.begin(), system.rates.end(), holds) ||
-           std::any_of(system.definitions.begin(), system.definitions.end(),
-                       [&](const Definition& definition) { return holds(definition.formula); });
+    return find_in_rates(system, test) != nullptr;
+}
+
+/// Does `test` hold for a node of what stands at the sides of a stage?
+template <typename Test>
+bool holds_in_sides(const Stage& stage, const Test& test) {
+    return std::any_of(stage.sides.begin(), stage.sides.end(), [&](const auto& sides) {
+        return std::any_of(sides.begin(), sides.end(),
+                           [&](const SideSetting& side) { return holds_in(side.value, test); });
+    });
 }
 
 }  // namespace cascade

@@ -75,6 +75,11 @@ struct Node {
     std::uint8_t operand_count = 0;  ///< Of a call that may have more or fewer; see operand_count.
 };
 
+/// Does the node draw random numbers?
+inline bool is_draw(const Node& node) {
+    return node.kind == NodeKind::call && is_random(node.function);
+}
+
 /// How many operands a call has.
 std::size_t operand_count(const Node& call);
 

@@ -45,7 +45,7 @@ struct Arity {
     }
 };
 constexpr Arity either(int fewer, int more) { return {fewer, more}; }
-/// Groups of so many values; after them there may be so many more.
+/// Groups of `size` values; `after` more may follow them.
 constexpr Arity groups_of(int size, int after = 0) {
     Arity arity{size, size + after};
     arity.is_groups = true;

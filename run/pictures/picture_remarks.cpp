@@ -21,6 +21,8 @@ constexpr double mostly_unresolved = 0.7;
 /// As many levels as a picture of 8 bits has.
 constexpr double levels = 256;
 
+constexpr const char* is_one_colour = "the picture is of one colour";
+
 std::string ends_of(const Spread& values) {
     return fmt::format("{:.4g} to {:.4g}", values.smallest, values.largest);
 }
@@ -28,7 +30,7 @@ std::string ends_of(const Spread& values) {
 std::string describe_range(const Spread& values, ValueRange range) {
     const double low = std::min(range.low, range.high), high = std::max(range.low, range.high);
     const auto about = [&](const char* words) {
-        return fmt::format("the picture is of one colour: all it shows ({}) {} the range {:.4g},{:.4g}",
+        return fmt::format("{}: all it shows ({}) {} the range {:.4g},{:.4g}", is_one_colour,
                            ends_of(values), words, range.low, range.high);
     };
     if (values.largest < low) return about("lies below");
@@ -36,8 +38,6 @@ std::string describe_range(const Spread& values, ValueRange range) {
     if (values.largest - values.smallest < (high - low) / levels) return about("is one level of");
     return {};
 }
-
-constexpr const char* is_one_colour = "the picture is of one colour";
 
 /// Red, green and blue are clamped to 0 … 1 when they are drawn.
 std::string describe_clamped(const Canvas& canvas) {
@@ -61,9 +61,10 @@ std::string describe_even(const Canvas& canvas) {
     if (!is_even) return {};
     if (canvas.is_colour()) return is_one_colour;
     if (spread_of(canvas.fields[0]).count == 0) {
-        return "the picture is of one colour: what it shows is infinite or not a number in all cells";
+        return fmt::format("{}: what it shows is infinite or not a number in all cells",
+                           is_one_colour);
     }
-    return fmt::format("the picture is of one colour: what it shows is {:.4g} in all cells",
+    return fmt::format("{}: what it shows is {:.4g} in all cells", is_one_colour,
                        spread_of(canvas.fields[0]).mean);
 }
 

@@ -1,5 +1,4 @@
-// Parses the script, then what it uses, then --set; checks it all, and applies the other overrides
-// to the checked program.
+// Parses the script, what it uses, and the options that change it; then checks it all.
 #include "run/script/script.h"
 
 #include "core/file.h"
@@ -102,22 +101,6 @@ void check_until_stage(Script& script) {
     find_stage_of_option(script, name, option_span(script.sources, "--until-stage", name));
 }
 
-void check_chance(Script& script) {
-    const Program& program = *script.program;
-    warn_of_draws_by_step(program, script.diagnostics);
-    const auto& options = script.tree.options;
-    const auto seed = std::find_if(options.begin(), options.end(), [](const ast::Statement& option) {
-        return option.name.text == "seed";
-    });
-    // The cells of a model are spread by chance, too.
-    const bool is_for_nothing = seed != options.end() && !program.stages.empty() &&
-                                !program.domain.model && !draws_random_numbers(program);
-    if (!is_for_nothing) return;
-    script.diagnostics.warning(seed->span,
-                               "nothing in this script is random, so no seed changes its result",
-                               "random(0, 0.01) in a starting value would be");
-}
-
 /// The picture block, and whether every stage is of any use.
 void check_views(Script& script) {
     if (script.program->stages.empty()) return;
@@ -163,7 +146,8 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
     script.program = std::make_shared<const Program>(*std::move(program));
 
     check_until_stage(script);
-    check_chance(script);
+    warn_of_draws_by_step(*script.program, script.diagnostics);
+    warn_of_idle_seed(script.tree, *script.program, script.diagnostics);
     if (!script.diagnostics.has_errors()) check_views(script);
     if (script.diagnostics.has_errors()) script.program.reset();
     return script;

@@ -24,37 +24,23 @@ constexpr std::int64_t most_copied_bytes = std::int64_t{64} << 20;
 constexpr std::int64_t most_steps = 8, least_steps = 4;
 /// A species whose deviation is so many times that at the start owes its pattern to the stage.
 constexpr double made_by_the_stage = 3;
-/// Into so many shorter ones a step is divided for a look. Not two: what has the period of a step
-/// is often of half a step's, too.
+/// The number of shorter steps that replace one for a look. Two would not do: what repeats with the
+/// step often repeats with half of it, too.
 constexpr std::int64_t shorter_steps = 3;
-
-bool draws_random_numbers(const System& system) {
-    return holds_in_rates(system, [](const Node& node) {
-        return node.kind == NodeKind::call && is_random(node.function);
-    });
-}
 
 /// Do the steps of a stage depend on their number or length, or on chance? Then shorter ones are
 /// another stage's.
 bool knows_its_steps(const Program& program, std::uint32_t stage) {
     const System& system = program.system_of(stage);
     const auto knows = [&](const Node& node) {
-        return (node.kind == NodeKind::call && is_random(node.function)) ||
+        return is_draw(node) ||
                (node.kind == NodeKind::builtin &&
                 node.index == static_cast<std::uint32_t>(Builtin::step)) ||
                (node.kind == NodeKind::own && node.index == system.speed_item());
     };
-    const auto holds = [&](const Formula& formula) {
-        return std::any_of(formula.nodes.begin(), formula.nodes.end(), knows);
-    };
-    const Stage& own = program.stages[stage];
-    return holds_in_rates(system, knows) ||
+    return holds_in_rates(system, knows) || holds_in_sides(program.stages[stage], knows) ||
            std::any_of(system.invariants.begin(), system.invariants.end(),
-                       [&](const Invariant& each) { return holds(each.bound); }) ||
-           std::any_of(own.sides.begin(), own.sides.end(), [&](const auto& sides) {
-               return std::any_of(sides.begin(), sides.end(),
-                                  [&](const SideSetting& side) { return holds(side.value); });
-           });
+                       [&](const Invariant& each) { return holds_in(each.bound, knows); });
 }
 
 /// What steps cannot add to a species.
@@ -118,9 +104,9 @@ bool Simulation::Implementation::take_trial_steps(std::uint32_t k, StageTimer& t
     const std::int64_t steps = state.steps;
     const double t = state.t;
     observe(steps, t, state.species);
-    RunControl nobody;
+    RunControl unwatched;
     const StageOutcome outcome =
-        advance(timer.problem(), schedule, state.species, nobody, {}, observe);
+        advance(timer.problem(), schedule, state.species, unwatched, {}, observe);
     state.species = std::move(result);
     state.steps = steps;
     state.t = t;
@@ -147,7 +133,7 @@ std::optional<FlickerReport> Simulation::Implementation::find_flicker(std::uint3
     if (!is_finite) return std::nullopt;
 
     const System& system = program->system_of(k);
-    const bool is_random = draws_random_numbers(system);
+    const bool is_random = holds_in_rates(system, is_draw);
     for (std::size_t s = 0; s < state.species.size(); ++s) {
         const FlickerWatch::Finding found = watch.finding(s);
         if (found.flickering < flicker_threshold && (is_random || found.undone < undone_threshold))
@@ -246,7 +232,7 @@ std::optional<LostChangeReport> Simulation::Implementation::find_lost_change(std
     const bool is_possible = precision() == Precision::single &&
                              !is_adaptive(stage(k).time.solver) && step > 0 &&
                              steps * 0x1p-24 >= lost_change_threshold;
-    if (!is_possible || draws_random_numbers(program->system_of(k))) return std::nullopt;
+    if (!is_possible || holds_in_rates(program->system_of(k), is_draw)) return std::nullopt;
     const std::vector<Field> rates = evaluate(plan_rates(*program, k), k);
     const double decay = decay_along(k, rates);
     const double time = decay * steps * step > 1 ? 1 / decay : steps * step;
@@ -323,7 +309,7 @@ bool Simulation::made_its_pattern(std::uint32_t k) const {
     for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
         if (!system.is_species(item) && !stage.uniform[item]) return false;
     }
-    if (draws_random_numbers(system) || !holds_in_rates(system, is_of_neighbours)) return false;
+    if (holds_in_rates(system, is_draw) || !holds_in_rates(system, is_of_neighbours)) return false;
     const StageCourse& course = state(k).course;
     if (course.empty()) return false;
     const auto is_made = [](const Spread& first, const Spread& last) {

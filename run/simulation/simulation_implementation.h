@@ -192,7 +192,7 @@ struct Simulation::Implementation {
     void warn_of_doubts(std::uint32_t k, StageTimer& timer, RunControl& control);
     /// Are there values of which a copy can be had, and steps enough for a few more to cost little?
     bool allows_trial_steps(std::uint32_t k, StageTimer& timer) const;
-    /// Takes so many of a copy; `observe` sees the state before and after each. False where a value
+    /// Takes `count` steps of a copy; `observe` sees the state before and after each. False where a value
     /// was spoiled.
     bool take_trial_steps(std::uint32_t k, StageTimer& timer, std::int64_t count,
                           const Observer& observe);

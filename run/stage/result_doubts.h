@@ -45,7 +45,7 @@ struct AstrayReport {
     std::optional<double> limit;     ///< Of the step, where one is known.
     std::int64_t steps = 0;          ///< So many further steps
     double change = 0;               ///< move the values by so much (root mean square),
-    std::int64_t shorter_steps = 0;  ///< and so many that take as long together
+    std::int64_t shorter_steps = 0;  ///< The number of shorter steps that take as long.
     double change_of_shorter = 0;    ///< by so much,
     double apart = 0;                ///< to values that differ by so much.
 };
