@@ -19,8 +19,9 @@ template <typename T>
 T value_or_throw(Result<T> value, const std::string& option) {
     if (value) return std::move(*value);
     const Failure& why = value.error();
-    throw CLI::ValidationError(
-        option, why.hint.empty() ? why.message : fmt::format("{} ({})", why.message, why.hint));
+    throw CLI::ValidationError(option, why.hint.empty()
+                                           ? why.message
+                                           : fmt::format("{} ({})", why.message, why.hint));
 }
 
 /// An option whose text is read by `parse`, a function to Result<T>, and handed to `store`.

@@ -66,9 +66,11 @@ std::string work_lines(const StageBench& bench) {
                                         with_unit(work.working_set, "B")));
     if (bench.stepping.sweeps_at_once > 1) {
         const double at_once = bench.stepping.sweeps_at_once;
-        lines += line("tiles", fmt::format("{} sweeps at once, {:.2g} of those bytes through memory; "
-                                           "{} in use", number(at_once), work.bytes / at_once,
-                                           with_unit(bench.stepping.bytes_in_use, "B")));
+        lines +=
+            line("tiles", fmt::format("{} sweeps at once, {:.2g} of those bytes through memory; "
+                                      "{} in use",
+                                      number(at_once), work.bytes / at_once,
+                                      with_unit(bench.stepping.bytes_in_use, "B")));
     }
     if (work.has_waves) {
         lines += line("", "waves are filtered besides, which is not counted");
@@ -78,8 +80,8 @@ std::string work_lines(const StageBench& bench) {
 
 std::string limit_lines(const StageBench& bench) {
     const auto bounds = bounds_of(bench);
-    std::string lines = fmt::format("\n  {:<36}{:>14}{:>16}{:>9}\n", "limit", "reached",
-                                    "peak, measured", "share");
+    std::string lines =
+        fmt::format("\n  {:<36}{:>14}{:>16}{:>9}\n", "limit", "reached", "peak, measured", "share");
     for (const Bound& bound : bounds) {
         lines += fmt::format("  {:<36}{:>14}{:>16}{:>7.0f} %\n", bound.name,
                              amount(bound, bound.reached), amount(bound, bound.most),
@@ -94,9 +96,10 @@ std::string limit_lines(const StageBench& bench) {
                              with_unit(memory.bytes_per_second, "B/s"));
     }
     const Roof roof = *attainable(bench);
-    lines += line("roofline", fmt::format("{} cell-steps/s by {}, of which {:.0f} % are reached",
-                                          with_prefix(roof.cell_steps_per_second), roof.name,
-                                          100 * bench.cell_steps_per_second() / roof.cell_steps_per_second));
+    lines += line("roofline",
+                  fmt::format("{} cell-steps/s by {}, of which {:.0f} % are reached",
+                              with_prefix(roof.cell_steps_per_second), roof.name,
+                              100 * bench.cell_steps_per_second() / roof.cell_steps_per_second));
     return lines;
 }
 
@@ -109,12 +112,14 @@ std::string bound_sentence(const StageBench& bench) {
     constexpr double near = 0.5;
     const std::string figures =
         bound.kind == Bound::Kind::meetings
-            ? fmt::format("{:.0f} % of a step's {}", 100 * bound.share(), with_unit(bench.step, "s"))
+            ? fmt::format("{:.0f} % of a step's {}", 100 * bound.share(),
+                          with_unit(bench.step, "s"))
             : fmt::format("{} of {}, {:.0f} %", amount(bound, bound.reached),
                           amount(bound, bound.most), 100 * bound.share());
-    std::string text = bound.share() >= near
-                           ? fmt::format("{}: {}", bound.name, figures)
-                           : fmt::format("no limit is near; the nearest is {}: {}", bound.name, figures);
+    std::string text =
+        bound.share() >= near
+            ? fmt::format("{}: {}", bound.name, figures)
+            : fmt::format("no limit is near; the nearest is {}: {}", bound.name, figures);
     for (const Bound& other : bounds) {
         if (is_outdone(other)) {
             text += fmt::format("; {}: {:.0f} %, since part of it stays nearer", other.name,
@@ -122,33 +127,39 @@ std::string bound_sentence(const StageBench& bench) {
         }
     }
     if (bench.threads < bench.most_threads) {
-        text += fmt::format("; of {} threads {} took the steps: {}", bench.most_threads, bench.threads,
-                            bench.cells() < 65536 ? sides_of(bench.grid) + " are few"
-                                                  : "the machine is busy, or more are no faster");
+        text +=
+            fmt::format("; of {} threads {} took the steps: {}", bench.most_threads, bench.threads,
+                        bench.cells() < 65536 ? sides_of(bench.grid) + " are few"
+                                              : "the machine is busy, or more are no faster");
     }
     if (!bench.is_native) {
-        text = "the interpreter takes the steps, native code is far faster (limits are those of native "
-               "code); " + text;
+        text =
+            "the interpreter takes the steps, native code is far faster (limits are those of "
+            "native "
+            "code); " +
+            text;
     }
     return text;
 }
 
 std::string bench_table(const std::string& script, const StageBench& bench) {
-    std::string text = fmt::format("{}, stage '{}': {}, {}, {}, {}{}\n", script, bench.stage,
-                                   bench.solver, sides_of(bench.grid), name_of(bench.precision),
-                                   bench.fast ? "fast, " : "",
-                                   bench.is_native ? "native code" : "interpreted");
+    std::string text =
+        fmt::format("{}, stage '{}': {}, {}, {}, {}{}\n", script, bench.stage, bench.solver,
+                    sides_of(bench.grid), name_of(bench.precision), bench.fast ? "fast, " : "",
+                    bench.is_native ? "native code" : "interpreted");
     if (!bench.nothing.empty()) return text + line("nothing", bench.nothing) + "\n";
-    text += line("speed", fmt::format("{} cell-steps/s, {} a step", with_prefix(bench.cell_steps_per_second()),
+    text += line("speed", fmt::format("{} cell-steps/s, {} a step",
+                                      with_prefix(bench.cell_steps_per_second()),
                                       with_unit(bench.step, "s")));
     const auto batches = static_cast<std::int64_t>(bench.batches);
-    text += line("measured", fmt::format("{} steps, the median of {}, {}; {}", with_commas(bench.steps),
-                                         counted(batches, "batch", "batches"),
-                                         counted(bench.threads, "thread"),
-                                         bench.stepping.in_words()));
-    text += line("before", fmt::format("starting values {}, first step {}, compiling {} in all",
-                                       with_unit(bench.starting, "s"), with_unit(bench.first_step, "s"),
-                                       with_unit(bench.compiling, "s")));
+    text +=
+        line("measured", fmt::format("{} steps, the median of {}, {}; {}", with_commas(bench.steps),
+                                     counted(batches, "batch", "batches"),
+                                     counted(bench.threads, "thread"), bench.stepping.in_words()));
+    text +=
+        line("before", fmt::format("starting values {}, first step {}, compiling {} in all",
+                                   with_unit(bench.starting, "s"), with_unit(bench.first_step, "s"),
+                                   with_unit(bench.compiling, "s")));
     text += work_lines(bench);
     if (bench.limits) {
         text += limit_lines(bench);
@@ -160,7 +171,8 @@ std::string bench_table(const std::string& script, const StageBench& bench) {
 }
 
 std::string bench_csv_header() {
-    return "script,stage,solver,width,height,depth,precision,backend,threads,steps,seconds_per_step,"
+    return "script,stage,solver,width,height,depth,precision,backend,threads,steps,seconds_per_"
+           "step,"
            "cell_steps_per_second,operations,loads,stores,bytes,starting_seconds,compiling_seconds,"
            "first_step_seconds,fast\n";
 }
@@ -175,10 +187,11 @@ std::string bench_csv_row(const std::string& script, const StageBench& bench) {
                                   name_of(bench.precision), bench.is_native ? "jit" : "interp");
     if (!bench.nothing.empty()) return row + fmt::format(",,0,,,,,,,,,,{:d}\n", bench.fast);
     const StepWork& work = bench.work;
-    return row + fmt::format(",{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g},{:.4g},{:.4g},{:d}\n",
-                             bench.threads, bench.steps, bench.step, bench.cell_steps_per_second(),
-                             work.cost.operations, work.cost.loads, work.cost.stores, work.bytes,
-                             bench.starting, bench.compiling, bench.first_step, bench.fast);
+    return row + fmt::format(
+                     ",{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g},{:.4g},{:.4g},{:d}\n",
+                     bench.threads, bench.steps, bench.step, bench.cell_steps_per_second(),
+                     work.cost.operations, work.cost.loads, work.cost.stores, work.bytes,
+                     bench.starting, bench.compiling, bench.first_step, bench.fast);
 }
 
 }  // namespace cascade

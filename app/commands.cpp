@@ -69,7 +69,8 @@ std::string advice_on_missing(const std::filesystem::path& path) {
     std::string near = nearest_name(path.filename().string(), names);
     if (near.empty()) near = nearest_name(path.filename().string() + ".cascade", names);
     if (near.empty()) return "";
-    const auto beside = path.has_parent_path() ? path.parent_path() / near : std::filesystem::path(near);
+    const auto beside =
+        path.has_parent_path() ? path.parent_path() / near : std::filesystem::path(near);
     return fmt::format("did you mean '{}'?", beside.string());
 }
 
@@ -95,8 +96,8 @@ int check_one(const std::string& path, const Options& options, Console& console)
     if (!options.dump.empty()) return dump_command(file->script, options.dump, console);
     console.say(file->script.messages(console.error().colour));
     if (!file->script.program) return exit_status::wrong_script;
-    console.print(fmt::format("{}: no errors ({})\n", printable(file->script.name),
-                              summary(file->script)));
+    console.print(
+        fmt::format("{}: no errors ({})\n", printable(file->script.name), summary(file->script)));
     return exit_status::success;
 }
 

@@ -29,15 +29,15 @@ public:
     const Stream& out() const { return out_; }
     const Stream& error() const { return error_; }
 
-    /// A result. What a terminal would obey is replaced: parts of it may come from any file. Where it
-    /// cannot be written the fault is remembered for finish().
+    /// A result. What a terminal would obey is replaced: parts of it may come from any file. Where
+    /// it cannot be written the fault is remembered for finish().
     void print(std::string_view text);
     /// The same, but as it is where no terminal shows it: what other programs read byte for byte.
     void print_exactly(std::string_view text);
     /// The same with our own sequences for terminals in it, and nothing from a file.
     void draw(std::string_view text);
-    /// A text for people, as it is: nothing from a file that has not been made printable. Where nobody
-    /// listens it is lost without complaint.
+    /// A text for people, as it is: nothing from a file that has not been made printable. Where
+    /// nobody listens it is lost without complaint.
     void say(std::string_view text) const;
     /// A line for people, made printable.
     void note(std::string_view message) const;

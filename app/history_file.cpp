@@ -24,10 +24,8 @@ std::string encoded(std::string_view line) {
     std::string text;
     for (const char letter : line) {
         const auto byte = static_cast<unsigned char>(letter);
-        if (byte > ' ' && byte < 0x7f && byte != '\\')
-            text += letter;
-        else
-            text += fmt::format("\\{:03o}", byte);
+        if (byte > ' ' && byte < 0x7f && byte != '\\') text += letter;
+        else text += fmt::format("\\{:03o}", byte);
     }
     return text + "\n";
 }
@@ -96,10 +94,8 @@ void HistoryFile::add(std::string_view line) {
     struct stat status {};
     if (!file.is_open() || ::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode)) return;
     std::string text;
-    if (status.st_size == 0)
-        text += first_line;
-    else if (ends_within_line_)
-        text += "\n";
+    if (status.st_size == 0) text += first_line;
+    else if (ends_within_line_) text += "\n";
     text += encoded(line);
     if (write_all(file, text) == 0) ends_within_line_ = false;
 }

@@ -22,7 +22,8 @@ constexpr std::array watched_signals = {SIGINT, SIGTERM, SIGHUP};
 constexpr std::int64_t least_milliseconds_between = 200;
 
 // A signal handler is given nothing but a number: what it is to change can only be found in
-// variables of the process. These three and those of TimeLimit are the program's only ones, and lock-free.
+// variables of the process. These three and those of TimeLimit are the program's only ones, and
+// lock-free.
 std::atomic<std::atomic<bool>*> cancel_flag{nullptr};
 std::atomic<int> received{0};
 std::atomic<std::int64_t> interrupted_at{0};  ///< Milliseconds of the first SIGINT; 0 for none.

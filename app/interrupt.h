@@ -27,8 +27,8 @@ private:
 /// by Ctrl-C.
 void stay_on_interrupt();
 
-/// Writing to a pipe that nobody reads any more, or more than a file may hold, becomes an error of the
-/// write and not a signal that ends the program.
+/// Writing to a pipe that nobody reads any more, or more than a file may hold, becomes an error of
+/// the write and not a signal that ends the program.
 void take_signals_of_writes_as_errors();
 
 }  // namespace cascade

@@ -28,7 +28,8 @@ void set_timer(double seconds) {
     timer.it_value.tv_sec = static_cast<time_t>(seconds);
     timer.it_value.tv_usec = static_cast<suseconds_t>((seconds - std::floor(seconds)) * 1e6);
     if (seconds > 0 && timer.it_value.tv_sec == 0) {
-        timer.it_value.tv_usec = std::max<suseconds_t>(timer.it_value.tv_usec, 1);  // 0 would be never.
+        timer.it_value.tv_usec =
+            std::max<suseconds_t>(timer.it_value.tv_usec, 1);  // 0 would be never.
     }
     setitimer(ITIMER_REAL, &timer, nullptr);
 }

@@ -8,8 +8,8 @@
 namespace cascade {
 
 /// Ends a run as a Ctrl-C would: while it lives, sets `cancel` when `seconds` have passed; 0 never
-/// does. The time begins with the object. One at a time. It is a timer of the system and not a thread,
-/// which may be denied.
+/// does. The time begins with the object. One at a time. It is a timer of the system and not a
+/// thread, which may be denied.
 class TimeLimit {
 public:
     TimeLimit(double seconds, std::atomic<bool>& cancel);

@@ -29,8 +29,8 @@ public:
 /// Every name that may stand where a word begins; asked anew at each completion.
 using NamesToComplete = std::function<std::vector<std::string>(const std::string& line)>;
 
-/// By libedit, on standard input and output. The history is read from `history`, and each line is added to
-/// it as it is typed (nowhere if that is empty or cannot be written).
+/// By libedit, on standard input and output. The history is read from `history`, and each line is
+/// added to it as it is typed (nowhere if that is empty or cannot be written).
 std::unique_ptr<LineReader> make_edit_reader(const std::filesystem::path& history,
                                              NamesToComplete names);
 

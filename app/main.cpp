@@ -53,7 +53,8 @@ int main(int argc, char** argv) {
         cascade::limit_memory(options.run.simulation.memory_limit);
         return console.finish(run_chosen(options, console));
     } catch (const std::bad_alloc&) {
-        console.fail({"there is not enough memory", "a smaller grid needs less; --limit-memory may allow more"});
+        console.fail({"there is not enough memory",
+                      "a smaller grid needs less; --limit-memory may allow more"});
         return cascade::exit_status::failed_run;
     } catch (const std::exception& error) {
         console.fail({std::string("this should not have happened: ") + error.what(),

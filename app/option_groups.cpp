@@ -54,16 +54,19 @@ void add_allow_read(CLI::App& app, ReadAccess& reads, const std::string& about) 
 
 void add_overrides(CLI::App& app, Overrides& overrides) {
     const std::string group = "Changes to the script, without editing it";
-    add_value(app, "--grid", "WxH", "Columns and rows; '60' is a line of cells, '64x64x32'\nhas slices",
-              [&](const std::string& text) {
-                  overrides.grid_is_one_number = text.find('x') == std::string::npos;
-                  return parse_grid(text);
-              },
-              [&](auto grid) { overrides.grid = grid; })
+    add_value(
+        app, "--grid", "WxH", "Columns and rows; '60' is a line of cells, '64x64x32'\nhas slices",
+        [&](const std::string& text) {
+            overrides.grid_is_one_number = text.find('x') == std::string::npos;
+            return parse_grid(text);
+        },
+        [&](auto grid) { overrides.grid = grid; })
         ->group(group);
     add_value(app, "--mesh", "MODEL",
-              "On this model instead: a file (PLY, OBJ, OFF, STL,\nglTF, GLB), sphere, torus, box or creature",
-              any_text, [&](const std::string& model) {
+              "On this model instead: a file (PLY, OBJ, OFF, STL,\nglTF, GLB), sphere, torus, box "
+              "or creature",
+              any_text,
+              [&](const std::string& model) {
                   overrides.model = model;
                   overrides.model_is_asked_for = true;
               })
@@ -83,8 +86,9 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
               one_of({"single", "double"}),
               [&](const std::string& name) { overrides.precision = precision_of_name(name); })
         ->group(group);
-    app.add_flag("--fast", overrides.fast,
-                 "Steps with fewer roundings: a * b + c in one operation;\nother bits than without it")
+    app.add_flag(
+           "--fast", overrides.fast,
+           "Steps with fewer roundings: a * b + c in one operation;\nother bits than without it")
         ->group(group);
     app.add_option("--set", overrides.sets,
                    "A parameter or setting: ka=1/400, large.ka=1/400;\nmay be given again")
@@ -92,38 +96,45 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
         ->type_name("NAME=EXPR")
         ->group(group);
     add_value(app, "--solver", "NAME",
-              help::in_lines(solver_names()) + "\nfor every stage, which takes as much time as before",
+              help::in_lines(solver_names()) +
+                  "\nfor every stage, which takes as much time as before",
               one_of(solver_names()), [&](auto solver) { overrides.solver = solver; })
         ->group(group);
     add_value(app, "--steps", "N", "At most so many steps in every stage",
               whole_number(0, std::numeric_limits<std::int64_t>::max()),
               [&](auto steps) { overrides.steps = steps; })
         ->group(group);
-    add_value(app, "--until-stage", "NAME", "The last stage that runs", any_text,
-              [&](auto stage) { overrides.until_stage = stage; })
-        ->group(group);
-    add_allow_read(app, overrides.reads,
-                   "The script may read files below this folder too, not\nonly below its own; 'all': "
-                   "everywhere; may be given\nagain");
+    add_value(app, "--until-stage", "NAME", "The last stage that runs", any_text, [&](auto stage) {
+        overrides.until_stage = stage;
+    })->group(group);
+    add_allow_read(
+        app, overrides.reads,
+        "The script may read files below this folder too, not\nonly below its own; 'all': "
+        "everywhere; may be given\nagain");
 }
 
 void add_shown(CLI::App& app, PictureChanges& picture) {
     const std::string group = picture_group;
-    add_value(app, "--show", "EXPR", "A species, a parameter, any expression: b, stage1.b,\n"
-              "'a - b'", any_text, [&](auto show) { picture.show = show; })
+    add_value(app, "--show", "EXPR",
+              "A species, a parameter, any expression: b, stage1.b,\n"
+              "'a - b'",
+              any_text, [&](auto show) { picture.show = show; })
         ->group(group);
-    add_value(app, "--palette", "NAME",
-              help::in_lines(palette_names()), one_of(palette_names()),
+    add_value(app, "--palette", "NAME", help::in_lines(palette_names()), one_of(palette_names()),
               [&](auto palette) { picture.palette = palette; })
         ->group(group);
-    add_value(app, "--range", "LOW,HIGH", "The values at the palette's two ends; without it the\n"
-              "smallest and the largest", parse_range, [&](auto range) { picture.range = range; })
+    add_value(app, "--range", "LOW,HIGH",
+              "The values at the palette's two ends; without it the\n"
+              "smallest and the largest",
+              parse_range, [&](auto range) { picture.range = range; })
         ->group(group);
     add_value(app, "--depth", "BITS", "8 or 16 for each colour", one_of({"8", "16"}),
               [&](const auto& depth) { picture.depth = depth == "16" ? 16 : 8; })
         ->group(group);
-    add_value(app, "--slice", "AXIS=PLACE", "Of a grid with slices: z=0.5, or another place from 0\n"
-              "to 1 along x, y or z", parse_slice, [&](auto slice) { picture.slice = slice; })
+    add_value(app, "--slice", "AXIS=PLACE",
+              "Of a grid with slices: z=0.5, or another place from 0\n"
+              "to 1 along x, y or z",
+              parse_slice, [&](auto slice) { picture.slice = slice; })
         ->group(group);
 }
 
@@ -177,9 +188,10 @@ void add_files(CLI::App& app, RunRequest& run) {
         add_value(app, "--save", "FOLDER", "Every field as STAGE.NAME.npy, to read or to resume",
                   any_text, [&](auto path) { run.save = path; })
             ->group(group);
-    add_value(app, "--checkpoint", "DURATION",
-              "Save every 30s, 10m, 2h on the way too, so that a run\nthat is killed can be resumed",
-              parse_duration, [&](double seconds) { run.checkpoint_seconds = seconds; })
+    add_value(
+        app, "--checkpoint", "DURATION",
+        "Save every 30s, 10m, 2h on the way too, so that a run\nthat is killed can be resumed",
+        parse_duration, [&](double seconds) { run.checkpoint_seconds = seconds; })
         ->needs(save)
         ->group(group);
     add_value(app, "--turntable", "N", "Pictures from N places around, as NAME-001.png, …",
@@ -207,9 +219,7 @@ void add_log(CLI::App& app, RunRequest& run) {
     CLI::Option* log = app.add_option("--log", run.log.expressions,
                                       "A number over time, such as 'mean(u over domain)', as a\n"
                                       "table; may be given again");
-    log->allow_extra_args(false)
-        ->type_name("EXPR")
-        ->group(group);
+    log->allow_extra_args(false)->type_name("EXPR")->group(group);
     add_value(app, "--log-every", "N", "Steps from row to row; without it each stage's interval",
               whole_number(1, std::numeric_limits<std::int64_t>::max()),
               [&](auto every) { run.log.every = every; })
@@ -219,8 +229,7 @@ void add_log(CLI::App& app, RunRequest& run) {
               [&](auto path) { run.log.file = path; })
         ->needs(log)
         ->group(group);
-    app.add_flag("--features", run.features,
-                 "Measure what the picture shows: wavelength, spots, …")
+    app.add_flag("--features", run.features, "Measure what the picture shows: wavelength, spots, …")
         ->group(group);
 }
 
@@ -234,13 +243,12 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
               one_of(has_jit() ? std::vector<std::string>{"jit", "interp"}
                                : std::vector<std::string>{"interp"}),
               [&](const auto& name) {
-                  simulation.backend =
-                      name == "jit" ? BackendKind::jit : BackendKind::interpreter;
+                  simulation.backend = name == "jit" ? BackendKind::jit : BackendKind::interpreter;
               })
         ->group(group);
-    add_value(app, "--threads", "N", threads, whole_number(1, 1024),
-              [&](auto count) { simulation.threads = static_cast<int>(count); })
-        ->group(group);
+    add_value(app, "--threads", "N", threads, whole_number(1, 1024), [&](auto count) {
+        simulation.threads = static_cast<int>(count);
+    })->group(group);
     add_value(app, "--lanes", "4|8|16", "Cells in a vector; without it what the processor has",
               one_of({"4", "8", "16"}),
               [&](const auto& lanes) {
@@ -260,9 +268,10 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
 void add_mesh(CLI::App& app, Options& options) {
     app.add_option("MODELS", options.models, "Files: .ply, .obj, .off, .stl, .gltf, .glb")
         ->type_name("");
-    add_allow_read(app, options.overrides.reads,
-                   "Buffers of glTF files may lie below this folder too, not\nonly below the model's; "
-                   "'all': everywhere; may be given\nagain");
+    add_allow_read(
+        app, options.overrides.reads,
+        "Buffers of glTF files may lie below this folder too, not\nonly below the model's; "
+        "'all': everywhere; may be given\nagain");
     add_value(app, "--cells", "N|faces|vertices",
               "Spread N cells over the surface, or make cells of the\n"
               "model's faces or points, and say how they turn out",
@@ -327,9 +336,8 @@ void add_compile(CLI::App& app, Options& options) {
               any_text, [&](auto target) { compile.target = target; })
         ->group(group);
     add_value(app, "--stages", "N", "Stages of each step of rkl1 and rkl2: odd, 3 to 99",
-              odd_number(3, most_compiled_stages), [&](auto stages) {
-                  compile.stages = static_cast<std::uint32_t>(stages);
-              })
+              odd_number(3, most_compiled_stages),
+              [&](auto stages) { compile.stages = static_cast<std::uint32_t>(stages); })
         ->group(group);
     add_value(app, "--name", "NAME", "The C functions' name; without it SCRIPT_STAGE", any_text,
               [&](auto name) { compile.function_name = name; })

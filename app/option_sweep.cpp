@@ -24,9 +24,10 @@ void add_sweep(CLI::App& app, Options& options) {
               "Where all goes; without it SCRIPT_sweep in this folder", any_text,
               [&](auto path) { sweep.folder = path; })
         ->group(files);
-    add_value(app, "--tile", "N", "Pixels of a picture's longer side, 16 to 1024; larger ones are\n"
-              "averaged down (160)", whole_number(16, 1024),
-              [&](auto side) { sweep.tile_side = static_cast<int>(side); })
+    add_value(app, "--tile", "N",
+              "Pixels of a picture's longer side, 16 to 1024; larger ones are\n"
+              "averaged down (160)",
+              whole_number(16, 1024), [&](auto side) { sweep.tile_side = static_cast<int>(side); })
         ->group(files);
     app.add_flag("--fields", sweep.fields, "Save every field of every run, to read or to resume")
         ->group(files);

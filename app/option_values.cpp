@@ -152,13 +152,12 @@ Result<std::string> path_with_ending(std::string_view text, std::string_view wan
 }  // namespace
 
 Result<double> parse_duration(std::string_view text) {
-    constexpr std::array units = {Unit{"", 1},     Unit{"s", 1},     Unit{"m", 60},
+    constexpr std::array units = {Unit{"", 1},     Unit{"s", 1},    Unit{"m", 60},
                                   Unit{"min", 60}, Unit{"h", 3600}, Unit{"d", 86400}};
     constexpr double longest = 3.2e8;
     const auto seconds = read_with_unit(text, units);
     if (seconds && *seconds > 0 && *seconds <= longest) return *seconds;
-    return failure(fmt::format("'{}' is not a duration", text),
-                   "write 90s, 20m, 1.5h or 2d");
+    return failure(fmt::format("'{}' is not a duration", text), "write 90s, 20m, 1.5h or 2d");
 }
 
 Result<double> parse_measuring_time(std::string_view text) {
@@ -174,8 +173,8 @@ std::string describe_duration(double seconds) {
 }
 
 Result<std::uint64_t> parse_size(std::string_view text) {
-    constexpr std::array units = {Unit{"", 1},     Unit{"KB", 1e3},      Unit{"MB", 1e6},
-                                  Unit{"GB", 1e9}, Unit{"TB", 1e12},     Unit{"KiB", 1024},
+    constexpr std::array units = {Unit{"", 1},          Unit{"KB", 1e3},        Unit{"MB", 1e6},
+                                  Unit{"GB", 1e9},      Unit{"TB", 1e12},       Unit{"KiB", 1024},
                                   Unit{"MiB", 1048576}, Unit{"GiB", 1073741824}};
     const auto bytes = read_with_unit(text, units);
     if (bytes && *bytes >= 1e6 && *bytes < 1e18) return static_cast<std::uint64_t>(*bytes);
@@ -217,8 +216,9 @@ Result<std::string> parse_output_path(std::string_view text) {
         return failure(fmt::format("'{}' is called like a movie, and pictures are drawn", text),
                        how_to_make_a_movie(std::filesystem::path(text)));
     }
-    return failure(fmt::format("'{}' does not end in .png", text),
-                   "on models .ply, .obj, .glb and .vtp are models, .npz and .cells.vtp their cells");
+    return failure(
+        fmt::format("'{}' does not end in .png", text),
+        "on models .ply, .obj, .glb and .vtp are models, .npz and .cells.vtp their cells");
 }
 
 Result<std::string> parse_png_path(std::string_view text) {

@@ -72,8 +72,8 @@ struct Parser {
         return chosen() ? fmt::format("{} {}", program, chosen()->get_name()) : program;
     }
     Leave leave(const std::string& program, const std::string& message) {
-        return {exit_status::wrong_use, fmt::format("{}\n'{} --help' lists what there is.\n",
-                                                    message, called(program))};
+        return {exit_status::wrong_use,
+                fmt::format("{}\n'{} --help' lists what there is.\n", message, called(program))};
     }
     Leave wrong_use(const std::string& program, const CLI::ParseError& error);
     std::string near_option(const std::string& word);
@@ -127,8 +127,9 @@ void Parser::add_all() {
     groups::add_sweep(*sweep, options);
     groups::add_shown(*sweep, options.picture);
     groups::add_overrides(*sweep, options.overrides);
-    groups::add_simulation(*sweep, options, "Runs at once, each on one thread; without it as many\n"
-                                            "as there are cores");
+    groups::add_simulation(*sweep, options,
+                           "Runs at once, each on one thread; without it as many\n"
+                           "as there are cores");
     groups::add_quiet(*sweep, options);
     groups::add_limits(*sweep, options);
 
@@ -153,9 +154,10 @@ void Parser::add_all() {
     groups::add_overrides(*compile, options.overrides);
 
     systems = command("systems", help::systems, help::systems_examples);
-    systems->add_option("WORDS", options.words,
-                        "The name of a system, or words that its description has; before it a\n"
-                        "script whose systems are shown instead of the library's")
+    systems
+        ->add_option("WORDS", options.words,
+                     "The name of a system, or words that its description has; before it a\n"
+                     "script whose systems are shown instead of the library's")
         ->type_name("");
 
     new_script = command("new", help::new_script, help::new_script_examples);
@@ -272,8 +274,8 @@ std::string missing_argument(const Options& options) {
     return "";
 }
 
-/// What stands after `--` is no option. Whatever is given without an option is a path or a name, and
-/// a path that begins with '-' is the same with './' in front.
+/// What stands after `--` is no option. Whatever is given without an option is a path or a name,
+/// and a path that begins with '-' is the same with './' in front.
 std::vector<std::string> without_terminator(std::vector<std::string> arguments) {
     const auto mark = std::find(arguments.begin(), arguments.end(), "--");
     if (mark == arguments.end()) return arguments;

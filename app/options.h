@@ -40,32 +40,33 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request);
 
 struct Options {
     Command command = Command::run;
-    std::vector<std::string> scripts;  ///< One, but for `check`, `bench`, `fmt`; none with --resume alone.
+    std::vector<std::string>
+        scripts;  ///< One, but for `check`, `bench`, `fmt`; none with --resume alone.
     Overrides overrides;
     PictureChanges picture;
-    RunRequest run;                    ///< Its `picture` is left at the defaults.
-    SweepRequest sweep;                ///< Its `picture` and `simulation` too.
-    double limit_seconds = 0;          ///< `--limit-time`; 0: none.
-    std::string dump;                  ///< A dump kind; empty to run.
-    bool timing = false;               ///< Say where the time went.
-    bool quiet = false;                ///< Neither progress nor remarks.
-    std::vector<std::string> words;    ///< What `systems` looks for; the system of `new`.
-    std::filesystem::path new_script;  ///< `new -o`
-    bool check_only = false;           ///< `fmt --check`
-    std::vector<std::string> models;   ///< Of `mesh`.
-    std::optional<CellOptions> cells;  ///< `mesh --cells`.
+    RunRequest run;                          ///< Its `picture` is left at the defaults.
+    SweepRequest sweep;                      ///< Its `picture` and `simulation` too.
+    double limit_seconds = 0;                ///< `--limit-time`; 0: none.
+    std::string dump;                        ///< A dump kind; empty to run.
+    bool timing = false;                     ///< Say where the time went.
+    bool quiet = false;                      ///< Neither progress nor remarks.
+    std::vector<std::string> words;          ///< What `systems` looks for; the system of `new`.
+    std::filesystem::path new_script;        ///< `new -o`
+    bool check_only = false;                 ///< `fmt --check`
+    std::vector<std::string> models;         ///< Of `mesh`.
+    std::optional<CellOptions> cells;        ///< `mesh --cells`.
     std::optional<std::uint32_t> cell_seed;  ///< `mesh --seed`.
-    BenchRequest bench;                ///< Its `simulation` is left at the defaults.
-    bool csv = false;                  ///< `bench --csv`
+    BenchRequest bench;                      ///< Its `simulation` is left at the defaults.
+    bool csv = false;                        ///< `bench --csv`
     CompileRequest compile;
-    std::filesystem::path object;      ///< `compile -o`
-    std::filesystem::path header;      ///< `compile --header`
+    std::filesystem::path object;  ///< `compile -o`
+    std::filesystem::path header;  ///< `compile --header`
 };
 
 /// Nothing to do but to print and to leave: --help, --version, wrong use.
 struct Leave {
     int status = 0;
-    std::string text;   ///< For standard output if `status` is 0, else for standard error.
+    std::string text;  ///< For standard output if `status` is 0, else for standard error.
 };
 
 /// `program` is what messages call us; `arguments` come without it.

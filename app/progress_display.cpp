@@ -117,8 +117,8 @@ std::string progress_line(const Progress& progress) {
             ? fmt::format("stage {}: {} at step {}", stage_text(progress), progress.when_met,
                           with_commas(progress.step))
         : progress.duration > 0
-            ? fmt::format("stage {}: t = {:.6g} of {:.6g}, {} steps", stage_text(progress), progress.t,
-                          progress.duration, with_commas(progress.step))
+            ? fmt::format("stage {}: t = {:.6g} of {:.6g}, {} steps", stage_text(progress),
+                          progress.t, progress.duration, with_commas(progress.step))
             : fmt::format("stage {}: {} of {} steps", stage_text(progress),
                           with_commas(progress.step), with_commas(progress.steps));
     for (const std::string& fact : {rate_text(progress.steps_per_second), left_text(progress)}) {

@@ -51,8 +51,8 @@ private:
     Kind kind_;
     Output output_;
     bool drawn_ = false;
-    int stage_ = 0;            ///< The stage that was shown last.
-    bool swept_ = false;       ///< A sweep has been shown.
+    int stage_ = 0;       ///< The stage that was shown last.
+    bool swept_ = false;  ///< A sweep has been shown.
     Time stage_begun_;
     std::int64_t first_step_ = 0;
     Time last_line_;

@@ -33,8 +33,8 @@ bool same_species(const System& first, const System& second) {
 bool same_cells(const std::shared_ptr<const ModelCells>& first,
                 const std::shared_ptr<const ModelCells>& second) {
     if (!first || !second) return !first && !second;
-    return first->mesh.triangles == second->mesh.triangles && first->cells.areas == second->cells.areas &&
-           first->cells.ends == second->cells.ends;
+    return first->mesh.triangles == second->mesh.triangles &&
+           first->cells.areas == second->cells.areas && first->cells.ends == second->cells.ends;
 }
 
 /// A run that the user sees and can stop.
@@ -203,7 +203,8 @@ void PromptSession::show(const std::string& expression) {
     const Canvas canvas = painter->canvas(*simulation_);
     const Image image = painter->image(canvas);
     const int columns = console_.out().columns();
-    console_.draw(console_.out().colour ? half_blocks(image, columns) : plain_characters(image, columns));
+    console_.draw(console_.out().colour ? half_blocks(image, columns)
+                                        : plain_characters(image, columns));
     if (!canvas.is_colour()) {
         const Spread values = spread_of(canvas.fields[0]);
         console_.print(values.count == 0 ? "no values\n"

@@ -112,7 +112,7 @@ bool PromptSession::obey(std::string_view line) {
     }
     const std::string near = nearest_name(name, known);
     fail({fmt::format("there is no command '{}'", name),
-                   near.empty() ? "':help' lists them" : fmt::format("did you mean '{}'?", near)});
+          near.empty() ? "':help' lists them" : fmt::format("did you mean '{}'?", near)});
     return true;
 }
 
@@ -207,10 +207,13 @@ void PromptSession::set(const std::string& assignment) {
     const auto name = [](std::string_view text) {
         text = text.substr(0, text.find('='));
         const std::size_t begin = text.find_first_not_of(" \t");
-        return begin == std::string_view::npos ? "" : text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
+        return begin == std::string_view::npos
+                   ? ""
+                   : text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
     };
     Overrides overrides = script_->overrides;
-    std::erase_if(overrides.sets, [&](const std::string& set) { return name(set) == name(assignment); });
+    std::erase_if(overrides.sets,
+                  [&](const std::string& set) { return name(set) == name(assignment); });
     overrides.sets.push_back(assignment);
     if (change(load_script(script_->name, script_->text, script_->folder, std::move(overrides))) &&
         is_over()) {
@@ -234,9 +237,8 @@ void PromptSession::forget(const std::string&) {
 
 void PromptSession::help(const std::string&) {
     for (const Command& command : commands()) {
-        console_.print(fmt::format("  {:<20} {}\n",
-                                   fmt::format("{} {}", command.name, command.argument),
-                                   command.about));
+        console_.print(fmt::format(
+            "  {:<20} {}\n", fmt::format("{} {}", command.name, command.argument), command.about));
     }
     console_.print(
         "Anything else is the language: 'stage s: turing_spots { ka: 1/80 }'. A line that is\n"

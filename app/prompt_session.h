@@ -77,7 +77,7 @@ private:
     SimulationOptions options_;
     Console& console_;
     bool show_after_run_;
-    std::string pending_;                     ///< The first lines of a block, not yet complete.
+    std::string pending_;  ///< The first lines of a block, not yet complete.
     std::string last_warnings_;
     bool has_failed_ = false;
     std::unique_ptr<Script> script_;          ///< Always right; null until something was typed.

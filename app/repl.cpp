@@ -22,7 +22,8 @@ int repl_command(const Options& options, Console& console) {
     if (!options.scripts.empty()) session.load(options.scripts[0]);
     // At a terminal whoever typed a wrong line has seen what was wrong.
     const auto status = [&] {
-        return !at_terminal && session.has_failed() ? exit_status::wrong_line : exit_status::success;
+        return !at_terminal && session.has_failed() ? exit_status::wrong_line
+                                                    : exit_status::success;
     };
     while (true) {
         const TypedLine line = reader->read(session.prompt());

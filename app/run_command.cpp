@@ -44,9 +44,10 @@ std::optional<LoadedFile> load_for_run(const Options& options, const Console& co
     }
     const auto edited = find_edited_script(options.run.resume, saved->name, saved->text);
     if (!given && edited) {
-        console.warn(fmt::format("{} has another text than the saved run, which goes on with its own; what "
-                                 "that reads is looked for in {} and where --allow-read says",
-                                 edited->string(), options.run.resume.string()));
+        console.warn(
+            fmt::format("{} has another text than the saved run, which goes on with its own; what "
+                        "that reads is looked for in {} and where --allow-read says",
+                        edited->string(), options.run.resume.string()));
     }
     return LoadedFile{std::move(*saved), ""};
 }
@@ -72,8 +73,9 @@ void tell_written(const RunReport& report, const RunRequest& request, Console& c
 void print_features(const measure::Features& features, Console& console) {
     const auto values = measure::to_array(features);
     for (std::size_t k = 0; k < values.size(); ++k) {
-        console.print(fmt::format("{:<11} {}\n", measure::feature_names()[k],
-                                  std::isfinite(values[k]) ? fmt::format("{:.6g}", values[k]) : "-"));
+        console.print(
+            fmt::format("{:<11} {}\n", measure::feature_names()[k],
+                        std::isfinite(values[k]) ? fmt::format("{:.6g}", values[k]) : "-"));
     }
 }
 
@@ -88,8 +90,8 @@ int tell(const RunReport& report, const Options& options, int signal, bool limit
     if (!options.quiet) {
         tell_written(report, options.run, console);
         if (report.steps > 0) {
-            console.say(fmt::format("{} steps in {:.2f} s\n", with_commas(report.steps),
-                                    report.seconds));
+            console.say(
+                fmt::format("{} steps in {:.2f} s\n", with_commas(report.steps), report.seconds));
         }
     }
     if (report.status == RunStatus::stopped && !options.quiet) {

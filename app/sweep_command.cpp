@@ -20,7 +20,8 @@ namespace {
 /// "81 runs (12 done before), 2,430,000 steps in 41.20 s".
 std::string summary(const SweepReport& report) {
     std::string text = counted(report.runs, "run");
-    if (report.done_before > 0) text += fmt::format(" ({} done before)", with_commas(report.done_before));
+    if (report.done_before > 0)
+        text += fmt::format(" ({} done before)", with_commas(report.done_before));
     if (report.steps > 0) {
         text += fmt::format(", {} steps in {:.2f} s", with_commas(report.steps), report.seconds);
     }
@@ -41,7 +42,8 @@ int tell(const SweepReport& report, const Options& options, int signal, bool lim
                                                   describe_duration(options.limit_seconds))
                                     : std::string("interrupted");
         console.say(fmt::format("cascade: {}; {} of {} are done, and the same command goes on\n",
-                                why, with_commas(report.runs - report.missing), counted(report.runs, "run")));
+                                why, with_commas(report.runs - report.missing),
+                                counted(report.runs, "run")));
         return limit_reached ? exit_status::time_limit : exit_status::signal_base + signal;
     }
     if (report.failed == 0) return exit_status::success;

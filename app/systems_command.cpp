@@ -37,9 +37,8 @@ void print_system(std::string_view title, const ast::Script& script, const Sourc
     for (std::string& line : system_words(script, sources, name)) words.push_back(std::move(line));
     for (const std::string& line : words) console.print("  " + line + "\n");
     if (!words.empty()) console.print("\n");
-    console.print(
-        print_equations(script, sources, name, Notation::unicode, EquationParts::rates) + "\n" +
-        print_system_listing(script, sources, name));
+    console.print(print_equations(script, sources, name, Notation::unicode, EquationParts::rates) +
+                  "\n" + print_system_listing(script, sources, name));
 }
 
 void print_library_system(const LibraryText& text, Console& console) {
@@ -48,8 +47,8 @@ void print_library_system(const LibraryText& text, Console& console) {
 
 void print_system(const Script& script, const System& system, Console& console) {
     const LibraryText* const text = system.built_in ? find_library_text(system.name) : nullptr;
-    print_system(text ? system.name : fmt::format("{} ({})", system.name, printable(script.name)), script.tree,
-                 script.sources, system.name, text, console);
+    print_system(text ? system.name : fmt::format("{} ({})", system.name, printable(script.name)),
+                 script.tree, script.sources, system.name, text, console);
 }
 
 /// One line of a list, cut where a terminal ends.
@@ -73,7 +72,8 @@ std::vector<std::string> library_names() {
 Failure unknown_system(std::string_view name) {
     const std::string near = nearest_name(name, library_names());
     return {fmt::format("no system is called '{}'", name),
-            near.empty() ? "'cascade systems' lists them" : fmt::format("did you mean '{}'?", near)};
+            near.empty() ? "'cascade systems' lists them"
+                         : fmt::format("did you mean '{}'?", near)};
 }
 
 /// Those of the library in which all words are found.
@@ -99,7 +99,8 @@ bool is_script_path(const std::string& word) {
 
 namespace {
 
-/// Of a word that no system mentions: which ones mention its longest beginning, of four letters or more.
+/// Of a word that no system mentions: which ones mention its longest beginning, of four letters or
+/// more.
 std::string hint_by_beginning(const std::string& word) {
     constexpr std::size_t fewest_letters = 4, most_named = 6;
     for (std::size_t letters = word.size(); letters-- > fewest_letters;) {
@@ -128,22 +129,22 @@ int search_library(const std::vector<std::string>& words, Console& console) {
     Failure failure = unknown_system(words.front());
     failure.message += ", and none mentions it";
     if (words.size() > 1) failure.message = "no system mentions all these words";
-    else if (nearest_name(words.front(), library_names()).empty()) failure.hint = hint_by_beginning(words.front());
+    else if (nearest_name(words.front(), library_names()).empty())
+        failure.hint = hint_by_beginning(words.front());
     console.fail(failure);
     return exit_status::wrong_use;
 }
 
 /// `cascade systems SCRIPT [NAME]`
-int show_systems_of(const Script& script, const std::vector<std::string>& names,
-                    Console& console) {
+int show_systems_of(const Script& script, const std::vector<std::string>& names, Console& console) {
     console.say(script.messages(console.error().colour));
     if (!script.program) return exit_status::wrong_script;
     if (!names.empty()) {
         const System* const system =
             names.size() == 1 ? find_system(script, names.front()) : nullptr;
         if (system == nullptr) {
-            console.fail({fmt::format("no system of {} is called '{}'", script.name,
-                                      names.front()), ""});
+            console.fail(
+                {fmt::format("no system of {} is called '{}'", script.name, names.front()), ""});
             return exit_status::wrong_use;
         }
         print_system(script, *system, console);

@@ -39,9 +39,9 @@ public:
     void line(const std::string& name, double seconds, const std::string& remark = "") {
         const bool is_long = everything_ >= 10;
         const double share = everything_ > 0 ? seconds / everything_ : 0;
-        std::string line = fmt::format("{:<24}{:>10.{}f} {:<2}{:>8.1f} %", name,
-                                       is_long ? seconds : 1e3 * seconds, is_long ? 3 : 1,
-                                       is_long ? "s" : "ms", 100 * share);
+        std::string line =
+            fmt::format("{:<24}{:>10.{}f} {:<2}{:>8.1f} %", name, is_long ? seconds : 1e3 * seconds,
+                        is_long ? 3 : 1, is_long ? "s" : "ms", 100 * share);
         if (bars_) {
             const int width = static_cast<int>(std::clamp(share, 0.0, 1.0) * bar_columns + 0.5);
             line += "  ";
@@ -95,8 +95,8 @@ std::string time_table(TimeAccount& account, bool bars) {
     // Time goes on while the table is made, so each part is looked at once.
     std::vector<double> seconds_of_parts;
     for (const Part& part : parts) seconds_of_parts.push_back(account.seconds(part.what));
-    const double everything = std::accumulate(seconds_of_parts.begin(), seconds_of_parts.end(),
-                                              account.seconds_before());
+    const double everything =
+        std::accumulate(seconds_of_parts.begin(), seconds_of_parts.end(), account.seconds_before());
     const auto& stages = account.stages();
     Table table(everything, bars);
     table.line("program start", account.seconds_before());
@@ -104,10 +104,10 @@ std::string time_table(TimeAccount& account, bool bars) {
         const Part& part = parts[k];
         const double seconds = seconds_of_parts[k];
         const bool is_stepping = part.what == Spent::stepping;
-        const std::string remark = part.what == Spent::compiling ? remark_on_kernels(account.kernels)
-                                   : is_stepping && stages.size() == 1
-                                       ? remark_on_steps(stages[0])
-                                       : "";
+        const std::string remark = part.what == Spent::compiling
+                                       ? remark_on_kernels(account.kernels)
+                                   : is_stepping && stages.size() == 1 ? remark_on_steps(stages[0])
+                                                                       : "";
         table.line(std::string(part.name), seconds, remark);
         if (stages.size() < 2 || part.what == Spent::rest) continue;
         for (const TimeAccount::Stage& stage : stages) {

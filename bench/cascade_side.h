@@ -21,13 +21,14 @@ namespace cascade::bench {
 /// The texts that are measured, for a grid of squares or cubes.
 std::string turing_text(const GridSize& grid);  ///< beta and frozen vary over the cells.
 std::string gray_scott_text(const GridSize& grid);
-std::string stripes_text(const GridSize& grid);  ///< ai varies.
+std::string stripes_text(const GridSize& grid);        ///< ai varies.
 std::string cahn_hilliard_text(const GridSize& grid);  ///< Two passes a step.
-std::string chemotaxis_text(const GridSize& grid);  ///< Fluxes at faces.
-std::string tensor_text(const GridSize& grid);  ///< Diffusion with a direction, flux form.
+std::string chemotaxis_text(const GridSize& grid);     ///< Fluxes at faces.
+std::string tensor_text(const GridSize& grid);         ///< Diffusion with a direction, flux form.
 std::string allen_cahn_text(const GridSize& grid);  ///< One species: what least can be done a cell.
 std::string rock_scissors_paper_text(const GridSize& grid);  ///< Three species.
-std::string perona_malik_text(const GridSize& grid);  ///< An exponential a cell, fluxes, two passes.
+std::string perona_malik_text(
+    const GridSize& grid);  ///< An exponential a cell, fluxes, two passes.
 
 /// Every operation by itself, or as with `--fast`.
 enum class Rounding { strict, fast };
@@ -63,8 +64,8 @@ private:
 
 std::int64_t cell_count(const GridSize& grid);
 
-/// As a run takes them: 64, but fewer where they would take more than half a second, and then as many as a
-/// tile has.
+/// As a run takes them: 64, but fewer where they would take more than half a second, and then as
+/// many as a tile has.
 std::int64_t steps_between_looks(const GridSize& grid);
 
 /// Between cells of two states of a grid, over all species; infinite where one is not a number.

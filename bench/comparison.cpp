@@ -82,16 +82,18 @@ std::string title(const System& system, std::int64_t side, const std::string& wh
     return fmt::format("{}/{}/{}", system.name, side, who);
 }
 
-/// Both sides take turns. They are made when first needed and freed after it: the large ones take memory.
+/// Both sides take turns. They are made when first needed and freed after it: the large ones take
+/// memory.
 void run_contest(Backend& backend, const System& system, std::int64_t side, Medians& times) {
     std::unique_ptr<Contest> contest;
     const auto add = [&](const std::string& who, auto advance) {
-        benchmark::RegisterBenchmark(
-            title(system, side, who).c_str(),
-            [&, advance](benchmark::State& state) {
-                if (!contest) contest = std::make_unique<Contest>(system, side, backend);
-                for (auto _ : state) advance(*contest);
-            })
+        benchmark::RegisterBenchmark(title(system, side, who).c_str(),
+                                     [&, advance](benchmark::State& state) {
+                                         if (!contest)
+                                             contest =
+                                                 std::make_unique<Contest>(system, side, backend);
+                                         for (auto _ : state) advance(*contest);
+                                     })
             ->Unit(benchmark::kMicrosecond);
     };
     add("jit", [](Contest& it) { it.ours.advance(it.steps); });
@@ -107,10 +109,12 @@ void run_contest(Backend& backend, const System& system, std::int64_t side, Medi
 }
 
 void print_table(Medians& times) {
-    fmt::print("\nMillions of cell steps a second, medians; in brackets our speed over theirs, with --fast "
-               "after that of 'jit'.\n"
-               "{:<14}{:>6}{:>9}{:>9}{:>21}{:>21}{:>16}\n",
-               "system", "side", "jit", "fast", "g++", "g++ 512", "g++ strict");
+    fmt::print(
+        "\nMillions of cell steps a second, medians; in brackets our speed over theirs, with "
+        "--fast "
+        "after that of 'jit'.\n"
+        "{:<14}{:>6}{:>9}{:>9}{:>21}{:>21}{:>16}\n",
+        "system", "side", "jit", "fast", "g++", "g++ 512", "g++ strict");
     for (const System& system : systems()) {
         for (const std::int64_t side : system.sides) {
             const double ours = times.median(title(system, side, "jit"));

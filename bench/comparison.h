@@ -5,8 +5,9 @@
 
 namespace cascade::bench {
 
-/// Checks that both sides compute the same, to rounding; then measures every system at every size, one
-/// size after the other, both sides in this process and interleaved at random, and prints medians and ratios.
+/// Checks that both sides compute the same, to rounding; then measures every system at every size,
+/// one size after the other, both sides in this process and interleaved at random, and prints
+/// medians and ratios.
 void compare_throughput(Backend& backend);
 
 }  // namespace cascade::bench

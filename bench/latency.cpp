@@ -79,8 +79,7 @@ void later_use(Backend& backend) {
     print("text to first step, another uniform number: no compiling",
           median_of([&](int n) { CascadeSide(changed_number(n), backend).advance(1); }), 20);
     const CascadeSide prepared(turing_text({64, 64}), backend);
-    print("2000 steps of Turing's system on 64 x 64",
-          median_of([&](int) {
+    print("2000 steps of Turing's system on 64 x 64", median_of([&](int) {
               Stepper stepper = prepared.fresh_stepper();
               for (int n = 0; n < 2000; n += 50) {
                   stepper.advance(n, 50, true);

@@ -1,9 +1,10 @@
 // cascade_linked_bench: Turing's step over linked cells, one core: native code through the solver's
-// stepper against straight C++ over the same slices, and over compressed rows in the cells' own order.
+// stepper against straight C++ over the same slices, and over compressed rows in the cells' own
+// order.
 //
-// --order=steps|curve|levels|own, --window=CELLS (0 groups nothing), --width=CELLS of a row, --lanes=4|8|16
-// and --levels=STEPS for each pass through memory (0: as fits)
-// come first; then flags of Google Benchmark.
+// --order=steps|curve|levels|own, --window=CELLS (0 groups nothing), --width=CELLS of a row,
+// --lanes=4|8|16 and --levels=STEPS for each pass through memory (0: as fits) come first; then
+// flags of Google Benchmark.
 #include "bench/linked_cells.h"
 #include "bench/medians.h"
 #include "bench/straight_links.h"
@@ -55,8 +56,7 @@ CellKernel turing_kernel() {
     const auto uniform = [&](const char* name) { return b.uniform(b.uniform_slot(name)); };
     const ValueId step = uniform("step"), s = uniform("s");
     const ValueId du = uniform("diff_u"), dv = uniform("diff_v");
-    const ValueId eaten =
-        b.subtract(b.subtract(uv, v), b.field(b.field_slot("beta")));
+    const ValueId eaten = b.subtract(b.subtract(uv, v), b.field(b.field_slot("beta")));
     const auto next = [&](ValueId value, ValueId reaction, ValueId diffusion, std::uint32_t slot) {
         const ValueId rate =
             b.add(b.multiply(s, reaction), b.multiply(diffusion, b.laplacian(slot)));
@@ -86,7 +86,8 @@ public:
         StepProblem::Pass& pass = problem_.passes.emplace_back();
         using Kind = StepProblem::PlaneRef::Kind;
         pass.kernel = *kernel;
-        pass.fields = {{Kind::species, 0, 0}, {Kind::species, 1, 0},
+        pass.fields = {{Kind::species, 0, 0},
+                       {Kind::species, 1, 0},
                        {Kind::fixed, 0, 0, beta_.origin()}};
         pass.results = {{{Kind::species, 0, 1}}, {{Kind::species, 1, 1}}};
         pass.uniforms = {double{parameters.step}, double{parameters.s},
@@ -109,8 +110,8 @@ public:
     }
     void advance(decltype(&sliced_by_loads) step, std::int64_t count) {
         const LinkTable<float> table = links_.table<float>();
-        const SlicedLinks links{table.starts, table.targets,  table.weights,
-                                grid_.width,  grid_.height, layout_.stride};
+        const SlicedLinks links{table.starts, table.targets, table.weights,
+                                grid_.width,  grid_.height,  layout_.stride};
         for (; count > 0; --count) {
             step(parameters, links,
                  {{theirs_[0].origin(), theirs_[1].origin()},
@@ -226,8 +227,8 @@ const std::vector<std::pair<std::string, Advance>> contestants{
     {"loads", [](Contest& c) { c.sliced.advance(sliced_by_loads, steps); }},
     {"rows in our order",
      [](Contest& c) {
-         c.ordered_rows.advance([&](const auto& p) { by_rows(parameters, c.ordered_rows.links(), p); },
-                                steps);
+         c.ordered_rows.advance(
+             [&](const auto& p) { by_rows(parameters, c.ordered_rows.links(), p); }, steps);
      }},
     {"rows",
      [](Contest& c) {

@@ -43,8 +43,8 @@ LinkedCells cells_of_torus(std::size_t side) {
         const double y = static_cast<double>(k / side) + 0.7 * scatter(k, 1);
         const double turn = 2 * std::numbers::pi / static_cast<double>(side);
         const double radius = 1 + 0.4 * std::cos(y * turn);
-        cells.positions.push_back({radius * std::cos(x * turn), radius * std::sin(x * turn),
-                                   0.4 * std::sin(y * turn)});
+        cells.positions.push_back(
+            {radius * std::cos(x * turn), radius * std::sin(x * turn), 0.4 * std::sin(y * turn)});
     }
     std::vector<std::vector<std::uint32_t>> neighbours(side * side);
     const auto link = [&](std::size_t a, std::size_t b) {

@@ -10,8 +10,8 @@
 
 namespace cascade::bench {
 
-/// Reads the flags of Google Benchmark after defaults of ours: nine repetitions, which take turns at
-/// random. False, with a message, where a flag is unknown.
+/// Reads the flags of Google Benchmark after defaults of ours: nine repetitions, which take turns
+/// at random. False, with a message, where a flag is unknown.
 bool initialize_benchmarks(int argc, char** argv);
 
 /// Keeps every repetition's time and prints nothing. Serves any number of runs.

@@ -1,11 +1,12 @@
 // cascade_model_times: from the file of a model to the first step on its cells, phase by phase.
 //
-// usage: cascade_model_times [--model=FILE] [--threads=N] [CELLS…]   64,000 without a number, on a torus
+// usage: cascade_model_times [--model=FILE] [--threads=N] [CELLS…]   64,000 without a number, on a
+// torus
 //
-// Of each phase the time on the wall and that of the processors, in seconds: on a machine that others
-// use, the second over the number of cores is what an idle one would take. Phases are called one by
-// one, as a run does within `Simulation::create`; the last two rows are such a run as a whole, its
-// kernels compiled within it.
+// Of each phase the time on the wall and that of the processors, in seconds: on a machine that
+// others use, the second over the number of cores is what an idle one would take. Phases are called
+// one by one, as a run does within `Simulation::create`; the last two rows are such a run as a
+// whole, its kernels compiled within it.
 #include "core/floating_point.h"
 #include "core/parallel.h"
 #include "core/quantities.h"
@@ -168,7 +169,8 @@ int main(int argc, char** argv) {
         const bool is_threads = word.starts_with(of_threads);
         const long number = std::atol(argv[k] + (is_threads ? of_threads.size() : 0));
         if (number < 1 || (is_threads && number > 1024)) {
-            std::fprintf(stderr, "usage: cascade_model_times [--model=FILE] [--threads=N] [CELLS...]\n");
+            std::fprintf(stderr,
+                         "usage: cascade_model_times [--model=FILE] [--threads=N] [CELLS...]\n");
             return 64;
         }
         if (is_threads) {

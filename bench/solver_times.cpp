@@ -43,8 +43,8 @@ struct Pattern {
     const char* text;
 };
 
-/// Turk's spots with the two sizes of his leopard, and larger ones: the larger, the less does reaction
-/// limit the step.
+/// Turk's spots with the two sizes of his leopard, and larger ones: the larger, the less does
+/// reaction limit the step.
 constexpr Pattern known_patterns[] = {
     {"large", "stage s: turing_spots { iterations: 28000; ka: 0.05/16 }\n"},
     {"small", "stage s: turing_spots { iterations: 7000; ka: 0.2/16 }\n"},
@@ -109,7 +109,8 @@ double correlation(const Field& a, const Field& b) {
     const FieldMoments apart = moments_of_difference(a, b);
     // var(a − b) = var(a) + var(b) − 2 cov(a, b)
     const double covariance = (of_a.deviation * of_a.deviation + of_b.deviation * of_b.deviation -
-                               apart.deviation * apart.deviation) / 2;
+                               apart.deviation * apart.deviation) /
+                              2;
     return covariance / (of_a.deviation * of_b.deviation);
 }
 
@@ -199,9 +200,10 @@ std::optional<Choice> read_choice(int argc, char** argv) {
             if (!solver_of(solvers.back())) return std::nullopt;
         } else if (word.starts_with("--pattern=")) {
             patterns.emplace_back(word.substr(10));
-            const bool is_known = std::any_of(
-                std::begin(known_patterns), std::end(known_patterns),
-                [&](const Pattern& pattern) { return pattern.name == patterns.back(); });
+            const bool is_known = std::any_of(std::begin(known_patterns), std::end(known_patterns),
+                                              [&](const Pattern& pattern) {
+                                                  return pattern.name == patterns.back();
+                                              });
             if (!is_known) return std::nullopt;
         } else {
             const bool is_threads = word.starts_with("--threads=");
@@ -225,8 +227,9 @@ int main(int argc, char** argv) {
     const cascade::FlushDenormals environment;
     const std::optional<Choice> choice = read_choice(argc, argv);
     if (!choice) {
-        std::fprintf(stderr, "usage: cascade_solver_times [--threads=N] [--solver=NAME...] "
-                             "[--pattern=small|large|larger|largest...] [SIDE...]\n");
+        std::fprintf(stderr,
+                     "usage: cascade_solver_times [--threads=N] [--solver=NAME...] "
+                     "[--pattern=small|large|larger|largest...] [SIDE...]\n");
         return 64;
     }
     const auto backend = cascade::make_jit();

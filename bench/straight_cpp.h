@@ -9,28 +9,28 @@ namespace cascade::bench {
 
 /// Planes of one layout; pointers are to cell (0, 0, 0).
 struct StraightFields {
-    const float* now[5];          ///< Species of the old step, halo filled.
-    float* next[5];               ///< Species of the new step.
-    const float* varying;         ///< beta of Turing's system, ai of the stripes.
-    const std::uint8_t* frozen;   ///< Turing's system only, unless it is that without a mask.
-    float* scratch;               ///< Between two passes: Cahn-Hilliard's chemical potential, how
-                                  ///< well heat goes with Perona and Malik.
+    const float* now[5];         ///< Species of the old step, halo filled.
+    float* next[5];              ///< Species of the new step.
+    const float* varying;        ///< beta of Turing's system, ai of the stripes.
+    const std::uint8_t* frozen;  ///< Turing's system only, unless it is that without a mask.
+    float* scratch;              ///< Between two passes: Cahn-Hilliard's chemical potential, how
+                                 ///< well heat goes with Perona and Malik.
     std::int64_t width, height, depth, stride, slice_stride;
 };
 
 /// Constants of the systems, held in variables so that no compiler can fold them.
 struct StraightConstants {
     float speed = 1;
-    float ka = 0.0125F, diff_a = 0.125F, diff_b = 0.03125F;                    // Turing.
-    float feed = 0.037F, kill = 0.060F, diff_u = 0.12F, diff_v = 0.06F;        // Gray-Scott.
-    float p1 = 0.04F, p2 = 0.06F, p3 = 0.04F, diff1 = 0.04F, diff2 = 0.06F;    // Stripes.
-    float gamma = 0.5F, mixing_speed = 0.02F;                                  // Cahn-Hilliard.
-    float chi = 5.0F, spread = 10.0F, swarm_speed = 0.02F;                     // Chemotaxis.
-    float a11 = 0.709873F, a12 = 0.424078F, a22 = 0.380127F;                   // Tensor: a1 = 1,
-    float tensor_speed = 0.1F;                                                 // a2 = 0.3, θ = 0.6.
-    float diffusion = 1, wall_speed = 0.1F;                                    // Allen-Cahn.
-    float growth = 1, defeat = 1, mobility = 0.5F, game_speed = 0.1F;          // Three in a ring.
-    float edge = 0.08F, cleaning_speed = 0.15F;                                // Perona-Malik.
+    float ka = 0.0125F, diff_a = 0.125F, diff_b = 0.03125F;                  // Turing.
+    float feed = 0.037F, kill = 0.060F, diff_u = 0.12F, diff_v = 0.06F;      // Gray-Scott.
+    float p1 = 0.04F, p2 = 0.06F, p3 = 0.04F, diff1 = 0.04F, diff2 = 0.06F;  // Stripes.
+    float gamma = 0.5F, mixing_speed = 0.02F;                                // Cahn-Hilliard.
+    float chi = 5.0F, spread = 10.0F, swarm_speed = 0.02F;                   // Chemotaxis.
+    float a11 = 0.709873F, a12 = 0.424078F, a22 = 0.380127F;                 // Tensor: a1 = 1,
+    float tensor_speed = 0.1F;                                               // a2 = 0.3, θ = 0.6.
+    float diffusion = 1, wall_speed = 0.1F;                                  // Allen-Cahn.
+    float growth = 1, defeat = 1, mobility = 0.5F, game_speed = 0.1F;        // Three in a ring.
+    float edge = 0.08F, cleaning_speed = 0.15F;                              // Perona-Malik.
 };
 
 /// One step of a system, halo of the new fields included (periodic).

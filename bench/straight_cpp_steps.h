@@ -52,11 +52,11 @@ void fill_halo_in_space(float* cells, const StraightFields& f) {
 // undone it proves nothing about overlaps and leaves these loops scalar. Hence a function a row.
 
 template <bool has_mask = true, typename Stride>
-[[gnu::noinline]]
-void turing_row(const float* __restrict a, const float* __restrict b,
-                const float* __restrict beta, const std::uint8_t* __restrict frozen,
-                float* __restrict new_a, float* __restrict new_b, std::int64_t width,
-                Stride stride, StraightConstants k) {
+[[gnu::noinline]] void turing_row(const float* __restrict a, const float* __restrict b,
+                                  const float* __restrict beta,
+                                  const std::uint8_t* __restrict frozen, float* __restrict new_a,
+                                  float* __restrict new_b, std::int64_t width, Stride stride,
+                                  StraightConstants k) {
     for (std::int64_t i = 0; i < width; ++i) {
         // A weight and not a choice of results: g++ 12 vectorises this form of the mask.
         const float weight = has_mask && frozen[i] ? 0.0F : k.speed;
@@ -70,10 +70,9 @@ void turing_row(const float* __restrict a, const float* __restrict b,
 }
 
 template <typename Stride>
-[[gnu::noinline]]
-void gray_scott_row(const float* __restrict u, const float* __restrict v,
-                    float* __restrict new_u, float* __restrict new_v, std::int64_t width,
-                    Stride stride, StraightConstants k) {
+[[gnu::noinline]] void gray_scott_row(const float* __restrict u, const float* __restrict v,
+                                      float* __restrict new_u, float* __restrict new_v,
+                                      std::int64_t width, Stride stride, StraightConstants k) {
     const float loss = k.feed + k.kill;
     for (std::int64_t i = 0; i < width; ++i) {
         const float rate = u[i] * v[i] * v[i];
@@ -84,51 +83,51 @@ void gray_scott_row(const float* __restrict u, const float* __restrict v,
     }
 }
 
-[[gnu::noinline]]
-void stripes_row(const float* __restrict a, const float* __restrict b, const float* __restrict c,
-                 const float* __restrict d, const float* __restrict e,
-                 const float* __restrict ai, float* __restrict new_a, float* __restrict new_b,
-                 float* __restrict new_c, float* __restrict new_d, float* __restrict new_e,
-                 std::int64_t width, std::int64_t stride, StraightConstants k) {
+[[gnu::noinline]] void stripes_row(const float* __restrict a, const float* __restrict b,
+                                   const float* __restrict c, const float* __restrict d,
+                                   const float* __restrict e, const float* __restrict ai,
+                                   float* __restrict new_a, float* __restrict new_b,
+                                   float* __restrict new_c, float* __restrict new_d,
+                                   float* __restrict new_e, std::int64_t width, std::int64_t stride,
+                                   StraightConstants k) {
     for (std::int64_t i = 0; i < width; ++i) {
         const float made_a = 0.01F * a[i] * a[i] * e[i] * ai[i];
         const float made_b = 0.01F * b[i] * b[i] * d[i];
-        new_a[i] = a[i] + k.speed * (made_a / c[i] - k.p1 * a[i] +
-                                     k.diff1 * laplacian(a, i, stride));
-        new_b[i] = b[i] + k.speed * (made_b / c[i] - k.p1 * b[i] +
-                                     k.diff1 * laplacian(b, i, stride));
+        new_a[i] =
+            a[i] + k.speed * (made_a / c[i] - k.p1 * a[i] + k.diff1 * laplacian(a, i, stride));
+        new_b[i] =
+            b[i] + k.speed * (made_b / c[i] - k.p1 * b[i] + k.diff1 * laplacian(b, i, stride));
         new_c[i] = c[i] + k.speed * (made_a + made_b - k.p2 * c[i]);
         new_d[i] = d[i] + k.speed * (k.p3 * (a[i] - d[i]) + k.diff2 * laplacian(d, i, stride));
         new_e[i] = e[i] + k.speed * (k.p3 * (b[i] - e[i]) + k.diff2 * laplacian(e, i, stride));
     }
 }
 
-[[gnu::noinline]]
-void potential_row(const float* __restrict c, float* __restrict mu, std::int64_t width,
-                   std::int64_t stride, StraightConstants k) {
+[[gnu::noinline]] void potential_row(const float* __restrict c, float* __restrict mu,
+                                     std::int64_t width, std::int64_t stride, StraightConstants k) {
     for (std::int64_t i = 0; i < width; ++i) {
         mu[i] = c[i] * c[i] * c[i] - c[i] - k.gamma * laplacian(c, i, stride);
     }
 }
 
-[[gnu::noinline]]
-void mixing_row(const float* __restrict c, const float* __restrict mu, float* __restrict new_c,
-                std::int64_t width, std::int64_t stride, StraightConstants k) {
+[[gnu::noinline]] void mixing_row(const float* __restrict c, const float* __restrict mu,
+                                  float* __restrict new_c, std::int64_t width, std::int64_t stride,
+                                  StraightConstants k) {
     for (std::int64_t i = 0; i < width; ++i) {
         new_c[i] = c[i] + k.mixing_speed * laplacian(mu, i, stride);
     }
 }
 
 /// What flows through the face between cell i and the one at i + to, in units of chi.
-inline float swarm_flux(const float* __restrict cells, const float* __restrict bait,
-                        std::int64_t i, std::int64_t to) {
+inline float swarm_flux(const float* __restrict cells, const float* __restrict bait, std::int64_t i,
+                        std::int64_t to) {
     return 0.5F * (cells[i] + cells[i + to]) * (bait[i + to] - bait[i]);
 }
 
-[[gnu::noinline]]
-void chemotaxis_row(const float* __restrict cells, const float* __restrict bait,
-                    float* __restrict new_cells, float* __restrict new_bait, std::int64_t width,
-                    std::int64_t stride, StraightConstants k) {
+[[gnu::noinline]] void chemotaxis_row(const float* __restrict cells, const float* __restrict bait,
+                                      float* __restrict new_cells, float* __restrict new_bait,
+                                      std::int64_t width, std::int64_t stride,
+                                      StraightConstants k) {
     for (std::int64_t i = 0; i < width; ++i) {
         const float flow = swarm_flux(cells, bait, i, 1) - swarm_flux(cells, bait, i - 1, 1) +
                            swarm_flux(cells, bait, i, stride) -
@@ -143,14 +142,12 @@ void chemotaxis_row(const float* __restrict cells, const float* __restrict bait,
 /// along the face.
 inline float tensor_flux(const float* __restrict c, std::int64_t i, std::int64_t to,
                          std::int64_t beside, float across, float turned) {
-    const float along = (c[i + beside] - c[i - beside]) +
-                        (c[i + to + beside] - c[i + to - beside]);
+    const float along = (c[i + beside] - c[i - beside]) + (c[i + to + beside] - c[i + to - beside]);
     return across * (c[i + to] - c[i]) + turned * 0.25F * along;
 }
 
-[[gnu::noinline]]
-void tensor_row(const float* __restrict c, float* __restrict new_c, std::int64_t width,
-                std::int64_t stride, StraightConstants k) {
+[[gnu::noinline]] void tensor_row(const float* __restrict c, float* __restrict new_c,
+                                  std::int64_t width, std::int64_t stride, StraightConstants k) {
     for (std::int64_t i = 0; i < width; ++i) {
         const float along_x = tensor_flux(c, i, 1, stride, k.a11, k.a12) -
                               tensor_flux(c, i - 1, 1, stride, k.a11, k.a12);
@@ -160,19 +157,18 @@ void tensor_row(const float* __restrict c, float* __restrict new_c, std::int64_t
     }
 }
 
-[[gnu::noinline]]
-void walls_row(const float* __restrict u, float* __restrict new_u, std::int64_t width,
-               std::int64_t stride, StraightConstants k) {
+[[gnu::noinline]] void walls_row(const float* __restrict u, float* __restrict new_u,
+                                 std::int64_t width, std::int64_t stride, StraightConstants k) {
     for (std::int64_t i = 0; i < width; ++i) {
         const float rate = u[i] - u[i] * u[i] * u[i] + k.diffusion * laplacian(u, i, stride);
         new_u[i] = u[i] + k.wall_speed * rate;
     }
 }
 
-[[gnu::noinline]]
-void ring_row(const float* __restrict a, const float* __restrict b, const float* __restrict c,
-              float* __restrict new_a, float* __restrict new_b, float* __restrict new_c,
-              std::int64_t width, std::int64_t stride, StraightConstants k) {
+[[gnu::noinline]] void ring_row(const float* __restrict a, const float* __restrict b,
+                                const float* __restrict c, float* __restrict new_a,
+                                float* __restrict new_b, float* __restrict new_c,
+                                std::int64_t width, std::int64_t stride, StraightConstants k) {
     for (std::int64_t i = 0; i < width; ++i) {
         const float free = k.growth * (1.0F - a[i] - b[i] - c[i]);
         const float rate_a = a[i] * (free - k.defeat * c[i]) + k.mobility * laplacian(a, i, stride);
@@ -184,9 +180,9 @@ void ring_row(const float* __restrict a, const float* __restrict b, const float*
     }
 }
 
-[[gnu::noinline]]
-void conductivity_row(const float* __restrict c, float* __restrict conductivity,
-                      std::int64_t width, std::int64_t stride, StraightConstants k) {
+[[gnu::noinline]] void conductivity_row(const float* __restrict c, float* __restrict conductivity,
+                                        std::int64_t width, std::int64_t stride,
+                                        StraightConstants k) {
     const float square = k.edge * k.edge;
     for (std::int64_t i = 0; i < width; ++i) {
         const float along_x = 0.5F * (c[i + 1] - c[i - 1]);
@@ -201,10 +197,9 @@ inline float heat_flux(const float* __restrict c, const float* __restrict conduc
     return 0.5F * (conductivity[i] + conductivity[i + to]) * (c[i + to] - c[i]);
 }
 
-[[gnu::noinline]]
-void cleaning_row(const float* __restrict c, const float* __restrict conductivity,
-                  float* __restrict new_c, std::int64_t width, std::int64_t stride,
-                  StraightConstants k) {
+[[gnu::noinline]] void cleaning_row(const float* __restrict c, const float* __restrict conductivity,
+                                    float* __restrict new_c, std::int64_t width,
+                                    std::int64_t stride, StraightConstants k) {
     for (std::int64_t i = 0; i < width; ++i) {
         const float rate = heat_flux(c, conductivity, i, 1) - heat_flux(c, conductivity, i - 1, 1) +
                            heat_flux(c, conductivity, i, stride) -
@@ -266,8 +261,8 @@ void gray_scott_in_space_step(const StraightFields& f, const StraightConstants& 
 void stripes_step(const StraightFields& f, const StraightConstants& k) {
     for (std::int64_t at = 0; at < f.height * f.stride; at += f.stride) {
         stripes_row(f.now[0] + at, f.now[1] + at, f.now[2] + at, f.now[3] + at, f.now[4] + at,
-                    f.varying + at, f.next[0] + at, f.next[1] + at, f.next[2] + at,
-                    f.next[3] + at, f.next[4] + at, f.width, f.stride, k);
+                    f.varying + at, f.next[0] + at, f.next[1] + at, f.next[2] + at, f.next[3] + at,
+                    f.next[4] + at, f.width, f.stride, k);
     }
     // Nobody reads the neighbours of c.
     for (const int s : {0, 1, 3, 4}) fill_halo(f.next[s], f);
@@ -328,9 +323,9 @@ void perona_malik_step(const StraightFields& f, const StraightConstants& k) {
 }  // namespace
 
 StraightSteps STRAIGHT_CPP_FLAVOUR() {
-    return {turing_step,     gray_scott_step,          stripes_step,
-            cahn_hilliard_step, chemotaxis_step,       tensor_step,
-            allen_cahn_step, rock_scissors_paper_step, perona_malik_step,
+    return {turing_step,          gray_scott_step,          stripes_step,
+            cahn_hilliard_step,   chemotaxis_step,          tensor_step,
+            allen_cahn_step,      rock_scissors_paper_step, perona_malik_step,
             turing_in_space_step, gray_scott_in_space_step, turing_without_mask_step};
 }
 

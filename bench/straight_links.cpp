@@ -21,7 +21,8 @@ void for_each_slice(const SlicedLinks& links, const Slice& slice) {
 
 }  // namespace
 
-void sliced_by_gathers(const LinkedTuring& p, const SlicedLinks& links, const LinkedPlanes& planes) {
+void sliced_by_gathers(const LinkedTuring& p, const SlicedLinks& links,
+                       const LinkedPlanes& planes) {
 #ifdef __AVX512F__
     const float* u = planes.now[0];
     const float* v = planes.now[1];
@@ -39,8 +40,8 @@ void sliced_by_gathers(const LinkedTuring& p, const SlicedLinks& links, const Li
             lap_v = _mm512_add_ps(lap_v, _mm512_mul_ps(w, _mm512_sub_ps(vj, vi)));
         }
         const __m512 uv = _mm512_mul_ps(ui, vi);
-        const __m512 rate_u = _mm512_add_ps(_mm512_mul_ps(s, _mm512_sub_ps(sixteen, uv)),
-                                            _mm512_mul_ps(du, lap_u));
+        const __m512 rate_u =
+            _mm512_add_ps(_mm512_mul_ps(s, _mm512_sub_ps(sixteen, uv)), _mm512_mul_ps(du, lap_u));
         const __m512 eaten = _mm512_sub_ps(_mm512_sub_ps(uv, vi), _mm512_load_ps(planes.beta + at));
         const __m512 rate_v = _mm512_add_ps(_mm512_mul_ps(s, eaten), _mm512_mul_ps(dv, lap_v));
         _mm512_store_ps(planes.next[0] + at, _mm512_add_ps(ui, _mm512_mul_ps(step, rate_u)));
@@ -95,7 +96,8 @@ void by_rows(const LinkedTuring& p, const RowLinks& links, const LinkedPlanes& p
         }
         const float uv = ui * vi;
         planes.next[0][i] = ui + p.step * (p.s * (16 - uv) + p.diffusion_u * lap_u);
-        planes.next[1][i] = vi + p.step * (p.s * (uv - vi - planes.beta[i]) + p.diffusion_v * lap_v);
+        planes.next[1][i] =
+            vi + p.step * (p.s * (uv - vi - planes.beta[i]) + p.diffusion_v * lap_v);
     }
 }
 

@@ -32,8 +32,8 @@ PolygonSoup torus() {
             const double across = 2 * std::numbers::pi * j / sides;
             const double tube = 0.3 + 0.08 * std::sin(5 * around);
             const double radius = 1 + tube * std::cos(across);
-            soup.points.push_back({radius * std::cos(around), tube * std::sin(across),
-                                   -radius * std::sin(around)});
+            soup.points.push_back(
+                {radius * std::cos(around), tube * std::sin(across), -radius * std::sin(around)});
             const auto at = [&](std::uint32_t column, std::uint32_t row) {
                 return row % sides * sides + column % sides;
             };
@@ -69,9 +69,11 @@ struct Subject {
         }
     }
     PaintedCells look() const {
-        return {1, values, [](std::span<const float> v, const SurfacePlace&) -> Colour {
-            return v[0] > 0 ? Colour{0.9F, 0.8F, 0.6F} : Colour{0.3F, 0.2F, 0.1F};
-        }, heights};
+        return {1, values,
+                [](std::span<const float> v, const SurfacePlace&) -> Colour {
+                    return v[0] > 0 ? Colour{0.9F, 0.8F, 0.6F} : Colour{0.3F, 0.2F, 0.1F};
+                },
+                heights};
     }
 };
 
@@ -142,9 +144,12 @@ int main(int argc, char** argv) {
     }
     bench::Subject subject(std::move(made->mesh));
     const auto add = [&](const char* name, void (*function)(benchmark::State&, bench::Subject&)) {
-        return benchmark::RegisterBenchmark(name, [function, &subject](benchmark::State& state) {
-                   function(state, subject);
-               })->UseRealTime()->Unit(benchmark::kMillisecond);
+        return benchmark::RegisterBenchmark(name,
+                                            [function, &subject](benchmark::State& state) {
+                                                function(state, subject);
+                                            })
+            ->UseRealTime()
+            ->Unit(benchmark::kMillisecond);
     };
     add("scene", bench::make_scene);
     add("draw", bench::draw_picture)->Args({512, 2})->Args({512, 4})->Args({64, 2});

@@ -26,9 +26,9 @@ constexpr std::optional<Axis> axis_of_name(std::string_view name) {
     return std::nullopt;
 }
 
-/// `v` turned with the space around it, so that the axis `up` becomes y. Coordinates change places and
-/// signs and nothing else: no bit is lost. What looks along −y while z is upwards looks along z then, as
-/// programs that model with z upwards and glTF, which has y upwards, agree.
+/// `v` turned with the space around it, so that the axis `up` becomes y. Coordinates change places
+/// and signs and nothing else: no bit is lost. What looks along −y while z is upwards looks along z
+/// then, as programs that model with z upwards and glTF, which has y upwards, agree.
 template <typename Number>
 constexpr BasicVector3<Number> turned_upright(BasicVector3<Number> v, Axis up) {
     switch (up) {

@@ -67,9 +67,8 @@ std::vector<CacheLevel> cache_levels(const fs::path& folder) {
         }
         levels.push_back({number, bytes, count_of(word_in(cache / "shared_cpu_list"))});
     }
-    std::stable_sort(levels.begin(), levels.end(), [](const CacheLevel& a, const CacheLevel& b) {
-        return a.number < b.number;
-    });
+    std::stable_sort(levels.begin(), levels.end(),
+                     [](const CacheLevel& a, const CacheLevel& b) { return a.number < b.number; });
     return levels;
 }
 

@@ -12,15 +12,16 @@ inline constexpr const char* described_caches = "/sys/devices/system/cpu/cpu0/ca
 
 /// A cache of data as one processor sees it.
 struct CacheLevel {
-    int number = 1;          ///< 1 is the first level.
+    int number = 1;  ///< 1 is the first level.
     std::int64_t bytes = 0;
     std::int64_t cores = 1;  ///< Processors that share it, at least 1.
 
     friend bool operator==(const CacheLevel&, const CacheLevel&) = default;
 };
 
-/// The caches of data, nearest first, that a folder such as `described_caches` describes; none where it
-/// describes none. What it says of a cache that cannot be, such as a size of no bytes, is passed over.
+/// The caches of data, nearest first, that a folder such as `described_caches` describes; none
+/// where it describes none. What it says of a cache that cannot be, such as a size of no bytes, is
+/// passed over.
 std::vector<CacheLevel> cache_levels(const std::filesystem::path& folder = described_caches);
 
 /// Bytes of each cache that one thread may take for itself where all that share it are at work.

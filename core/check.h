@@ -8,7 +8,7 @@ namespace cascade {
 
 }  // namespace cascade
 
-#define CHECK(condition, why)                                                  \
-    do {                                                                       \
+#define CHECK(condition, why)                                                         \
+    do {                                                                              \
         if (!(condition)) cascade::check_failed(__FILE__, __LINE__, #condition, why); \
     } while (false)

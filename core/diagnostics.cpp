@@ -19,8 +19,10 @@ void Diagnostics::add(Diagnostic diagnostic) {
     std::size_t& count = diagnostic.severity == Severity::error ? error_count_ : warning_count_;
     if (count < most_kept) {
         const Span& span = diagnostic.span;
-        const bool is_new = seen_.emplace(diagnostic.severity, span.source, span.begin, span.end,
-                                          diagnostic.message).second;
+        const bool is_new =
+            seen_
+                .emplace(diagnostic.severity, span.source, span.begin, span.end, diagnostic.message)
+                .second;
         if (!is_new) return;
         list_.push_back(std::move(diagnostic));
     }

@@ -61,8 +61,8 @@ private:
 };
 
 struct RenderStyle {
-    bool colour = false;         ///< ANSI colours, for a terminal.
-    std::size_t most = 50;       ///< So many diagnostics are drawn; the rest is counted in a line.
+    bool colour = false;    ///< ANSI colours, for a terminal.
+    std::size_t most = 50;  ///< So many diagnostics are drawn; the rest is counted in a line.
 };
 
 /// Draws one diagnostic:

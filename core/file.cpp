@@ -69,7 +69,8 @@ Result<void> write_in_place(const fs::path& path, std::string_view bytes) {
                        "begin reading it before the run ends, or name a file");
     }
     if (!file.is_open()) return cannot("write", path.string(), errno);
-    if (const int error = write_all_waiting(file, bytes)) return cannot("write", path.string(), error);
+    if (const int error = write_all_waiting(file, bytes))
+        return cannot("write", path.string(), error);
     if (!file.close()) return cannot("write", path.string(), errno);
     return {};
 }

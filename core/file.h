@@ -16,8 +16,8 @@ namespace cascade {
 /// (the size is looked at before reading).
 Result<std::string> read_file(const std::filesystem::path& path, std::uint64_t largest);
 
-/// The first bytes of a file, at most `count`. Nothing of what cannot be opened and of pipes and devices,
-/// which give their bytes once.
+/// The first bytes of a file, at most `count`. Nothing of what cannot be opened and of pipes and
+/// devices, which give their bytes once.
 std::string first_bytes(const std::filesystem::path& path, std::size_t count);
 
 /// The whole of what is a file itself: links, pipes and devices are refused, without waiting.

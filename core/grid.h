@@ -19,7 +19,8 @@ struct Boundaries {
     Boundary z = Boundary::periodic;
 
     constexpr Boundaries() = default;
-    constexpr Boundaries(Boundary all) : x(all), y(all), z(all) {}  // NOLINT: a number of words for one.
+    constexpr Boundaries(Boundary all)
+        : x(all), y(all), z(all) {}  // NOLINT: a number of words for one.
     constexpr Boundaries(Boundary along_x, Boundary along_y, Boundary along_z)
         : x(along_x), y(along_y), z(along_z) {}
 

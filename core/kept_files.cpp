@@ -45,7 +45,8 @@ bool is_private(const struct stat& status) {
 int open_own_folder(const fs::path& folder) {
     Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
     struct stat status {};
-    if (!opened.is_open() || ::fstat(opened.number(), &status) != 0 || !is_private(status)) return -1;
+    if (!opened.is_open() || ::fstat(opened.number(), &status) != 0 || !is_private(status))
+        return -1;
     return opened.release();
 }
 
@@ -90,7 +91,8 @@ std::string file_of(std::string_view magic, std::string_view key, std::string_vi
     return file;
 }
 
-std::optional<std::string> content_of(std::string_view file, std::string_view magic, std::string_view key) {
+std::optional<std::string> content_of(std::string_view file, std::string_view magic,
+                                      std::string_view key) {
     Header header;
     if (file.size() < sizeof header) return std::nullopt;
     std::memcpy(&header, file.data(), sizeof header);
@@ -104,7 +106,8 @@ std::optional<std::string> content_of(std::string_view file, std::string_view ma
     return std::string(file.substr(sizeof header + header.key_size));
 }
 
-/// Makes a folder that is the user's alone, and those above it as they usually are. Returns it open.
+/// Makes a folder that is the user's alone, and those above it as they usually are. Returns it
+/// open.
 int make_own_folder(const fs::path& folder) {
     if (const int opened = open_own_folder(folder); opened >= 0) return opened;
     std::error_code error;
@@ -124,12 +127,14 @@ bool has_magic(const Descriptor& folder, const std::string& name, std::string_vi
 }  // namespace
 
 std::string KeptFiles::name_of(std::string_view key) const {
-    return fmt::format("{:016x}{:016x}{}", fnv1a(key), fnv1a(key, 0x6c62272e07bb0142ULL), kind_.suffix);
+    return fmt::format("{:016x}{:016x}{}", fnv1a(key), fnv1a(key, 0x6c62272e07bb0142ULL),
+                       kind_.suffix);
 }
 
 bool KeptFiles::is_name(std::string_view name) const {
     return name.size() == digits_of_name + kind_.suffix.size() && name.ends_with(kind_.suffix) &&
-           name.substr(0, digits_of_name).find_first_not_of("0123456789abcdef") == std::string_view::npos;
+           name.substr(0, digits_of_name).find_first_not_of("0123456789abcdef") ==
+               std::string_view::npos;
 }
 
 std::optional<std::string> KeptFiles::find(std::string_view key) const {
@@ -178,7 +183,8 @@ void KeptFiles::remove_oldest(const Descriptor& folder) const {
               [](const Kept& a, const Kept& b) { return a.time < b.time; });
     for (const Kept& file : files) {
         if (total <= kind_.limit / 4 * 3) break;
-        if (has_magic(folder, file.name, kind_.magic)) ::unlinkat(folder.number(), file.name.c_str(), 0);
+        if (has_magic(folder, file.name, kind_.magic))
+            ::unlinkat(folder.number(), file.name.c_str(), 0);
         total -= file.size;
     }
 }

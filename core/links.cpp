@@ -47,8 +47,8 @@ public:
 
     std::int64_t slices_of_row() const { return (layout_.width + slice_cells - 1) / slice_cells; }
 
-    /// Calls `use(at, link)` for each link, `at` being its element in slices that begin at `starts`, and
-    /// `fill_up(at, row, column)` for the elements between them.
+    /// Calls `use(at, link)` for each link, `at` being its element in slices that begin at
+    /// `starts`, and `fill_up(at, row, column)` for the elements between them.
     void for_each(const std::vector<std::uint32_t>& starts, const auto& use,
                   const auto& fill_up) const {
         for (std::int64_t row = 0; row < layout_.height; ++row) {

@@ -1,9 +1,10 @@
-// Which cells are neighbours where cells lie on no grid, and how they lie in memory: sliced ELLPACK.
+// Which cells are neighbours where cells lie on no grid, and how they lie in memory: sliced
+// ELLPACK.
 //
-// Cells are numbered in rows as on a grid (PlaneLayout). Sixteen cells beside each other in a row are
-// a slice; a slice has as many entries as the cell with the most neighbours in it, and an entry is
-// sixteen links, one of each cell. So a vector of cells reads its neighbours' places and weights as
-// vectors, and gathers their values. What fills up is a link to the cell itself of weight 0.
+// Cells are numbered in rows as on a grid (PlaneLayout). Sixteen cells beside each other in a row
+// are a slice; a slice has as many entries as the cell with the most neighbours in it, and an entry
+// is sixteen links, one of each cell. So a vector of cells reads its neighbours' places and weights
+// as vectors, and gathers their values. What fills up is a link to the cell itself of weight 0.
 #pragma once
 
 #include "core/grid.h"
@@ -39,7 +40,7 @@ struct LinkList {
     std::vector<std::size_t> ends;
     std::vector<std::uint32_t> neighbours;  ///< Cells. The order is the order of sums.
     std::vector<double> weights;
-    std::vector<Vector3d> gradients;        ///< Empty, or one for each link.
+    std::vector<Vector3d> gradients;  ///< Empty, or one for each link.
 };
 
 /// Elements that begin at a multiple of 64 bytes, zero at first.

@@ -16,8 +16,8 @@ inline constexpr Colour colour_of_nan{1.0F, 0.0F, 1.0F};
 /// Colours at equal distances from 0 to 1; between them colour is linear in sRGB.
 struct Palette {
     std::string_view name;
-    std::string_view description;  ///< For `--help` and the spec.
-    std::span<const Colour> stops; ///< At least two.
+    std::string_view description;   ///< For `--help` and the spec.
+    std::span<const Colour> stops;  ///< At least two.
 };
 
 /// All palettes, "grey" first.

@@ -25,6 +25,7 @@ constexpr std::array<Colour, 2> grey{{hex(0x000000), hex(0xffffff)}};
 // for color vision deficiency to enable accurate interpretation of scientific data", PLOS ONE
 // 13(7), 2018.
 
+// clang-format off
 constexpr std::array<Colour, 17> viridis{{
     {0.2670F, 0.0049F, 0.3294F}, {0.2823F, 0.0946F, 0.4170F}, {0.2789F, 0.1749F, 0.4830F},
     {0.2593F, 0.2507F, 0.5244F}, {0.2302F, 0.3213F, 0.5455F}, {0.2000F, 0.3864F, 0.5545F},
@@ -117,5 +118,6 @@ constexpr std::array<Colour, 9> dart_frog{{
     hex(0x05070d), hex(0x08132e), hex(0x0b2560), hex(0x1040a0), hex(0x1a63d6),
     hex(0x3d8bf0), hex(0x74b2f8), hex(0xaed4fb), hex(0xe2f2fe),
 }};
+// clang-format on
 
 }  // namespace cascade::palette_stops

@@ -20,8 +20,8 @@ RowRange split_rows(std::int64_t rows, int index, int count);
 /// How many threads the machine offers this process (at least 1).
 int hardware_threads();
 
-/// A team of `size` threads, or of fewer where the system denies more; the calling thread is number 0.
-/// Each works in FlushDenormals.
+/// A team of `size` threads, or of fewer where the system denies more; the calling thread is number
+/// 0. Each works in FlushDenormals.
 class Team {
 public:
     explicit Team(int size);

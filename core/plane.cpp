@@ -18,12 +18,13 @@ namespace {
 constexpr std::size_t cache_line = 64;
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 
-/// Bytes from the start of a block of memory to the plane in it. Planes that begin alike, as multiples of
-/// pages do, have their rows in the same sets of the caches, where a tile of five planes then finds too few
-/// ways, and the processor takes what is stored in the one for what is loaded from the other, for it
-/// compares the last 12 bits of addresses first. So each plane is shifted against the others by a different
-/// part of 128 KiB, a way of a second-level cache, or of a page where it is too small for that: the multiples
-/// of 783 are spread evenly over 2048 lines as well as over 64.
+/// Bytes from the start of a block of memory to the plane in it. Planes that begin alike, as
+/// multiples of pages do, have their rows in the same sets of the caches, where a tile of five
+/// planes then finds too few ways, and the processor takes what is stored in the one for what is
+/// loaded from the other, for it compares the last 12 bits of addresses first. So each plane is
+/// shifted against the others by a different part of 128 KiB, a way of a second-level cache, or of
+/// a page where it is too small for that: the multiples of 783 are spread evenly over 2048 lines as
+/// well as over 64.
 std::size_t next_shift(std::size_t bytes) {
     constexpr std::size_t small_plane = 65536, lines_of_way = 2048, lines_of_page = 64;
     static std::atomic<std::size_t> planes{0};
@@ -117,8 +118,7 @@ private:
                 cells[-1] = beyond(left, cells[0], value(left, 0), spacing_);
             }
             if (right.has_value()) {
-                cells[after] = beyond(right, cells[after - 1], value(right, after - 1),
-                                       spacing_);
+                cells[after] = beyond(right, cells[after - 1], value(right, after - 1), spacing_);
             }
         }
     }
@@ -215,8 +215,8 @@ void fill_halo(Field& field, const SideRules& sides) {
 
 template void fill_halo<float>(float*, const PlaneLayout&, const SideRules&);
 template void fill_halo<double>(double*, const PlaneLayout&, const SideRules&);
-template void fill_halo_from_rows<float>(float*, const PlaneLayout&, const SideRules&,
-                                         std::int64_t, std::int64_t);
+template void fill_halo_from_rows<float>(float*, const PlaneLayout&, const SideRules&, std::int64_t,
+                                         std::int64_t);
 template void fill_halo_from_rows<double>(double*, const PlaneLayout&, const SideRules&,
                                           std::int64_t, std::int64_t);
 

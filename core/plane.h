@@ -27,8 +27,7 @@ class Plane {
 public:
     Plane() = default;
     explicit Plane(const PlaneLayout& layout)
-        : layout_(layout),
-          data_(static_cast<T*>(allocate_plane(bytes(layout)))) {}
+        : layout_(layout), data_(static_cast<T*>(allocate_plane(bytes(layout)))) {}
 
     bool empty() const { return !data_; }
     const PlaneLayout& layout() const { return layout_; }
@@ -66,14 +65,15 @@ private:
     std::unique_ptr<T[], Free> data_;
 };
 
-using Mask = Plane<std::uint8_t>;   ///< 1 where a cell is frozen, else 0.
+using Mask = Plane<std::uint8_t>;  ///< 1 where a cell is frozen, else 0.
 
-/// A species, or a parameter that varies over the surface: a plane of the run's numbers, which knows
-/// their precision. Loops over its cells are written for a `Plane<Number>` and chosen once, by visit().
+/// A species, or a parameter that varies over the surface: a plane of the run's numbers, which
+/// knows their precision. Loops over its cells are written for a `Plane<Number>` and chosen once,
+/// by visit().
 ///
 /// Where the precision is known cells are reached as those of a plane: `field.row<double>(j)`, and
-/// without a word, `field.row(j)`, those of binary32. Asking for the other precision is a mistake of
-/// ours.
+/// without a word, `field.row(j)`, those of binary32. Asking for the other precision is a mistake
+/// of ours.
 class Field {
 public:
     Field() = default;

@@ -29,8 +29,8 @@ constexpr std::size_t bytes_of(Precision precision) {
 
 /// The precision of `float` and of `double`.
 template <typename Number>
-inline constexpr Precision precision_of = std::is_same_v<Number, double> ? Precision::binary64
-                                                                         : Precision::single;
+inline constexpr Precision precision_of =
+    std::is_same_v<Number, double> ? Precision::binary64 : Precision::single;
 
 /// Calls `visit` with a zero of the type that numbers of a precision have: what depends on the
 /// format is chosen once, before the loops.

@@ -20,19 +20,13 @@ std::string cleaned(std::string_view text, std::string_view kept) {
     return result;
 }
 
-bool continues_character(char byte) {
-    return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
-}
+bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xc0) == 0x80; }
 
 }  // namespace
 
-std::string printable(std::string_view text) {
-    return cleaned(text, "");
-}
+std::string printable(std::string_view text) { return cleaned(text, ""); }
 
-std::string printable_lines(std::string_view text) {
-    return cleaned(text, "\n\t");
-}
+std::string printable_lines(std::string_view text) { return cleaned(text, "\n\t"); }
 
 std::string short_name(std::string_view name, std::size_t most) {
     if (count_code_points(name) <= most) return std::string(name);

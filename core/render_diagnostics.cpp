@@ -14,11 +14,11 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t widest_excerpt = 100;    // Columns of a source line that are shown.
-constexpr std::size_t columns_in_front = 60;   // A span further right has its line cut in front.
-constexpr std::size_t columns_kept = 40;       // So many characters stay before it then.
+constexpr std::size_t widest_excerpt = 100;   // Columns of a source line that are shown.
+constexpr std::size_t columns_in_front = 60;  // A span further right has its line cut in front.
+constexpr std::size_t columns_kept = 40;      // So many characters stay before it then.
 constexpr std::size_t tab_stop = 8;
-constexpr std::string_view ellipsis = "\xe2\x80\xa6";     // U+2026.
+constexpr std::string_view ellipsis = "\xe2\x80\xa6";  // U+2026.
 
 /// The colours of a message; all empty when it goes to a file.
 struct Colours {
@@ -126,8 +126,7 @@ std::string draw_note(const Note& note, const Sources& sources, const Colours& c
 
 }  // namespace
 
-std::string render(const Diagnostic& diagnostic, const Sources& sources,
-                   const RenderStyle& style) {
+std::string render(const Diagnostic& diagnostic, const Sources& sources, const RenderStyle& style) {
     const Colours colours = colours_of(style);
     const bool is_error = diagnostic.severity == Severity::error;
     std::string result =
@@ -156,7 +155,8 @@ std::string render(const Diagnostics& diagnostics, const Sources& sources,
     }
     std::string rest;
     if (errors_left > 0) rest = counted(errors_left, "more error");
-    if (warnings_left > 0) rest += (rest.empty() ? "" : " and ") + counted(warnings_left, "more warning");
+    if (warnings_left > 0)
+        rest += (rest.empty() ? "" : " and ") + counted(warnings_left, "more warning");
     if (!rest.empty()) result += fmt::format("{} not shown\n", rest);
     return result;
 }

@@ -10,17 +10,17 @@ namespace cascade {
 
 /// How far a stage is. Sent now and then (some ten times a second), and at a stage's end.
 struct Progress {
-    std::string doing;           ///< What goes on where no stage runs; then nothing else means anything.
-    std::string stage;           ///< The stage's name.
-    std::string note;            ///< What is to be said after it; mostly nothing.
-    int stage_number = 1;        ///< From 1.
+    std::string doing;     ///< What goes on where no stage runs; then nothing else means anything.
+    std::string stage;     ///< The stage's name.
+    std::string note;      ///< What is to be said after it; mostly nothing.
+    int stage_number = 1;  ///< From 1.
     int stage_count = 1;
-    std::int64_t step = 0;       ///< Complete steps of this stage.
-    std::int64_t steps = 0;      ///< Steps this stage will take.
-    double t = 0;                ///< The stage's time, where its end is given by time,
-    double duration = 0;         ///< and that end; 0 where it is given by steps.
-    double steps_per_second = 0; ///< Recent rate; 0 while unknown.
-    double seconds_left = -1;    ///< Of this stage at that rate; negative while unknown.
+    std::int64_t step = 0;        ///< Complete steps of this stage.
+    std::int64_t steps = 0;       ///< Steps this stage will take.
+    double t = 0;                 ///< The stage's time, where its end is given by time,
+    double duration = 0;          ///< and that end; 0 where it is given by steps.
+    double steps_per_second = 0;  ///< Recent rate; 0 while unknown.
+    double seconds_left = -1;     ///< Of this stage at that rate; negative while unknown.
     bool stage_done = false;
     bool condition_met = false;  ///< The stage's own condition, its `until`, has ended it:
     std::string when_met;        ///< what to say then, as "settled".

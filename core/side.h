@@ -15,7 +15,7 @@ enum class Side : std::uint8_t { left, right, top, bottom, front, back };
 
 inline constexpr std::size_t side_count = 6;
 inline constexpr std::array<std::string_view, side_count> side_names{"left",   "right", "top",
-                                                                    "bottom", "front", "back"};
+                                                                     "bottom", "front", "back"};
 
 /// The side at the other end of the axis.
 constexpr Side opposite(Side side) {
@@ -58,8 +58,8 @@ struct SideRules {
     SideRules(const Boundaries& boundary) {  // NOLINT: boundaries are rules.
         const std::array<Boundary, 3> along{boundary.x, boundary.y, boundary.z};
         for (std::size_t side = 0; side < side_count; ++side) {
-            at[side].kind = along[side / 2] == Boundary::periodic ? SideKind::periodic
-                                                                  : SideKind::no_flux;
+            at[side].kind =
+                along[side / 2] == Boundary::periodic ? SideKind::periodic : SideKind::no_flux;
         }
     }
     const SideRule& operator[](Side side) const { return at[static_cast<std::size_t>(side)]; }

@@ -1,5 +1,5 @@
-// How values differ from each other: their mean, their deviation and their ends, and the one rule that
-// says when values count as even.
+// How values differ from each other: their mean, their deviation and their ends, and the one rule
+// that says when values count as even.
 #pragma once
 
 #include <algorithm>
@@ -36,8 +36,9 @@ struct Spread {
     void add(const Spread& other);
 };
 
-/// `for_each(take)` calls `take(value)` for every value, in the same order each time: the squares are
-/// taken about the mean, in a second pass, since a difference of sums would lose small patterns.
+/// `for_each(take)` calls `take(value)` for every value, in the same order each time: the squares
+/// are taken about the mean, in a second pass, since a difference of sums would lose small
+/// patterns.
 template <typename ForEach>
 Spread spread_of(const ForEach& for_each) {
     Spread spread;

@@ -20,27 +20,32 @@ namespace cascade {
 
 namespace {
 
-constexpr std::int64_t rows_of_band = 16;   ///< Texels; what one thread does at a time.
-constexpr double most_covered_area = 64;    ///< More is a picture that is repeated all over the model.
+constexpr std::int64_t rows_of_band = 16;  ///< Texels; what one thread does at a time.
+constexpr double most_covered_area =
+    64;  ///< More is a picture that is repeated all over the model.
 
 /// What one thread needs, made before it runs.
 struct Scratch {
     std::vector<std::uint32_t> owners;
-    std::vector<SurfacePlace> places;       ///< Of the samples of one row of texels.
-    std::vector<Colour> lights;             ///< Of each sample.
-    std::vector<float> heights;             ///< Likewise.
-    std::vector<std::uint32_t> columns;     ///< The texel of each sample.
+    std::vector<SurfacePlace> places;    ///< Of the samples of one row of texels.
+    std::vector<Colour> lights;          ///< Of each sample.
+    std::vector<float> heights;          ///< Likewise.
+    std::vector<std::uint32_t> columns;  ///< The texel of each sample.
     PlacePainter painter;
-    std::int64_t covered = 0, again = 0;    ///< Samples.
+    std::int64_t covered = 0, again = 0;  ///< Samples.
 };
 
 class TextureBaker {
 public:
     TextureBaker(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                  const BakeOptions& options)
-        : mesh_(mesh), filter_(filter), cells_(cells), options_(options),
+        : mesh_(mesh),
+          filter_(filter),
+          cells_(cells),
+          options_(options),
           layout_(mesh, options.width * options.samples, options.height * options.samples),
-          normals_(corner_normals(mesh)), vertices_(render_vertices(mesh, normals_)),
+          normals_(corner_normals(mesh)),
+          vertices_(render_vertices(mesh, normals_)),
           colour_(options.width, options.height),
           relief_(has_heights() ? options.width : 0, has_heights() ? options.height : 0),
           slopes_(relief_.width, relief_.height) {}
@@ -93,8 +98,10 @@ private:
         const std::span<std::uint32_t> owners(own.owners.data(), count);
         own.again += layout_.find_owners(first * samples(), last * samples(), owners);
         for (std::int64_t y = first; y < last; ++y) {
-            collect_row(y, owners.subspan(static_cast<std::size_t>((y - first) * samples() *
-                                                                   layout_.width())), own);
+            collect_row(y,
+                        owners.subspan(
+                            static_cast<std::size_t>((y - first) * samples() * layout_.width())),
+                        own);
             if (own.places.empty()) continue;
             own.covered += static_cast<std::int64_t>(own.places.size());
             paint_row(y, own);
@@ -168,8 +175,8 @@ private:
         });
     }
 
-    /// The normal of the raised surface, relative to the tangent, the bitangent and the smooth normal: J.
-    /// Blinn, "Simulation of Wrinkled Surfaces" (SIGGRAPH 1978), for small heights.
+    /// The normal of the raised surface, relative to the tangent, the bitangent and the smooth
+    /// normal: J. Blinn, "Simulation of Wrinkled Surfaces" (SIGGRAPH 1978), for small heights.
     Vector3 bumped_normal(const SurfacePlace& place, PlacePainter& painter) const {
         const Vector3d rise = painter.rise_at(place);
         const Vector3d normal = normals_.at(mesh_, place);
@@ -190,8 +197,8 @@ private:
         Bake bake;
         const auto all = static_cast<double>(layout_.width() * layout_.height());
         bake.covered = static_cast<double>(covered) / all;
-        bake.overlapping =
-            static_cast<double>(again) / static_cast<double>(std::max(covered + again, std::int64_t{1}));
+        bake.overlapping = static_cast<double>(again) /
+                           static_cast<double>(std::max(covered + again, std::int64_t{1}));
         warn(bake);
         fill_gaps(colour_);
         for (Colour& texel : colour_.texels) texel = stored_of(texel);
@@ -202,7 +209,9 @@ private:
         for (auto& texel : slopes_.texels) {
             Vector3 normal = unit(Vector3{texel[0], texel[1], texel[2]});
             if (length(normal) == 0) normal = {0, 0, 1};
-            const auto stored = [](float part) { return std::clamp(0.5F + 0.5F * part, 0.0F, 1.0F); };
+            const auto stored = [](float part) {
+                return std::clamp(0.5F + 0.5F * part, 0.0F, 1.0F);
+            };
             texel = {stored(normal.x), stored(normal.y), stored(normal.z)};
         }
         bake.normals = image_of(std::move(slopes_));
@@ -249,10 +258,10 @@ private:
                                     " without area in the texture left out");
         }
         if (layout_.skipped().without_place > 0) {
-            bake.warnings.push_back(
-                fmt::format("{} with texture coordinates that are not finite or beyond ±{} left out",
-                            counted(layout_.skipped().without_place, "triangle"),
-                            TextureLayout::largest_place));
+            bake.warnings.push_back(fmt::format(
+                "{} with texture coordinates that are not finite or beyond ±{} left out",
+                counted(layout_.skipped().without_place, "triangle"),
+                TextureLayout::largest_place));
         }
     }
 
@@ -275,10 +284,10 @@ Result<void> check_bakeable(const SurfaceMesh& mesh) {
     }
     const double covered = TextureLayout(mesh, 1, 1).covered_area();
     if (covered <= most_covered_area) return {};
-    return failure(fmt::format("the model's texture coordinates cover the texture {:.0f} times over",
-                               covered),
-                   "they are meant for a picture that repeats; give every part of the model a place "
-                   "of its own");
+    return failure(
+        fmt::format("the model's texture coordinates cover the texture {:.0f} times over", covered),
+        "they are meant for a picture that repeats; give every part of the model a place "
+        "of its own");
 }
 
 Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,

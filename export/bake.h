@@ -1,5 +1,5 @@
-// Baking: what grew on a surface painted into a picture that other programs lay over the model by its
-// texture coordinates.
+// Baking: what grew on a surface painted into a picture that other programs lay over the model by
+// its texture coordinates.
 #pragma once
 
 #include "core/result.h"
@@ -28,19 +28,20 @@ struct Bake {
     /// Directions relative to the tangents of render_vertices(), −1 … 1 as 0 … 1, y upwards; empty
     /// likewise.
     Image normals;
-    double covered = 0;       ///< Part of the samples that lie on the surface.
-    double overlapping = 0;   ///< Part of the surface in the texture that lies behind another part.
+    double covered = 0;      ///< Part of the samples that lie on the surface.
+    double overlapping = 0;  ///< Part of the surface in the texture that lies behind another part.
     std::vector<std::string> warnings;  ///< A sentence each.
 };
 
-/// Has the model texture coordinates to paint by? Fails, with a hint, where it has none, and where they
-/// cover the texture again and again, as those of pictures that repeat do.
+/// Has the model texture coordinates to paint by? Fails, with a hint, where it has none, and where
+/// they cover the texture again and again, as those of pictures that repeat do.
 Result<void> check_bakeable(const SurfaceMesh& mesh);
 
-/// Paints every texel with the mean, as amounts of light, over its samples on the surface, and all others by
-/// going on from those. Texture coordinates beyond 0 … 1 repeat the picture. Heights that are not finite are
-/// taken from around. The same on any number of threads. Fails as check_bakeable does, on coordinates that
-/// have no area, and where memory is short; gives what means nothing if `cancel` became true.
+/// Paints every texel with the mean, as amounts of light, over its samples on the surface, and all
+/// others by going on from those. Texture coordinates beyond 0 … 1 repeat the picture. Heights that
+/// are not finite are taken from around. The same on any number of threads. Fails as check_bakeable
+/// does, on coordinates that have no area, and where memory is short; gives what means nothing if
+/// `cancel` became true.
 Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel);
 
@@ -48,9 +49,9 @@ Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const Paint
 /// NAME_height.png and NAME_normal.png (16 bits) beside it.
 std::vector<std::filesystem::path> baked_paths(const std::filesystem::path& glb, bool has_heights);
 
-/// Writes a GLB file of the model with the maps inside, and the maps as PNG files with these texts. Each file
-/// is written atomically.
-Result<void> write_baked(const std::filesystem::path& glb, const SurfaceMesh& mesh, const Bake& bake,
-                         const PngTexts& texts);
+/// Writes a GLB file of the model with the maps inside, and the maps as PNG files with these texts.
+/// Each file is written atomically.
+Result<void> write_baked(const std::filesystem::path& glb, const SurfaceMesh& mesh,
+                         const Bake& bake, const PngTexts& texts);
 
 }  // namespace cascade

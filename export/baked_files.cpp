@@ -13,7 +13,7 @@ namespace {
 
 struct Maps {
     std::string colour, relief, normals;  ///< PNG files.
-    std::string normals_of_model;          ///< In 8 bits, which every viewer of GLB files knows.
+    std::string normals_of_model;         ///< In 8 bits, which every viewer of GLB files knows.
 };
 
 Result<Maps> encode_maps(const Bake& bake, const PngTexts& texts) {

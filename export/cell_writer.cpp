@@ -113,8 +113,9 @@ Result<std::string> encode_npz(const SurfaceMesh& mesh, const SurfaceCells& cell
             return shown(results.colours[row])[column];
         });
     }
-    const std::vector<std::string> names = distinct_names(
-        results.channels, {"points", "normals", "areas", "links", "weights", "colors"});
+    const std::vector<std::string> names =
+        distinct_names(results.channels,
+                       {"points", "normals", "areas", "links", "weights", "colors"});
     for (std::size_t c = 0; c < names.size(); ++c) {
         const std::vector<float>& values = results.channels[c].values;
         arrays.add<float>(names[c], "<f4", count, 1,

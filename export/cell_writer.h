@@ -1,4 +1,5 @@
-// Cells of a surface with what grew in them, as files for other programs: NumPy's .npz and VTK's .vtp.
+// Cells of a surface with what grew in them, as files for other programs: NumPy's .npz and VTK's
+// .vtp.
 #pragma once
 
 #include "core/result.h"
@@ -20,15 +21,16 @@ struct CellResults {
 ///
 ///     points  n × 3 float64   places of the cells       links    m × 2 uint32   i < j, ascending
 ///     normals n × 3 float64   smooth, of length 1       weights  m float64      wall over distance
-///     areas   n float64                                 colors   n × 3 float32  where there are any
+///     areas   n float64                                 colors   n × 3 float32  where there are
+///     any
 ///
-/// and each channel as n × float32 under its name, which has an underscore added if it is one of these. A
-/// step of diffusion is u_i += D dt / areas_i · Σ weights (u_j − u_i). Fails above 4 GiB.
+/// and each channel as n × float32 under its name, which has an underscore added if it is one of
+/// these. A step of diffusion is u_i += D dt / areas_i · Σ weights (u_j − u_i). Fails above 4 GiB.
 Result<std::string> encode_npz(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                const CellResults& results);
 
-/// VTK's XML PolyData: each cell a vertex at its place, with its normal, `area`, colour as `color` and
-/// channels as point data.
+/// VTK's XML PolyData: each cell a vertex at its place, with its normal, `area`, colour as `color`
+/// and channels as point data.
 std::string encode_vtp(const SurfaceMesh& mesh, const SurfaceCells& cells,
                        const CellResults& results);
 

@@ -33,8 +33,8 @@ Colour shown(const Colour& colour) {
 bool are_single(std::span<const Vector3d> points) {
     const auto is_single = [](double number) {
         const double size = std::abs(number);
-        const bool is_normal = size >= std::numeric_limits<float>::min() &&
-                               size <= std::numeric_limits<float>::max();
+        const bool is_normal =
+            size >= std::numeric_limits<float>::min() && size <= std::numeric_limits<float>::max();
         return number == 0 ||
                (is_normal && static_cast<double>(static_cast<float>(number)) == number);
     };

@@ -20,13 +20,15 @@ PartialTexture halved(const PartialTexture& fine) {
                 for (std::int64_t i = 2 * x; i < std::min(2 * x + 2, fine.width); ++i) {
                     const auto at = static_cast<std::size_t>(j * fine.width + i);
                     if (fine.is_filled[at] == 0) continue;
-                    for (std::size_t c = 0; c < 3; ++c) sum[c] += static_cast<double>(fine.texels[at][c]);
+                    for (std::size_t c = 0; c < 3; ++c)
+                        sum[c] += static_cast<double>(fine.texels[at][c]);
                     ++count;
                 }
             }
             if (count == 0) continue;
             const auto at = static_cast<std::size_t>(y * coarse.width + x);
-            for (std::size_t c = 0; c < 3; ++c) coarse.texels[at][c] = static_cast<float>(sum[c] / count);
+            for (std::size_t c = 0; c < 3; ++c)
+                coarse.texels[at][c] = static_cast<float>(sum[c] / count);
             coarse.is_filled[at] = 1;
         }
     }
@@ -40,7 +42,8 @@ struct Between {
 };
 Between between(std::int64_t fine, std::int64_t fine_size, std::int64_t coarse_size) {
     const float place = (static_cast<float>(fine) + 0.5F) * static_cast<float>(coarse_size) /
-                            static_cast<float>(fine_size) - 0.5F;
+                            static_cast<float>(fine_size) -
+                        0.5F;
     const auto first = static_cast<std::int64_t>(std::floor(place));
     return {(first + coarse_size) % coarse_size, (first + 1) % coarse_size,
             place - static_cast<float>(first)};

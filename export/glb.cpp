@@ -44,11 +44,10 @@ public:
         return views_.size() - 1;
     }
 
-    std::size_t add_accessor(std::size_t view, int type, std::string_view shape, std::size_t count) {
-        accessors_.push_back({{"bufferView", view},
-                              {"componentType", type},
-                              {"count", count},
-                              {"type", shape}});
+    std::size_t add_accessor(std::size_t view, int type, std::string_view shape,
+                             std::size_t count) {
+        accessors_.push_back(
+            {{"bufferView", view}, {"componentType", type}, {"count", count}, {"type", shape}});
         return accessors_.size() - 1;
     }
     Json& accessor(std::size_t number) { return accessors_[number]; }
@@ -83,8 +82,8 @@ float component(Vector3d v, std::size_t c) {
 
 struct Extent {
     Vector3d middle;
-    double size = 0;     ///< The longest side of the box around it.
-    double farthest = 0; ///< Of a coordinate.
+    double size = 0;      ///< The longest side of the box around it.
+    double farthest = 0;  ///< Of a coordinate.
 };
 
 Extent extent_of(const SurfaceMesh& mesh) {
@@ -93,8 +92,8 @@ Extent extent_of(const SurfaceMesh& mesh) {
     Extent extent;
     extent.middle = facts.low + sides * 0.5;
     extent.size = std::max({sides.x, sides.y, sides.z});
-    for (const double number : {facts.low.x, facts.low.y, facts.low.z, facts.high.x, facts.high.y,
-                                facts.high.z}) {
+    for (const double number :
+         {facts.low.x, facts.low.y, facts.low.z, facts.high.x, facts.high.y, facts.high.z}) {
         extent.farthest = std::max(extent.farthest, std::abs(number));
     }
     return extent;
@@ -108,10 +107,11 @@ public:
     Result<std::string> encode() {
         const Extent extent = extent_of(mesh_);
         if (!(extent.size >= least_size && extent.farthest <= largest_size)) {
-            return failure(fmt::format("a model of size {:.3g} with coordinates of up to {:.3g} does "
-                                       "not fit into a GLB file, which holds binary32 numbers",
-                                       extent.size, extent.farthest),
-                           "scale the model, or write a PLY file");
+            return failure(
+                fmt::format("a model of size {:.3g} with coordinates of up to {:.3g} does "
+                            "not fit into a GLB file, which holds binary32 numbers",
+                            extent.size, extent.farthest),
+                "scale the model, or write a PLY file");
         }
         const Vector3d origin = are_single(mesh_.points) ? Vector3d{} : extent.middle;
         Json file;
@@ -132,9 +132,10 @@ private:
         const std::size_t count = vertices_.points.size();
         Json attributes;
         attributes["POSITION"] = add_places(origin);
-        attributes["NORMAL"] = buffer_.add_floats("VEC3", count, 3, [&](std::size_t k, std::size_t c) {
-            return component(vertices_.normals[k], c);
-        });
+        attributes["NORMAL"] =
+            buffer_.add_floats("VEC3", count, 3, [&](std::size_t k, std::size_t c) {
+                return component(vertices_.normals[k], c);
+            });
         if (!vertices_.texture.empty()) {
             // glTF counts from the upper left.
             attributes["TEXCOORD_0"] =

@@ -47,9 +47,10 @@ Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& m
         CHECK(channel.values.size() == mesh.points.size(), "a channel has a number for each point");
     }
     if (!is_model_ending(path)) {
-        return failure(fmt::format("cannot write '{}': a model's name ends in .ply, .obj, .glb or "
-                                   ".vtp",
-                                   path.string()));
+        return failure(
+            fmt::format("cannot write '{}': a model's name ends in .ply, .obj, .glb or "
+                        ".vtp",
+                        path.string()));
     }
     return write_encoded(path, [&] { return encode(ending_of(path), mesh, results); });
 }

@@ -45,8 +45,8 @@ std::vector<Colour> colours_at(std::span<const SurfacePlace> places, const CellF
         const RowRange mine =
             split_rows(static_cast<std::int64_t>(places.size()), index, team.size());
         PlacePainter painter(filter, cells);
-        for (auto p = static_cast<std::size_t>(mine.begin);
-             p < static_cast<std::size_t>(mine.end); ++p) {
+        for (auto p = static_cast<std::size_t>(mine.begin); p < static_cast<std::size_t>(mine.end);
+             ++p) {
             colours[p] = painter.at(places[p]).colour;
         }
     });

@@ -12,15 +12,14 @@
 
 namespace cascade {
 
-/// A colour (sRGB) out of the values of all channels at a place. Called from several threads at once; must
-/// not throw.
-using PlaceColour =
-    std::function<Colour(std::span<const float> values, const SurfacePlace& place)>;
+/// A colour (sRGB) out of the values of all channels at a place. Called from several threads at
+/// once; must not throw.
+using PlaceColour = std::function<Colour(std::span<const float> values, const SurfacePlace& place)>;
 
 /// What is seen on the cells. Everything it refers to must stay while it is used.
 struct PaintedCells {
     std::size_t channels = 1;
-    std::span<const float> values;   ///< `channels` a cell, cell after cell.
+    std::span<const float> values;  ///< `channels` a cell, cell after cell.
     /// Where a channel of a colour is NaN the colour is that of NaN.
     PlaceColour colour;
     /// One a cell: how far it stands out, in the unit of the mesh. Empty: nothing does.
@@ -40,8 +39,8 @@ public:
     /// The colour of the filtered values, and the filtered height.
     Look at(const SurfacePlace& place);
 
-    /// How fast the height grows, as a vector in the plane of the triangle. Exactly 0 where heights are the
-    /// same all around.
+    /// How fast the height grows, as a vector in the plane of the triangle. Exactly 0 where heights
+    /// are the same all around.
     Vector3d rise_at(const SurfacePlace& place);
 
 private:

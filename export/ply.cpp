@@ -15,8 +15,8 @@ namespace {
 
 /// A name without white space, which would end it.
 std::string one_word(std::string name) {
-    std::replace_if(name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c == 127; },
-                    '_');
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c == 127; }, '_');
     return name;
 }
 
@@ -25,15 +25,17 @@ std::string one_word(std::string name) {
 std::vector<std::string> property_names(std::span<const Channel> channels) {
     std::vector<Channel> named;
     for (const Channel& channel : channels) named.push_back({one_word(channel.name), {}});
+    // clang-format off
     return distinct_names(named, {"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha",
                                   "r", "g", "b", "s", "t", "u", "v", "texture_s", "texture_t",
                                   "texture_u", "texture_v", "texcoord", "material_index"});
+    // clang-format on
 }
 
 std::string head_of(const SurfaceMesh& mesh, const PointResults& results, bool is_single) {
-    std::string head = fmt::format(
-        "ply\nformat binary_little_endian 1.0\ncomment Cascade\nelement vertex {}\n",
-        mesh.points.size());
+    std::string head =
+        fmt::format("ply\nformat binary_little_endian 1.0\ncomment Cascade\nelement vertex {}\n",
+                    mesh.points.size());
     for (const char axis : {'x', 'y', 'z'}) {
         head += fmt::format("property {} {}\n", is_single ? "float" : "double", axis);
     }

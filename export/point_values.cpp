@@ -26,8 +26,8 @@ std::vector<Channel> values_at(std::span<const SurfacePlace> places, const CellF
         const RowRange mine =
             split_rows(static_cast<std::int64_t>(places.size()), index, team.size());
         std::vector<CellShare> shares;
-        for (auto p = static_cast<std::size_t>(mine.begin);
-             p < static_cast<std::size_t>(mine.end); ++p) {
+        for (auto p = static_cast<std::size_t>(mine.begin); p < static_cast<std::size_t>(mine.end);
+             ++p) {
             filter.shares(places[p], shares);
             for (std::size_t c = 0; c < cells.size(); ++c) {
                 float sum = 0;

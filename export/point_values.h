@@ -13,8 +13,8 @@ namespace cascade {
 /// A place in a triangle for each point.
 std::vector<SurfacePlace> places_of_points(const SurfaceMesh& mesh);
 
-/// Per-cell channels filtered at places. Where a cell with a share is NaN the place is. The same on any number
-/// of threads. Throws std::bad_alloc.
+/// Per-cell channels filtered at places. Where a cell with a share is NaN the place is. The same on
+/// any number of threads. Throws std::bad_alloc.
 std::vector<Channel> values_at(std::span<const SurfacePlace> places, const CellFilter& filter,
                                std::span<const Channel> cells, Team& team);
 

@@ -18,8 +18,8 @@ using Weights = std::array<double, 3>;
 /// Corners of parts of a triangle: 0 … 2 are its own, 3 + k is the middle of its edge k.
 using Part = std::array<std::uint32_t, 3>;
 
-/// The parts of a triangle whose edges are halved or not. Of two halved edges the corner between them
-/// is cut off, and what remains along its diagonal, from the corner before them where
+/// The parts of a triangle whose edges are halved or not. Of two halved edges the corner between
+/// them is cut off, and what remains along its diagonal, from the corner before them where
 /// `is_first_shorter`.
 std::vector<Part> parts_of(const std::array<bool, 3>& is_halved, bool is_first_shorter) {
     const int count = is_halved[0] + is_halved[1] + is_halved[2];
@@ -37,7 +37,10 @@ std::vector<Part> parts_of(const std::array<bool, 3>& is_halved, bool is_first_s
 class Refiner {
 public:
     explicit Refiner(const SurfaceMesh& mesh)
-        : first_(mesh), points_(mesh.points), triangles_(mesh.triangles), across_(mesh.across),
+        : first_(mesh),
+          points_(mesh.points),
+          triangles_(mesh.triangles),
+          across_(mesh.across),
           places_(mesh.points.size()) {
         constexpr Weights corners[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
@@ -46,7 +49,8 @@ public:
         }
     }
 
-    /// Halves all edges that are too long, once. False where there is none or that would be too much.
+    /// Halves all edges that are too long, once. False where there is none or that would be too
+    /// much.
     bool halve(double longest, std::size_t most_triangles) {
         find_middles(longest);
         std::size_t count = triangles_.size();
@@ -141,9 +145,10 @@ private:
                 for (std::size_t k = 0; k < 3; ++k) {
                     const std::uint32_t label = part[k], edge = label % 3;
                     corners[k] = label < 3 ? triangles_[t][label] : middles_[t][edge];
-                    source.corners[k] = label < 3 ? sources_[t].corners[label]
-                                                  : between(sources_[t].corners[edge],
-                                                            sources_[t].corners[corner_after(edge)]);
+                    source.corners[k] = label < 3
+                                            ? sources_[t].corners[label]
+                                            : between(sources_[t].corners[edge],
+                                                      sources_[t].corners[corner_after(edge)]);
                 }
                 triangles.push_back(corners);
                 sources.push_back(source);

@@ -11,7 +11,8 @@ namespace cascade {
 
 struct RefinedMesh {
     SurfaceMesh mesh;
-    std::vector<SurfacePlace> places;  ///< Where each point of it lies in the mesh it was made from.
+    std::vector<SurfacePlace>
+        places;  ///< Where each point of it lies in the mesh it was made from.
 };
 
 /// Halves edges longer than `longest_edge`, which is above 0, together with the triangles beside

@@ -75,8 +75,8 @@ RenderVertices render_vertices(const SurfaceMesh& mesh, const CornerNormals& nor
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         tangents.push_back(tangent_of(mesh, t));
         for (std::uint32_t k = 0; k < 3; ++k) {
-            corners.push_back({normals.numbers[t][k], tangents[t].side, finite(mesh.texture[t][k]),
-                               3 * t + k});
+            corners.push_back(
+                {normals.numbers[t][k], tangents[t].side, finite(mesh.texture[t][k]), 3 * t + k});
         }
     }
     std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {

@@ -10,7 +10,8 @@ namespace cascade {
 
 namespace {
 
-/// Above 0 where `point` is to the left of the way from a to b, exactly the opposite for the way back.
+/// Above 0 where `point` is to the left of the way from a to b, exactly the opposite for the way
+/// back.
 double side_of(Vector2d a, Vector2d b, Vector2d point) {
     if (b.x < a.x || (b.x == a.x && b.y < a.y)) return -cross(a - b, point - b);
     return cross(b - a, point - a);

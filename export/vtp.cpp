@@ -37,8 +37,8 @@ public:
         head_ += "      </Points>\n";
         if (triangles == 0) add_vertices();
         else add_triangles();
-        return head_ + "    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_" + block_ +
-               "\n  </AppendedData>\n</VTKFile>\n";
+        return head_ + "    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_" +
+               block_ + "\n  </AppendedData>\n</VTKFile>\n";
     }
 
 private:
@@ -53,9 +53,10 @@ private:
     /// An array of `count` × `components` numbers, each taken from `number(k)`.
     template <typename Number, typename Take>
     void add(std::string_view name, std::size_t count, std::size_t components, const Take& take) {
-        head_ += fmt::format("        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
-                             "format=\"appended\" offset=\"{}\"/>\n",
-                             type_of<Number>(), xml_escaped(name), components, block_.size());
+        head_ += fmt::format(
+            "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
+            "format=\"appended\" offset=\"{}\"/>\n",
+            type_of<Number>(), xml_escaped(name), components, block_.size());
         append_number(block_, std::uint64_t{count * components * sizeof(Number)});
         for (std::size_t k = 0; k < count * components; ++k) {
             append_number(block_, static_cast<Number>(take(k)));

@@ -15,8 +15,8 @@ namespace cascade {
 struct VtpPoints {
     std::span<const Vector3d> places;
     std::span<const Vector3d> normals;
-    std::span<const Colour> colours;    ///< Empty: none.
-    std::span<const double> areas;      ///< Of cells; empty: none.
+    std::span<const Colour> colours;  ///< Empty: none.
+    std::span<const double> areas;    ///< Of cells; empty: none.
     std::span<const Channel> channels;
     /// Between the points; where there are none each point is a vertex of its own.
     std::span<const std::array<std::uint32_t, 3>> triangles;

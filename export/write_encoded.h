@@ -12,7 +12,8 @@
 
 namespace cascade {
 
-/// Writes the bytes that `encode()` gives, a Result<std::string>, atomically. Fails as it and write_file do.
+/// Writes the bytes that `encode()` gives, a Result<std::string>, atomically. Fails as it and
+/// write_file do.
 template <typename Encode>
 Result<void> write_encoded(const std::filesystem::path& path, const Encode& encode) {
     try {

@@ -25,8 +25,8 @@ void append32(std::string& bytes, std::size_t number) {
 
 /// What is said of an entry both before it and in the directory at the end.
 std::string description_of(const ZipEntry& entry) {
-    const std::size_t checksum = crc32_z(0, reinterpret_cast<const Bytef*>(entry.bytes.data()),
-                                         entry.bytes.size());
+    const std::size_t checksum =
+        crc32_z(0, reinterpret_cast<const Bytef*>(entry.bytes.data()), entry.bytes.size());
     std::string bytes;
     append16(bytes, version_needed);
     append16(bytes, names_are_utf8);

@@ -20,26 +20,28 @@
 
 namespace cascade {
 
-/// Where a kernel finds and puts its values. Pointers are to cell (0, 0, 0) of planes of one layout;
-/// a field read by `laplacian` or `neighbour` has its halo filled. An output overlaps nothing else,
-/// but it may be a field of which the kernel reads the own cell only. A kernel may write any values
-/// into an output row beyond its last cell, up to the next multiple of PlaneLayout::row_pad (so halo
-/// column `width` may hold garbage afterwards); cells of other rows and columns < 0 never.
+/// Where a kernel finds and puts its values. Pointers are to cell (0, 0, 0) of planes of one
+/// layout; a field read by `laplacian` or `neighbour` has its halo filled. An output overlaps
+/// nothing else, but it may be a field of which the kernel reads the own cell only. A kernel may
+/// write any values into an output row beyond its last cell, up to the next multiple of
+/// PlaneLayout::row_pad (so halo column `width` may hold garbage afterwards); cells of other rows
+/// and columns < 0 never.
 template <typename Number>
 struct KernelArgumentsOf {
-    std::span<const Number* const> fields;        ///< One per field slot.
-    std::span<const std::uint8_t* const> masks;   ///< One per mask slot.
-    std::span<const Number> uniforms;             ///< One per uniform slot.
-    std::span<Number* const> results;             ///< One per result.
+    std::span<const Number* const> fields;       ///< One per field slot.
+    std::span<const std::uint8_t* const> masks;  ///< One per mask slot.
+    std::span<const Number> uniforms;            ///< One per uniform slot.
+    std::span<Number* const> results;            ///< One per result.
     PlaneLayout layout;
-    LinkTable<Number> links = {};                 ///< Of cells that lie on no grid.
-    /// All fields are in a near cache: fetching what the next rows read would only take their place.
+    LinkTable<Number> links = {};  ///< Of cells that lie on no grid.
+    /// All fields are in a near cache: fetching what the next rows read would only take their
+    /// place.
     bool is_near = false;
 };
 using KernelArguments = KernelArgumentsOf<float>;
 
-/// A kernel ready to run. Its results never change; safe to run on several threads at once, each on its own
-/// rows, inside a FlushDenormals.
+/// A kernel ready to run. Its results never change; safe to run on several threads at once, each on
+/// its own rows, inside a FlushDenormals.
 class Kernel {
 public:
     virtual ~Kernel() = default;
@@ -78,8 +80,8 @@ public:
     virtual KernelPointer find(const CellKernel& kernel, Stencil stencil) = 0;
     /// So far.
     virtual KernelCounts counts() const { return {}; }
-    /// All that decides the code of kernels besides themselves, such as the processor, as bytes; empty where
-    /// it is not known.
+    /// All that decides the code of kernels besides themselves, such as the processor, as bytes;
+    /// empty where it is not known.
     virtual std::string code_identity() const { return {}; }
 };
 

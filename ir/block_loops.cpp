@@ -70,7 +70,8 @@ template <typename Number, typename Word = WordOf<Number>>
 Word evaluate_words(Op op, Word a, Word b, Word c) {
     switch (op) {
 #define CASCADE_OPERATION(name, arity, payload, meaning) \
-    case Op::name: return evaluate_one<Op::name, Number>(a, b, c);
+    case Op::name:                                       \
+        return evaluate_one<Op::name, Number>(a, b, c);
 #include "ir/operations.def"
 #undef CASCADE_OPERATION
     }

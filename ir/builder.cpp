@@ -74,7 +74,8 @@ ValueId KernelBuilder::neighbour(std::uint32_t slot, int dx, int dy, int dz) {
 }
 
 ValueId KernelBuilder::over_links(Op op, std::uint32_t slot) {
-    CHECK(is_link_sum(op) && op != Op::link_flow, "builder: it is a sum of differences of one field");
+    CHECK(is_link_sum(op) && op != Op::link_flow,
+          "builder: it is a sum of differences of one field");
     return emit({op, {}, slot});
 }
 
@@ -148,8 +149,8 @@ ValueId KernelBuilder::emit(Instruction instruction) {
 std::optional<ValueId> KernelBuilder::simplify(const Instruction& instruction) {
     const auto [a, b, c] = instruction.operands;
     const int arity = info(instruction.op).arity;
-    const bool is_foldable = is_constant(a) && (arity < 2 || is_constant(b)) &&
-                             (arity < 3 || is_constant(c));
+    const bool is_foldable =
+        is_constant(a) && (arity < 2 || is_constant(b)) && (arity < 3 || is_constant(c));
     if (is_foldable) return fold(instruction);
     if (instruction.op == Op::select) {
         if (b == c) return b;

@@ -29,14 +29,15 @@ public:
     WordFormat format() const { return format_of(kernel_.precision); }
 
     // Sources. A slot is made at its first use; the same name gives the same slot.
-    ValueId number(double value);      ///< Rounded to the kernel's precision; denormals become zero.
+    ValueId number(double value);  ///< Rounded to the kernel's precision; denormals become zero.
     ValueId word(std::uint64_t bits);  ///< Modulo 2^32 or 2^64.
     std::uint32_t field_slot(const std::string& name);
     std::uint32_t mask_slot(const std::string& name);
     std::uint32_t uniform_slot(const std::string& name);
     ValueId field(std::uint32_t slot);
     ValueId laplacian(std::uint32_t slot);
-    /// The value of a field in a cell around, each offset −1, 0 or 1; the cell's own where all are 0.
+    /// The value of a field in a cell around, each offset −1, 0 or 1; the cell's own where all are
+    /// 0.
     ValueId neighbour(std::uint32_t slot, int dx, int dy, int dz = 0);
     /// A sum over the links of a cell of differences of one field; of a kernel for a surface.
     ValueId over_links(Op op, std::uint32_t slot);
@@ -86,8 +87,8 @@ public:
     ValueId hyperbolic_tangent(ValueId x);
     ValueId cube_root(ValueId x);
     ValueId hypotenuse(ValueId x, ValueId y);
-    ValueId sign_of(ValueId x);          ///< −1, 1, or x where it is zero or NaN.
-    ValueId round_to_even(ValueId x);    ///< The nearest whole number, ties to even.
+    ValueId sign_of(ValueId x);        ///< −1, 1, or x where it is zero or NaN.
+    ValueId round_to_even(ValueId x);  ///< The nearest whole number, ties to even.
     ValueId round_down(ValueId x);
     ValueId round_up(ValueId x);
     /// x − y · floor(x / y), of the sign of y; NaN where |x / y| is 2^24 (in binary64 2^52)
@@ -106,9 +107,9 @@ public:
     std::pair<ValueId, ValueId> cell_of_draws() {
         return cell_ ? std::pair(*cell_, word(0)) : std::pair(cell_column(), cell_row());
     }
-    /// Uniform in (−1, 1), symmetric, 2^23 different values, in binary64 2^52 whose first digits are
-    /// the same: a pure function of the cell, the `draw` word (which step, or 0) and the
-    /// 64-bit `key` (seed, stage, parameter, occurrence).
+    /// Uniform in (−1, 1), symmetric, 2^23 different values, in binary64 2^52 whose first digits
+    /// are the same: a pure function of the cell, the `draw` word (which step, or 0) and the 64-bit
+    /// `key` (seed, stage, parameter, occurrence).
     ValueId random_symmetric(ValueId draw, std::uint64_t key);
     /// The word of 32 bits in a uniform that draw_uniform() has made (ir/draw_of_step.h).
     ValueId draw_word(ValueId uniform);

@@ -142,7 +142,8 @@ std::vector<bool> varying(const CellKernel& kernel) {
     varies.reserve(kernel.code.size());
     for (const Instruction& instruction : kernel.code) {
         const auto arity = static_cast<std::size_t>(info(instruction.op).arity);
-        bool differs = arity == 0 && instruction.op != Op::constant && instruction.op != Op::uniform;
+        bool differs =
+            arity == 0 && instruction.op != Op::constant && instruction.op != Op::uniform;
         for (std::size_t k = 0; k < arity; ++k) {
             differs = differs || varies[instruction.operands[k]];
         }

@@ -1,9 +1,9 @@
 // Cell kernels: what a stage computes per cell, as one small flat program.
 //
 // A kernel is a list of instructions in static single assignment: an instruction's position is
-// the name of its value, and it reads only values before it. There is no control flow; `select` chooses.
-// Nothing in it knows what a cell's neighbours are (the executor's stencil does) nor where fields
-// lie (KernelArguments does). It cannot fail: users' errors end in lang/.
+// the name of its value, and it reads only values before it. There is no control flow; `select`
+// chooses. Nothing in it knows what a cell's neighbours are (the executor's stencil does) nor where
+// fields lie (KernelArguments does). It cannot fail: users' errors end in lang/.
 #pragma once
 
 #include "core/precision.h"
@@ -44,7 +44,8 @@ inline constexpr int op_count = 0
 constexpr int info_arity(Op op) {
     switch (op) {
 #define CASCADE_OPERATION(name, arity, payload, meaning) \
-    case Op::name: return arity;
+    case Op::name:                                       \
+        return arity;
 #include "ir/operations.def"
 #undef CASCADE_OPERATION
     }
@@ -65,9 +66,9 @@ struct Instruction {
     friend bool operator==(const Instruction&, const Instruction&) = default;
 };
 
-/// What a `neighbour` reads: the value of a field, `dx` columns, `dy` rows and `dz` slices away. Each
-/// is −1, 0 or 1, and not all are 0. Along an axis of one cell there are no neighbours: executors
-/// take the offset along it for 0.
+/// What a `neighbour` reads: the value of a field, `dx` columns, `dy` rows and `dz` slices away.
+/// Each is −1, 0 or 1, and not all are 0. Along an axis of one cell there are no neighbours:
+/// executors take the offset along it for 0.
 struct Neighbour {
     std::uint32_t slot = 0;  ///< Below 2^27.
     int dx = 0, dy = 0, dz = 0;
@@ -76,7 +77,8 @@ struct Neighbour {
 
     /// As a payload: 32 · slot + (dx + 1) + 3 (dy + 1) + 9 (dz + 1).
     constexpr std::uint32_t payload() const {
-        return offset_count * slot + static_cast<std::uint32_t>(dx + 1 + 3 * (dy + 1) + 9 * (dz + 1));
+        return offset_count * slot +
+               static_cast<std::uint32_t>(dx + 1 + 3 * (dy + 1) + 9 * (dz + 1));
     }
     static constexpr Neighbour of(std::uint32_t payload) {
         const int offset = static_cast<int>(payload % offset_count);
@@ -84,8 +86,8 @@ struct Neighbour {
     }
 };
 
-/// What a `link_flow` reads: the field `of` whose differences flow, and the field `factor` by whose mean of
-/// two cells they are multiplied.
+/// What a `link_flow` reads: the field `of` whose differences flow, and the field `factor` by whose
+/// mean of two cells they are multiplied.
 struct Flow {
     std::uint32_t factor = 0, of = 0;  ///< Field slots.
 
@@ -111,7 +113,7 @@ struct CellKernel {
     std::vector<std::string> uniform_names;
     std::vector<std::string> result_names;
     Precision precision = Precision::single;  ///< Of all words.
-    std::vector<ValueId> kept = {};           ///< What contraction leaves as it is (ir/contraction.h).
+    std::vector<ValueId> kept = {};  ///< What contraction leaves as it is (ir/contraction.h).
 
     /// True if some instruction reads this field slot in other cells (on grids its halo must be
     /// filled).

@@ -10,8 +10,8 @@
 namespace cascade {
 namespace {
 
-/// A product that need not be rounded: its factors in the new kernel. If one of them is the same in all cells
-/// that is the first.
+/// A product that need not be rounded: its factors in the new kernel. If one of them is the same in
+/// all cells that is the first.
 struct Product {
     ValueId first;
     ValueId second;

@@ -10,8 +10,8 @@ namespace cascade {
 inline constexpr std::size_t laplacian_powers = 4;
 inline constexpr std::size_t diffusion_terms = laplacian_powers + 3;
 
-/// The factors, from the left as above. Those of even powers of lap have the other sign: lap turns a
-/// wave over, so that of all terms a factor above 0 damps and a larger one damps more.
+/// The factors, from the left as above. Those of even powers of lap have the other sign: lap turns
+/// a wave over, so that of all terms a factor above 0 damps and a larger one damps more.
 template <typename Factor>
 using DiffusionTerms = std::array<Factor, diffusion_terms>;
 

@@ -9,9 +9,9 @@
 
 namespace cascade {
 
-/// Up to step 2^24 the bits of the step's number in binary32; from there, where binary32 numbers are
-/// two and more apart, 2^31 + step, which are the bits of no number that is not negative. So no two
-/// steps below 2^31 have the same word.
+/// Up to step 2^24 the bits of the step's number in binary32; from there, where binary32 numbers
+/// are two and more apart, 2^31 + step, which are the bits of no number that is not negative. So no
+/// two steps below 2^31 have the same word.
 constexpr std::uint32_t draw_of_step(std::int64_t step) {
     if (step < std::int64_t{1} << 24) return std::bit_cast<std::uint32_t>(static_cast<float>(step));
     return (std::uint32_t{1} << 31) + static_cast<std::uint32_t>(step);

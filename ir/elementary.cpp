@@ -18,19 +18,19 @@
 // Denormal arguments count as zeros and denormal results are flushed.
 #include "ir/expression.h"
 
-
 namespace cascade {
 namespace {
 
 constexpr ByPrecision<double> log2_of_e = {0x1.715476p+0, 0x1.71547652b82fep+0};
 
-/// ln 2 as a head of 14 (42) bits, whose product with the exponent of a number is exact, and the rest.
+/// ln 2 as a head of 14 (42) bits, whose product with the exponent of a number is exact, and the
+/// rest.
 struct Split {
     double head;
     double tail;
 };
-constexpr ByPrecision<Split> ln2 = {{{0x1.62e8p-1, -0x1.e8082ep-16},
-                                     {0x1.62e42fefa38p-1, 0x1.ef35793c7673p-45}}};
+constexpr ByPrecision<Split> ln2 = {
+    {{0x1.62e8p-1, -0x1.e8082ep-16}, {0x1.62e42fefa38p-1, 0x1.ef35793c7673p-45}}};
 
 /// Arguments of exp beyond which the result is infinite or 0.
 constexpr ByPrecision<double> exp_reach = {100, 750};
@@ -46,25 +46,25 @@ constexpr ByPrecision<std::span<const double>> exp_coefficients = {exp_single, e
 
 // (2 artanh(s)/s − 2) / s² in s², for |s| ≤ 0.172; error 2^−35 (2^−67) of the logarithm.
 constexpr double log_single[] = {0x1.555554p-1, 0x1.999c24p-2, 0x1.23d4dcp-2, 0x1.f103dep-3};
-constexpr double log_double[] = {
-    0x1.5555555555555p-1, 0x1.9999999999c71p-2, 0x1.2492492450090p-2,
-    0x1.c71c722476616p-3, 0x1.745cf2f046de4p-3, 0x1.3b1be82892b24p-3,
-    0x1.0fff3b75b16f1p-3, 0x1.03c1bff31ad59p-3, 0x1.626c8a3d50bc8p-5};
+constexpr double log_double[] = {0x1.5555555555555p-1, 0x1.9999999999c71p-2, 0x1.2492492450090p-2,
+                                 0x1.c71c722476616p-3, 0x1.745cf2f046de4p-3, 0x1.3b1be82892b24p-3,
+                                 0x1.0fff3b75b16f1p-3, 0x1.03c1bff31ad59p-3, 0x1.626c8a3d50bc8p-5};
 constexpr ByPrecision<std::span<const double>> log_coefficients = {log_single, log_double};
 
 // (sinh(a)/a − 1) / a² in a², for a ≤ 1; error 2^−31 (2^−62) of sinh.
 constexpr double sinh_single[] = {0x1.555556p-3, 0x1.1110d8p-7, 0x1.a02800p-13, 0x1.749762p-19};
-constexpr double sinh_double[] = {
-    0x1.5555555555555p-3,  0x1.111111111119ap-7,  0x1.a01a01a0076ffp-13, 0x1.71de3a6884e07p-19,
-    0x1.ae64418041398p-26, 0x1.613110a20e7fbp-33, 0x1.a68cd14262705p-41, 0x1.cd84bf4ddefa3p-48};
+constexpr double sinh_double[] = {0x1.5555555555555p-3,  0x1.111111111119ap-7,
+                                  0x1.a01a01a0076ffp-13, 0x1.71de3a6884e07p-19,
+                                  0x1.ae64418041398p-26, 0x1.613110a20e7fbp-33,
+                                  0x1.a68cd14262705p-41, 0x1.cd84bf4ddefa3p-48};
 constexpr ByPrecision<std::span<const double>> sinh_coefficients = {sinh_single, sinh_double};
 
 // (tanh(a)/a − 1) / a² in a², for a ≤ 0.55; error 2^−29 (2^−60) of tanh.
 constexpr double tanh_single[] = {-0x1.55554cp-2, 0x1.110d6ap-3, -0x1.b931fep-5, 0x1.5982a4p-6,
                                   -0x1.9c9668p-8};
 constexpr double tanh_double[] = {
-    -0x1.555555555554fp-2, 0x1.1111111110793p-3,   -0x1.ba1ba1b97cfa6p-5, 0x1.664f4859546f6p-6,
-    -0x1.226e2f1130738p-7, 0x1.d6d29b1b514cap-9,   -0x1.7d8fcdd262886p-10, 0x1.348380be66a46p-11,
+    -0x1.555555555554fp-2,  0x1.1111111110793p-3,  -0x1.ba1ba1b97cfa6p-5,  0x1.664f4859546f6p-6,
+    -0x1.226e2f1130738p-7,  0x1.d6d29b1b514cap-9,  -0x1.7d8fcdd262886p-10, 0x1.348380be66a46p-11,
     -0x1.e96e074b97d57p-13, 0x1.5d6f89a5f0370p-14, -0x1.47058bf3dd2bfp-16};
 constexpr ByPrecision<std::span<const double>> tanh_coefficients = {tanh_single, tanh_double};
 constexpr ByPrecision<double> tanh_border = {0x1.19999ap-1, 0.55};

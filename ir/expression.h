@@ -15,8 +15,8 @@ namespace cascade {
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// What an algorithm takes from the number format: a row for binary32 and one for binary64. Numbers of
-/// the first are binary32 numbers, so that nothing is rounded when they are read.
+/// What an algorithm takes from the number format: a row for binary32 and one for binary64. Numbers
+/// of the first are binary32 numbers, so that nothing is rounded when they are read.
 template <typename Constants>
 using ByPrecision = std::array<Constants, 2>;
 
@@ -48,7 +48,8 @@ public:
     Expression absolute() const { return unary(Op::absolute); }
     /// To the nearest whole number, ties to even.
     Expression rounded() const { return unary(Op::round_to_even); }
-    /// Times 2^n, for a whole number n of −252 … 252 (−2044 … 2044). Exact, or flushed, or infinite.
+    /// Times 2^n, for a whole number n of −252 … 252 (−2044 … 2044). Exact, or flushed, or
+    /// infinite.
     Expression scaled(Expression n) const { return binary(Op::scale_by_power, n); }
     Expression clamped(double low, double high) const {
         const ValueId below = builder_->clamp_below(id_, builder_->number(low));
@@ -83,9 +84,7 @@ public:
 
     /// The number without the lower half of its significand, of which 12 (26) bits are left:
     /// products of two such are exact.
-    Expression head() const {
-        return and_word(format().all() << (format().fraction_bits / 2 + 1));
-    }
+    Expression head() const { return and_word(format().all() << (format().fraction_bits / 2 + 1)); }
 
     /// A word modulo 2^32: formulas of 32-bit words are the same in both formats.
     Expression low_word() const { return format().bits == 32 ? *this : and_word(0xffffffff); }

@@ -25,11 +25,11 @@ constexpr std::int64_t block_cells = 256;
 /// Where the value of an instruction is found while a block is computed.
 struct Place {
     enum class Kind : std::uint8_t {
-        nowhere,   ///< Of operands that an operation does not have.
-        scalar,    ///< The same in all cells: `index` counts scalars.
-        field,     ///< In memory: `index` is a field slot.
-        beside,    ///< In memory: `index` is the payload of a neighbour.
-        vector,    ///< In a register: `index` counts registers.
+        nowhere,  ///< Of operands that an operation does not have.
+        scalar,   ///< The same in all cells: `index` counts scalars.
+        field,    ///< In memory: `index` is a field slot.
+        beside,   ///< In memory: `index` is the payload of a neighbour.
+        vector,   ///< In a register: `index` counts registers.
     };
     Kind kind = Kind::nowhere;
     std::uint32_t index = 0;
@@ -245,19 +245,15 @@ private:
                     out[i] = number(static_cast<Word>(column_ + i));
                 }
                 break;
-            case Op::cell_row:
-                std::fill_n(out, count_, number(static_cast<Word>(row_)));
-                break;
-            case Op::cell_slice:
-                std::fill_n(out, count_, number(static_cast<Word>(slice_)));
-                break;
+            case Op::cell_row: std::fill_n(out, count_, number(static_cast<Word>(row_))); break;
+            case Op::cell_slice: std::fill_n(out, count_, number(static_cast<Word>(slice_))); break;
             default: CHECK(false, "interpreter: every source has its loop");
         }
     }
 
-    /// sum − times · c with one rounding, for 2 and 4 times, which are exact but for overflow. A number whose
-    /// multiple would overflow is subtracted from a part of the sum; what that part loses where it is
-    /// denormal is far below the last place of such numbers.
+    /// sum − times · c with one rounding, for 2 and 4 times, which are exact but for overflow. A
+    /// number whose multiple would overflow is subtracted from a part of the sum; what that part
+    /// loses where it is denormal is far below the last place of such numbers.
     template <int times>
     static Number minus_multiple(Number sum, Number c) {
         constexpr Number largest = std::numeric_limits<Number>::max() / 4;
@@ -369,7 +365,7 @@ private:
     const KernelArgumentsOf<Number>& arguments_;
     std::vector<Number> scalars_;
     std::vector<Number> registers_;
-    std::int64_t row_ = 0;     ///< In its slice.
+    std::int64_t row_ = 0;  ///< In its slice.
     std::int64_t slice_ = 0;
     std::int64_t column_ = 0;  ///< Of the block's first cell.
     std::int64_t count_ = 0;   ///< Cells of the block.

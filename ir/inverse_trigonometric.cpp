@@ -1,10 +1,9 @@
 // asin, acos and the angle of a point, expanded into operations of the table.
 //
-// Arguments are folded onto a short interval around 0 by the identities of the functions (W. J. Cody
-// and W. Waite, "Software Manual for the Elementary Functions", 1980), and what is taken off, a
-// multiple of π/4, is added as a head and a tail. Coefficients as in ir/elementary.cpp.
+// Arguments are folded onto a short interval around 0 by the identities of the functions (W. J.
+// Cody and W. Waite, "Software Manual for the Elementary Functions", 1980), and what is taken off,
+// a multiple of π/4, is added as a head and a tail. Coefficients as in ir/elementary.cpp.
 #include "ir/expression.h"
-
 
 namespace cascade {
 namespace {
@@ -23,9 +22,9 @@ constexpr ByPrecision<double> tan_of_eighth = {0x1.a8279ap-2, 0x1.a827999fcef32p
 constexpr double asin_single[] = {0x1.555550p-3, 0x1.333734p-4, 0x1.6cd7c4p-5,
                                   0x1.0367ccp-5, 0x1.e8e968p-7, 0x1.2e435cp-5};
 constexpr double asin_double[] = {
-    0x1.5555555555553p-3, 0x1.33333333339e8p-4, 0x1.6db6db6d4c57cp-5, 0x1.f1c71ca6dd014p-6,
-    0x1.6e8b9b19ee83ap-6, 0x1.1c4f826d9a856p-6, 0x1.c98131facbd0ep-7, 0x1.7ba13d27acb3p-7,
-    0x1.36d6aa7c4b231p-7, 0x1.47ad5a5225e72p-7, 0x1.764876ce9350dp-11, 0x1.95a8b0d68748ap-6,
+    0x1.5555555555553p-3,  0x1.33333333339e8p-4, 0x1.6db6db6d4c57cp-5,  0x1.f1c71ca6dd014p-6,
+    0x1.6e8b9b19ee83ap-6,  0x1.1c4f826d9a856p-6, 0x1.c98131facbd0ep-7,  0x1.7ba13d27acb3p-7,
+    0x1.36d6aa7c4b231p-7,  0x1.47ad5a5225e72p-7, 0x1.764876ce9350dp-11, 0x1.95a8b0d68748ap-6,
     -0x1.ab1153c532dfap-6, 0x1.133ac6097cf2fp-5};
 constexpr ByPrecision<std::span<const double>> asin_coefficients = {asin_single, asin_double};
 
@@ -58,8 +57,8 @@ Expression upper_angle(Expression y, Expression x) {
     const Expression shorter = steep.choose(width, y);
     // So that neither the sum of the two overflows nor their difference vanishes.
     const double reach = x.pick(far_away);
-    const Expression factor = (reach < longer).choose(
-        1 / reach, (longer < 1 / reach).choose(reach, x.number(1)));
+    const Expression factor =
+        (reach < longer).choose(1 / reach, (longer < 1 / reach).choose(reach, x.number(1)));
     const Expression diagonal = equals(shorter, infinity);
     const Expression p = diagonal.choose(1, shorter * factor);
     const Expression q = either(diagonal, equals(longer, 0)).choose(1, longer * factor);
@@ -74,8 +73,9 @@ Expression upper_angle(Expression y, Expression x) {
         const double at_quarter = angles.quarter.*part;
         const Expression forward =
             folded.choose(angles.eighth.*part, steep.choose(at_quarter, x.number(0)));
-        const Expression behind = folded.choose(
-            angles.three_eighths.*part, steep.choose(at_quarter, x.number(angles.half.*part)));
+        const Expression behind =
+            folded.choose(angles.three_eighths.*part,
+                          steep.choose(at_quarter, x.number(angles.half.*part)));
         return backwards.choose(behind, forward);
     };
     const Expression turned = steep.choose(x.word(x.format().sign()), x.word(0));

@@ -27,9 +27,7 @@ LatticeAxis lattice_axis(KernelBuilder& builder, const SpaceAxis& axis, Expressi
     return {fitting, count, coordinate * (count / count.number(axis.length)), axis.is_periodic};
 }
 
-Expression lattice_floor(Expression position) {
-    return round_to_whole(position - 0.5).number;
-}
+Expression lattice_floor(Expression position) { return round_to_whole(position - 0.5).number; }
 
 Expression lattice_word(const LatticeAxis& axis, Expression index) {
     if (!axis.is_periodic) return round_to_whole(index).word;

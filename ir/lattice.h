@@ -10,14 +10,14 @@ namespace cascade {
 
 /// The lattice along one axis.
 struct LatticeAxis {
-    Expression side;       ///< Of a lattice cell, in coordinates.
-    Expression count;      ///< Cells along a periodic axis: a whole number.
-    Expression position;   ///< Of the cell in the lattice: coordinate / side.
+    Expression side;      ///< Of a lattice cell, in coordinates.
+    Expression count;     ///< Cells along a periodic axis: a whole number.
+    Expression position;  ///< Of the cell in the lattice: coordinate / side.
     bool is_periodic;
 };
 
-/// Cells of about `side`, at most 2^20 along the axis. Along a periodic axis a whole number of them,
-/// at least one.
+/// Cells of about `side`, at most 2^20 along the axis. Along a periodic axis a whole number of
+/// them, at least one.
 LatticeAxis lattice_axis(KernelBuilder& builder, const SpaceAxis& axis, Expression side);
 
 /// The largest whole number that is not above the position, or at a whole position the one before.

@@ -1,7 +1,7 @@
 // a · b + c with one rounding: whether the processor has it, and loops that use it.
 //
-// This build may be for any x86-64, where the C library computes it by a call a number. So the loops are
-// compiled for processors that have the instruction, and taken where there is one.
+// This build may be for any x86-64, where the C library computes it by a call a number. So the
+// loops are compiled for processors that have the instruction, and taken where there is one.
 #pragma once
 
 #include "ir/block_loops.h"
@@ -9,8 +9,8 @@
 
 namespace cascade {
 
-/// Does this processor compute a · b + c with one rounding in one instruction? What does not, is given
-/// no kernels with a multiply_add.
+/// Does this processor compute a · b + c with one rounding in one instruction? What does not, is
+/// given no kernels with a multiply_add.
 bool has_multiply_add();
 
 /// Is there a multiply_add in the kernel?

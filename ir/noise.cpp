@@ -18,9 +18,7 @@ struct Pair {
 };
 
 /// 6 t^5 − 15 t^4 + 10 t³.
-Expression fade(Expression t) {
-    return ((t * t) * t) * (t * (t * 6 - 15) + 10);
-}
+Expression fade(Expression t) { return ((t * t) * t) * (t * (t * 6 - 15) + 10); }
 
 Pair pair_along(const LatticeHash& hash, std::size_t axis, const LatticeAxis& lattice) {
     const Expression first = lattice_floor(lattice.position);

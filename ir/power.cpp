@@ -1,10 +1,10 @@
 // x^y, expanded into operations of the table.
 //
 // Whole constant exponents up to 64 multiply. Others are 2^(y · log2|x|), where the logarithm is
-// carried as a head and a tail of together some 36 bits (in binary64 66): the product may be as large
-// as 128 (1024), and its error is the relative error of the result. Products of heads of 12 bits (26)
-// are exact (G. W.
-// Veltkamp and T. J. Dekker, Numerische Mathematik 18, 1971), so that no fused operation is needed.
+// carried as a head and a tail of together some 36 bits (in binary64 66): the product may be as
+// large as 128 (1024), and its error is the relative error of the result. Products of heads of 12
+// bits (26) are exact (G. W. Veltkamp and T. J. Dekker, Numerische Mathematik 18, 1971), so that no
+// fused operation is needed.
 //
 // Special cases are those of C's pow(): 1 for y = 0 or x = 1, even if the other is NaN; NaN for a
 // finite x below 0 and a y that is not whole; the sign of x for odd y.
@@ -36,17 +36,16 @@ constexpr ByPrecision<Factor> log2_factor = {
 // (3 artanh(s)/s − 3 − s²) / s⁴ in s², for |s| ≤ 0.172; error 2^−44 (2^−77) of the logarithm.
 constexpr double log2_single[] = {0x1.333334p-1, 0x1.b6d9e6p-2, 0x1.55d65cp-2, 0x1.056c74p-2,
                                   0x1.d51992p-2};
-constexpr double log2_double[] = {
-    0x1.3333333333333p-1, 0x1.b6db6db6db7f4p-2, 0x1.5555555542fafp-2, 0x1.1745d17e2a1c1p-2,
-    0x1.d89d83f9a2a6cp-3, 0x1.999a96838034p-3, 0x1.69548ac328237p-3, 0x1.4390f257aea23p-3,
-    0x1.3ab87b29f334dp-3};
+constexpr double log2_double[] = {0x1.3333333333333p-1, 0x1.b6db6db6db7f4p-2, 0x1.5555555542fafp-2,
+                                  0x1.1745d17e2a1c1p-2, 0x1.d89d83f9a2a6cp-3, 0x1.999a96838034p-3,
+                                  0x1.69548ac328237p-3, 0x1.4390f257aea23p-3, 0x1.3ab87b29f334dp-3};
 constexpr ByPrecision<std::span<const double>> log2_coefficients = {log2_single, log2_double};
 
 // (2^f − 1) / f for |f| ≤ 0.51; error 2^−32 (2^−59) of 2^f.
 constexpr double exp2_single[] = {0x1.62e430p-1,  0x1.ebfbe0p-3,  0x1.c6b070p-5, 0x1.3b2a54p-7,
                                   0x1.5da228p-10, 0x1.4419cap-13, 0x1.e5b8e2p-17};
 constexpr double exp2_double[] = {
-    0x1.62e42fefa39efp-1, 0x1.ebfbdff82c58ep-3, 0x1.c6b08d704a1d1p-5, 0x1.3b2ab6fba518cp-7,
+    0x1.62e42fefa39efp-1,  0x1.ebfbdff82c58ep-3,  0x1.c6b08d704a1d1p-5,  0x1.3b2ab6fba518cp-7,
     0x1.5d87fe78754f8p-10, 0x1.430912f7619ebp-13, 0x1.ffcbfd429af0dp-17, 0x1.62c026e86747p-20,
     0x1.b5234335b9904p-24, 0x1.e4bcc117d7c51p-28, 0x1.ec533db49a12bp-32, 0x1.def3528c7368ap-36};
 constexpr ByPrecision<std::span<const double>> exp2_coefficients = {exp2_single, exp2_double};

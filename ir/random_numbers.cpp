@@ -1,5 +1,6 @@
 // Random numbers: the hash pcg4d (core/hash.h) of cell, draw and key, expanded into operations. Its
-// words have 32 bits in both formats, so that both draw the same numbers, of more digits in binary64.
+// words have 32 bits in both formats, so that both draw the same numbers, of more digits in
+// binary64.
 #include "ir/expression.h"
 
 #include <array>
@@ -10,12 +11,8 @@ namespace {
 
 using Words = std::array<Expression, 4>;
 
-Expression sum(Expression a, Expression b) {
-    return a.binary(Op::bits_add, b);
-}
-Expression product(Expression a, Expression b) {
-    return a.binary(Op::bits_multiply, b);
-}
+Expression sum(Expression a, Expression b) { return a.binary(Op::bits_add, b); }
+Expression product(Expression a, Expression b) { return a.binary(Op::bits_multiply, b); }
 
 void mix(Words& words) {
     auto& [x, y, z, w] = words;
@@ -60,8 +57,8 @@ Hash hash_of_cell(KernelBuilder& builder, ValueId draw, std::uint64_t key) {
 
 ValueId KernelBuilder::random_symmetric(ValueId draw, std::uint64_t key) {
     const auto [first, second] = hash_of_cell(*this, draw, key);
-    // With k the upper 23 (52) bits: (k + ½) · 2^−22 − 1 is (2k + 1 − 2^23) · 2^−23, and so without a
-    // rounding.
+    // With k the upper 23 (52) bits: (k + ½) · 2^−22 − 1 is (2k + 1 − 2^23) · 2^−23, and so without
+    // a rounding.
     const int digits = format().fraction_bits;
     const Expression k = digits < 32 ? first.shifted_right(32 - digits)
                                      : first.shifted_left(digits - 32)
@@ -76,8 +73,8 @@ ValueId KernelBuilder::draw_word(ValueId uniform) {
 }
 
 /// √(−2 ln a) cos(2π b) of two uniform numbers a and b (G. E. P. Box, M. E. Muller, "A note on the
-/// generation of random normal deviates", Annals of Mathematical Statistics 29, 1958). a has 31 bits,
-/// so that large numbers are as rare as they are to be.
+/// generation of random normal deviates", Annals of Mathematical Statistics 29, 1958). a has 31
+/// bits, so that large numbers are as rare as they are to be.
 ValueId KernelBuilder::random_normal(ValueId draw, std::uint64_t key) {
     const auto [first, second] = hash_of_cell(*this, draw, key);
     constexpr ByPrecision<double> two_pi = {0x1.921fb6p+2, 0x1.921fb54442d18p+2};

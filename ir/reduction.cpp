@@ -25,9 +25,8 @@ double take_together(ReductionKind kind, double a, double b) {
 double fold_pairs(ReductionKind kind, std::span<double> values) {
     for (std::size_t count = values.size(); count > 1; count = (count + 1) / 2) {
         for (std::size_t k = 0; 2 * k < count; ++k) {
-            values[k] = 2 * k + 1 < count
-                            ? take_together(kind, values[2 * k], values[2 * k + 1])
-                            : values[2 * k];
+            values[k] = 2 * k + 1 < count ? take_together(kind, values[2 * k], values[2 * k + 1])
+                                          : values[2 * k];
         }
     }
     return values[0];
@@ -40,7 +39,8 @@ void take_row(std::span<double, partial_results> partial, const Number* cells, s
     std::int64_t i = width;
     for (; i + width <= count; i += width) {
         for (std::size_t k = 0; k < partial_results; ++k) {
-            partial[k] = take(partial[k], static_cast<double>(cells[i + static_cast<std::int64_t>(k)]));
+            partial[k] =
+                take(partial[k], static_cast<double>(cells[i + static_cast<std::int64_t>(k)]));
         }
     }
     for (std::size_t k = 0; i < count; ++i, ++k) {
@@ -53,10 +53,9 @@ void take_row(std::span<double, partial_results> partial, const Number* cells, s
 template <typename Number>
 double reduce_row(ReductionKind kind, const Number* cells, std::int64_t count) {
     std::array<double, partial_results> partial{};
-    const auto start = static_cast<std::size_t>(
-        count < static_cast<std::int64_t>(partial_results)
-            ? count
-            : static_cast<std::int64_t>(partial_results));
+    const auto start = static_cast<std::size_t>(count < static_cast<std::int64_t>(partial_results)
+                                                    ? count
+                                                    : static_cast<std::int64_t>(partial_results));
     for (std::size_t k = 0; k < start; ++k) partial[k] = static_cast<double>(cells[k]);
     if (kind == ReductionKind::sum || kind == ReductionKind::mean) {
         take_row(partial, cells, count, [](double a, double b) { return a + b; });

@@ -5,16 +5,16 @@
 // rest m − t³ is exact, t being a number of 12 bits (in binary64 26).
 #include "ir/expression.h"
 
-
 namespace cascade {
 namespace {
 
 // ∛m for m in [√½, √2); error 2^−16 (2^−22).
 constexpr double cube_root_single[] = {0x1.ce7218p-2, 0x1.cf6544p-1, -0x1.127106p-1, 0x1.bcd31ap-3,
                                        -0x1.36184ap-5};
-constexpr double cube_root_double[] = {
-    0x1.97ecf6b6e5344p-2, 0x1.326f1282751bep+0, -0x1.2fd80377786a2p+0, 0x1.f11cba034e209p-1,
-    -0x1.078c14f4b1ce7p-1, 0x1.3ee5a0ceebdbap-3, -0x1.4dd55b1ff21fdp-6};
+constexpr double cube_root_double[] = {0x1.97ecf6b6e5344p-2,  0x1.326f1282751bep+0,
+                                       -0x1.2fd80377786a2p+0, 0x1.f11cba034e209p-1,
+                                       -0x1.078c14f4b1ce7p-1, 0x1.3ee5a0ceebdbap-3,
+                                       -0x1.4dd55b1ff21fdp-6};
 constexpr ByPrecision<std::span<const double>> cube_root_coefficients = {cube_root_single,
                                                                          cube_root_double};
 constexpr ByPrecision<double> cube_root_of_2 = {0x1.428a30p+0, 0x1.428a2f98d728bp+0};

@@ -2,12 +2,11 @@
 // which is rounded once, and `smooth_step`.
 #include "ir/expression.h"
 
-
 namespace cascade {
 namespace {
 
-// Quotients from here on leave no rest that could be found: below, both halves of a whole quotient have
-// few enough bits for their products to be exact.
+// Quotients from here on leave no rest that could be found: below, both halves of a whole quotient
+// have few enough bits for their products to be exact.
 constexpr ByPrecision<double> largest_quotient = {0x1p24, 0x1p52};
 
 Expression whole_below(Expression x) {
@@ -71,8 +70,8 @@ ValueId KernelBuilder::modulus(ValueId x, ValueId y) {
 
 ValueId KernelBuilder::smooth_step(ValueId low, ValueId high, ValueId argument) {
     const Expression from(*this, low);
-    const Expression position = (Expression(*this, argument) - from) /
-                                (Expression(*this, high) - from);
+    const Expression position =
+        (Expression(*this, argument) - from) / (Expression(*this, high) - from);
     const Expression t = position.kept().clamped(0, 1);
     return ((t * t) * (3 - t * 2)).id();
 }

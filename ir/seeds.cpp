@@ -9,8 +9,8 @@ namespace {
 
 /// One of two neighbouring seeds along an axis.
 struct Candidate {
-    Expression part;   ///< Of its hash.
-    Expression away;   ///< From the cell to where it is without jitter, in coordinates.
+    Expression part;  ///< Of its hash.
+    Expression away;  ///< From the cell to where it is without jitter, in coordinates.
 };
 
 struct Candidates {
@@ -26,13 +26,14 @@ Candidates candidates_along(const LatticeHash& hash, std::size_t axis, const Lat
     const Expression first = lattice_floor(beside);
     for (const int next : {0, 1}) {
         const Expression index = next == 0 ? first : first + 1;
-        found.both.push_back({hash.part(axis, lattice_word(lattice, index)),
-                              (index - beside) * lattice.side});
+        found.both.push_back(
+            {hash.part(axis, lattice_word(lattice, index)), (index - beside) * lattice.side});
     }
     return found;
 }
 
-/// Whether the cell is within the radius of one seed. Bit k of `corner` chooses along the k-th axis.
+/// Whether the cell is within the radius of one seed. Bit k of `corner` chooses along the k-th
+/// axis.
 Expression is_near(const LatticeHash& hash, const std::vector<Candidates>& axes, std::size_t corner,
                    Expression squared_radius, Expression jitter) {
     const auto chosen = [&](std::size_t k) { return axes[k].both[(corner >> k) & 1]; };
@@ -56,17 +57,16 @@ ValueId seed_lattice(KernelBuilder& builder, const Space& space, LatticeKind kin
     const Expression side(builder, spacing);
     const Expression r(builder, radius);
     const Expression squared_radius = r * r;
-    const std::vector<double> offsets = kind == LatticeKind::square
-                                           ? std::vector<double>{0.5}
-                                           : std::vector<double>{0.25, 0.75};
+    const std::vector<double> offsets =
+        kind == LatticeKind::square ? std::vector<double>{0.5} : std::vector<double>{0.25, 0.75};
     std::optional<Expression> inside;
     for (std::size_t part = 0; part < offsets.size(); ++part) {
         const LatticeHash hash(builder, draw, static_cast<std::uint32_t>(part));
         std::vector<Candidates> axes;
         for (std::size_t axis = 0; axis < space.size(); ++axis) {
             if (!space[axis].has_extent) continue;
-            axes.push_back(candidates_along(
-                hash, axis, lattice_axis(builder, space[axis], side), offsets[part]));
+            axes.push_back(candidates_along(hash, axis, lattice_axis(builder, space[axis], side),
+                                            offsets[part]));
         }
         if (axes.empty()) return builder.number(1);
         for (std::size_t corner = 0; corner < std::size_t{1} << axes.size(); ++corner) {

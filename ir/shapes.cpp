@@ -11,8 +11,7 @@ namespace {
 /// From `centre` to the cell along one axis, in the direction of the axis. Across periodic sides it
 /// is the shortest of all: whole periods, to the nearest number of them, are taken off.
 Expression distance_along(KernelBuilder& builder, const SpaceAxis& axis, ValueId centre) {
-    const Expression distance =
-        Expression(builder, axis.coordinate) - Expression(builder, centre);
+    const Expression distance = Expression(builder, axis.coordinate) - Expression(builder, centre);
     if (!axis.is_periodic) return distance;
     const Rounded periods = round_to_whole(distance / distance.number(axis.length));
     return distance - periods.number * axis.length;
@@ -44,8 +43,7 @@ ValueId disc(KernelBuilder& builder, const Space& space, std::span<const ValueId
 
 ValueId ring(KernelBuilder& builder, const Space& space, std::span<const ValueId> centre,
              ValueId radius, ValueId width) {
-    const Expression distance =
-        squared_distance(builder, space, centre).unary(Op::square_root);
+    const Expression distance = squared_distance(builder, space, centre).unary(Op::square_root);
     const Expression r(builder, radius);
     return within_half(distance - r, Expression(builder, width)).id();
 }
@@ -55,8 +53,8 @@ ValueId box(KernelBuilder& builder, const Space& space, std::span<const ValueId>
     std::optional<Expression> inside;
     for (std::size_t k = 0; k < centre.size(); ++k) {
         if (!space[k].has_extent) continue;
-        const Expression along = within_half(distance_along(builder, space[k], centre[k]),
-                                             Expression(builder, size[k]));
+        const Expression along =
+            within_half(distance_along(builder, space[k], centre[k]), Expression(builder, size[k]));
         inside = inside ? both(*inside, along) : along;
     }
     return inside ? inside->id() : builder.number(1);

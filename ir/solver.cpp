@@ -15,21 +15,22 @@ struct Row {
     double interval;  ///< Of stability on the negative axis; of those without stages.
 };
 
-/// In the order of Solver. Semi-implicit solvers have the interval of what they take explicitly: two
-/// of them are Euler's method where nothing diffuses, imex2 is Heun's. The intervals are the zeros of |R(z)| = 1 on the negative axis, R being
-/// the stability polynomial (E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II",
-/// 1996, section IV.2); of Dormand-Prince the one of its fifth order formula.
+/// In the order of Solver. Semi-implicit solvers have the interval of what they take explicitly:
+/// two of them are Euler's method where nothing diffuses, imex2 is Heun's. The intervals are the
+/// zeros of |R(z)| = 1 on the negative axis, R being the stability polynomial (E. Hairer, G.
+/// Wanner, "Solving Ordinary Differential Equations II", 1996, section IV.2); of Dormand-Prince the
+/// one of its fifth order formula.
 constexpr std::array<Row, 11> rows{{{"euler", 1, 2.0},
-                                   {"symplectic", 1, 2.0},
-                                   {"rk2", 2, 2.0},
-                                   {"rk4", 4, 2.785},
-                                   {"rk23", 3, 2.512},
-                                   {"rk45", 5, 3.306},
-                                   {"rkl1", 1, 0},
-                                   {"rkl2", 2, 0},
-                                   {"imex", 1, 2.0},
-                                   {"imex2", 2, 2.0},
-                                   {"gauss", 1, 2.0}}};
+                                    {"symplectic", 1, 2.0},
+                                    {"rk2", 2, 2.0},
+                                    {"rk4", 4, 2.785},
+                                    {"rk23", 3, 2.512},
+                                    {"rk45", 5, 3.306},
+                                    {"rkl1", 1, 0},
+                                    {"rkl2", 2, 0},
+                                    {"imex", 1, 2.0},
+                                    {"imex2", 2, 2.0},
+                                    {"gauss", 1, 2.0}}};
 
 const Row& row(Solver solver) { return rows[static_cast<std::size_t>(solver)]; }
 
@@ -38,8 +39,8 @@ const Row& row(Solver solver) { return rows[static_cast<std::size_t>(solver)]; }
 std::string_view name_of(Solver solver) { return row(solver).name; }
 
 std::optional<Solver> solver_of(std::string_view name) {
-    const auto found = std::find_if(rows.begin(), rows.end(),
-                                    [&](const Row& each) { return each.name == name; });
+    const auto found =
+        std::find_if(rows.begin(), rows.end(), [&](const Row& each) { return each.name == name; });
     if (found == rows.end()) return std::nullopt;
     return static_cast<Solver>(found - rows.begin());
 }

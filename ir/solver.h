@@ -11,7 +11,17 @@ namespace cascade {
 
 /// The values of the setting `solver`.
 enum class Solver : std::uint8_t {
-    euler, symplectic, rk2, rk4, rk23, rk45, rkl1, rkl2, imex, imex2, gauss
+    euler,
+    symplectic,
+    rk2,
+    rk4,
+    rk23,
+    rk45,
+    rkl1,
+    rkl2,
+    imex,
+    imex2,
+    gauss
 };
 
 std::string_view name_of(Solver solver);

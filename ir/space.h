@@ -16,10 +16,10 @@ namespace cascade {
 
 /// One axis of the domain, and where the cell is along it.
 struct SpaceAxis {
-    ValueId coordinate = 0;    ///< 0 … length.
-    double length = 1;         ///< Of the whole side.
+    ValueId coordinate = 0;  ///< 0 … length.
+    double length = 1;       ///< Of the whole side.
     bool is_periodic = false;
-    bool has_extent = false;   ///< More than one cell.
+    bool has_extent = false;  ///< More than one cell.
 };
 
 /// x, y, z.
@@ -72,7 +72,8 @@ enum class LatticeKind {
 
 /// Lattices of seeds (ir/seeds.cpp): 1 within `radius` of a seed, else 0. Each seed is moved along
 /// every axis by a random distance of at most `jitter`. Right as long as radius + jitter is not
-/// above the spacing; along periodic axes that is the nearest one that fits a whole number of times.
+/// above the spacing; along periodic axes that is the nearest one that fits a whole number of
+/// times.
 ValueId seed_lattice(KernelBuilder& builder, const Space& space, LatticeKind kind, ValueId spacing,
                      ValueId radius, ValueId jitter, const Draw& draw);
 

@@ -38,9 +38,9 @@ struct SweepTerm {
 /// left.
 struct SweepOutput {
     enum class Kind : std::uint8_t {
-        state,   ///< Values of species. Invariants clamp them; a frozen cell keeps its value.
-        /// Rates, increments, errors: 0 where a cell is frozen. A rate that would carry a value beyond
-        /// the bound at which an invariant holds it counts as 0.
+        state,  ///< Values of species. Invariants clamp them; a frozen cell keeps its value.
+        /// Rates, increments, errors: 0 where a cell is frozen. A rate that would carry a value
+        /// beyond the bound at which an invariant holds it counts as 0.
         change,
     };
     Kind kind = Kind::state;
@@ -53,14 +53,15 @@ struct SweepForm {
     /// How many registers are read. Rates are evaluated at input 0 and read neighbours there;
     /// of the others only the own cell is read.
     std::uint32_t inputs = 1;
-    /// The input that differences are from and whose values frozen cells keep: the old step, or a stage.
+    /// The input that differences are from and whose values frozen cells keep: the old step, or a
+    /// stage.
     std::uint32_t base_input = 0;
-    std::uint32_t coefficients = 0;   ///< How many coefficients the terms use.
-    std::vector<SweepOutput> outputs; ///< Result o·S + s is output o of the s-th species written.
+    std::uint32_t coefficients = 0;    ///< How many coefficients the terms use.
+    std::vector<SweepOutput> outputs;  ///< Result o·S + s is output o of the s-th species written.
     /// Numbers of the species that are written (0 is the system's first); empty for all.
     std::vector<std::uint32_t> species;
-    /// A value that stands at a bound in input 0, which its rate there would carry it beyond, stays at it
-    /// whatever the terms say. For terms that were mixed with those of other cells.
+    /// A value that stands at a bound in input 0, which its rate there would carry it beyond, stays
+    /// at it whatever the terms say. For terms that were mixed with those of other cells.
     bool holds = false;
 
     /// Does it evaluate the rates, or only put together what was computed before?
@@ -95,11 +96,11 @@ struct SweepFilter {
 
 /// One sweep of a scheme: a form with its arguments.
 struct Sweep {
-    std::uint32_t form = 0;               ///< Number of the form in its scheme.
-    std::optional<SweepFilter> filter;    ///< Done before the sweep.
-    std::vector<std::uint32_t> inputs;    ///< Register of each input.
-    std::vector<std::uint32_t> outputs;   ///< Register of each output, which may be that of an
-                                          ///< input that is read in the own cell only.
+    std::uint32_t form = 0;              ///< Number of the form in its scheme.
+    std::optional<SweepFilter> filter;   ///< Done before the sweep.
+    std::vector<std::uint32_t> inputs;   ///< Register of each input.
+    std::vector<std::uint32_t> outputs;  ///< Register of each output, which may be that of an
+                                         ///< input that is read in the own cell only.
     /// Species with a number below this are read from register 1 wherever input 0 is read.
     std::uint32_t renewed = 0;
     struct Coefficient {

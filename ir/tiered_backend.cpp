@@ -62,9 +62,9 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     bool is_stopping_ = false;
-    std::condition_variable settled_;  ///< Fewer kernels are coming.
+    std::condition_variable settled_;                   ///< Fewer kernels are coming.
     std::vector<std::shared_ptr<TieredKernel>> begun_;  ///< Those not compiled yet, in order.
-    const TieredKernel* in_work_ = nullptr;             ///< The one being compiled, if it is wanted.
+    const TieredKernel* in_work_ = nullptr;  ///< The one being compiled, if it is wanted.
     std::deque<Source> expected_;
 };
 
@@ -167,7 +167,8 @@ void TieredBackend::Worker::settle() {
 }
 
 bool TieredBackend::Worker::has_wanted() const {
-    return std::any_of(begun_.begin(), begun_.end(), [](const auto& kernel) { return kernel->is_wanted(); });
+    return std::any_of(begun_.begin(), begun_.end(),
+                       [](const auto& kernel) { return kernel->is_wanted(); });
 }
 
 void TieredBackend::Worker::abandon() {
@@ -281,8 +282,8 @@ std::string TieredBackend::code_identity() const { return native_->code_identity
 KernelPointer TieredBackend::begin(const CellKernel& kernel, Stencil stencil, When when) {
     if (auto found = native_->find(kernel, stencil)) return found;
     KernelPointer interpreted = *interpreter_->compile(kernel, stencil);
-    auto begun = std::make_shared<Worker::TieredKernel>(kernel, stencil, std::move(interpreted), worker_,
-                                                        when == When::now);
+    auto begun = std::make_shared<Worker::TieredKernel>(kernel, stencil, std::move(interpreted),
+                                                        worker_, when == When::now);
     if (worker_->start()) {
         worker_->add(begun);
     } else {

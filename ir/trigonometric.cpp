@@ -1,14 +1,14 @@
 // sin, cos and tan, expanded into operations of the table.
 //
 // The angle is brought to |r| ≤ π/4 by taking off n quarter turns; π/2 is split into four pieces of
-// 11 bits (in binary64 26), whose products with n are exact, and a rest. What rounding loses is carried along as a
-// tail. So r is right to its last bit for every angle up to 8192 (2^27), even beside multiples of π/2.
+// 11 bits (in binary64 26), whose products with n are exact, and a rest. What rounding loses is
+// carried along as a tail. So r is right to its last bit for every angle up to 8192 (2^27), even
+// beside multiples of π/2.
 //
-// Angles from 8192 to 2^24 (2^27 to 2^53) are first brought below 3217 (2^26) by taking off multiples
-// of 4096 (2^26) quarter turns in the same way; r then has an absolute error of at most 2^−33
-// (2^−77). Beyond 2^24 (2^53), where
-// neighbouring numbers are 2 and more apart, an angle means nothing and the result is NaN, as it is
-// for infinities. −0 has the sine −0.
+// Angles from 8192 to 2^24 (2^27 to 2^53) are first brought below 3217 (2^26) by taking off
+// multiples of 4096 (2^26) quarter turns in the same way; r then has an absolute error of at most
+// 2^−33 (2^−77). Beyond 2^24 (2^53), where neighbouring numbers are 2 and more apart, an angle
+// means nothing and the result is NaN, as it is for infinities. −0 has the sine −0.
 #include "ir/expression.h"
 
 #include <array>
@@ -20,28 +20,33 @@ namespace {
 struct Reduction {
     double largest_angle;
     double largest_direct_angle;
-    double many;                         ///< Quarter turns that are taken off large angles together.
+    double many;  ///< Quarter turns that are taken off large angles together.
     std::array<double, 5> quarter_turn;  ///< Four pieces and the rest.
 };
 constexpr ByPrecision<Reduction> reductions = {
     {{0x1p24, 0x1p13, 0x1p12, {0x1.92p+0, 0x1.fb8p-12, -0x1.5ep-23, 0x1.0b8p-34, -0x1.cf72cep-45}},
-     {0x1p53, 0x1p27, 0x1p26, {0x1.921fb58p+0, -0x1.dde974p-27, 0x1.1a6263p-54, 0x1.8a2e038p-81,
-                            -0x1.f1976b7ed8fbcp-110}}}};
+     {0x1p53,
+      0x1p27,
+      0x1p26,
+      {0x1.921fb58p+0, -0x1.dde974p-27, 0x1.1a6263p-54, 0x1.8a2e038p-81,
+       -0x1.f1976b7ed8fbcp-110}}}};
 constexpr ByPrecision<double> quarter_turns_per_radian = {0x1.45f306p-1,  // 2/π
                                                           0x1.45f306dc9c883p-1};
 
 // (sin(r)/r − 1) / r² in r², for |r| ≤ 0.79; error 2^−32 (2^−63) of the sine.
 constexpr double sin_single[] = {-0x1.555556p-3, 0x1.111174p-7, -0x1.a05904p-13, 0x1.7c0226p-19};
-constexpr double sin_double[] = {
-    -0x1.5555555555555p-3, 0x1.1111111111069p-7, -0x1.a01a019ffe538p-13, 0x1.71de3a33a9ca5p-19,
-    -0x1.ae642c5a8b7f2p-26, 0x1.6109c4df77e2cp-33, -0x1.a001da9aec246p-41};
+constexpr double sin_double[] = {-0x1.5555555555555p-3,  0x1.1111111111069p-7,
+                                 -0x1.a01a019ffe538p-13, 0x1.71de3a33a9ca5p-19,
+                                 -0x1.ae642c5a8b7f2p-26, 0x1.6109c4df77e2cp-33,
+                                 -0x1.a001da9aec246p-41};
 constexpr ByPrecision<std::span<const double>> sin_coefficients = {sin_single, sin_double};
 
 // (cos(r) − 1 + r²/2) / r⁴ in r², for |r| ≤ 0.79; error 2^−32 (2^−69) of the cosine.
 constexpr double cos_single[] = {0x1.55554ap-5, -0x1.6c0c20p-10, 0x1.99e42cp-16};
-constexpr double cos_double[] = {
-    0x1.5555555555555p-5, -0x1.6c16c16c16b31p-10, 0x1.a01a019ffcf6fp-16, -0x1.27e4fb5a7a892p-22,
-    0x1.1eed6ff967326p-29, -0x1.9374ed5847254p-37, 0x1.9dfa0de9af30ap-45};
+constexpr double cos_double[] = {0x1.5555555555555p-5,  -0x1.6c16c16c16b31p-10,
+                                 0x1.a01a019ffcf6fp-16, -0x1.27e4fb5a7a892p-22,
+                                 0x1.1eed6ff967326p-29, -0x1.9374ed5847254p-37,
+                                 0x1.9dfa0de9af30ap-45};
 constexpr ByPrecision<std::span<const double>> cos_coefficients = {cos_single, cos_double};
 
 /// A number as the sum of two, the second being about 2^−24 (2^−53) of the first.
@@ -107,7 +112,8 @@ Reduced reduce(Expression angle) {
 }
 
 Expression nan_if_too_large(Expression angle, Expression value) {
-    const Expression is_angle = angle.binary(Op::less_equal, angle.number(angle.pick(reductions).largest_angle));
+    const Expression is_angle =
+        angle.binary(Op::less_equal, angle.number(angle.pick(reductions).largest_angle));
     return is_angle.choose(value, angle.number(nan));
 }
 

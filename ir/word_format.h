@@ -20,7 +20,9 @@ struct WordFormat {
     constexpr std::uint64_t sign() const { return std::uint64_t{1} << (bits - 1); }
     constexpr std::uint64_t fraction() const { return (std::uint64_t{1} << fraction_bits) - 1; }
     constexpr std::uint64_t exponent() const { return all() ^ sign() ^ fraction(); }
-    constexpr std::uint64_t one() const { return static_cast<std::uint64_t>(bias) << fraction_bits; }
+    constexpr std::uint64_t one() const {
+        return static_cast<std::uint64_t>(bias) << fraction_bits;
+    }
     /// The NaN that stands for all.
     constexpr std::uint64_t nan() const { return exponent() | (fraction() ^ (fraction() >> 1)); }
 

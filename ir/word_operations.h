@@ -1,5 +1,6 @@
 // What every operation of the table does with words: the one definition behind the folding of
-// constants and the loops of the interpreter. `Number` is float or double, whichever the words hold.
+// constants and the loops of the interpreter. `Number` is float or double, whichever the words
+// hold.
 //
 // Internal to ir/. Denormals are flushed by the processor, so all of this is right only inside a
 // FlushDenormals. The functions are written such that loops over them become vector code.
@@ -20,19 +21,20 @@ static_assert(static_cast<int>(Op::add) == static_cast<int>(Op::cell_slice) + 1,
               "the sources come first in the table");
 
 template <Op op>
-constexpr bool is_arithmetic = op >= Op::add && op <= Op::divide;
+constexpr bool is_arithmetic = op >= Op::add&& op <= Op::divide;
 template <Op op>
-constexpr bool is_comparison = op >= Op::less && op <= Op::not_equal;
+constexpr bool is_comparison = op >= Op::less&& op <= Op::not_equal;
 template <Op op>
-constexpr bool is_logic = op >= Op::logical_and && op <= Op::logical_not;
+constexpr bool is_logic = op >= Op::logical_and&& op <= Op::logical_not;
 
 template <typename Number>
 inline constexpr auto one_bits = static_cast<WordOf<Number>>(format_of(precision_of<Number>).one());
 template <typename Number>
-inline constexpr auto sign_bit = static_cast<WordOf<Number>>(format_of(precision_of<Number>).sign());
+inline constexpr auto sign_bit =
+    static_cast<WordOf<Number>>(format_of(precision_of<Number>).sign());
 
-/// A number other than zero. Asked of the word, because compilers that see a number made from a word
-/// and compared with 0 may look at its bits, and take a denormal for true.
+/// A number other than zero. Asked of the word, because compilers that see a number made from a
+/// word and compared with 0 may look at its bits, and take a denormal for true.
 template <typename Number>
 bool is_true(WordOf<Number> word) {
     constexpr WordFormat format = format_of(precision_of<Number>);
@@ -48,7 +50,8 @@ Number arithmetic(Number a, Number b) {
     if constexpr (op == Op::divide) return a / b;
 }
 
-/// The nearest whole number: the sum of 2^23 (2^52) and a smaller number has no digits after the point.
+/// The nearest whole number: the sum of 2^23 (2^52) and a smaller number has no digits after the
+/// point.
 template <typename Number>
 Number round_to_even(Number a) {
     constexpr auto all_whole =
@@ -57,9 +60,9 @@ Number round_to_even(Number a) {
     return size < all_whole ? std::copysign((size + all_whole) - all_whole, a) : a;
 }
 
-/// a · 2^b. One factor 2^b may be out of range where the product is not; so there are two, of about the same
-/// size. Their exponents plus the bias are the halves of b plus twice the bias, which are the last bits of
-/// a sum, as whole numbers; a shift leaves no others.
+/// a · 2^b. One factor 2^b may be out of range where the product is not; so there are two, of about
+/// the same size. Their exponents plus the bias are the halves of b plus twice the bias, which are
+/// the last bits of a sum, as whole numbers; a shift leaves no others.
 template <typename Number>
 Number scale_by_power(Number a, Number b) {
     using Word = WordOf<Number>;

@@ -17,10 +17,9 @@ public:
     CarriedVectors(llvm::BasicBlock& header, Builder& outside)
         : header_(header), outside_(outside) {}
 
-    /// Of a field: what the execution before this one has given, or, in the first, what `first` makes
-    /// before the loop.
-    llvm::Value* take(std::uint32_t slot,
-                      llvm::function_ref<llvm::Value*(Builder& outside)> first);
+    /// Of a field: what the execution before this one has given, or, in the first, what `first`
+    /// makes before the loop.
+    llvm::Value* take(std::uint32_t slot, llvm::function_ref<llvm::Value*(Builder& outside)> first);
     /// What the next execution takes; after take().
     void give(std::uint32_t slot, llvm::Value* vector);
     llvm::Value* given(std::uint32_t slot) { return carried_[slot].next; }

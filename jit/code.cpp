@@ -76,9 +76,10 @@ Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const Kernel
                         const std::string& name, const llvm::TargetMachine& machine) {
     const std::size_t size = size_of(kernel);
     if (size > largest_native_kernel) {
-        return failure(fmt::format("a kernel of size {} is too large for native code, which ends "
-                                   "at {}",
-                                   size, largest_native_kernel));
+        return failure(
+            fmt::format("a kernel of size {} is too large for native code, which ends "
+                        "at {}",
+                        size, largest_native_kernel));
     }
     if (!has_multiply_add(machine) && multiplies_and_adds(kernel)) {
         return failure(fmt::format("{} does not multiply and add with one rounding",

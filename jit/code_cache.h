@@ -1,6 +1,7 @@
 // Compiled kernels kept on disk, for the next process that asks for them.
 //
-// Internal to jit/. Whatever is wrong with a file means that the kernel is not known (core/kept_files.h).
+// Internal to jit/. Whatever is wrong with a file means that the kernel is not known
+// (core/kept_files.h).
 #pragma once
 
 #include "core/kept_files.h"

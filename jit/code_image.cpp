@@ -2,8 +2,8 @@
 //
 // The linker knows what the code generator writes for kernels: sections of code and of constants,
 // and references between them of 32 bits, relative to the place of the reference ("System V
-// Application Binary Interface, AMD64 Architecture Processor Supplement", 4.4.1: S + A − P). It refuses
-// all else.
+// Application Binary Interface, AMD64 Architecture Processor Supplement", 4.4.1: S + A − P). It
+// refuses all else.
 #include "jit/code_image.h"
 
 #include <elf.h>
@@ -108,7 +108,8 @@ private:
             if (section.sh_type != SHT_PROGBITS && !is_zeros) return false;
             if ((section.sh_flags & SHF_TLS) != 0 || section.sh_size > largest_image) return false;
             const std::uint64_t alignment = section.sh_addralign > 0 ? section.sh_addralign : 1;
-            if (alignment > CodeImage::alignment || (alignment & (alignment - 1)) != 0) return false;
+            if (alignment > CodeImage::alignment || (alignment & (alignment - 1)) != 0)
+                return false;
             std::string& bytes = image_.bytes;
             bytes.resize((bytes.size() + alignment - 1) / alignment * alignment, '\0');
             places_[k] = bytes.size();
@@ -142,7 +143,8 @@ private:
 
     /// In the image, or nowhere.
     std::uint64_t place_of(const Elf64_Sym& symbol) const {
-        if (symbol.st_shndx >= places_.size()) return nowhere;  // Also those numbers with a meaning.
+        if (symbol.st_shndx >= places_.size())
+            return nowhere;  // Also those numbers with a meaning.
         const std::uint64_t start = places_[symbol.st_shndx];
         if (start == nowhere || symbol.st_value > file_.sections[symbol.st_shndx].sh_size) {
             return nowhere;
@@ -207,9 +209,10 @@ std::optional<CodeImage> link_image(std::string_view object, std::string_view na
 
 Result<std::unique_ptr<LoadedFunction>> load_image(const CodeImage& image) {
     const auto refused = [] {
-        return failure(fmt::format("native code could not be loaded: {}",
-                                   std::generic_category().message(errno)),
-                       "the system may forbid programs to make code; --backend interp goes without");
+        return failure(
+            fmt::format("native code could not be loaded: {}",
+                        std::generic_category().message(errno)),
+            "the system may forbid programs to make code; --backend interp goes without");
     };
     const std::size_t size = image.bytes.size();
     void* pages = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

@@ -60,8 +60,9 @@ struct CodeImage {
     static constexpr std::uint64_t alignment = 64;
 };
 
-/// Links a relocatable object file (ELF, x86-64) to an image of its function `name`. Nothing where the
-/// file is of another kind, refers to what is not in it, or has addresses that only a loader knows.
+/// Links a relocatable object file (ELF, x86-64) to an image of its function `name`. Nothing where
+/// the file is of another kind, refers to what is not in it, or has addresses that only a loader
+/// knows.
 std::optional<CodeImage> link_image(std::string_view object, std::string_view name);
 
 /// Puts an image into memory that may be executed and not written.

@@ -71,8 +71,7 @@ llvm::Value* BodyScope::number(ValueId id) {
     if (value.number) return value.number;
     value.number = value.bits
                        ? scope.builder_.CreateBitCast(value.bits, number_type_)
-                       : scope.builder_.CreateSelect(value.truth, hidden(format_.one()),
-                                                    hidden(0));
+                       : scope.builder_.CreateSelect(value.truth, hidden(format_.one()), hidden(0));
     return value.number;
 }
 
@@ -150,8 +149,8 @@ llvm::Value* BodyScope::operand(ValueId id) {
 // identity: LLVM drops such operations, also in one branch of a choice.
 llvm::Value* BodyScope::operand(ValueId id, ValueId partner, double neutral) {
     if (!forms(id).may_be_denormal) return number(id);
-    const bool may_be_neutral = is_plus_or_minus(operand(partner), neutral) ||
-                                forms(partner).may_be_neutral;
+    const bool may_be_neutral =
+        is_plus_or_minus(operand(partner), neutral) || forms(partner).may_be_neutral;
     return may_be_neutral ? flushed(id) : operand(id);
 }
 
@@ -268,21 +267,17 @@ BodyScope::Forms BodyScope::emit_arithmetic(const Instruction& instruction) {
     const ValueId a = instruction.operands[0];
     const ValueId b = instruction.operands[1];
     Forms value;
-    value.may_be_neutral = forms(a).may_be_neutral ||
-                           (info(instruction.op).arity == 2 && forms(b).may_be_neutral);
+    value.may_be_neutral =
+        forms(a).may_be_neutral || (info(instruction.op).arity == 2 && forms(b).may_be_neutral);
     switch (instruction.op) {
-        case Op::add:
-            value.number = builder_.CreateFAdd(operand(a, b, 0), operand(b, a, 0));
-            break;
+        case Op::add: value.number = builder_.CreateFAdd(operand(a, b, 0), operand(b, a, 0)); break;
         case Op::subtract:
             value.number = builder_.CreateFSub(operand(a, b, 0), operand(b, a, 0));
             break;
         case Op::multiply:
             value.number = builder_.CreateFMul(operand(a, b, 1), operand(b, a, 1));
             break;
-        case Op::divide:
-            value.number = builder_.CreateFDiv(operand(a, b, 1), operand(b));
-            break;
+        case Op::divide: value.number = builder_.CreateFDiv(operand(a, b, 1), operand(b)); break;
         case Op::negate:
             value.number = builder_.CreateFNeg(number(a));
             value.may_be_denormal = forms(a).may_be_denormal;
@@ -363,8 +358,8 @@ BodyScope::Forms BodyScope::emit_select(const Instruction& instruction) {
         return value;
     }
     value.may_be_denormal = first.may_be_denormal || second.may_be_denormal;
-    value.may_be_neutral = first.is_choice || second.is_choice || first.may_be_neutral ||
-                           second.may_be_neutral;
+    value.may_be_neutral =
+        first.is_choice || second.is_choice || first.may_be_neutral || second.may_be_neutral;
     llvm::Value* a = branch(then, otherwise);
     llvm::Value* b = branch(otherwise, then);
     if (value.may_be_denormal) {
@@ -386,8 +381,8 @@ BodyScope::Forms BodyScope::emit_word(const Instruction& instruction) {
         return value;
     }
     llvm::Value* b = bits(instruction.operands[1]);
-    // Amounts above 31 (63) do not occur; the mask keeps LLVM from drawing conclusions from that, and
-    // vanishes where the amount is a constant.
+    // Amounts above 31 (63) do not occur; the mask keeps LLVM from drawing conclusions from that,
+    // and vanishes where the amount is a constant.
     const auto amount = [&] {
         return builder_.CreateAnd(b, word_splat(static_cast<std::uint64_t>(format_.bits - 1)));
     };

@@ -46,18 +46,18 @@ class Lane {
 public:
     virtual ~Lane() = default;
     // Of the call.
-    virtual llvm::Value* uniform(std::uint32_t slot);    ///< <N x float>
-    virtual llvm::Value* hidden(std::uint64_t word);     ///< <N x float>, a hidden constant
+    virtual llvm::Value* uniform(std::uint32_t slot);  ///< <N x float>
+    virtual llvm::Value* hidden(std::uint64_t word);   ///< <N x float>, a hidden constant
     // Of the row.
-    virtual llvm::Value* cell_row();                     ///< <N x i32>
-    virtual llvm::Value* cell_slice();                   ///< <N x i32>
+    virtual llvm::Value* cell_row();    ///< <N x i32>
+    virtual llvm::Value* cell_slice();  ///< <N x i32>
     // Of the cells.
-    virtual llvm::Value* field(std::uint32_t slot);      ///< <N x float>
-    virtual llvm::Value* laplacian(std::uint32_t slot);  ///< <N x float>
-    virtual llvm::Value* neighbour(Neighbour at);        ///< <N x float>
+    virtual llvm::Value* field(std::uint32_t slot);         ///< <N x float>
+    virtual llvm::Value* laplacian(std::uint32_t slot);     ///< <N x float>
+    virtual llvm::Value* neighbour(Neighbour at);           ///< <N x float>
     virtual llvm::Value* link_sum(const Instruction& sum);  ///< <N x float>, but for a laplacian
-    virtual llvm::Value* mask(std::uint32_t slot);       ///< <N x i1>
-    virtual llvm::Value* cell_column();                  ///< <N x i32>
+    virtual llvm::Value* mask(std::uint32_t slot);          ///< <N x i1>
+    virtual llvm::Value* cell_column();                     ///< <N x i32>
 };
 
 /// The values of one level, at one place of the code. Values of lower levels are looked up in the
@@ -82,10 +82,10 @@ private:
         llvm::Value* number = nullptr;
         llvm::Value* bits = nullptr;
         llvm::Value* truth = nullptr;
-        bool is_boolean = false;        ///< It is 1 or 0, and `truth` says which.
+        bool is_boolean = false;  ///< It is 1 or 0, and `truth` says which.
         bool may_be_denormal = false;
-        bool is_choice = false;         ///< Between constants, in all branches.
-        bool may_be_neutral = false;    ///< It chooses between a constant and something else.
+        bool is_choice = false;       ///< Between constants, in all branches.
+        bool may_be_neutral = false;  ///< It chooses between a constant and something else.
     };
 
     BodyScope& owner(ValueId id);

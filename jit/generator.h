@@ -1,8 +1,8 @@
 // The code generator: LLVM behind a table of functions.
 //
-// Internal to jit/. libLLVM takes four times as long to load as a small run takes, so everything that
-// needs it is a module, `libcascade_llvm.so`, which is loaded when code must be made that no cache
-// has. It is found as shared libraries are, by the paths that the program, or libcascade, was
+// Internal to jit/. libLLVM takes four times as long to load as a small run takes, so everything
+// that needs it is a module, `libcascade_llvm.so`, which is loaded when code must be made that no
+// cache has. It is found as shared libraries are, by the paths that the program, or libcascade, was
 // linked with.
 #pragma once
 
@@ -17,7 +17,8 @@ namespace cascade {
 /// What the module gives. All may be called from several threads; options have been checked.
 struct CodeGenerator {
     /// An object file with the kernel as the function `kernel_function_name`.
-    Result<std::string> (*compile)(const CellKernel& kernel, const KernelShape& shape, int optimise);
+    Result<std::string> (*compile)(const CellKernel& kernel, const KernelShape& shape,
+                                   int optimise);
     /// Loads such a file where it could not be linked to an image.
     Result<std::unique_ptr<LoadedFunction>> (*load)(const std::string& object);
     // The functions of jit/jit.h.
@@ -34,8 +35,8 @@ inline constexpr const char* kernel_function_name = "kernel";
 /// Loads the module if that was not done. Fails where there is none, or one of another build.
 Result<const CodeGenerator*> code_generator();
 
-/// The name of the module's only symbol: a function that takes the `code_version` of whoever asks and
-/// gives the table, or null if its own is another.
+/// The name of the module's only symbol: a function that takes the `code_version` of whoever asks
+/// and gives the table, or null if its own is another.
 inline constexpr const char* generator_symbol = "cascade_code_generator";
 using GeneratorEntry = const CodeGenerator*(const char* version);
 

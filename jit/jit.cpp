@@ -20,7 +20,8 @@ namespace {
 template <typename Number>
 class NativeKernel final : public Kernel {
 public:
-    NativeKernel(const CellKernel& kernel, Stencil stencil, std::unique_ptr<LoadedFunction> function)
+    NativeKernel(const CellKernel& kernel, Stencil stencil,
+                 std::unique_ptr<LoadedFunction> function)
         : stencil_(stencil),
           fields_(kernel.field_names.size()),
           masks_(kernel.mask_names.size()),
@@ -149,7 +150,8 @@ private:
         const std::lock_guard lock(mutex_);
         const auto found = known_.find(key);
         if (found == known_.end()) return std::nullopt;
-        const bool is_made = found->second.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+        const bool is_made =
+            found->second.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
         return is_made ? found->second.get() : Result<KernelPointer>(nullptr);
     }
 

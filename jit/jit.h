@@ -14,11 +14,11 @@
 namespace cascade {
 
 struct JitOptions {
-    int lanes = 0;      ///< Cells of binary32 per vector: 4, 8 or 16 (half as many of binary64);
-                        ///< 0 takes the host's widest.
-    int optimise = 2;   ///< 0 … 3, of LLVM's code generator.
-    /// Compiled kernels are kept in this folder and found there by later processes; empty: none. One
-    /// that cannot be used, for whatever reason, is as good as none.
+    int lanes = 0;     ///< Cells of binary32 per vector: 4, 8 or 16 (half as many of binary64);
+                       ///< 0 takes the host's widest.
+    int optimise = 2;  ///< 0 … 3, of LLVM's code generator.
+    /// Compiled kernels are kept in this folder and found there by later processes; empty: none.
+    /// One that cannot be used, for whatever reason, is as good as none.
     std::filesystem::path cache = {};
 };
 
@@ -39,13 +39,13 @@ std::string describe_jit();
 
 /// A function of an object file: a kernel under a C name.
 struct NamedKernel {
-    std::string name;   ///< A C identifier.
+    std::string name;  ///< A C identifier.
     CellKernel kernel;
 };
 
 /// Constant numbers of an object file: `extern const float NAME[]`, aligned to 64 bytes.
 struct NamedNumbers {
-    std::string name;   ///< A C identifier.
+    std::string name;  ///< A C identifier.
     std::vector<float> values;
 };
 
@@ -60,17 +60,18 @@ struct ObjectContent {
 ///
 ///     void NAME(const float *const *fields, const unsigned char *const *masks,
 ///               const float *uniforms, float *const *results,
-///               int64_t width, int64_t stride, int64_t row_begin, int64_t row_end, int64_t is_near);
+///               int64_t width, int64_t stride, int64_t row_begin, int64_t row_end, int64_t
+///               is_near);
 ///
 /// (`is_near` is not 0 where all fields are in a near cache, so that nothing need be fetched ahead;
 /// for grids of several slices `int64_t slice_rows, int64_t slice` come after: row j of slice k is
 /// then row k * slice_rows + j, slice_rows is the height plus 2, and a call stays in one slice)
 /// (of kernels of binary64 with double for float) that computes rows [row_begin, row_end): the same
-/// code and ABI as the JIT's own kernels. It calls nothing. Planes are laid out as in PlaneLayout: pointers are to cell (0, 0), of numbers
-/// aligned to 64 bytes and of masks to 16; `stride` is a multiple of 16 elements, with 16 or more
-/// before and after each row; `width` is at least 1. The bits are those of a run if the
-/// processor flushes denormal inputs and results meanwhile (FTZ and DAZ on x86). Kernels for linked
-/// cells are refused.
+/// code and ABI as the JIT's own kernels. It calls nothing. Planes are laid out as in PlaneLayout:
+/// pointers are to cell (0, 0), of numbers aligned to 64 bytes and of masks to 16; `stride` is a
+/// multiple of 16 elements, with 16 or more before and after each row; `width` is at least 1. The
+/// bits are those of a run if the processor flushes denormal inputs and results meanwhile (FTZ and
+/// DAZ on x86). Kernels for linked cells are refused.
 Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, Stencil stencil,
                                                  const std::string& target);
 

@@ -12,10 +12,10 @@ struct KernelShape {
     Stencil stencil = Stencil::plane;
     int lanes = 16;  ///< Cells per vector: 4, 8 or 16; half as many of kernels of binary64.
     // What the processor is good at: see tuned() in jit/target_machine.h.
-    bool has_multiply_add = false;   ///< Of one rounding, in one instruction.
+    bool has_multiply_add = false;  ///< Of one rounding, in one instruction.
     bool is_short_of_loads = false;
-    bool has_rounding = false;       ///< To whole numbers, in one instruction.
-    bool has_scaling = false;        ///< Of vectors of 64 bytes by powers of two, in one instruction.
+    bool has_rounding = false;  ///< To whole numbers, in one instruction.
+    bool has_scaling = false;   ///< Of vectors of 64 bytes by powers of two, in one instruction.
 };
 
 /// The shape with vectors as wide as `lanes` cells of binary32.

@@ -22,9 +22,8 @@ class IdleMachines {
 public:
     std::unique_ptr<llvm::TargetMachine> take(int optimise) {
         const std::lock_guard lock(mutex_);
-        const auto found = std::find_if(machines_.begin(), machines_.end(), [&](const auto& entry) {
-            return entry.first == optimise;
-        });
+        const auto found = std::find_if(machines_.begin(), machines_.end(),
+                                        [&](const auto& entry) { return entry.first == optimise; });
         if (found == machines_.end()) return nullptr;
         auto machine = std::move(found->second);
         machines_.erase(found);
@@ -84,10 +83,9 @@ std::string describe() {
 extern "C" __attribute__((visibility("default"))) const cascade::CodeGenerator*
 cascade_code_generator(const char* version) {
     using namespace cascade;
-    static const CodeGenerator generator = {
-        llvm_module::compile,       llvm_module::load,
-        llvm_module::dump_llvm,     llvm_module::dump_assembly,
-        llvm_module::compile_object, llvm_module::known_targets,
-        llvm_module::describe};
+    static const CodeGenerator generator = {llvm_module::compile,        llvm_module::load,
+                                            llvm_module::dump_llvm,      llvm_module::dump_assembly,
+                                            llvm_module::compile_object, llvm_module::known_targets,
+                                            llvm_module::describe};
     return std::strcmp(version, code_version()) == 0 ? &generator : nullptr;
 }

@@ -18,8 +18,7 @@ Failure as_failure(llvm::Error error) {
     return {"native code could not be loaded: " + llvm::toString(std::move(error)), ""};
 }
 
-class OrcSession final : public NativeSession,
-                         public std::enable_shared_from_this<OrcSession> {
+class OrcSession final : public NativeSession, public std::enable_shared_from_this<OrcSession> {
 public:
     explicit OrcSession(std::unique_ptr<llvm::orc::ExecutorProcessControl> control)
         : session_(std::move(control)), layer_(session_) {
@@ -60,8 +59,8 @@ Result<std::unique_ptr<LoadedFunction>> OrcSession::load(std::span<const char> o
                                                          const std::string& name) {
     auto buffer =
         llvm::MemoryBuffer::getMemBufferCopy(llvm::StringRef(object.data(), object.size()), name);
-    auto function = std::make_unique<OrcFunction>(shared_from_this(),
-                                                  library_->createResourceTracker());
+    auto function =
+        std::make_unique<OrcFunction>(shared_from_this(), library_->createResourceTracker());
     if (auto error = layer_.add(function->tracker(), std::move(buffer))) {
         return tl::unexpected(as_failure(std::move(error)));
     }

@@ -72,8 +72,7 @@ Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, S
     if (!target) return tl::unexpected(target.error());
     CodeModule code = make_module(*target->machine);
     for (const NamedKernel& function : content.functions) {
-        const KernelShape shape =
-            shape_for(function.kernel, stencil, target->lanes);
+        const KernelShape shape = shape_for(function.kernel, stencil, target->lanes);
         auto added = add_kernel(code, function.kernel, shape, function.name, *target->machine);
         if (!added) return tl::unexpected(added.error());
     }

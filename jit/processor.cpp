@@ -35,14 +35,16 @@ std::string host_identity() {
     const auto add = [&](unsigned word) {
         identity.append(reinterpret_cast<const char*>(&word), sizeof word);
     };
-    // Maker; family, model and features; extended features; states; key locker; AVX10; AMD's features.
-    constexpr unsigned leaves[][2] = {{0, 0},    {1, 0},    {7, 0},    {7, 1},          {13, 1},
-                                      {0x14, 0}, {0x19, 0}, {0x24, 0}, {0x80000001, 0}, {0x80000008, 0}};
+    // Maker; family, model and features; extended features; states; key locker; AVX10; AMD's
+    // features.
+    constexpr unsigned leaves[][2] = {{0, 0},          {1, 0},         {7, 0},    {7, 1},
+                                      {13, 1},         {0x14, 0},      {0x19, 0}, {0x24, 0},
+                                      {0x80000001, 0}, {0x80000008, 0}};
     for (const auto& [leaf, part] : leaves) {
         unsigned a = 0, b = 0, c = 0, d = 0;
         __get_cpuid_count(leaf, part, &a, &b, &c, &d);
-        if (leaf == 1) b = 0;           // Says which core asks.
-        if (leaf == 13) b = 0;          // Says what is switched on just now.
+        if (leaf == 1) b = 0;                   // Says which core asks.
+        if (leaf == 13) b = 0;                  // Says what is switched on just now.
         if (leaf == 0x80000008) a = c = d = 0;  // Widths of addresses, number of cores.
         for (const unsigned word : {a, b, c, d}) add(word);
     }

@@ -71,8 +71,8 @@ Value* CellLane::field(std::uint32_t slot) {
 Value* CellLane::mask(std::uint32_t slot) {
     llvm::Type* byte = builder_.getInt8Ty();
     Value* address = builder_.CreateInBoundsGEP(byte, frame_.mask_plane(slot), element_);
-    llvm::LoadInst* bytes = builder_.CreateAlignedLoad(frame_.vector_of(byte), address,
-                                                       alignment(frame_.lanes()));
+    llvm::LoadInst* bytes =
+        builder_.CreateAlignedLoad(frame_.vector_of(byte), address, alignment(frame_.lanes()));
     return builder_.CreateIsNotNull(frame_.aliases().mark(bytes, 0));
 }
 
@@ -90,8 +90,7 @@ void CellLane::store(std::size_t result, Value* number) {
     Value* address =
         builder_.CreateInBoundsGEP(frame_.number(), frame_.result_plane(result), element_);
     frame_.aliases().mark(
-        builder_.CreateAlignedStore(number, address, alignment(frame_.vector_bytes())),
-        result + 1);
+        builder_.CreateAlignedStore(number, address, alignment(frame_.vector_bytes())), result + 1);
 }
 
 Value* KernelLoops::OuterLane::cell_row() {
@@ -128,7 +127,8 @@ void KernelLoops::rows(Builder& place, Cells cells) {
     place.CreateBr(test);
 
     place.SetInsertPoint(test);
-    // The number of the first row is said at once: LLVM takes a number that comes from nowhere for not 0.
+    // The number of the first row is said at once: LLVM takes a number that comes from nowhere for
+    // not 0.
     llvm::PHINode* row = place.CreatePHI(place.getInt64Ty(), 2, "row");
     row->addIncoming(frame_.row_begin(), before);
     place.CreateCondBr(place.CreateICmpSLT(row, frame_.row_end()), start, after);
@@ -186,8 +186,7 @@ llvm::Function* build_function(
                                        count,   count,   count,   count};
     arguments.insert(arguments.end(), further.begin(), further.end());
     auto* type = llvm::FunctionType::get(llvm::Type::getVoidTy(context), arguments, false);
-    auto* function =
-        llvm::Function::Create(type, llvm::GlobalValue::ExternalLinkage, name, module);
+    auto* function = llvm::Function::Create(type, llvm::GlobalValue::ExternalLinkage, name, module);
     function->setDoesNotThrow();
 
     // What is needed once goes to the end of the first block while the loops after it are built;

@@ -2,8 +2,8 @@
 // the vectors of a row, loads of own cells and stores. What cells read of others is the lanes' of
 // skeleton_grid.cpp and skeleton_linked.cpp.
 //
-// Internal to jit/*.cpp. All functions begin with these arguments, of kernels of binary64 with double
-// for float:
+// Internal to jit/*.cpp. All functions begin with these arguments, of kernels of binary64 with
+// double for float:
 //
 //     const float *const *fields, const unsigned char *const *masks,
 //     const float *uniforms, float *const *results,
@@ -120,10 +120,10 @@ private:
 /// all: an access is a plane's address plus this number, which is an addressing mode of the
 /// processor.
 struct VectorPlace {
-    llvm::Value* row = nullptr;        ///< Its number.
-    llvm::Value* row_start = nullptr;  ///< Element number of its first cell.
-    llvm::Value* element = nullptr;    ///< Of the vector's first cell.
-    CarriedVectors* carried = nullptr; ///< Between this vector and the next.
+    llvm::Value* row = nullptr;         ///< Its number.
+    llvm::Value* row_start = nullptr;   ///< Element number of its first cell.
+    llvm::Value* element = nullptr;     ///< Of the vector's first cell.
+    CarriedVectors* carried = nullptr;  ///< Between this vector and the next.
 };
 
 /// The vector of cells of one execution of the innermost loop: what its own cells hold.

@@ -24,8 +24,9 @@ std::int64_t least_width_to_prefetch(int vector_bytes) {
     return vector_bytes == cache_line ? 128 : 1024;
 }
 
-// Kernels up to this size get a loop without prefetching, for narrow planes and for what is in a near cache;
-// in larger ones the prefetches cost nothing that could be noticed, and compiling the loop twice would.
+// Kernels up to this size get a loop without prefetching, for narrow planes and for what is in a
+// near cache; in larger ones the prefetches cost nothing that could be noticed, and compiling the
+// loop twice would.
 constexpr std::size_t largest_twofold_kernel = 64;
 
 /// Elements from a row to others, computed once.
@@ -48,8 +49,8 @@ public:
         return step;
     }
 
-    /// To the row that is `rows` rows below; to the own one where what is there is near already, for
-    /// fetching it would drive out what is to be read sooner.
+    /// To the row that is `rows` rows below; to the own one where what is there is near already,
+    /// for fetching it would drive out what is to be read sooner.
     Value* ahead(int rows) {
         Value*& step = ahead_[rows];
         if (!step) {
@@ -92,16 +93,16 @@ std::set<Reading> readings_of(const CellKernel& kernel, Stencil stencil) {
     return readings;
 }
 
-// Kernels of more operations than this for each vector that they read have time for their loads: with
-// 4.4 (chemotaxis) shifting cost 3 %, with 3 and fewer it saves 2 to 8 %.
+// Kernels of more operations than this for each vector that they read have time for their loads:
+// with 4.4 (chemotaxis) shifting cost 3 %, with 3 and fewer it saves 2 to 8 %.
 constexpr std::size_t most_operations_a_load = 4;
 
 // Each takes a register from the loop.
 constexpr std::size_t most_shifted_fields = 8;
 
-/// The fields whose eastern neighbours are shifted together from the own vector and the next one, which
-/// the loop then has already when it comes there. The western ones are loaded: shifted as well, they would
-/// take the time of two more operations from the same units that compute.
+/// The fields whose eastern neighbours are shifted together from the own vector and the next one,
+/// which the loop then has already when it comes there. The western ones are loaded: shifted as
+/// well, they would take the time of two more operations from the same units that compute.
 std::set<std::uint32_t> shifted_fields(const KernelFrame& frame) {
     std::set<std::uint32_t> fields;
     if (!frame.shape().is_short_of_loads || frame.vector_bytes() != cache_line) return fields;
@@ -203,9 +204,7 @@ Value* GridLane::east(std::uint32_t slot) {
 Value* GridLane::laplacian(std::uint32_t slot) {
     const Stencil stencil = frame_.stencil();
     Value* sum = nullptr;
-    const auto add = [&](Value* number) {
-        sum = sum ? builder_.CreateFAdd(sum, number) : number;
-    };
+    const auto add = [&](Value* number) { sum = sum ? builder_.CreateFAdd(sum, number) : number; };
     if (stencil.y) {
         add(beside(slot, -1, 0));
         add(beside(slot, 1, 0));
@@ -221,9 +220,9 @@ Value* GridLane::laplacian(std::uint32_t slot) {
     return without_own(sum, field(slot));
 }
 
-// The sum minus 2, 4 or 6 times the own value. 2 and 4 times a number are exact but for overflow, so that one
-// rounding is as good as two; the specification has one, and gives numbers whose fourfold
-// would overflow the same way on all processors. Sixfold is rounded.
+// The sum minus 2, 4 or 6 times the own value. 2 and 4 times a number are exact but for overflow,
+// so that one rounding is as good as two; the specification has one, and gives numbers whose
+// fourfold would overflow the same way on all processors. Sixfold is rounded.
 Value* GridLane::without_own(Value* sum, Value* own) {
     llvm::Type* type = own->getType();
     const auto number = [&](double value) { return llvm::ConstantFP::get(type, value); };
@@ -233,8 +232,7 @@ Value* GridLane::without_own(Value* sum, Value* own) {
     };
     if (frame_.stencil().axes() == 3) return subtract();
     if (frame_.shape().has_multiply_add) {
-        return builder_.CreateIntrinsic(llvm::Intrinsic::fma, {type},
-                                        {own, number(-count), sum});
+        return builder_.CreateIntrinsic(llvm::Intrinsic::fma, {type}, {own, number(-count), sum});
     }
     const double quarter = frame_.number()->isFloatTy()
                                ? double{std::numeric_limits<float>::max()} / 4

@@ -1,8 +1,8 @@
 // Sums over links.
 //
 // For each vector of cells one loop over the entries of its slice computes all sums of the kernel
-// together: targets and weights are loaded once, and what a field holds at the targets is read once,
-// however many sums ask for it.
+// together: targets and weights are loaded once, and what a field holds at the targets is read
+// once, however many sums ask for it.
 #include "jit/skeleton_linked.h"
 
 #include "core/links.h"
@@ -87,13 +87,14 @@ Value* LinkEntry::difference(std::uint32_t slot) {
 }
 
 // Loads of 64 bits hold two targets, since it is loads that bound the loop: on a Zen 4 this takes
-// 0.95 of the time of a load for each target, and 0.52 of that of the processor's gathers, which are slower
-// with vectors of 8 and 4 cells as well. Targets are not negative.
+// 0.95 of the time of a load for each target, and 0.52 of that of the processor's gathers, which
+// are slower with vectors of 8 and 4 cells as well. Targets are not negative.
 void LinkEntry::load_targets() {
     const bool low_is_first = frame_.function().getDataLayout().isLittleEndian();
     for (int lane = 0; lane < frame_.lanes(); lane += 2) {
-        llvm::LoadInst* load = builder_.CreateAlignedLoad(
-            builder_.getInt64Ty(), address(targets, builder_.getInt32Ty(), lane), alignment(8));
+        llvm::LoadInst* load =
+            builder_.CreateAlignedLoad(builder_.getInt64Ty(),
+                                       address(targets, builder_.getInt32Ty(), lane), alignment(8));
         Value* both = frame_.aliases().mark(load, 0);
         Value* low = builder_.CreateAnd(both, builder_.getInt64(0xffffffff));
         Value* high = builder_.CreateLShr(both, 32);
@@ -110,8 +111,8 @@ Value* LinkEntry::at_targets(std::uint32_t slot) {
     for (std::size_t lane = 0; lane < targets_.size(); ++lane) {
         Value* place =
             builder_.CreateInBoundsGEP(frame_.number(), frame_.field_plane(slot), targets_[lane]);
-        llvm::LoadInst* load = builder_.CreateAlignedLoad(frame_.number(), place,
-                                                          alignment(frame_.number_bytes()));
+        llvm::LoadInst* load =
+            builder_.CreateAlignedLoad(frame_.number(), place, alignment(frame_.number_bytes()));
         value = builder_.CreateInsertElement(value, frame_.aliases().mark(load, 0), lane);
     }
     return value;
@@ -122,8 +123,9 @@ Value* LinkEntry::at_targets(std::uint32_t slot) {
 void LinkEntry::prefetch_ahead() {
     constexpr int entries = 16;
     const auto prefetch = [&](unsigned array, llvm::Type* element) {
-        Value* place = builder_.CreateAdd(
-            link_, builder_.getInt64(entries * static_cast<std::int64_t>(slice_cells)));
+        Value* place =
+            builder_.CreateAdd(link_,
+                               builder_.getInt64(entries * static_cast<std::int64_t>(slice_cells)));
         frame_.prefetch(builder_,
                         builder_.CreateGEP(element, frame_.further_argument(array), place));
     };
@@ -186,8 +188,8 @@ Value* LinkedLane::start_of(Value* slice) {
 void LinkedLane::add_up() {
     load_own();
     const auto count = [&](std::uint64_t number) { return builder_.getInt64(number); };
-    Value* slices = builder_.CreateUDiv(
-        builder_.CreateAdd(frame_.width(), count(slice_cells - 1)), count(slice_cells));
+    Value* slices = builder_.CreateUDiv(builder_.CreateAdd(frame_.width(), count(slice_cells - 1)),
+                                        count(slice_cells));
     Value* column = builder_.CreateSub(element_, place_.row_start);
     Value* slice = builder_.CreateAdd(builder_.CreateMul(place_.row, slices),
                                       builder_.CreateUDiv(column, count(slice_cells)));

@@ -1,6 +1,7 @@
 // The loops over the rows and vectors of linked cells around a kernel's body.
 //
-// Internal to jit/. The arguments of the function are those of jit/skeleton.h and those of a LinkTable:
+// Internal to jit/. The arguments of the function are those of jit/skeleton.h and those of a
+// LinkTable:
 //
 //     const uint32_t *starts, const int32_t *targets, const float *weights,
 //     const float *gradient_x, const float *gradient_y, const float *gradient_z

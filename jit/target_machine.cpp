@@ -19,8 +19,8 @@ namespace {
 
 /// Registers the native code generator; LLVM keeps the registry. True if it has one.
 bool initialise_target() {
-    static const bool done = !llvm::InitializeNativeTarget() &&
-                             !llvm::InitializeNativeTargetAsmPrinter();
+    static const bool done =
+        !llvm::InitializeNativeTarget() && !llvm::InitializeNativeTargetAsmPrinter();
     return done;
 }
 

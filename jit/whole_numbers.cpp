@@ -1,5 +1,5 @@
-// Rounding to whole numbers and scaling by powers of two: instructions where the processor has them, and
-// the sequences of ir/word_operations.h elsewhere, with the same bits.
+// Rounding to whole numbers and scaling by powers of two: instructions where the processor has
+// them, and the sequences of ir/word_operations.h elsewhere, with the same bits.
 #include "jit/emit_body.h"
 
 #include <llvm/IR/IntrinsicsX86.h>
@@ -17,12 +17,13 @@ llvm::Value* BodyScope::rounded_to_even(ValueId a) {
     llvm::Value* number = operand(a);
     llvm::Value* size = builder_.CreateUnaryIntrinsic(llvm::Intrinsic::fabs, number);
     llvm::Value* rounded = builder_.CreateFSub(builder_.CreateFAdd(size, all_whole), all_whole);
-    llvm::Value* with_sign = builder_.CreateBinaryIntrinsic(llvm::Intrinsic::copysign, rounded, number);
+    llvm::Value* with_sign =
+        builder_.CreateBinaryIntrinsic(llvm::Intrinsic::copysign, rounded, number);
     return builder_.CreateSelect(builder_.CreateFCmpOLT(size, all_whole), with_sign, number);
 }
 
-// The number that is added is hidden: LLVM would drop a factor of 1, which flushes, and compute a product
-// of known factors without flushing it.
+// The number that is added is hidden: LLVM would drop a factor of 1, which flushes, and compute a
+// product of known factors without flushing it.
 llvm::Value* BodyScope::scaled_by_power(ValueId a, ValueId b) {
     const bool is_widest = shape_.lanes * format_.bits == 512;
     if (shape_.has_scaling && is_widest) return scaled_by_instruction(number(a), number(b));
@@ -44,8 +45,8 @@ llvm::Value* BodyScope::scaled_by_instruction(llvm::Value* a, llvm::Value* b) {
     const auto instruction = is_single ? llvm::Intrinsic::x86_avx512_mask_scalef_ps_512
                                        : llvm::Intrinsic::x86_avx512_mask_scalef_pd_512;
     constexpr unsigned current_rounding = 4;
-    llvm::Value* all = llvm::ConstantInt::getAllOnesValue(
-        builder_.getIntNTy(static_cast<unsigned>(shape_.lanes)));
+    llvm::Value* all =
+        llvm::ConstantInt::getAllOnesValue(builder_.getIntNTy(static_cast<unsigned>(shape_.lanes)));
     return builder_.CreateIntrinsic(instruction, {},
                                     {a, b, a, all, builder_.getInt32(current_rounding)});
 }

@@ -34,8 +34,8 @@ Spread measure_values(const Samples& samples, Features& features) {
 
 const std::array<std::string_view, feature_count>& feature_names() {
     static constexpr std::array<std::string_view, feature_count> names = {
-        "wavelength", "spots",     "holes",    "area",    "angle",
-        "anisotropy", "mean", "deviation", "smallest", "largest"};
+        "wavelength", "spots", "holes",     "area",     "angle",
+        "anisotropy", "mean",  "deviation", "smallest", "largest"};
     return names;
 }
 

@@ -16,14 +16,14 @@ namespace cascade::measure {
 /// Lengths are in the unit of `spacing`. NaN stands for what a field does not have: a field that is
 /// even has no wavelength.
 struct Features {
-    double wavelength = 0;   ///< At the spectrum's peak.
-    double spots = 0;        ///< Connected parts above the level half way from smallest to largest.
-    double holes = 0;        ///< Connected parts below that level.
-    double area = 0;         ///< Part of the cells above that level, 0 … 1.
-    double angle = 0;        ///< Direction of the stripes in degrees, [0, 180); see orientation.h.
-    double anisotropy = 0;   ///< 0 without a preferred direction … 1 for straight stripes.
+    double wavelength = 0;  ///< At the spectrum's peak.
+    double spots = 0;       ///< Connected parts above the level half way from smallest to largest.
+    double holes = 0;       ///< Connected parts below that level.
+    double area = 0;        ///< Part of the cells above that level, 0 … 1.
+    double angle = 0;       ///< Direction of the stripes in degrees, [0, 180); see orientation.h.
+    double anisotropy = 0;  ///< 0 without a preferred direction … 1 for straight stripes.
     double mean = 0;
-    double deviation = 0;    ///< Standard deviation over the cells.
+    double deviation = 0;  ///< Standard deviation over the cells.
     double smallest = 0;
     double largest = 0;
 };

@@ -54,7 +54,8 @@ double unresolved_wavelength(const Samples& samples) {
     const Spectrum spectrum = radial_spectrum(samples);
     const double cells = peak_wavelength(spectrum) / samples.spacing;
     // Below two cells there is only the chequerboard, of which others tell.
-    const bool is_short = cells > 2 && cells < fewest_cells_a_wave && peak_share(spectrum) >= regular_share;
+    const bool is_short =
+        cells > 2 && cells < fewest_cells_a_wave && peak_share(spectrum) >= regular_share;
     return is_short ? cells : none;
 }
 

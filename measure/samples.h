@@ -10,9 +10,9 @@ namespace cascade::measure {
 /// One value per cell: columns run fastest, then rows, then slices. Cells whose value is not
 /// finite lie outside of the domain and count for nothing.
 struct Samples {
-    std::array<std::size_t, 3> cells{1, 1, 1};         ///< Along x, y (downwards), z.
-    std::array<bool, 3> periodic{true, true, true};    ///< Else the field is mirrored at the sides.
-    double spacing = 1;                                ///< Side of a cell, in the unit of lengths.
+    std::array<std::size_t, 3> cells{1, 1, 1};       ///< Along x, y (downwards), z.
+    std::array<bool, 3> periodic{true, true, true};  ///< Else the field is mirrored at the sides.
+    double spacing = 1;                              ///< Side of a cell, in the unit of lengths.
     std::vector<double> values;
 
     std::size_t count() const { return values.size(); }

@@ -9,11 +9,11 @@ namespace cascade::measure {
 
 /// The variance of a field, split by wave number.
 struct Spectrum {
-    double ring_width = 0;        ///< Waves per unit of length from a ring to the next: 1 / longest
-                                  ///< side (half of it where that side is mirrored).
-    std::vector<double> power;    ///< Of ring n, |k| nearest to n · ring_width: its part of the
-                                  ///< variance. Their sum is the variance.
-    std::vector<double> moment;   ///< Σ power · |k| of ring n.
+    double ring_width = 0;       ///< Waves per unit of length from a ring to the next: 1 / longest
+                                 ///< side (half of it where that side is mirrored).
+    std::vector<double> power;   ///< Of ring n, |k| nearest to n · ring_width: its part of the
+                                 ///< variance. Their sum is the variance.
+    std::vector<double> moment;  ///< Σ power · |k| of ring n.
 };
 
 /// Along a periodic axis the discrete Fourier transform; along one that is mirrored at its sides

@@ -16,7 +16,8 @@ std::int64_t row_length(const CentredLattice& lattice, std::size_t axis, bool is
 /// Place of a point in its layer.
 std::size_t index_in_layer(const CentredLattice& lattice, const LatticePoint& point) {
     const std::int64_t shift = point.is_centre ? 1 : 0;
-    return static_cast<std::size_t>((point.place[1] + shift) * row_length(lattice, 0, point.is_centre) +
+    return static_cast<std::size_t>((point.place[1] + shift) *
+                                        row_length(lattice, 0, point.is_centre) +
                                     point.place[0] + shift);
 }
 
@@ -37,21 +38,23 @@ Crossing crossing(const Corner& a, const Corner& b) {
 }
 
 /// The part of the surface within a tetrahedron whose corners 1, 2 and 3 turn counterclockwise seen
-/// from corner 0's far side: (v₁ − v₀) · (v₂ − v₀) × (v₃ − v₀) > 0. With one corner apart from the others it is a
-/// triangle, with two a quadrilateral. Renumbering the corners by an even permutation brings the corner
-/// that is apart to place 0, or the two inside to places 0 and 1; for these the table is made by
-/// looking at v₀ = 0 and the three unit vectors.
+/// from corner 0's far side: (v₁ − v₀) · (v₂ − v₀) × (v₃ − v₀) > 0. With one corner apart from the
+/// others it is a triangle, with two a quadrilateral. Renumbering the corners by an even
+/// permutation brings the corner that is apart to place 0, or the two inside to places 0 and 1; for
+/// these the table is made by looking at v₀ = 0 and the three unit vectors.
 void cross(const Tetrahedron& v, CrossedTriangles& triangles) {
     unsigned inside = 0;
     for (unsigned k = 0; k < 4; ++k) inside |= (v[k].value > 0 ? 1u : 0u) << k;
     if (inside == 0 || inside == 15) return;
     using Order = std::array<std::uint8_t, 4>;
-    constexpr std::array<Order, 4> one_first = {{{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}}};
+    constexpr std::array<Order, 4> one_first = {
+        {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}}};
     for (std::uint8_t k = 0; k < 4; ++k) {
         const bool is_inside = inside == 1u << k;
         if (!is_inside && inside != (15u ^ 1u << k)) continue;
         const auto& [a, b, c, d] = one_first[k];
-        const Crossing ab = crossing(v[a], v[b]), ac = crossing(v[a], v[c]), ad = crossing(v[a], v[d]);
+        const Crossing ab = crossing(v[a], v[b]), ac = crossing(v[a], v[c]),
+                       ad = crossing(v[a], v[d]);
         if (is_inside) triangles.push_back({ab, ac, ad});
         else triangles.push_back({ab, ad, ac});
         return;
@@ -106,8 +109,7 @@ Vector3d CentredLattice::place_of(const LatticePoint& point) const {
 std::uint32_t CentredLattice::number_of(const LatticePoint& point) const {
     const auto layers = static_cast<std::uint32_t>(point.place[2] + (point.is_centre ? 1 : 0));
     const std::uint32_t centres = layer_size(*this, true), corners = layer_size(*this, false);
-    const std::uint32_t before =
-        layers * (centres + corners) + (point.is_centre ? 0 : centres);
+    const std::uint32_t before = layers * (centres + corners) + (point.is_centre ? 0 : centres);
     return before + static_cast<std::uint32_t>(index_in_layer(*this, point));
 }
 
@@ -146,9 +148,9 @@ std::vector<LatticePoint> layer_points(const CentredLattice& lattice, std::int32
     return points;
 }
 
-void cross_upright_faces(const CentredLattice& lattice, std::int32_t layer, const LatticeLayer& below,
-                         const LatticeLayer& centres, const LatticeLayer& above,
-                         CrossedTriangles& triangles) {
+void cross_upright_faces(const CentredLattice& lattice, std::int32_t layer,
+                         const LatticeLayer& below, const LatticeLayer& centres,
+                         const LatticeLayer& above, CrossedTriangles& triangles) {
     FaceCrosser crosser(lattice, triangles);
     const std::int32_t z = layer;
     const auto low = [&](std::int32_t x, std::int32_t y) {

@@ -1,9 +1,10 @@
-// A box filled with tetrahedra between the corners and the centres of its cells, and where a function
-// changes its sign between them.
+// A box filled with tetrahedra between the corners and the centres of its cells, and where a
+// function changes its sign between them.
 //
-// Around each face between two cells lie four tetrahedra: the centres on either side, and two neighbouring
-// corners of the face. They are those of the body-centred cubic lattice, the roundest that fill space all
-// alike. At the box's sides the centre of the face stands in for the centre of the missing cell.
+// Around each face between two cells lie four tetrahedra: the centres on either side, and two
+// neighbouring corners of the face. They are those of the body-centred cubic lattice, the roundest
+// that fill space all alike. At the box's sides the centre of the face stands in for the centre of
+// the missing cell.
 #pragma once
 
 #include "core/vector3.h"
@@ -15,7 +16,8 @@
 
 namespace cascade {
 
-/// Numbers of a lattice point: of corners and of centres, which are counted from −1, one beyond the cells.
+/// Numbers of a lattice point: of corners and of centres, which are counted from −1, one beyond the
+/// cells.
 struct LatticePoint {
     std::array<std::int32_t, 3> place{};
     bool is_centre = false;
@@ -47,7 +49,8 @@ struct LatticeLayer {
     std::vector<double> values;  ///< Row by row along x.
 };
 
-/// The points of a layer, in order. Centres of layer −1 and beyond the last are those of the box's sides.
+/// The points of a layer, in order. Centres of layer −1 and beyond the last are those of the box's
+/// sides.
 std::vector<LatticePoint> layer_points(const CentredLattice& lattice, std::int32_t layer,
                                        bool is_centres);
 
@@ -64,11 +67,12 @@ inline std::pair<std::uint32_t, std::uint32_t> ends_of(std::uint64_t edge) {
 
 using CrossedTriangles = std::vector<std::array<Crossing, 3>>;
 
-/// Appends the triangles of all tetrahedra at faces of layer `layer` (0 … counts[2] − 1) whose normals
-/// point along x or y. `below` and `above` are the corners of layers `layer` and `layer` + 1.
-void cross_upright_faces(const CentredLattice& lattice, std::int32_t layer, const LatticeLayer& below,
-                         const LatticeLayer& centres, const LatticeLayer& above,
-                         CrossedTriangles& triangles);
+/// Appends the triangles of all tetrahedra at faces of layer `layer` (0 … counts[2] − 1) whose
+/// normals point along x or y. `below` and `above` are the corners of layers `layer` and `layer`
+/// + 1.
+void cross_upright_faces(const CentredLattice& lattice, std::int32_t layer,
+                         const LatticeLayer& below, const LatticeLayer& centres,
+                         const LatticeLayer& above, CrossedTriangles& triangles);
 
 /// The same at the faces between the cells of layers `layer` − 1 and `layer` (0 … counts[2]).
 void cross_level_faces(const CentredLattice& lattice, std::int32_t layer, const LatticeLayer& below,

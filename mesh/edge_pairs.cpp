@@ -28,9 +28,7 @@ struct HalfEdge {
     bool same_points(const HalfEdge& other) const { return low == other.low && high == other.high; }
 };
 
-std::uint32_t from(Triangles triangles, TriangleEdge e) {
-    return triangles[e.triangle][e.edge];
-}
+std::uint32_t from(Triangles triangles, TriangleEdge e) { return triangles[e.triangle][e.edge]; }
 std::uint32_t apex(Triangles triangles, TriangleEdge e) {
     return triangles[e.triangle][(e.edge + 2) % 3];
 }

@@ -20,7 +20,7 @@ struct EdgeCrossing {
 };
 
 EdgeCrossing first_crossing(const FlatTriangle& flat, Vector2d point, Vector2d step,
-                        std::uint32_t entered) {
+                            std::uint32_t entered) {
     EdgeCrossing first;
     for (std::uint32_t k = 0; k < 3; ++k) {
         if (k == entered) continue;

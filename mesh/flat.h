@@ -27,12 +27,12 @@ inline Vector2d position_of(const FlatTriangle& flat, const std::array<double, 3
     return flat[0] * weights[0] + flat[1] * weights[1] + flat[2] * weights[2];
 }
 
-/// The triangle in a plane, its edge `edge` from `from` to `to`, which are as far apart as in space;
-/// the third corner lies to the left of the edge. Corners keep their numbers.
+/// The triangle in a plane, its edge `edge` from `from` to `to`, which are as far apart as in
+/// space; the third corner lies to the left of the edge. Corners keep their numbers.
 FlatTriangle lay_flat(const SurfaceMesh& mesh, TriangleEdge edge, Vector2d from, Vector2d to);
 
-/// The same with corner 0 at the origin and corner 1 on the x axis: the frame of the triangle in which
-/// steps on the surface are given.
+/// The same with corner 0 at the origin and corner 1 on the x axis: the frame of the triangle in
+/// which steps on the surface are given.
 FlatTriangle own_frame(const SurfaceMesh& mesh, std::uint32_t triangle);
 
 /// The weights that make up a point of the plane. Those of a point outside are brought to the

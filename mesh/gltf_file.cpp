@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_STB_IMAGE        // Pictures of a model are not looked at.
+#define TINYGLTF_NO_STB_IMAGE  // Pictures of a model are not looked at.
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #pragma GCC diagnostic push
@@ -25,8 +25,8 @@ namespace {
 
 constexpr std::size_t deepest_nesting = 128;
 
-/// A small file can place the same mesh, or list the same triangles, any number of times: what comes of
-/// it is bounded by its size, with something for small files.
+/// A small file can place the same mesh, or list the same triangles, any number of times: what
+/// comes of it is bounded by its size, with something for small files.
 struct Bounds {
     std::size_t points, corners;
 
@@ -69,10 +69,12 @@ Matrix matrix_of(const tinygltf::Node& node) {
     if (node.rotation.size() == 4) {
         const double x = node.rotation[0], y = node.rotation[1], z = node.rotation[2],
                      w = node.rotation[3];
+        // clang-format off
         matrix = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0,
                   2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0,
                   2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0,
                   0, 0, 0, 1};
+        // clang-format on
     }
     if (node.scale.size() == 3) {
         for (std::size_t k = 0; k < 12; ++k) matrix[k] *= node.scale[k / 4];
@@ -115,8 +117,9 @@ public:
         const std::size_t size = data.size();
         if (bytes.byteOffset > size || accessor.byteOffset > size - bytes.byteOffset) return {};
         const std::size_t begin = bytes.byteOffset + accessor.byteOffset;
-        if (accessor.count > 0 && (element > size - begin ||
-                                   (accessor.count - 1) > (size - begin - element) / numbers.stride_)) {
+        if (accessor.count > 0 &&
+            (element > size - begin ||
+             (accessor.count - 1) > (size - begin - element) / numbers.stride_)) {
             return {};
         }
         numbers.data_ = data.data() + begin;
@@ -130,7 +133,8 @@ public:
         const unsigned char* from = data_ + element * stride_ + component * component_size_;
         switch (type_) {
             case TINYGLTF_COMPONENT_TYPE_BYTE: return scaled(read<std::int8_t>(from), 127);
-            case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return scaled(read<std::uint8_t>(from), 255);
+            case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+                return scaled(read<std::uint8_t>(from), 255);
             case TINYGLTF_COMPONENT_TYPE_SHORT: return scaled(read<std::int16_t>(from), 32767);
             case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
                 return scaled(read<std::uint16_t>(from), 65535);
@@ -170,7 +174,8 @@ public:
         } else {
             const int wanted = std::max(0, model_.defaultScene);
             const std::size_t number = static_cast<std::size_t>(wanted);
-            if (number >= model_.scenes.size()) return failure("the glTF file's scene is not there");
+            if (number >= model_.scenes.size())
+                return failure("the glTF file's scene is not there");
             for (const int node : model_.scenes[number].nodes) {
                 if (const auto added = add_node(node); !added) return tl::unexpected(added.error());
             }
@@ -203,8 +208,8 @@ private:
                 if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size()) {
                     return failure(fmt::format("mesh {} of the glTF file is not there", node.mesh));
                 }
-                const auto added = add_mesh(model_.meshes[static_cast<std::size_t>(node.mesh)],
-                                            matrix);
+                const auto added =
+                    add_mesh(model_.meshes[static_cast<std::size_t>(node.mesh)], matrix);
                 if (!added) return added;
             }
             for (const int child : node.children) waiting.emplace_back(child, matrix);
@@ -240,8 +245,8 @@ private:
         }
         const std::size_t first = soup_.points.size();
         if (places->count() > bounds_.points - first) {
-            return failure(fmt::format("the glTF file has more than {} points, too many for its size",
-                                       bounds_.points));
+            return failure(fmt::format(
+                "the glTF file has more than {} points, too many for its size", bounds_.points));
         }
         for (std::size_t k = 0; k < places->count(); ++k) {
             soup_.points.push_back(
@@ -263,14 +268,16 @@ private:
             const double point = indices->at(k, 0);
             if (!(point >= 0 && point < static_cast<double>(places->count())) ||
                 point != std::floor(point)) {
-                return failure(fmt::format("a triangle of the glTF file names point {}, but there are "
-                                           "only {}",
-                                           point, places->count()));
+                return failure(
+                    fmt::format("a triangle of the glTF file names point {}, but there are "
+                                "only {}",
+                                point, places->count()));
             }
         }
         const auto add_triangle = [&](std::initializer_list<std::size_t> corners) {
             for (const std::size_t c : corners) {
-                const std::size_t number = indices ? static_cast<std::size_t>(indices->at(c, 0)) : c;
+                const std::size_t number =
+                    indices ? static_cast<std::size_t>(indices->at(c, 0)) : c;
                 soup_.corners.push_back(static_cast<std::uint32_t>(first + number));
                 // glTF counts from the upper left.
                 soup_.texture.push_back(
@@ -283,8 +290,8 @@ private:
         const bool is_strip = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
         const bool is_fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
         if (count > (bounds_.corners - soup_.corners.size()) / 3) {
-            return failure(fmt::format("the glTF file has more than {} corners, too many for its size",
-                                       bounds_.corners));
+            return failure(fmt::format(
+                "the glTF file has more than {} corners, too many for its size", bounds_.corners));
         }
         for (std::size_t k = 0; k + 2 < count; k += is_strip || is_fan ? 1 : 3) {
             if (is_fan) add_triangle({0, k + 1, k + 2});
@@ -300,8 +307,8 @@ private:
         any_colour_ = any_colour_ || has_colours;
         for (std::size_t c = 0; c < 3; ++c) {
             for (std::size_t k = 0; k < count; ++k) {
-                colours_[c].values.push_back(
-                    has_colours ? static_cast<float>(colours->at(k, c)) : 1.0F);
+                colours_[c].values.push_back(has_colours ? static_cast<float>(colours->at(k, c))
+                                                         : 1.0F);
             }
         }
     }
@@ -315,8 +322,8 @@ private:
                                            PointAttribute{"blue", {}}};
 };
 
-/// The library makes hundreds of bytes of some objects of two, and calls itself for each level: is what
-/// it would make within bounds?
+/// The library makes hundreds of bytes of some objects of two, and calls itself for each level: is
+/// what it would make within bounds?
 Result<void> check_json(std::string_view json) {
     const JsonSize size = measure_json(json);
     if (size.depth > deepest_nesting) {
@@ -334,7 +341,8 @@ Result<void> check_json(std::string_view json) {
 std::string_view json_of(std::string_view bytes, bool is_binary) {
     if (!is_binary || bytes.size() < 20) return bytes;
     std::uint32_t length = 0;
-    for (std::size_t k = 4; k-- > 0;) length = length << 8 | static_cast<unsigned char>(bytes[12 + k]);
+    for (std::size_t k = 4; k-- > 0;)
+        length = length << 8 | static_cast<unsigned char>(bytes[12 + k]);
     return bytes.substr(20, length);
 }
 
@@ -348,10 +356,12 @@ public:
         tinygltf::FsCallbacks calls{};
         calls.FileExists = [](const std::string&, void*) { return true; };  // Reading will tell.
         calls.ExpandFilePath = [](const std::string& name, void*) { return name; };
-        calls.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*, const std::string& name,
-                                 void* self) { return static_cast<Buffers*>(self)->read(name, *out); };
-        calls.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
-                                  void*) { return false; };
+        calls.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*,
+                                 const std::string& name, void* self) {
+            return static_cast<Buffers*>(self)->read(name, *out);
+        };
+        calls.WriteWholeFile = [](std::string*, const std::string&,
+                                  const std::vector<unsigned char>&, void*) { return false; };
         calls.user_data = this;
         return calls;
     }
@@ -382,9 +392,9 @@ bool load(std::string_view bytes, bool is_binary, Buffers& buffers, tinygltf::Mo
     const auto size = static_cast<unsigned>(bytes.size());
     try {  // An empty buffer makes the library throw std::out_of_range.
         return is_binary
-                   ? reader.LoadBinaryFromMemory(&model, &fault, &warning,
-                                                 reinterpret_cast<const unsigned char*>(bytes.data()),
-                                                 size)
+                   ? reader.LoadBinaryFromMemory(
+                         &model, &fault, &warning,
+                         reinterpret_cast<const unsigned char*>(bytes.data()), size)
                    : reader.LoadASCIIFromString(&model, &fault, &warning, bytes.data(), size, "");
     } catch (const std::logic_error& error) {
         fault = error.what();
@@ -396,8 +406,10 @@ bool load(std::string_view bytes, bool is_binary, Buffers& buffers, tinygltf::Mo
 
 Result<PolygonSoup> read_gltf(std::string_view bytes, const GrantedFiles& files) {
     const bool is_binary = bytes.starts_with("glTF");
-    if (bytes.size() > std::numeric_limits<unsigned>::max()) return failure("the glTF file is too large");
-    if (auto good = check_json(json_of(bytes, is_binary)); !good) return tl::unexpected(good.error());
+    if (bytes.size() > std::numeric_limits<unsigned>::max())
+        return failure("the glTF file is too large");
+    if (auto good = check_json(json_of(bytes, is_binary)); !good)
+        return tl::unexpected(good.error());
     tinygltf::Model model;
     std::string fault;
     Buffers buffers(files);

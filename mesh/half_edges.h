@@ -49,12 +49,8 @@ SurfaceMesh surface_mesh(const HalfEdges& mesh, std::span<const std::uint32_t> v
 /// The same of all vertices that are not deleted, in their order.
 SurfaceMesh surface_mesh(const HalfEdges& mesh);
 
-inline VertexHandle vertex(std::uint32_t point) {
-    return VertexHandle(static_cast<int>(point));
-}
-inline std::uint32_t number(VertexHandle v) {
-    return static_cast<std::uint32_t>(v.idx());
-}
+inline VertexHandle vertex(std::uint32_t point) { return VertexHandle(static_cast<int>(point)); }
+inline std::uint32_t number(VertexHandle v) { return static_cast<std::uint32_t>(v.idx()); }
 
 inline Vector3d position(const HalfEdges& mesh, VertexHandle v) {
     const OpenMesh::Vec3d& p = mesh.point(v);

@@ -45,8 +45,8 @@ private:
     const ImplicitFunction& function_;
 };
 
-/// Brings points onto the surface along their normals. Of those that are sought: which, between which
-/// distances from where they are, and the function there.
+/// Brings points onto the surface along their normals. Of those that are sought: which, between
+/// which distances from where they are, and the function there.
 class Projector {
 public:
     Projector(const CheckedFunction& function, const ImplicitRequest& request)
@@ -74,7 +74,8 @@ private:
                 std::clamp(p.z, request_.low.z, request_.high.z)};
     }
 
-    Result<void> evaluate(const std::vector<Bracket>& brackets, const std::vector<double>& distances) {
+    Result<void> evaluate(const std::vector<Bracket>& brackets,
+                          const std::vector<double>& distances) {
         places_.clear();
         for (std::size_t k = 0; k < brackets.size(); ++k) {
             places_.push_back(place(brackets[k], distances[k]));
@@ -84,7 +85,8 @@ private:
     }
 
     /// From inside outwards, from outside inwards, farther and farther. What is not found stays.
-    Result<void> find_brackets(std::span<const Vector3d> points, std::span<const Vector3d> normals) {
+    Result<void> find_brackets(std::span<const Vector3d> points,
+                               std::span<const Vector3d> normals) {
         std::vector<Bracket> sought;
         for (std::size_t k = 0; k < points.size(); ++k) {
             sought.push_back({k, points[k], normals[k], 0, 0, 0, 0});
@@ -100,8 +102,8 @@ private:
         }
         sought.resize(kept);
         for (const double reach : reaches) {
-            if (Result<void> fine = evaluate(
-                    sought, std::vector<double>(sought.size(), reach * request_.edge));
+            if (Result<void> fine =
+                    evaluate(sought, std::vector<double>(sought.size(), reach * request_.edge));
                 !fine) {
                 return fine;
             }
@@ -177,7 +179,9 @@ class SurfaceFinder {
 public:
     SurfaceFinder(const CheckedFunction& function, const ImplicitRequest& request,
                   const std::atomic<bool>& cancel, const std::function<void(double)>& progress)
-        : function_(function), lattice_(request.low, request.high, cells_of(request)), cancel_(cancel),
+        : function_(function),
+          lattice_(request.low, request.high, cells_of(request)),
+          cancel_(cancel),
           progress_(progress) {}
 
     /// Triangles in all cells, layer by layer.
@@ -193,7 +197,8 @@ public:
                 if (auto fine = look(layer + 1, false, corners_above); !fine) {
                     return tl::unexpected(fine.error());
                 }
-                cross_upright_faces(lattice_, layer, corners_below, centres, corners_above, triangles_);
+                cross_upright_faces(lattice_, layer, corners_below, centres, corners_above,
+                                    triangles_);
             }
             std::swap(centres_below, centres);
             std::swap(corners_below, corners_above);
@@ -204,9 +209,10 @@ public:
             if (progress_) progress_(0.5 * (layer + 1) / (layers + 1));
         }
         if (triangles_.empty()) {
-            return failure("the function of the surface is nowhere above 0 in the box, as far as it "
-                           "was looked at",
-                           "choose shorter edges, or another box");
+            return failure(
+                "the function of the surface is nowhere above 0 in the box, as far as it "
+                "was looked at",
+                "choose shorter edges, or another box");
         }
         return joined();
     }
@@ -220,10 +226,11 @@ private:
         if (Result<void> fine = function_(places_, values.values); !fine) return fine;
         for (std::size_t k = 0; k < points.size(); ++k) {
             if (!(values.values[k] > 0) || !lattice_.is_at_side(points[k])) continue;
-            return failure(fmt::format("the surface leaves the box: its function is {:.6g} at {}",
-                                       values.values[k], text_of(places_[k])),
-                           "make the box larger, or let the function be below 0 at its sides: min(f, g) "
-                           "with a g that is above 0 only within");
+            return failure(
+                fmt::format("the surface leaves the box: its function is {:.6g} at {}",
+                            values.values[k], text_of(places_[k])),
+                "make the box larger, or let the function be below 0 at its sides: min(f, g) "
+                "with a g that is above 0 only within");
         }
         return {};
     }
@@ -237,7 +244,9 @@ private:
         }
         std::sort(crossings.begin(), crossings.end());
         crossings.erase(std::unique(crossings.begin(), crossings.end(),
-                                    [](const Crossing& a, const Crossing& b) { return a.edge == b.edge; }),
+                                    [](const Crossing& a, const Crossing& b) {
+                                        return a.edge == b.edge;
+                                    }),
                         crossings.end());
         std::vector<Vector3d> points;
         for (const Crossing& crossing : crossings) {
@@ -251,7 +260,8 @@ private:
         for (const auto& triangle : triangles_) {
             std::array<std::uint32_t, 3> numbers{};
             for (std::size_t k = 0; k < 3; ++k) {
-                const auto found = std::lower_bound(crossings.begin(), crossings.end(), triangle[k]);
+                const auto found =
+                    std::lower_bound(crossings.begin(), crossings.end(), triangle[k]);
                 numbers[k] = static_cast<std::uint32_t>(found - crossings.begin());
             }
             corners.push_back(numbers);
@@ -277,8 +287,8 @@ Result<void> check_request(const ImplicitRequest& request) {
     }
     const double points = lattice_points(request);
     if (points <= most_lattice_points) return {};
-    return failure(fmt::format("the surface would be sought at {:.3g} points, {:.3g} are the most", points,
-                               most_lattice_points),
+    return failure(fmt::format("the surface would be sought at {:.3g} points, {:.3g} are the most",
+                               points, most_lattice_points),
                    "choose longer edges or a smaller box");
 }
 
@@ -295,7 +305,8 @@ double lattice_points(const ImplicitRequest& request) {
     return centres + corners;
 }
 
-Result<SurfaceMesh> implicit_surface(const ImplicitFunction& function, const ImplicitRequest& request,
+Result<SurfaceMesh> implicit_surface(const ImplicitFunction& function,
+                                     const ImplicitRequest& request,
                                      const std::atomic<bool>& cancel,
                                      const std::function<void(double)>& progress) {
     if (Result<void> fine = check_request(request); !fine) return tl::unexpected(fine.error());

@@ -49,8 +49,10 @@ public:
 private:
     /// Triangles (a, b, c) and (b, a, d) become (c, d, b) and (d, c, a).
     void flip(TriangleEdge edge, TriangleEdge other) {
-        const std::uint32_t t = edge.triangle, k = edge.edge, k1 = corner_after(k), k2 = corner_after(k1);
-        const std::uint32_t o = other.triangle, m = other.edge, m1 = corner_after(m), m2 = corner_after(m1);
+        const std::uint32_t t = edge.triangle, k = edge.edge, k1 = corner_after(k),
+                            k2 = corner_after(k1);
+        const std::uint32_t o = other.triangle, m = other.edge, m1 = corner_after(m),
+                            m2 = corner_after(m1);
         const double diagonal = length(apex(edge) - mirrored(apex(other), mesh_.lengths[t][k]));
         if (!(diagonal > 0)) return;
         const std::uint32_t a = mesh_.triangles[t][k], b = mesh_.triangles[t][k1];
@@ -104,7 +106,8 @@ private:
 }  // namespace
 
 double IntrinsicMesh::area(std::uint32_t triangle) const {
-    // W. Kahan's form of Heron's formula ("Miscalculating Area and Angles of a Needle-like Triangle").
+    // W. Kahan's form of Heron's formula ("Miscalculating Area and Angles of a Needle-like
+    // Triangle").
     std::array<double, 3> sides = lengths[triangle];
     std::sort(sides.begin(), sides.end());
     const auto [c, b, a] = sides;

@@ -12,8 +12,8 @@ namespace cascade {
 /// sides only.
 struct IntrinsicMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::vector<std::array<TriangleEdge, 3>> across;   ///< As in SurfaceMesh.
-    std::vector<std::array<double, 3>> lengths;        ///< Of the edges of each triangle.
+    std::vector<std::array<TriangleEdge, 3>> across;  ///< As in SurfaceMesh.
+    std::vector<std::array<double, 3>> lengths;       ///< Of the edges of each triangle.
 
     double area(std::uint32_t triangle) const;
     /// The cotangent of the angle that faces an edge.
@@ -26,7 +26,8 @@ struct IntrinsicMesh {
 /// the algorithm is that of M. Fisher et al., "An Algorithm for the Construction of Intrinsic
 /// Delaunay Triangulations with Applications to Digital Geometry Processing", Computing 81 (2007).
 /// Triangles may end up with two corners at one point. OpenMesh does not know such
-/// triangles, which is why these are not HalfEdges. Gives up on edges that rounding would flip for ever.
+/// triangles, which is why these are not HalfEdges. Gives up on edges that rounding would flip for
+/// ever.
 IntrinsicMesh intrinsic_delaunay(const SurfaceMesh& mesh);
 
 }  // namespace cascade

@@ -16,8 +16,8 @@ constexpr double longest = 4.0 / 3;  ///< Edges, in units of the one that is wan
 constexpr std::array shortest = {0.3, 0.5, 0.65, 0.8, 0.8, 0.0, 0.0, 0.0};
 constexpr int most_flip_passes = 6;
 constexpr double smoothing = 0.6;
-constexpr double angle_tolerance = 1e-6;     ///< Of a sum of angles.
-constexpr double flattest_fold = 0.7;  ///< Cosine between triangles whose edge may be flipped.
+constexpr double angle_tolerance = 1e-6;  ///< Of a sum of angles.
+constexpr double flattest_fold = 0.7;     ///< Cosine between triangles whose edge may be flipped.
 
 /// The angle that faces a half-edge: its cosine and sine, times the lengths of its sides.
 struct FacingAngle {
@@ -37,9 +37,7 @@ bool is_delaunay(FacingAngle a, FacingAngle b) {
     return sine >= 0 || sine >= -angle_tolerance * a.size() * b.size();
 }
 
-Vector3d double_area_normal(Vector3d a, Vector3d b, Vector3d c) {
-    return cross(b - a, c - a);
-}
+Vector3d double_area_normal(Vector3d a, Vector3d b, Vector3d c) { return cross(b - a, c - a); }
 
 /// Whether flipping the edge makes its angles better and leaves the surface as it is.
 bool wants_flip(const HalfEdges& mesh, EdgeHandle e) {

@@ -53,19 +53,22 @@ private:
             if (!is_used[k]) continue;
             Vector3d& p = soup_.points[k];
             if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-                return failure(fmt::format("point {} of the model, counted from 0, has the place "
-                                           "({}, {}, {})",
-                                           k, p.x, p.y, p.z));
+                return failure(
+                    fmt::format("point {} of the model, counted from 0, has the place "
+                                "({}, {}, {})",
+                                k, p.x, p.y, p.z));
             }
             p = p + Vector3d{0, 0, 0};  // −0 becomes 0.
             size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         }
         if (size != 0 && !(size >= least_size && size <= largest_size)) {
-            return failure(fmt::format("the model's coordinates of up to {:.3g} are too {} to reckon "
-                                       "with",
-                                       size, size > 1 ? "large" : "small"));
+            return failure(
+                fmt::format("the model's coordinates of up to {:.3g} are too {} to reckon "
+                            "with",
+                            size, size > 1 ? "large" : "small"));
         }
-        const auto unused = static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), false));
+        const auto unused =
+            static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), false));
         if (unused > 0) {
             say(counted(unused, "point that no face uses was", "points that no face uses were") +
                 " left out");
@@ -99,11 +102,13 @@ private:
         for (std::size_t p = 0; p < soup_.polygon_count(); ++p) {
             places.clear();
             pieces.clear();
-            for (const std::uint32_t point : soup_.polygon(p)) places.push_back(soup_.points[point]);
+            for (const std::uint32_t point : soup_.polygon(p))
+                places.push_back(soup_.points[point]);
             if (!triangulate(places, pieces)) {
-                return failure(fmt::format("face {} of the model, counted from 0, has {} corners "
-                                           "and too many dents to be cut into triangles",
-                                           p, places.size()));
+                return failure(
+                    fmt::format("face {} of the model, counted from 0, has {} corners "
+                                "and too many dents to be cut into triangles",
+                                p, places.size()));
             }
             if (places.size() < 3) ++without_area;
             const auto first = static_cast<std::uint32_t>(soup_.first_corner(p));
@@ -124,8 +129,7 @@ private:
             return failure("the model has more triangles than can be numbered");
         }
         if (without_area > 0) {
-            say(counted(without_area, "face") +
-                " of fewer than three different corners left out");
+            say(counted(without_area, "face") + " of fewer than three different corners left out");
         }
         return {};
     }
@@ -168,7 +172,8 @@ private:
         }
         EdgePairs pairs = pair_edges(soup_.points, mesh().triangles);
         if (pairs.non_manifold_edges > 0) {
-            say(fmt::format("{} of more than two faces: faces that continue each other stay "
+            say(
+                fmt::format("{} of more than two faces: faces that continue each other stay "
                             "together, the others end there",
                             counted(pairs.non_manifold_edges, "edge")));
         }
@@ -176,14 +181,16 @@ private:
         mesh().across = std::move(pairs.across);
         turn_triangles(sides.is_turned);
         if (sides.turned > 0) {
-            say(counted(sides.turned, "face was", "faces were") + " turned to agree with the others");
+            say(counted(sides.turned, "face was", "faces were") +
+                " turned to agree with the others");
         }
         if (sides.cut_edges > 0) {
             say(fmt::format("the surface had one side only and was cut along {}",
                             counted(sides.cut_edges, "edge")));
         }
         if (sides.inside_out > 0) {
-            say(counted(sides.inside_out, "component was", "components were") + " turned inside out");
+            say(counted(sides.inside_out, "component was", "components were") +
+                " turned inside out");
         }
     }
 
@@ -215,13 +222,14 @@ private:
         for (const std::uint32_t source : sources) mesh().points.push_back(soup_.points[source]);
         for (const PointAttribute& attribute : soup_.attributes) {
             PointAttribute taken{attribute.name, {}};
-            for (const std::uint32_t source : sources) taken.values.push_back(attribute.values[source]);
+            for (const std::uint32_t source : sources)
+                taken.values.push_back(attribute.values[source]);
             mesh().attributes.push_back(std::move(taken));
         }
         if (soup_.texture.empty()) return;
         for (const auto& corners : corners_) {
-            mesh().texture.push_back({soup_.texture[corners[0]], soup_.texture[corners[1]],
-                                      soup_.texture[corners[2]]});
+            mesh().texture.push_back(
+                {soup_.texture[corners[0]], soup_.texture[corners[1]], soup_.texture[corners[2]]});
         }
     }
 
@@ -238,7 +246,7 @@ private:
 
     PolygonSoup soup_;
     std::vector<bool> is_used_;
-    std::vector<std::uint32_t> joined_;  ///< The point that each point has become.
+    std::vector<std::uint32_t> joined_;                  ///< The point that each point has become.
     std::vector<std::array<std::uint32_t, 3>> corners_;  ///< Of triangles, as corners of the soup.
     MadeMesh made_;
 };

@@ -21,7 +21,8 @@ struct MadeMesh {
 /// - faces of fewer than three different corners and faces that are there twice are left out;
 /// - where more than two faces meet at an edge, those that continue each other stay together and
 ///   the others end there; where only a point holds parts together it is doubled;
-/// - faces are turned to agree with their neighbours, closed components outwards; a surface with one
+/// - faces are turned to agree with their neighbours, closed components outwards; a surface with
+/// one
 ///   side only is cut open;
 /// - a triangle without area is merged with its neighbour by flipping its longest edge.
 ///

@@ -27,13 +27,14 @@ Result<std::string> model_ending(const std::string& name) {
     constexpr std::array<std::string_view, 6> endings = {"ply", "obj", "off", "stl", "gltf", "glb"};
     std::string ending = ending_of(name);
     if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return ending;
-    return failure(fmt::format("'{}' is no model: its name ends in none of .ply, .obj, .off, .stl, "
-                               ".gltf, .glb",
-                               short_name(name)));
+    return failure(
+        fmt::format("'{}' is no model: its name ends in none of .ply, .obj, .off, .stl, "
+                    ".gltf, .glb",
+                    short_name(name)));
 }
 
-Result<PolygonSoup> parse_model(const std::string& name, std::string_view ending, std::string_view bytes,
-                                const GrantedFiles& files) {
+Result<PolygonSoup> parse_model(const std::string& name, std::string_view ending,
+                                std::string_view bytes, const GrantedFiles& files) {
     Result<PolygonSoup> soup = read_model_bytes(bytes, ending, files);
     if (!soup) {
         return failure(fmt::format("'{}': {}", short_name(name), soup.error().message),

@@ -13,18 +13,19 @@ namespace cascade {
 /// The largest model file that is read, in bytes.
 inline constexpr std::uint64_t largest_model_file = std::uint64_t{4} << 30;
 
-/// Reads a model by the ending of its name, with the files that it names itself (buffers of glTF, by
-/// paths relative to the model). Fails, naming the line or the place, on a file that is missing,
+/// Reads a model by the ending of its name, with the files that it names itself (buffers of glTF,
+/// by paths relative to the model). Fails, naming the line or the place, on a file that is missing,
 /// truncated or not of its format, on corners that are no points, and where there is no polygon at
 /// all. Throws std::bad_alloc.
 Result<PolygonSoup> read_model(const GrantedFiles& files, const std::string& name);
 
-/// The same of a file that the user has named, wherever it lies. What it names must lie below its own
-/// folder or those of `access`.
+/// The same of a file that the user has named, wherever it lies. What it names must lie below its
+/// own folder or those of `access`.
 Result<PolygonSoup> read_model(const std::filesystem::path& path, const ReadAccess& access = {});
 
-/// The same of the bytes of a file; `files` reads those that it names. `ending` is one of those of its formats in lower case: "ply",
-/// "obj", "off", "stl", "gltf", "glb". A file without polygons is no fault here.
+/// The same of the bytes of a file; `files` reads those that it names. `ending` is one of those of
+/// its formats in lower case: "ply", "obj", "off", "stl", "gltf", "glb". A file without polygons is
+/// no fault here.
 Result<PolygonSoup> read_model_bytes(std::string_view bytes, std::string_view ending,
                                      const GrantedFiles& files = GrantedFiles::none());
 

@@ -45,7 +45,8 @@ std::vector<Vector3d> point_normals(const SurfaceMesh& mesh) {
     std::vector<Vector3d> normals(mesh.points.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Vector3d normal = mesh.double_area_normal(t);
-        for (const std::uint32_t point : mesh.triangles[t]) normals[point] = normals[point] + normal;
+        for (const std::uint32_t point : mesh.triangles[t])
+            normals[point] = normals[point] + normal;
     }
     for (Vector3d& normal : normals) normal = unit_or(normal, {0, 0, 1});
     return normals;

@@ -1,5 +1,5 @@
-// OBJ files (Wavefront Technologies, "Advanced Visualizer Manual", appendix B1: Object Files): places
-// of points and textures, colours of points, polygons. Other lines are not looked at.
+// OBJ files (Wavefront Technologies, "Advanced Visualizer Manual", appendix B1: Object Files):
+// places of points and textures, colours of points, polygons. Other lines are not looked at.
 #include "mesh/model_file.h"
 #include "mesh/text_words.h"
 
@@ -26,7 +26,8 @@ std::string joined_lines(std::string_view bytes) {
     std::string text(bytes);
     for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
         const std::size_t end = text.find_first_not_of('\r', at + 1);
-        if (end != std::string::npos && text[end] == '\n') text.replace(at, end + 1 - at, end + 1 - at, ' ');
+        if (end != std::string::npos && text[end] == '\n')
+            text.replace(at, end + 1 - at, end + 1 - at, ' ');
     }
     return text;
 }
@@ -112,7 +113,8 @@ private:
     /// Counted from 1, or from −1 backwards from the last one so far.
     static std::optional<std::uint32_t> number_of(std::string_view word, std::int64_t so_far) {
         const auto number = whole_number_in<std::int64_t>(word);
-        if (!number || *number > most_points || *number < -so_far || *number == 0) return std::nullopt;
+        if (!number || *number > most_points || *number < -so_far || *number == 0)
+            return std::nullopt;
         return static_cast<std::uint32_t>(*number > 0 ? *number - 1 : so_far + *number);
     }
 
@@ -121,14 +123,15 @@ private:
         for (std::size_t face = 0; face < soup_.polygon_count(); ++face) {
             for (std::size_t c = soup_.first_corner(face); c < soup_.ends[face]; ++c) {
                 if (soup_.corners[c] >= soup_.points.size()) {
-                    return failure(fmt::format("face {} of the OBJ file names a point that is not there",
-                                               face + 1));
+                    return failure(fmt::format(
+                        "face {} of the OBJ file names a point that is not there", face + 1));
                 }
                 if (!all_have_texture_) continue;
                 if (corner_texture_[c] >= texture_.size()) {
-                    return failure(fmt::format("face {} of the OBJ file names a place in a texture that "
-                                               "is not there",
-                                               face + 1));
+                    return failure(
+                        fmt::format("face {} of the OBJ file names a place in a texture that "
+                                    "is not there",
+                                    face + 1));
                 }
                 soup_.texture.push_back(texture_[corner_texture_[c]]);
             }
@@ -138,8 +141,12 @@ private:
     }
 
     LineReader lines_;
-    PolygonSoup soup_{
-        {}, {}, {}, {}, {PointAttribute{"red", {}}, PointAttribute{"green", {}}, PointAttribute{"blue", {}}}};
+    PolygonSoup soup_{{},
+                      {},
+                      {},
+                      {},
+                      {PointAttribute{"red", {}}, PointAttribute{"green", {}},
+                       PointAttribute{"blue", {}}}};
     std::vector<TexturePlace> texture_;
     std::vector<std::uint32_t> corner_texture_;  ///< Of each corner, as long as all have one.
     bool all_have_texture_ = true, all_have_colours_ = true;

@@ -43,8 +43,8 @@ public:
     Result<PolygonSoup> read() {
         if (!read_head()) return failure("this is no OFF file of text");
         if (points_ > size_ / least_point || faces_ > size_ / least_face) {
-            return failure(fmt::format("the OFF file is too short for {} points and {} faces", points_,
-                                       faces_),
+            return failure(fmt::format("the OFF file is too short for {} points and {} faces",
+                                       points_, faces_),
                            "it may be truncated");
         }
         for (std::uint64_t k = 0; k < points_; ++k) {
@@ -123,8 +123,12 @@ private:
     Extras extras_;
     std::uint64_t points_ = 0, faces_ = 0;
     std::vector<double> numbers_;
-    PolygonSoup soup_{
-        {}, {}, {}, {}, {PointAttribute{"red", {}}, PointAttribute{"green", {}}, PointAttribute{"blue", {}}}};
+    PolygonSoup soup_{{},
+                      {},
+                      {},
+                      {},
+                      {PointAttribute{"red", {}}, PointAttribute{"green", {}},
+                       PointAttribute{"blue", {}}}};
 };
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 namespace cascade {
 
-/// A hash table of points that are kept elsewhere, by their coordinates. −0 and NaN are other places than
-/// 0 and NaN: the former is to be made 0 before, the latter equals nothing.
+/// A hash table of points that are kept elsewhere, by their coordinates. −0 and NaN are other
+/// places than 0 and NaN: the former is to be made 0 before, the latter equals nothing.
 class PlaceTable {
 public:
     explicit PlaceTable(const std::vector<Vector3d>& points) : points_(points), slots_(64, empty) {}
@@ -40,7 +40,8 @@ private:
     /// Where the place is, or could be put.
     std::uint32_t& slot_of(const Vector3d& p) {
         std::size_t at = hash_of(p) & (slots_.size() - 1);
-        while (slots_[at] != empty && !(points_[slots_[at]] == p)) at = (at + 1) & (slots_.size() - 1);
+        while (slots_[at] != empty && !(points_[slots_[at]] == p))
+            at = (at + 1) & (slots_.size() - 1);
         return slots_[at];
     }
     void grow() {

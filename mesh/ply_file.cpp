@@ -49,7 +49,8 @@ private:
         std::array<char, sizeof(T)> word;
         std::memcpy(word.data(), bytes_.data() + at_, sizeof(T));
         at_ += sizeof(T);
-        if ((format_ == PlyHeader::Format::big_endian) == (std::endian::native == std::endian::little)) {
+        if ((format_ == PlyHeader::Format::big_endian) ==
+            (std::endian::native == std::endian::little)) {
             std::reverse(word.begin(), word.end());
         }
         return static_cast<double>(std::bit_cast<T>(word));
@@ -113,9 +114,10 @@ public:
             for (std::uint64_t k = 0; k < element.count; ++k) {
                 if (k == 0) begin(element);
                 if (!read_row(element)) {
-                    return failure(fmt::format("the PLY file breaks off or has no number in its "
-                                               "element '{}' {}",
-                                               element.name, k));
+                    return failure(
+                        fmt::format("the PLY file breaks off or has no number in its "
+                                    "element '{}' {}",
+                                    element.name, k));
                 }
                 if (Result<void> used = use_row(element, k); !used) {
                     return tl::unexpected(used.error());
@@ -162,7 +164,8 @@ private:
     bool read_row(const PlyElement& element) {
         for (std::size_t k = 0; k < element.properties.size(); ++k) {
             const PlyProperty& property = element.properties[k];
-            const auto first = numbers_.next(property.is_list ? property.count_type : property.type);
+            const auto first =
+                numbers_.next(property.is_list ? property.count_type : property.type);
             if (!first) return false;
             row_[k] = *first;
             if (!property.is_list) continue;
@@ -188,15 +191,18 @@ private:
             if (is_one_of(name, {"vertex_indices", "vertex_index"})) {
                 const bool is_strip = element.name == "tristrips";
                 if (!(is_strip ? add_strips(lists_[k]) : add_polygon(lists_[k]))) {
-                    return failure(fmt::format("element '{}' {} of the PLY file has a corner that is "
-                                               "no number of a point",
-                                               element.name, number));
+                    return failure(
+                        fmt::format("element '{}' {} of the PLY file has a corner that is "
+                                    "no number of a point",
+                                    element.name, number));
                 }
             }
             if (name == "texcoord") add_texture(lists_[k]);
         }
-        // Where a face has places for more or fewer corners than its own, those of others would slip.
-        corners_have_texture_ = corners_have_texture_ && soup_.texture.size() == soup_.corners.size();
+        // Where a face has places for more or fewer corners than its own, those of others would
+        // slip.
+        corners_have_texture_ =
+            corners_have_texture_ && soup_.texture.size() == soup_.corners.size();
         return {};
     }
 
@@ -240,8 +246,8 @@ private:
                 begin = k + 1;
             } else if (k >= begin + 2) {
                 const bool turned = (k - begin) % 2 == 1;
-                if (!add_polygon({strip[turned ? k - 1 : k - 2], strip[turned ? k - 2 : k - 1],
-                                  strip[k]})) {
+                if (!add_polygon(
+                        {strip[turned ? k - 1 : k - 2], strip[turned ? k - 2 : k - 1], strip[k]})) {
                     return false;
                 }
             }

@@ -44,7 +44,8 @@ public:
     explicit HeaderReader(std::string_view bytes) : bytes_(bytes) {}
 
     Result<PlyHeader> read() {
-        if (next_line() != "ply") return failure("this is no PLY file: it does not begin with 'ply'");
+        if (next_line() != "ply")
+            return failure("this is no PLY file: it does not begin with 'ply'");
         bool has_format = false;
         for (;;) {
             if (at_ >= bytes_.size()) return failure("the PLY file ends before 'end_header'");
@@ -53,7 +54,8 @@ public:
             if (words[0] == "end_header") break;
             if (words[0] == "format") has_format = true;
             if (!read_line(words)) {
-                return failure(fmt::format("line {} of the PLY file's head is not understood", line_));
+                return failure(
+                    fmt::format("line {} of the PLY file's head is not understood", line_));
             }
         }
         if (!has_format) return failure("the PLY file's head names no format");
@@ -81,7 +83,8 @@ private:
     bool read_format(const Words& words) {
         if (words.size() < 2) return false;
         if (words[1] == "ascii") header_.format = PlyHeader::Format::text;
-        else if (words[1] == "binary_little_endian") header_.format = PlyHeader::Format::little_endian;
+        else if (words[1] == "binary_little_endian")
+            header_.format = PlyHeader::Format::little_endian;
         else if (words[1] == "binary_big_endian") header_.format = PlyHeader::Format::big_endian;
         else return false;
         return true;
@@ -108,7 +111,8 @@ private:
         property.name = std::string(words.back());
         if (property.is_list) {
             const std::optional<PlyNumber> count = type_called(words[2]);
-            if (!count || *count == PlyNumber::float32 || *count == PlyNumber::float64) return false;
+            if (!count || *count == PlyNumber::float32 || *count == PlyNumber::float64)
+                return false;
             property.count_type = *count;
         }
         header_.elements.back().properties.push_back(std::move(property));
@@ -155,8 +159,8 @@ Result<PlyHeader> read_ply_header(std::string_view bytes) {
         const std::size_t least = element.least_bytes(is_text);
         if (least == 0) {
             if (element.count == 0) continue;
-            return failure(fmt::format("the PLY file has elements '{}' without properties",
-                                       element.name));
+            return failure(
+                fmt::format("the PLY file has elements '{}' without properties", element.name));
         }
         if (element.count > left / least) {
             return failure(fmt::format("the PLY file is too short for {} elements '{}'",

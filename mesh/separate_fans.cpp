@@ -26,7 +26,8 @@ std::vector<std::uint32_t> separate_fans(SurfaceMesh& mesh) {
         if (fans.find(c) == c) owners.emplace_back(mesh.triangles[c / 3][c % 3], c);
     }
     std::size_t points = 0;  // Those of the mesh may still be in another place.
-    for (const auto& owner : owners) points = std::max<std::size_t>(points, owner.first + std::size_t{1});
+    for (const auto& owner : owners)
+        points = std::max<std::size_t>(points, owner.first + std::size_t{1});
     sort_by_point(owners, points, [](const auto& owner) { return owner.first; });
     std::vector<std::uint32_t> point_of_fan(corners);
     std::vector<std::uint32_t> sources;

@@ -66,7 +66,8 @@ private:
         corners_.push_back({0, 1, 0});
         for (int k = 0; k < 10; ++k) {
             const double angle = tau * (k % 5 + (k < 5 ? 0 : 0.5)) / 5;
-            corners_.push_back({out * std::sin(angle), k < 5 ? height : -height, out * std::cos(angle)});
+            corners_.push_back(
+                {out * std::sin(angle), k < 5 ? height : -height, out * std::cos(angle)});
         }
         corners_.push_back({0, -1, 0});
         for (const Vector3d& corner : corners_) points_.push_back(corner * radius_);
@@ -74,7 +75,8 @@ private:
 
     /// The sum of corners, each times the sine of its part of their angle; for two corners that is
     /// the point at this part of the arc between them.
-    std::uint32_t add_point(std::array<std::uint32_t, 3> corners, std::array<std::uint32_t, 3> parts) {
+    std::uint32_t add_point(std::array<std::uint32_t, 3> corners,
+                            std::array<std::uint32_t, 3> parts) {
         static const double angle = std::acos(1 / std::sqrt(5.0));
         Vector3d sum;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -91,7 +93,8 @@ private:
         if (from > to) return on_edge(to, from, cuts_ - k);
         const auto [found, is_new] =
             edges_.try_emplace({from, to}, static_cast<std::uint32_t>(points_.size()));
-        for (std::uint32_t j = 1; is_new && j < cuts_; ++j) add_point({from, to, to}, {cuts_ - j, j, 0});
+        for (std::uint32_t j = 1; is_new && j < cuts_; ++j)
+            add_point({from, to, to}, {cuts_ - j, j, 0});
         return found->second + k - 1;
     }
 
@@ -128,7 +131,8 @@ private:
         }
         const double highest = std::max({around[0], around[1], around[2]});
         for (std::size_t k = 0; k < 3; ++k) {
-            places[k][0] = static_cast<float>(around[k] < highest - 0.5 ? around[k] + 1 : around[k]);
+            places[k][0] =
+                static_cast<float>(around[k] < highest - 0.5 ? around[k] + 1 : around[k]);
         }
         return places;
     }
@@ -137,11 +141,12 @@ private:
     std::uint32_t cuts_;
     std::vector<Vector3d> corners_, points_;
     std::vector<std::array<std::uint32_t, 3>> triangles_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges_;  ///< Their first points.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>
+        edges_;  ///< Their first points.
 };
 
-/// Rectangle (i, j) of a lattice as two triangles; neighbours are cut along other diagonals, so that
-/// they turn the same way in all directions.
+/// Rectangle (i, j) of a lattice as two triangles; neighbours are cut along other diagonals, so
+/// that they turn the same way in all directions.
 template <typename Corner>
 void cut_rectangle(std::size_t i, std::size_t j, const Corner& corner) {
     const std::array<std::pair<std::size_t, std::size_t>, 4> ring = {
@@ -180,12 +185,12 @@ using Step = std::array<std::uint32_t, 3>;
 
 /// One side of a box: from a corner along two axes, which turn to the third outwards.
 struct BoxSide {
-    Step corner;                  ///< 0 or 1: at the low or the high end of each axis.
-    std::size_t across, up;       ///< The axes.
-    bool is_backwards;            ///< Goes along `across` from the high to the low end,
-    bool is_downwards;            ///< and along `up`.
-    std::array<int, 4> net;       ///< Place in the unfolded box: numbers of depths and widths to its left,
-                                  ///< of depths and heights below it.
+    Step corner;             ///< 0 or 1: at the low or the high end of each axis.
+    std::size_t across, up;  ///< The axes.
+    bool is_backwards;       ///< Goes along `across` from the high to the low end,
+    bool is_downwards;       ///< and along `up`.
+    std::array<int, 4> net;  ///< Place in the unfolded box: numbers of depths and widths to its
+                             ///< left, of depths and heights below it.
 };
 
 // Axes are width (x), height (y) and depth (z).
@@ -200,7 +205,8 @@ constexpr std::array box_sides = {
 
 class BoxMaker {
 public:
-    BoxMaker(const std::array<double, 3>& sides, const Step& counts) : sides_(sides), counts_(counts) {}
+    BoxMaker(const std::array<double, 3>& sides, const Step& counts)
+        : sides_(sides), counts_(counts) {}
 
     SurfaceMesh make() {
         for (const BoxSide& side : box_sides) {
@@ -264,8 +270,10 @@ private:
 }  // namespace
 
 Result<SurfaceMesh> sphere_mesh(double radius, double edge) {
-    if (const auto fine = check_length("the radius", radius); !fine) return tl::unexpected(fine.error());
-    if (const auto fine = check_length("the edge", edge); !fine) return tl::unexpected(fine.error());
+    if (const auto fine = check_length("the radius", radius); !fine)
+        return tl::unexpected(fine.error());
+    if (const auto fine = check_length("the edge", edge); !fine)
+        return tl::unexpected(fine.error());
     // As many triangles with three equal sides as cover the sphere.
     const double n = cuts(radius * std::sqrt(4 * std::numbers::pi / (5 * std::sqrt(3.0))), edge, 1);
     if (const auto fine = check_count(20 * n * n); !fine) return tl::unexpected(fine.error());
@@ -279,13 +287,16 @@ Result<SurfaceMesh> torus_mesh(double ring_radius, double tube_radius, double ed
     if (const auto fine = check_length("the tube's radius", tube_radius); !fine) {
         return tl::unexpected(fine.error());
     }
-    if (const auto fine = check_length("the edge", edge); !fine) return tl::unexpected(fine.error());
+    if (const auto fine = check_length("the edge", edge); !fine)
+        return tl::unexpected(fine.error());
     if (tube_radius >= ring_radius) {
         return failure(fmt::format("a tube of radius {} bent to a ring of radius {} meets itself",
                                    tube_radius, ring_radius));
     }
-    const double columns = cuts(tau * ring_radius, edge, 3), rows = cuts(tau * tube_radius, edge, 3);
-    if (const auto fine = check_count(2 * columns * rows); !fine) return tl::unexpected(fine.error());
+    const double columns = cuts(tau * ring_radius, edge, 3),
+                 rows = cuts(tau * tube_radius, edge, 3);
+    if (const auto fine = check_count(2 * columns * rows); !fine)
+        return tl::unexpected(fine.error());
     const auto n = static_cast<std::uint32_t>(columns), m = static_cast<std::uint32_t>(rows);
     std::vector<Vector3d> points;
     TriangleList list;
@@ -293,7 +304,8 @@ Result<SurfaceMesh> torus_mesh(double ring_radius, double tube_radius, double ed
         for (std::uint32_t i = 0; i < n; ++i) {
             const double around = tau * i / columns, tube = tau * j / rows;
             const double out = ring_radius - tube_radius * std::cos(tube);
-            points.push_back({-out * std::sin(around), -tube_radius * std::sin(tube), -out * std::cos(around)});
+            points.push_back(
+                {-out * std::sin(around), -tube_radius * std::sin(tube), -out * std::cos(around)});
             cut_rectangle(i, j, [&](std::size_t column, std::size_t row) {
                 list.add(static_cast<std::uint32_t>(row % m * n + column % n),
                          static_cast<double>(column) / columns, static_cast<double>(row) / rows);
@@ -304,7 +316,8 @@ Result<SurfaceMesh> torus_mesh(double ring_radius, double tube_radius, double ed
 }
 
 Result<SurfaceMesh> box_mesh(Vector3d sides, double edge) {
-    if (const auto fine = check_length("the edge", edge); !fine) return tl::unexpected(fine.error());
+    if (const auto fine = check_length("the edge", edge); !fine)
+        return tl::unexpected(fine.error());
     const std::array<double, 3> lengths = {sides.x, sides.y, sides.z};
     std::array<double, 3> n{};
     for (std::size_t axis = 0; axis < 3; ++axis) {

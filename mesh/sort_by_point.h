@@ -7,8 +7,9 @@
 
 namespace cascade {
 
-/// Sorts by operator<, the first key of which is the number that `point_of` says, below `point_count`: items
-/// are dealt out to points, and then those of each point sorted, which are few.
+/// Sorts by operator<, the first key of which is the number that `point_of` says, below
+/// `point_count`: items are dealt out to points, and then those of each point sorted, which are
+/// few.
 template <typename Item, typename PointOf>
 void sort_by_point(std::vector<Item>& items, std::size_t point_count, const PointOf& point_of) {
     std::vector<std::size_t> ends(point_count + 1, 0);

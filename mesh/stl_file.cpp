@@ -1,5 +1,5 @@
-// STL files (3D Systems, "StereoLithography Interface Specification", 1989), text or binary. Which of them
-// a file is says its size: that of a binary file follows from its number of triangles.
+// STL files (3D Systems, "StereoLithography Interface Specification", 1989), text or binary. Which
+// of them a file is says its size: that of a binary file follows from its number of triangles.
 #include "mesh/model_file.h"
 #include "mesh/place_table.h"
 #include "mesh/text_words.h"
@@ -84,7 +84,8 @@ Result<PolygonSoup> read_text(std::string_view bytes) {
             is_in_loop = true;
         } else if (is_word(words[0], "vertex")) {
             std::array<std::optional<double>, 3> numbers;
-            for (std::size_t k = 0; k < 3 && k + 1 < words.size(); ++k) numbers[k] = number_in(words[k + 1]);
+            for (std::size_t k = 0; k < 3 && k + 1 < words.size(); ++k)
+                numbers[k] = number_in(words[k + 1]);
             if (!is_in_loop || !numbers[0] || !numbers[1] || !numbers[2]) {
                 return wrong_line("is not a corner of a triangle");
             }
@@ -106,13 +107,15 @@ Result<PolygonSoup> read_text(std::string_view bytes) {
 Result<PolygonSoup> read_stl(std::string_view bytes) {
     const bool has_head = bytes.size() >= head_size;
     const std::size_t count = has_head ? word_at(bytes, head_size - 4) : 0;
-    if (has_head && bytes.size() == head_size + count * triangle_size) return read_binary(bytes, count);
-    if (is_word(bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()), 5), "solid")) {
+    if (has_head && bytes.size() == head_size + count * triangle_size)
+        return read_binary(bytes, count);
+    if (is_word(bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()), 5),
+                "solid")) {
         return read_text(bytes);
     }
     if (!has_head) return failure("this is no STL file that can be read");
-    return failure(fmt::format("the STL file is {} bytes long, but its {} triangles take {}", bytes.size(),
-                               count, head_size + count * triangle_size),
+    return failure(fmt::format("the STL file is {} bytes long, but its {} triangles take {}",
+                               bytes.size(), count, head_size + count * triangle_size),
                    "it may be truncated");
 }
 

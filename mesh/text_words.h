@@ -12,8 +12,8 @@ namespace cascade {
 /// What stands between blanks, tabs and other white space.
 std::vector<std::string_view> words_of(std::string_view line);
 
-/// A number with or without a sign, a fraction, an exponent; also "nan" and "inf". What is nearer to 0
-/// than any number is 0, what is beyond all numbers is infinite. Nothing for any other word.
+/// A number with or without a sign, a fraction, an exponent; also "nan" and "inf". What is nearer
+/// to 0 than any number is 0, what is beyond all numbers is infinite. Nothing for any other word.
 std::optional<double> number_in(std::string_view word);
 
 /// A whole number that fits its type, with or without a sign.

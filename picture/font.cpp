@@ -117,8 +117,8 @@ const Glyph& glyph_of(char32_t character) {
 }
 
 int glyph_drop(char32_t character) {
-    const bool below = character == U'g' || character == U'p' || character == U'q' ||
-                       character == U'y';
+    const bool below =
+        character == U'g' || character == U'p' || character == U'q' || character == U'y';
     return below ? deepest_drop : 0;
 }
 

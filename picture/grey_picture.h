@@ -23,9 +23,9 @@ inline constexpr std::int64_t most_pixels = std::int64_t{1} << 26;
 
 /// The picture of a PNG file in memory: grey, colour, palette; 1 to 16 bits; interlaced or not. The
 /// stored levels are used as they are, whatever gamma the file names. A colour becomes 0.2126 red +
-/// 0.7152 green + 0.0722 blue (the luma of ITU-R BT.709); what is transparent shows white behind it.
-/// Fails, with the reason, on what is no PNG, is cut off or damaged, or has too many pixels. The
-/// message is a clause that follows "cannot read 'FILE': ".
+/// 0.7152 green + 0.0722 blue (the luma of ITU-R BT.709); what is transparent shows white behind
+/// it. Fails, with the reason, on what is no PNG, is cut off or damaged, or has too many pixels.
+/// The message is a clause that follows "cannot read 'FILE': ".
 Result<GreyPicture> parse_grey_picture(std::string_view bytes);
 
 /// The largest PNG file that is read for its pixels, in bytes.

@@ -52,12 +52,12 @@ struct ValueRange {
 Spread spread_of(const Field& field);
 
 /// The range in which values are drawn where no other range is given: their smallest and their
-/// largest. Of values that are even it has no width, lest rounding be drawn in black and white; [0, 0]
-/// where there is no value.
+/// largest. Of values that are even it has no width, lest rounding be drawn in black and white; [0,
+/// 0] where there is no value.
 ValueRange automatic_range(const Spread& values);
 
-/// Where a value lies between the ends of a range: 0 at the low one, 1 at the high one, and ½ in a range of
-/// no width. NaN stays NaN.
+/// Where a value lies between the ends of a range: 0 at the low one, 1 at the high one, and ½ in a
+/// range of no width. NaN stays NaN.
 double position_in(ValueRange range, float value);
 
 /// A field through a palette. A range of no width gives the palette's middle, a range whose ends
@@ -84,8 +84,8 @@ using PngTexts = std::map<std::string, std::string>;
 /// The most that the texts of a picture have together, in bytes, written or read.
 inline constexpr std::size_t longest_png_text = std::size_t{16} << 20;
 
-/// What the levels of a PNG file are: colours in sRGB, as the file then says, or numbers of a map that no
-/// reader may bend.
+/// What the levels of a PNG file are: colours in sRGB, as the file then says, or numbers of a map
+/// that no reader may bend.
 enum class PngMeaning { colours, numbers };
 
 /// A PNG file in memory, as write_png writes it. Fails where a side is 0 or above 2^31 − 1, texts
@@ -115,9 +115,9 @@ struct Panel {
 };
 
 /// A contact sheet: panels in rows of `columns`, labels in a small font of our own (ASCII; another
-/// character is drawn as a box, a label that is too long ends in "…"). What is transparent shows the
-/// sheet. All panels are enlarged by
-/// one whole factor, so that small ones can be seen; a picture of a few rows is drawn as a band.
+/// character is drawn as a box, a label that is too long ends in "…"). What is transparent shows
+/// the sheet. All panels are enlarged by one whole factor, so that small ones can be seen; a
+/// picture of a few rows is drawn as a band.
 Image make_sheet(std::span<const Panel> panels, int columns);
 
 /// The picture in half-block characters and 24-bit colour, at most `columns` wide, for terminals.

@@ -22,8 +22,8 @@ constexpr Colour empty_place{0.90F, 0.893F, 0.875F};
 struct MapLayout {
     std::int64_t factor = 1, dot = 1;
     std::int64_t tile_width = 0, tile_height = 0;
-    std::int64_t left = margin;   ///< Of the first column of tiles.
-    std::int64_t top = margin;    ///< Of the upper row of tiles.
+    std::int64_t left = margin;  ///< Of the first column of tiles.
+    std::int64_t top = margin;   ///< Of the upper row of tiles.
     std::int64_t width = 0, height = 0;
 };
 

@@ -26,8 +26,8 @@ struct Format {
     int passes = 1;    ///< More than one where the picture is interlaced.
 };
 
-/// Reads the header. Nothing as large as a row is allocated. What may stand beside the pixels (texts
-/// and profiles, which may inflate to anything) is passed over.
+/// Reads the header. Nothing as large as a row is allocated. What may stand beside the pixels
+/// (texts and profiles, which may inflate to anything) is passed over.
 bool read_header(PngReader& reader, Format& format) {
     return reader.open() && reader.guarded([&] {
         png_structp png = reader.png();
@@ -36,7 +36,8 @@ bool read_header(PngReader& reader, Format& format) {
         png_read_info(png, info);
         format.width = png_get_image_width(png, info);
         format.height = png_get_image_height(png, info);
-        format.packed_bytes = png_get_rowbytes(png, info) * static_cast<std::uint64_t>(format.height);
+        format.packed_bytes =
+            png_get_rowbytes(png, info) * static_cast<std::uint64_t>(format.height);
         if (png_get_interlace_type(png, info) != PNG_INTERLACE_NONE) {
             format.passes = PNG_INTERLACE_ADAM7_PASSES;
         }
@@ -65,7 +66,9 @@ float level(const png_byte* row, std::size_t channel, int depth) {
 
 float lightness(const png_byte* row, std::size_t pixel, const Format& format) {
     const auto channels = static_cast<std::size_t>(format.channels);
-    const auto channel = [&](std::size_t k) { return level(row, pixel * channels + k, format.depth); };
+    const auto channel = [&](std::size_t k) {
+        return level(row, pixel * channels + k, format.depth);
+    };
     const float grey = channels < 3
                            ? channel(0)
                            : 0.2126F * channel(0) + 0.7152F * channel(1) + 0.0722F * channel(2);
@@ -74,8 +77,8 @@ float lightness(const png_byte* row, std::size_t pixel, const Format& format) {
     return grey * alpha + (1.0F - alpha);
 }
 
-/// Reads all pixels row by row; a pass of an interlaced picture has some of the rows and columns. The
-/// end of the file is read too, so that one that is cut off after the pixels is known.
+/// Reads all pixels row by row; a pass of an interlaced picture has some of the rows and columns.
+/// The end of the file is read too, so that one that is cut off after the pixels is known.
 bool read_pixels(PngReader& reader, const Format& format, std::vector<png_byte>& row,
                  std::vector<float>& values) {
     const bool is_interlaced = format.passes > 1;
@@ -113,7 +116,8 @@ Result<GreyPicture> parse(std::string_view bytes) {
     }
     // Of many pixels in a few bits each, a byte may hold more than the memory is worth.
     const auto pixels = static_cast<std::uint64_t>(format.width * format.height);
-    const std::uint64_t least = pixels > many_pixels ? std::max(pixels, format.packed_bytes) : format.packed_bytes;
+    const std::uint64_t least =
+        pixels > many_pixels ? std::max(pixels, format.packed_bytes) : format.packed_bytes;
     if (least / largest_growth > bytes.size()) {
         return failure("the PNG file is cut off or damaged: it is too short for its pixels");
     }

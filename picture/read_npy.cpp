@@ -109,7 +109,8 @@ Result<NpyArray> array_of_shape(const NpyHeader& header) {
     const std::uint64_t columns = shape.back();
     if (slices == 0 || rows == 0 || columns == 0) return failure("its array has no elements");
     if (rows > most_elements / columns || slices > most_elements / (rows * columns)) {
-        return failure(fmt::format("its array of {} elements is too large", fmt::join(shape, " × ")),
+        return failure(fmt::format("its array of {} elements is too large",
+                                   fmt::join(shape, " × ")),
                        fmt::format("at most {} elements can be read", most_elements));
     }
     NpyArray array;
@@ -132,7 +133,8 @@ Result<NpyArray> parse_npy(std::string_view bytes, Precision precision) {
     const std::uint64_t wanted = count * type->size;
     const std::string_view data = bytes.substr(header->data_begin);
     if (data.size() != wanted) {
-        return failure(fmt::format("it has {} bytes of elements instead of {}", data.size(), wanted),
+        return failure(fmt::format("it has {} bytes of elements instead of {}", data.size(),
+                                   wanted),
                        data.size() < wanted ? "the file is cut off" : "");
     }
     try {

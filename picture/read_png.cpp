@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
 constexpr std::size_t signature_size = 8;
-constexpr std::size_t chunk_frame = 12;  // Length, name and checksum around a chunk's data.
-constexpr std::size_t most_texts = 64;   // More are passed over.
+constexpr std::size_t chunk_frame = 12;        // Length, name and checksum around a chunk's data.
+constexpr std::size_t most_texts = 64;         // More are passed over.
 constexpr std::size_t longest_keyword = 1024;  // And what else stands in a chunk.
 
 struct Chunk {

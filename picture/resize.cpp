@@ -28,7 +28,8 @@ Blend mean_over(double begin, double end, std::int64_t count) {
 Blend between(double middle, std::int64_t count) {
     const double last = static_cast<double>(count - 1);
     const double position = std::clamp(middle - 0.5, 0.0, last);
-    const auto first = std::min(static_cast<std::int64_t>(position), std::max<std::int64_t>(count - 2, 0));
+    const auto first =
+        std::min(static_cast<std::int64_t>(position), std::max<std::int64_t>(count - 2, 0));
     const double share = position - static_cast<double>(first);
     if (count == 1) return {0, {1.0}};
     return {first, {1.0 - share, share}};

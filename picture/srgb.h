@@ -19,8 +19,8 @@ inline Colour stored_of(const Colour& light) {
     return {stored_of(light[0]), stored_of(light[1]), stored_of(light[2])};
 }
 
-/// A number as one of the levels 0 … `highest` of a file, rounded to the nearest one and clamped; NaN
-/// becomes 0.
+/// A number as one of the levels 0 … `highest` of a file, rounded to the nearest one and clamped;
+/// NaN becomes 0.
 unsigned level_of(float value, unsigned highest);
 
 /// base ^ exponent, computed in binary64: the library's functions of binary32 differ in their last

@@ -85,8 +85,8 @@ std::optional<Bytes> bytes_of(const Colour& colour) {
 
 /// Adds the escape sequence of a colour where it differs from the one in force. `kind` is 38 for
 /// the foreground, 48 for the background; no colour is the terminal's own.
-void set_colour(std::string& out, std::optional<Bytes>& current,
-                const std::optional<Bytes>& wanted, int kind) {
+void set_colour(std::string& out, std::optional<Bytes>& current, const std::optional<Bytes>& wanted,
+                int kind) {
     if (current == wanted) return;
     current = wanted;
     if (!wanted) {
@@ -139,7 +139,8 @@ std::string plain_characters(const Image& image, int columns) {
     for (std::int64_t y = 0; y < image.height; y += 2) {
         for (std::int64_t x = 0; x < image.width; ++x) {
             const Stretch down(y / 2, (image.height + 1) / 2, image.height);
-            const std::optional<Bytes> bytes = bytes_of(average(image, Stretch(x, image.width, image.width), down));
+            const std::optional<Bytes> bytes =
+                bytes_of(average(image, Stretch(x, image.width, image.width), down));
             const int light = bytes ? (*bytes)[0] + (*bytes)[1] + (*bytes)[2] : 0;
             out += ramp[static_cast<std::size_t>(light) * ramp.size() / (3 * 256)];
         }

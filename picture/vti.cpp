@@ -51,11 +51,13 @@ std::string encode_vti(std::span<const VolumeArray> arrays, double spacing, cons
     if (inside != nullptr) {
         text += fmt::format(
             "        <DataArray type=\"UInt8\" Name=\"vtkGhostType\" format=\"appended\" "
-            "offset=\"{}\"/>\n", offset);
+            "offset=\"{}\"/>\n",
+            offset);
         offset += sizeof(BlockSize) + cells;
     }
-    text += "      </CellData>\n    </Piece>\n  </ImageData>\n"
-            "  <AppendedData encoding=\"raw\">\n_";
+    text +=
+        "      </CellData>\n    </Piece>\n  </ImageData>\n"
+        "  <AppendedData encoding=\"raw\">\n_";
     text.reserve(text.size() + offset + 64);
     for (const VolumeArray& array : arrays) {
         CHECK(array.field->layout() == layout && bytes_of(array.field->precision()) == bytes,

@@ -16,8 +16,8 @@ constexpr std::size_t alignment = 64;    // NumPy starts the elements at a multi
 }  // namespace
 
 std::string npy_head(std::string_view type, std::string_view shape) {
-    std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}",
-                                   type, shape);
+    std::string text =
+        fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, shape);
     const std::size_t used = prefix_size + text.size() + 1;
     text.append((alignment - used % alignment) % alignment, ' ');
     text += '\n';

@@ -21,8 +21,8 @@
 namespace cascade {
 namespace {
 
-constexpr std::int64_t longest_side = 0x7fffffff;       // The format's own limit.
-constexpr std::size_t longest_plain_text = 1024;        // Longer ones are compressed.
+constexpr std::int64_t longest_side = 0x7fffffff;  // The format's own limit.
+constexpr std::size_t longest_plain_text = 1024;   // Longer ones are compressed.
 
 bool some_transparent(const Image& image) {
     return std::any_of(image.pixels.begin(), image.pixels.end(), is_transparent);
@@ -57,7 +57,7 @@ private:
     int depth_;
     bool grey_;
     bool alpha_;
-    std::size_t channels_;  // Of a pixel in the file.
+    std::size_t channels_;         // Of a pixel in the file.
     std::vector<png_text> texts_;  // Points into the caller's texts.
     std::vector<png_byte> row_;
     std::string bytes_;
@@ -137,8 +137,7 @@ bool Encoder::run() {
                  static_cast<png_uint_32>(image_.height), depth_,
                  (grey_ ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB) |
                      (alpha_ ? PNG_COLOR_MASK_ALPHA : 0),
-                 PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (meaning_ == PngMeaning::colours) png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_text(png_, info_, texts_.data(), static_cast<int>(texts_.size()));
     png_write_info(png_, info_);
@@ -163,12 +162,14 @@ Result<void> check_texts(const PngTexts& texts) {
         CHECK(valid_keyword(keyword), "the keywords of our PNG texts are plain words");
         size += text.size();
         if (size > longest_png_text) {
-            return failure(fmt::format("the texts that go with the picture are longer than {} bytes "
-                                       "with '{}'", longest_png_text, keyword));
+            return failure(
+                fmt::format("the texts that go with the picture are longer than {} bytes "
+                            "with '{}'",
+                            longest_png_text, keyword));
         }
         if (text.find('\0') != std::string::npos) {
-            return failure(fmt::format("the text '{}' that goes with the picture has a NUL byte",
-                                       keyword));
+            return failure(
+                fmt::format("the text '{}' that goes with the picture has a NUL byte", keyword));
         }
     }
     return {};

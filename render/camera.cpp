@@ -9,8 +9,8 @@ namespace cascade {
 
 namespace {
 
-constexpr float margin = 1.12F;         ///< Room around the mesh.
-constexpr float half_field = 0.22F;     ///< Tangent of half the field of view: 12.4 degrees.
+constexpr float margin = 1.12F;      ///< Room around the mesh.
+constexpr float half_field = 0.22F;  ///< Tangent of half the field of view: 12.4 degrees.
 
 /// An angle in degrees. Computed in binary64, which rounds to the same binary32 everywhere.
 struct Turn {
@@ -31,14 +31,14 @@ struct Extent {
         low = std::max(low, -offset + half * backward);
         high = std::max(high, offset + half * backward);
     }
-    /// All points of a circle: offset and backward are those of its middle plus the sine of an angle times
-    /// these.
+    /// All points of a circle: offset and backward are those of its middle plus the sine of an
+    /// angle times these.
     void add_circle(float offset, float backward, float offset_sine, float backward_sine,
                     float half) {
-        low = std::max(low, -offset + half * backward +
-                                std::abs(half * backward_sine - offset_sine));
-        high = std::max(high, offset + half * backward +
-                                  std::abs(half * backward_sine + offset_sine));
+        low =
+            std::max(low, -offset + half * backward + std::abs(half * backward_sine - offset_sine));
+        high =
+            std::max(high, offset + half * backward + std::abs(half * backward_sine + offset_sine));
     }
     /// Eye's offset and distance at which both edges touch.
     float offset() const { return (high - low) / 2; }
@@ -52,9 +52,9 @@ Camera::Camera(const TriangleMesh& mesh, const View& view, std::int64_t width,
     const Turn around(view.azimuth);
     const Turn above(view.elevation);
     // The axis towards the viewer at azimuth 0, and the one to his right.
-    const Vector3 front = view.up.z != 0 ? Vector3{0, -1, 0}
-                        : view.up.y != 0 ? Vector3{0, 0, 1}
-                                         : Vector3{0, 1, 0};
+    const Vector3 front = view.up.z != 0   ? Vector3{0, -1, 0}
+                          : view.up.y != 0 ? Vector3{0, 0, 1}
+                                           : Vector3{0, 1, 0};
     const Vector3 side = cross(view.up, front);
     const Vector3 level = front * around.cosine + side * around.sine;
     backward_ = unit(level * above.cosine + view.up * above.sine);
@@ -97,8 +97,8 @@ Camera::Camera(const TriangleMesh& mesh, const View& view, std::int64_t width,
 }
 
 Ray Camera::ray(float x, float y) const {
-    const Vector3 direction = right_ * ((x - centre_x_) * pixel_) +
-                              up_ * ((centre_y_ - y) * pixel_) - backward_;
+    const Vector3 direction =
+        right_ * ((x - centre_x_) * pixel_) + up_ * ((centre_y_ - y) * pixel_) - backward_;
     return {eye_, unit(direction)};
 }
 

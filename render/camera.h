@@ -12,8 +12,8 @@ struct View {
     float azimuth = 30;    ///< Degrees around the axis that points up, from the front to the right.
     float elevation = 25;  ///< Degrees above the horizon, −89 … 89.
     Vector3 up{0, 0, 1};   ///< One of the axes x, y, z.
-    /// Frame the mesh for all azimuths at once, turning around the middle of its box, so that in a row of
-    /// pictures from around it stands still and keeps its size.
+    /// Frame the mesh for all azimuths at once, turning around the middle of its box, so that in a
+    /// row of pictures from around it stands still and keeps its size.
     bool is_turning = false;
 };
 

@@ -21,11 +21,11 @@ namespace {
 
 constexpr float sun_light = 0.72F;
 constexpr float sky_light = 0.42F;
-constexpr float sun_radius = 0.12F;     ///< Tangent of the sun's half width.
-constexpr float ground_shade = 0.55F;   ///< How much of the light the ground's shadow takes away.
+constexpr float sun_radius = 0.12F;    ///< Tangent of the sun's half width.
+constexpr float ground_shade = 0.55F;  ///< How much of the light the ground's shadow takes away.
 constexpr float shine = 0.06F;
 constexpr Colour background{1, 1, 1};
-constexpr std::uint32_t rounds = 4;     ///< How often each ray asks for a light that is partly hidden.
+constexpr std::uint32_t rounds = 4;  ///< How often each ray asks for a light that is partly hidden.
 
 float to_fraction(std::uint32_t word) {
     return static_cast<float>(word >> 8) * 0x1p-24F;  // 0 … 1, 1 excluded.
@@ -139,8 +139,8 @@ private:
     Seen surface(const Ray& ray, const Hit& hit) const {
         const auto& [a, b, c] = mesh_.triangles[hit.triangle];
         const float w = 1 - hit.u - hit.v;
-        Vector3 normal = unit(mesh_.normals[a] * w + mesh_.normals[b] * hit.u +
-                              mesh_.normals[c] * hit.v);
+        Vector3 normal =
+            unit(mesh_.normals[a] * w + mesh_.normals[b] * hit.u + mesh_.normals[c] * hit.v);
         Vector3 facet = unit(cross(mesh_.positions[b] - mesh_.positions[a],
                                    mesh_.positions[c] - mesh_.positions[a]));
         const float width = camera_.pixel() * hit.distance / static_cast<float>(options_.samples);
@@ -166,8 +166,8 @@ private:
         return seen;
     }
 
-    /// From a place on a facet to the round surface that its corners' normals stand on: J. Hanika, "Hacking
-    /// the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4.
+    /// From a place on a facet to the round surface that its corners' normals stand on: J. Hanika,
+    /// "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4.
     Vector3 rounding(const Hit& hit, float side) const {
         const auto& corners = mesh_.triangles[hit.triangle];
         const std::array<float, 3> weights = {1 - hit.u - hit.v, hit.u, hit.v};
@@ -220,8 +220,8 @@ private:
     bool sees_sky(const Seen& from, Point disc) const {
         const Frame round_normal = frame_of(from.normal);
         const float height = std::sqrt(std::max(0.0F, 1 - disc.x * disc.x - disc.y * disc.y));
-        const Vector3 to_sky = round_normal.tangent * disc.x + round_normal.bitangent * disc.y +
-                               from.normal * height;
+        const Vector3 to_sky =
+            round_normal.tangent * disc.x + round_normal.bitangent * disc.y + from.normal * height;
         return !caster_.is_blocked({from.place, to_sky}, size_);
     }
 

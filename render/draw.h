@@ -18,13 +18,13 @@ using SurfaceColour = std::function<Colour(const Hit&)>;
 struct Sight {
     Hit hit;
     Vector3 direction;  ///< Of the ray, of length 1.
-    float width = 0;    ///< Side of the square, across the ray, that stands for its part of a pixel.
+    float width = 0;  ///< Side of the square, across the ray, that stands for its part of a pixel.
 };
 
 /// What the surface looks like there.
 struct Look {
-    Colour light{};     ///< What part of red, green and blue light comes back, 0 … 1 (light_of).
-    Vector3 tilt;       ///< Added to the normal, which points outwards and has length 1.
+    Colour light{};  ///< What part of red, green and blue light comes back, 0 … 1 (light_of).
+    Vector3 tilt;    ///< Added to the normal, which points outwards and has length 1.
 };
 
 /// Called from several threads at once.
@@ -40,8 +40,8 @@ struct DrawOptions {
 
 /// Traces rays. The same picture on any number of threads and on every processor. Both sides of a
 /// surface are drawn. Throws std::bad_alloc.
-Image draw(const TriangleMesh& mesh, const SurfaceColour& colour,
-                   const DrawOptions& options, Team& team);
+Image draw(const TriangleMesh& mesh, const SurfaceColour& colour, const DrawOptions& options,
+           Team& team);
 
 /// The same with all that a look can be. `caster` is that of the mesh.
 Image draw(const TriangleMesh& mesh, const RayCaster& caster, const SurfaceLook& look,

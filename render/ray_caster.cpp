@@ -19,8 +19,8 @@ struct RayCaster::Scene {
 
 namespace {
 
-/// The process's only one, which is never given back: when the last one goes, the library that shares
-/// Embree's work begins threads, and ends the program where the system denies them.
+/// The process's only one, which is never given back: when the last one goes, the library that
+/// shares Embree's work begins threads, and ends the program where the system denies them.
 RTCDevice the_device() {
     // One instruction set for all processors; building on one thread gives one tree.
     static const RTCDevice device = rtcNewDevice("isa=sse2,threads=1,set_affinity=0");

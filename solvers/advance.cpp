@@ -43,7 +43,8 @@ public:
           observe_(observe),
           species_(species),
           stepper_(problem, std::move(species), schedule.threads,
-                   keeps_copy(schedule, problem.species_needs_halo.size(), problem.grid, problem.precision)),
+                   keeps_copy(schedule, problem.species_needs_halo.size(), problem.grid,
+                              problem.precision)),
           progress_(std::move(progress)),
           pace_(Clock::now(), schedule.first_step),
           thread_tuner_(stepper_.most_threads()),
@@ -75,7 +76,8 @@ public:
         outcome_.t = now();
         outcome_.threads = thread_tuner_.threads();
         outcome_.stepping = stepper_.stepping();
-        if (const std::string how = tile_tuner_.how_found(); !how.empty()) outcome_.stepping.why = how;
+        if (const std::string how = tile_tuner_.how_found(); !how.empty())
+            outcome_.stepping.why = how;
         time_.control = control_of_steps_.state();
         outcome_.time = time_;
         species_ = std::move(stepper_.current());
@@ -102,7 +104,8 @@ private:
         const bool is_kept = schedule_.keep_is_due && schedule_.keep_is_due();
         const bool look = step_ + count == stop || is_kept;
         // What is best for interpreted steps, or for some of either kind, is no matter.
-        const bool is_good_measure = !stepper_.problem().is_provisional() && !tile_tuner_.is_trying();
+        const bool is_good_measure =
+            !stepper_.problem().is_provisional() && !tile_tuner_.is_trying();
         const Clock::time_point before = Clock::now();
         const bool good = judges_next() ? take_judged_step() : take_steps(count, look);
         const Clock::time_point after = Clock::now();
@@ -125,7 +128,8 @@ private:
         return static_cast<std::int64_t>(stepper_.problem().passes.size());
     }
 
-    /// How long the steps ahead will take; where nobody knows their number, as long as those before.
+    /// How long the steps ahead will take; where nobody knows their number, as long as those
+    /// before.
     Seconds time_left(Seconds of_step) const {
         if (schedule_.check > 0) return Clock::now() - began_;
         const auto by_number = static_cast<double>(schedule_.last_step - step_);
@@ -143,7 +147,8 @@ private:
     bool take_steps(std::int64_t count, bool look) {
         use_plain();
         const bool is_native = !stepper_.problem().is_provisional();
-        // What is tried is how steps are taken, not how they are looked at, and on one number of threads.
+        // What is tried is how steps are taken, not how they are looked at, and on one number of
+        // threads.
         const bool is_trial = tile_tuner_.is_trying();
         const Clock::time_point before = Clock::now();
         bool finite = stepper_.advance(step_, count, look && !is_trial);
@@ -171,7 +176,8 @@ private:
         if (schedule_.onlooker) {
             lend([&] { return schedule_.onlooker(step_, now(), species_), true; });
         }
-        if (observation_due() && !lend([&] { return observe_(step_, now(), species_); })) return false;
+        if (observation_due() && !lend([&] { return observe_(step_, now(), species_); }))
+            return false;
         if (schedule_.check > 0 && step_ % schedule_.check == 0 &&
             lend([&] { return schedule_.ends(step_, now(), species_); })) {
             outcome_.ended = true;
@@ -196,7 +202,8 @@ private:
         if (is_judging()) stop = std::min(stop, time_.next_judged - 1);
         if (!has_end_time()) return stop;
         if (looks_at_tenths()) {
-            stop = std::min(stop, step_ + steps_until((tenths_seen_ + 1) * schedule_.end_time / 10));
+            stop =
+                std::min(stop, step_ + steps_until((tenths_seen_ + 1) * schedule_.end_time / 10));
         }
         if (const std::int64_t whole = whole_steps_left(); whole > 0) {
             return std::min(stop, step_ + (is_judging() ? whole - 1 : whole));
@@ -319,7 +326,8 @@ private:
         return true;
     }
 
-    /// Goes back to before the step just tried, which spoiled a value. `last_checked` gets the state then.
+    /// Goes back to before the step just tried, which spoiled a value. `last_checked` gets the
+    /// state then.
     bool fail_after(CopyRoles before) {
         outcome_.not_finite = find_not_finite(stepper_.current(), step_ + 1, step_);
         stepper_.undo(before);
@@ -328,7 +336,8 @@ private:
             outcome_.too_short = where_error_is_largest(now());
             return false;
         }
-        for (const Field& field : stepper_.current()) outcome_.last_checked.push_back(field.clone());
+        for (const Field& field : stepper_.current())
+            outcome_.last_checked.push_back(field.clone());
         return false;
     }
 
@@ -364,8 +373,8 @@ private:
     }
 
     /// Goes back to the kept copy and takes the same steps again, one by one, up to the one that
-    /// spoils a value; stops before it. The steps are the same bits, so that one is met. Where nothing is
-    /// kept the spoiled values have to do.
+    /// spoils a value; stops before it. The steps are the same bits, so that one is met. Where
+    /// nothing is kept the spoiled values have to do.
     void replay() {
         if (!stepper_.keeps()) {
             outcome_.not_finite = find_not_finite(stepper_.current(), step_, last_look_);
@@ -393,9 +402,8 @@ private:
         progress_.step = step_;
         progress_.t = now();
         progress_.steps_per_second = pace_.steps_per_second();
-        const double left = has_end_time()
-                                ? (schedule_.end_time - now()) / time_.clock.step
-                                : static_cast<double>(schedule_.last_step - step_);
+        const double left = has_end_time() ? (schedule_.end_time - now()) / time_.clock.step
+                                           : static_cast<double>(schedule_.last_step - step_);
         progress_.seconds_left =
             progress_.steps_per_second > 0 ? left / progress_.steps_per_second : -1;
         progress_.stage_done = done;
@@ -416,8 +424,8 @@ private:
     TileTuner tile_tuner_;
     TimeState time_;
     StepControl control_of_steps_;
-    const StepProblem* plain_;    ///< The sweeps of steps whose error is not estimated,
-    const StepProblem* judged_;   ///< and of those whose error is.
+    const StepProblem* plain_;   ///< The sweeps of steps whose error is not estimated,
+    const StepProblem* judged_;  ///< and of those whose error is.
     std::int64_t step_;
     std::int64_t last_look_;
     Clock::time_point began_;
@@ -431,7 +439,8 @@ double tenths_reached(double t, double end_time) {
     return std::isfinite(end_time) ? std::floor(10 * t / end_time + 1e-9) : 0;
 }
 
-bool keeps_copy(const Schedule& schedule, std::size_t species, const Grid& grid, Precision precision) {
+bool keeps_copy(const Schedule& schedule, std::size_t species, const Grid& grid,
+                Precision precision) {
     // A step whose error was estimated can be taken back without one.
     if (schedule.judges_all) return false;
     const auto bytes = PlaneLayout(grid).size() * static_cast<std::int64_t>(bytes_of(precision));

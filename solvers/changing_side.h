@@ -1,7 +1,8 @@
 // Sides whose values change with time, as in u.left: fixed(sin(t)).
 //
 // Whoever fills a halo first finds the values for the moment at which the halo will be read. The
-// cells beside a side are numbered along it, so that one small kernel computes what a few rows need.
+// cells beside a side are numbered along it, so that one small kernel computes what a few rows
+// need.
 #pragma once
 
 #include "core/parallel.h"

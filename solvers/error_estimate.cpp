@@ -12,7 +12,8 @@ namespace {
 using Source = SweepTerm::Source;
 using Weight = SweepTerm::Weight;
 
-/// Inputs: the new step, the old one, the rates at the old one. Outputs: the error, the rates at the new.
+/// Inputs: the new step, the old one, the rates at the old one. Outputs: the error, the rates at
+/// the new.
 SweepForm error_form() {
     SweepForm form;
     form.inputs = 3;

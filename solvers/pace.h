@@ -16,8 +16,8 @@ public:
 
     Pace(Time now, std::int64_t step);
 
-    /// Steps to take before looking at the clock and at `cancel` again: about 20 ms of work, but at least
-    /// `wanted`, which are faster together, where those take half a second or less.
+    /// Steps to take before looking at the clock and at `cancel` again: about 20 ms of work, but at
+    /// least `wanted`, which are faster together, where those take half a second or less.
     std::int64_t batch(std::int64_t wanted = 1) const {
         return std::max(batch_, std::min(wanted, patient_batch_));
     }

@@ -17,15 +17,16 @@ template <typename Number>
 std::int64_t rows_of_a_band(const PlaneLayout& layout, std::size_t results) {
     // A quarter of a MiB of results.
     constexpr auto elements_in_cache = static_cast<std::int64_t>(262144 / sizeof(Number));
-    return std::max<std::int64_t>(
-        8, elements_in_cache / (layout.stride * static_cast<std::int64_t>(results)));
+    return std::max<std::int64_t>(8, elements_in_cache /
+                                         (layout.stride * static_cast<std::int64_t>(results)));
 }
 
 }  // namespace
 
 PassRunner::PassRunner(const StepProblem& problem) : problem_(problem), layout_(problem.grid) {
     CHECK(!problem.passes.empty(), "a step has a pass");
-    CHECK(!problem.links || (problem.grid.linked && problem.links->precision() == problem.precision),
+    CHECK(!problem.links ||
+              (problem.grid.linked && problem.links->precision() == problem.precision),
           "links are those of a linked grid, in the precision of its problem");
     for (std::uint32_t k = 0; k < problem.temporaries; ++k) {
         temporaries_.emplace_back(layout_, problem.precision);
@@ -43,7 +44,8 @@ PassRunner::PassRunner(const StepProblem& problem) : problem_(problem), layout_(
     std::vector<SideRules> sides;
     for (std::size_t k = 0; k < problem.diffusion.size(); ++k) sides.push_back(problem.sides_of(k));
     with_number(problem.precision, [&](auto zero) {
-        std::get<std::optional<WaveFilter<decltype(zero)>>>(wave_filters_).emplace(problem.grid, sides);
+        std::get<std::optional<WaveFilter<decltype(zero)>>>(wave_filters_)
+            .emplace(problem.grid, sides);
     });
 }
 
@@ -141,8 +143,8 @@ void PassRunner::filter(Worker& worker, Arguments<Number>& arguments, const Swee
     std::vector<Number*> planes;
     for (void* cells : registers[filter.in_register]) planes.push_back(static_cast<Number*>(cells));
     std::get<std::optional<WaveFilter<Number>>>(wave_filters_)
-        ->apply(team, worker.number, worker.count, planes, worker.symbols,
-                filter.response, filter.part * moment.length);
+        ->apply(team, worker.number, worker.count, planes, worker.symbols, filter.response,
+                filter.part * moment.length);
 }
 
 template <typename Number>
@@ -171,8 +173,9 @@ void PassRunner::set_uniforms(std::vector<Number>& uniforms, const StepProblem::
 
 void PassRunner::bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
                       const StepMoment& moment, bool is_near) const {
-    std::visit([&](auto& arguments) { bind_as(arguments, level, pass, registers, moment, is_near); },
-               worker.arguments);
+    std::visit(
+        [&](auto& arguments) { bind_as(arguments, level, pass, registers, moment, is_near); },
+        worker.arguments);
 }
 
 template <typename Number>
@@ -195,7 +198,8 @@ void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::
     }
     const LinkTable<Number> links =
         problem_.links ? problem_.links->template table<Number>() : LinkTable<Number>{};
-    level.given = {level.fields, pass.masks, level.uniforms, level.results, layout_, links, is_near};
+    level.given = {level.fields, pass.masks, level.uniforms, level.results,
+                   layout_,      links,      is_near};
 }
 
 void PassRunner::run_rows(Worker& worker, std::size_t level, RowRange rows) const {

@@ -1,8 +1,8 @@
 // Runs the passes of a step on a team of threads: temporaries, aggregates and the barriers between
 // passes.
 //
-// A worker binds a pass to planes and a moment as a *level*, and runs levels on any rows. With one level
-// at a time that is the plain loop, run(); solvers/tile_runner.h has several at once.
+// A worker binds a pass to planes and a moment as a *level*, and runs levels on any rows. With one
+// level at a time that is the plain loop, run(); solvers/tile_runner.h has several at once.
 #pragma once
 
 #include "core/parallel.h"
@@ -50,12 +50,13 @@ public:
     template <typename Number>
     struct Arguments {
         std::vector<Level<Number>> levels;
-        std::vector<std::vector<Number>> uniforms;  ///< By pass; aggregates as they were computed last.
+        std::vector<std::vector<Number>>
+            uniforms;  ///< By pass; aggregates as they were computed last.
         std::vector<Number> aggregates;
     };
     /// What one thread needs of its own.
     struct alignas(64) Worker {
-        int number = 0;                            ///< Of the `count` threads in use.
+        int number = 0;  ///< Of the `count` threads in use.
         int count = 1;
         RowRange rows;
         std::vector<DiffusionSymbol> symbols;
@@ -65,9 +66,9 @@ public:
     /// Prepares a worker for its rows, being thread `number` of `count`.
     void prepare(Worker& worker, int number, int count) const;
 
-    /// One thread's part of a step. All threads of the team in use call it with the same registers and
-    /// moment. When it returns, this thread's rows of the results are written and their halo filled;
-    /// another meeting of the team makes them everybody's.
+    /// One thread's part of a step. All threads of the team in use call it with the same registers
+    /// and moment. When it returns, this thread's rows of the results are written and their halo
+    /// filled; another meeting of the team makes them everybody's.
     void run(Worker& worker, Team& team, Registers registers, const StepMoment& moment);
 
     /// All passes once, rows shared by the team.
@@ -76,8 +77,8 @@ public:
     /// Does what such a pass does before its kernel is run. As run(), for all threads of the team.
     void prepare_pass(Worker& worker, Team& team, std::size_t pass, Registers registers,
                       const StepMoment& moment);
-    /// Makes a pass level `level` of the worker. Registers are looked at now, not later. `is_near`: what it
-    /// reads will be in a near cache.
+    /// Makes a pass level `level` of the worker. Registers are looked at now, not later. `is_near`:
+    /// what it reads will be in a near cache.
     void bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
               const StepMoment& moment, bool is_near = false) const;
     /// Runs a level that was bound on some rows and fills the halo that comes from them.
@@ -110,7 +111,8 @@ private:
     PlaneLayout layout_;
     /// One of them, where a pass has a filter.
     std::tuple<std::optional<WaveFilter<float>>, std::optional<WaveFilter<double>>> wave_filters_;
-    std::vector<std::vector<SideRules>> sides_;  ///< By pass and result, before any of them changes.
+    std::vector<std::vector<SideRules>>
+        sides_;  ///< By pass and result, before any of them changes.
     std::vector<Field> temporaries_;
     std::vector<void*> temporary_cells_;
     std::vector<std::vector<double>> row_values_;  ///< By aggregate and row.

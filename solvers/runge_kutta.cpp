@@ -56,8 +56,8 @@ private:
         return stage < tableau_.b.size() ? tableau_.a[stage] : tableau_.b;
     }
 
-    /// Weights of the differences stage − old by which Σ weights[j] step k_j is written, but for the
-    /// last rate: row j + 1 of the tableau gives k_j by stage j + 1 and the rates before.
+    /// Weights of the differences stage − old by which Σ weights[j] step k_j is written, but for
+    /// the last rate: row j + 1 of the tableau gives k_j by stage j + 1 and the rates before.
     std::vector<double> weights_of_stages(std::vector<double> weights) const {
         std::vector<double> of_stages(weights.size(), 0);
         for (std::size_t stage = weights.size() - 1; stage > 0; --stage) {
@@ -90,8 +90,8 @@ private:
                 input = form.inputs++;
                 sweep.inputs.push_back(register_of(other));
             }
-            state.terms.push_back({Source::difference, input, Weight::coefficient,
-                                   form.coefficients++});
+            state.terms.push_back(
+                {Source::difference, input, Weight::coefficient, form.coefficients++});
             sweep.coefficients.push_back({weights[other], false});
         }
         state.terms.push_back(own_rate(form, sweep, row.back()));
@@ -148,8 +148,8 @@ private:
                         const std::vector<double>& weights) const {
         for (std::size_t j = 0; j + 1 < weights.size(); ++j) {
             if (weights[j] == 0) continue;
-            output.terms.push_back({Source::value, form.inputs++, Weight::coefficient,
-                                    form.coefficients++});
+            output.terms.push_back(
+                {Source::value, form.inputs++, Weight::coefficient, form.coefficients++});
             sweep.inputs.push_back(rate_register_[j]);
             sweep.coefficients.push_back({weights[j], true});
         }

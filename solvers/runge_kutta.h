@@ -7,8 +7,8 @@
 
 namespace cascade {
 
-/// Stage i is evaluated at old + step · Σ a[i][j] k_j, at the time step · Σ a[i][j]; the new step is
-/// old + step · Σ b[j] k_j.
+/// Stage i is evaluated at old + step · Σ a[i][j] k_j, at the time step · Σ a[i][j]; the new step
+/// is old + step · Σ b[j] k_j.
 struct ButcherTableau {
     std::vector<std::vector<double>> a;  ///< Row i has i entries.
     std::vector<double> b;
@@ -21,8 +21,8 @@ struct ButcherTableau {
 ButcherTableau midpoint();
 /// The classical method of order 4 (W. Kutta, 1901).
 ButcherTableau classical();
-/// P. Bogacki, L. F. Shampine, "A 3(2) pair of Runge-Kutta formulas", Applied Mathematics Letters 2,
-/// 1989, 321-325.
+/// P. Bogacki, L. F. Shampine, "A 3(2) pair of Runge-Kutta formulas", Applied Mathematics Letters
+/// 2, 1989, 321-325.
 ButcherTableau bogacki_shampine();
 /// J. R. Dormand, P. J. Prince, "A family of embedded Runge-Kutta formulae", Journal of
 /// Computational and Applied Mathematics 6, 1980, 19-26.

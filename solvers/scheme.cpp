@@ -1,5 +1,5 @@
-// Schemes of one and of several sweeps. Those of a Butcher tableau are in runge_kutta.cpp, those that
-// filter waves in semi_implicit.cpp.
+// Schemes of one and of several sweeps. Those of a Butcher tableau are in runge_kutta.cpp, those
+// that filter waves in semi_implicit.cpp.
 //
 // Stabilised Runge-Kutta-Legendre: C. D. Meyer, D. S. Balsara, T. D. Aslam, "A stabilized
 // Runge-Kutta-Legendre method for explicit super-time-stepping of parabolic and mixed equations",
@@ -49,8 +49,8 @@ Scheme symplectic(std::uint32_t species, bool by_item) {
     return scheme;
 }
 
-/// Registers of Runge-Kutta-Legendre: 0; two of stages in turn, the last stage in 1, for stage j may
-/// overwrite stage j − 2 cell by cell.
+/// Registers of Runge-Kutta-Legendre: 0; two of stages in turn, the last stage in 1, for stage j
+/// may overwrite stage j − 2 cell by cell.
 std::uint32_t place_of_stage(std::uint32_t j, std::uint32_t stages) {
     return j == 0 ? old_register : new_register + (stages - j) % 2;
 }
@@ -64,9 +64,9 @@ SweepForm first_legendre_form() {
     return form;
 }
 
-/// Y_j = ((j − 1)/j (Y_{j−1} − Y_{j−2}) + μ̃ τ L(Y_{j−1})) + Y_{j−1}, which is the paper's sum in another
-/// order: its factors of Y_{j−1} and Y_{j−2} have the sum 1. So a sweep reads no third stage. Inputs:
-/// Y_{j−1}, Y_{j−2}.
+/// Y_j = ((j − 1)/j (Y_{j−1} − Y_{j−2}) + μ̃ τ L(Y_{j−1})) + Y_{j−1}, which is the paper's sum in
+/// another order: its factors of Y_{j−1} and Y_{j−2} have the sum 1. So a sweep reads no third
+/// stage. Inputs: Y_{j−1}, Y_{j−2}.
 SweepForm rkl1_form() {
     SweepForm form;
     form.inputs = 2;

@@ -20,7 +20,8 @@ struct Scheme {
     /// The register that holds an estimate of the step's error, proportional to step^order_of; 0
     /// where there is none.
     std::uint32_t error_register = 0;
-    /// The register that holds, once the step is complete, a solution of lower order; 0 where there is none.
+    /// The register that holds, once the step is complete, a solution of lower order; 0 where there
+    /// is none.
     std::uint32_t lower_order_register = 0;
     /// Methods whose last rate is the first of the next step ("first same as last"): sweep 0 does
     /// nothing but write the first rate, and the last sweep writes the last. Where a step follows

@@ -1,13 +1,14 @@
 // Schemes that take diffusion implicitly or exactly, by filtering waves (internal to solvers/).
 //
-// All are written for the change of a step and not for the new values. With L the diffusion and N the
-// rest, implicit Euler for L and explicit Euler for N, new = old + h (L new + N old), is the same as
+// All are written for the change of a step and not for the new values. With L the diffusion and N
+// the rest, implicit Euler for L and explicit Euler for N, new = old + h (L new + N old), is the
+// same as
 //
 //     new = old + (1 − h L)⁻¹ h f(old),    f = L + N being the whole rate.
 //
 // So only the rate as it was written is computed; a state whose rates are 0 stays as it is; values
-// held at sides drop out; and an L that is only nearly the diffusion costs some accuracy and nothing
-// else: the limit of short steps is that of all solvers.
+// held at sides drop out; and an L that is only nearly the diffusion costs some accuracy and
+// nothing else: the limit of short steps is that of all solvers.
 #pragma once
 
 #include "solvers/scheme.h"

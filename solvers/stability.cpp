@@ -72,8 +72,8 @@ public:
             scales_.push_back(
                 field.visit([&](const auto& plane) { return root_mean_square(plane); }));
         }
-        // A species that is zero everywhere takes the scale of the others; of one that has all but died
-        // out, differences would be lost among denormals.
+        // A species that is zero everywhere takes the scale of the others; of one that has all but
+        // died out, differences would be lost among denormals.
         const double largest = *std::max_element(scales_.begin(), scales_.end());
         for (double& scale : scales_) {
             if (!(scale > 0)) scale = largest > 0 ? largest : 1;
@@ -108,7 +108,9 @@ public:
     }
 
 private:
-    std::size_t cells() const { return static_cast<std::size_t>(layout_.width * layout_.row_count()); }
+    std::size_t cells() const {
+        return static_cast<std::size_t>(layout_.width * layout_.row_count());
+    }
 
     /// `visit(n, i, row)`: cell n is in column i of the row, which is numbered through all slices.
     template <typename Visit>
@@ -130,9 +132,8 @@ private:
 
     /// Adds weight · rates(state + step · v), in units of the scales; frozen cells have rate 0.
     void add_rates(const Vector& v, double step, double weight, Vector& sum) {
-        with_number(rates_.precision, [&](auto zero) {
-            add_rates_of<decltype(zero)>(v, step, weight, sum);
-        });
+        with_number(rates_.precision,
+                    [&](auto zero) { add_rates_of<decltype(zero)>(v, step, weight, sum); });
     }
 
     template <typename Number>

@@ -22,10 +22,10 @@ struct StabilityEstimate {
 };
 
 /// Estimates it at the state `species` by finite differences of the kernel of rates (one result
-/// per species, slots as for the step). Cells that `frozen` marks (nullptr: none) do not move. Takes at most about 800
-/// evaluations of the rates, on one thread; within 2 % for diffusion, within 4 % for more than a million
-/// values. The result is deterministic.
-/// Of use only at a state before a blow-up: at 1e20 any reaction looks stiff.
+/// per species, slots as for the step). Cells that `frozen` marks (nullptr: none) do not move.
+/// Takes at most about 800 evaluations of the rates, on one thread; within 2 % for diffusion,
+/// within 4 % for more than a million values. The result is deterministic. Of use only at a state
+/// before a blow-up: at 1e20 any reaction looks stiff.
 StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const Field> species,
                                      const Mask* frozen = nullptr);
 

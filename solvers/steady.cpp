@@ -69,9 +69,9 @@ bool SteadyWatch::settled(std::span<const Field> species, double t, double toler
         Formation& formation = formations_[k];
         observe(formation, change.deviation / interval, t);
         // The contrast costs passes over the plane and is seldom needed.
-        all_settled = all_settled && speed <= tolerance * formation.speed &&
-                      (formation.risen ||
-                       speed * t <= little_progress * contrast(species[k], inside));
+        all_settled =
+            all_settled && speed <= tolerance * formation.speed &&
+            (formation.risen || speed * t <= little_progress * contrast(species[k], inside));
     }
     keep(species, t);
     return all_settled;

@@ -38,8 +38,8 @@ public:
     /// species, rms(new − old)/Δt, is at most `tolerance` times the speed of its pattern (the same
     /// without the change of the mean) when that made the greatest progress; a species whose
     /// progress never rose has to be slow by its own contrast as well. Where there was no look
-    /// before, this is the first and nothing is judged. With a mask `inside` the cells count where it is
-    /// not 0.
+    /// before, this is the first and nothing is judged. With a mask `inside` the cells count where
+    /// it is not 0.
     bool settled(std::span<const Field> species, double t, double tolerance,
                  const Mask* inside = nullptr);
 

@@ -24,8 +24,9 @@ bool StepControl::judge(double taken, double error) {
     const double seen = std::max(error, least_error);
     // Of steps that something else keeps short, errors do not tell how they follow each other.
     const bool was_cut = taken < state_.step * (1 - 1e-9);
-    double factor = was_cut ? safety * std::pow(seen, -1 / k)
-                            : safety * std::pow(seen, -0.7 / k) * std::pow(state_.error_before, 0.4 / k);
+    double factor =
+        was_cut ? safety * std::pow(seen, -1 / k)
+                : safety * std::pow(seen, -0.7 / k) * std::pow(state_.error_before, 0.4 / k);
     factor = std::clamp(factor, least_factor, state_.rejected ? 1.0 : most_factor);
     // A step cut short at the end of a stage must not shorten those of a later one.
     state_.step = std::max(taken * factor, taken < state_.step ? state_.step : 0);

@@ -3,10 +3,10 @@
 // The controller is proportional-integral (K. Gustafsson, "Control theoretic techniques for
 // stepsize selection in explicit Runge-Kutta methods", ACM Transactions on Mathematical Software
 // 17, 1991; with the constants of E. Hairer, G. Wanner, "Solving Ordinary Differential Equations
-// II", 1996, section IV.2): next = step · 0.9 · error^(−0.7/k) · previous error^(0.4/k), k the order
-// of the error estimate, between a fifth and five times the step; after a step that was shorter than step(),
-// step · 0.9 · error^(−1/k). A rejected step is followed by a
-// shorter one, step · 0.9 · error^(−1/k), a tenth at least.
+// II", 1996, section IV.2): next = step · 0.9 · error^(−0.7/k) · previous error^(0.4/k), k the
+// order of the error estimate, between a fifth and five times the step; after a step that was
+// shorter than step(), step · 0.9 · error^(−1/k). A rejected step is followed by a shorter one,
+// step · 0.9 · error^(−1/k), a tenth at least.
 #pragma once
 
 namespace cascade {
@@ -15,9 +15,9 @@ class StepControl {
 public:
     /// What must be kept to go on later exactly as without a break.
     struct State {
-        double step = 0;            ///< The next step to try; above 0.
-        double error_before = 1;    ///< Of the last accepted step.
-        bool rejected = false;      ///< The last step was rejected: the next grows no longer.
+        double step = 0;          ///< The next step to try; above 0.
+        double error_before = 1;  ///< Of the last accepted step.
+        bool rejected = false;    ///< The last step was rejected: the next grows no longer.
     };
 
     /// `order` is the power of the step that the error estimate is proportional to.

@@ -57,7 +57,7 @@ struct StepProblem {
 
     struct Result {
         PlaneRef plane;
-        bool needs_halo = false;  ///< Something reads it at neighbours.
+        bool needs_halo = false;   ///< Something reads it at neighbours.
         Boundaries boundary = {};  ///< At the sides of a temporary.
         /// Of a species: the part of the step at which it is read at neighbours, or next_step.
         double read_at = next_step;
@@ -67,7 +67,7 @@ struct StepProblem {
     /// A factor of a species' diffusion.
     struct DiffusionFactor {
         double value = 0;
-        bool is_aggregate = false;    ///< The factor is aggregate number `aggregate` instead.
+        bool is_aggregate = false;  ///< The factor is aggregate number `aggregate` instead.
         std::uint32_t aggregate = 0;
     };
 
@@ -75,24 +75,24 @@ struct StepProblem {
         std::vector<Reduction> reductions;  ///< Done before the kernel is run.
         std::optional<SweepFilter> filter;  ///< Done after them, before the kernel is run.
         KernelPointer kernel;
-        std::vector<PlaneRef> fields;       ///< Of the kernel's field slots.
+        std::vector<PlaneRef> fields;  ///< Of the kernel's field slots.
         std::vector<const std::uint8_t*> masks;
-        std::vector<double> uniforms;       ///< Rounded where the precision is less.
+        std::vector<double> uniforms;  ///< Rounded where the precision is less.
         std::vector<ChangingUniform> changing;
         std::vector<Result> results;
     };
 
     Grid grid;
-    const Links* links = nullptr;           ///< Where the grid is linked; in the problem's precision.
-    /// Over so many means are taken, those inside of a mask or without what fills up the last row of a
-    /// linked grid; 0: over all.
+    const Links* links = nullptr;  ///< Where the grid is linked; in the problem's precision.
+    /// Over so many means are taken, those inside of a mask or without what fills up the last row
+    /// of a linked grid; 0: over all.
     std::int64_t cells_inside = 0;
     Precision precision = Precision::single;
-    std::vector<Pass> passes;               ///< In order. At least one.
+    std::vector<Pass> passes;  ///< In order. At least one.
     /// The planes of all species at one moment are a register: 0 is the old step, 1 becomes the new
     /// one, further ones are scratch.
     std::uint32_t registers = 2;
-    std::uint32_t error_register = 0;       ///< An estimate of the step's error; 0 for none.
+    std::uint32_t error_register = 0;  ///< An estimate of the step's error; 0 for none.
     /// So many passes at the start write the rates of the old step to `first_rate_register` and
     /// nothing else, and `last_rate_register` gets the rates of the new one: after a step the two
     /// change places and those passes are left out. 0 for none.
@@ -101,16 +101,18 @@ struct StepProblem {
     std::uint32_t temporaries = 0;
     std::uint32_t aggregates = 0;
     std::vector<DiffusionTerms<DiffusionFactor>> diffusion;  ///< Per species, for filters.
-    std::vector<SideRules> sides;           ///< Per species; none: the grid's boundary for all.
+    std::vector<SideRules> sides;  ///< Per species; none: the grid's boundary for all.
     std::span<const ChangingSide> changing_sides;  ///< Those of them that change with time.
-    std::vector<bool> species_needs_halo;   ///< Per species: the old step is read at neighbours.
+    std::vector<bool> species_needs_halo;  ///< Per species: the old step is read at neighbours.
 
     /// Do neighbours lie beyond sides, so that what is read there needs a halo?
     bool has_halo() const { return !grid.linked; }
     /// How many cells a mean is taken over.
-    std::int64_t counted_cells() const { return cells_inside > 0 ? cells_inside : grid.cell_count(); }
-    /// How many cells at the start of a row a mean is taken over. Outside of a mask everything is 0, so
-    /// there whole rows count.
+    std::int64_t counted_cells() const {
+        return cells_inside > 0 ? cells_inside : grid.cell_count();
+    }
+    /// How many cells at the start of a row a mean is taken over. Outside of a mask everything is
+    /// 0, so there whole rows count.
     std::int64_t counted_in_row(std::int64_t row) const {
         if (!grid.linked) return grid.width;
         return std::clamp(counted_cells() - row * grid.width, std::int64_t{0}, grid.width);

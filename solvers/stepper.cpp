@@ -28,7 +28,8 @@ int worthwhile_threads(const Grid& grid, std::size_t species, int most) {
 
 }  // namespace
 
-Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads, bool keeps)
+Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads,
+                 bool keeps)
     : problem_(&problem),
       layout_(problem.grid),
       team_(worthwhile_threads(problem.grid, species.size(), most_threads)),
@@ -98,12 +99,14 @@ double Stepper::attempt(std::int64_t complete, double tolerance) {
         squares.of_errors.resize(static_cast<std::size_t>(layout_.row_count()));
         squares.of_values.resize(squares.of_errors.size());
     }
-    team_.run([&](int index) {
-        Worker& worker = workers_[static_cast<std::size_t>(index)];
-        const std::size_t first = knows_first_rates_ ? problem_->first_rate_passes : 0;
-        work(worker, {first, complete, roles_}, problem_->passes.size() - first, true);
-        add_squares(worker);
-    }, static_cast<int>(workers_.size()));
+    team_.run(
+        [&](int index) {
+            Worker& worker = workers_[static_cast<std::size_t>(index)];
+            const std::size_t first = knows_first_rates_ ? problem_->first_rate_passes : 0;
+            work(worker, {first, complete, roles_}, problem_->passes.size() - first, true);
+            add_squares(worker);
+        },
+        static_cast<int>(workers_.size()));
     roles_.current = roles_.target();
     knows_first_rates_ = problem_->first_rate_passes > 0;
     const std::int64_t cells = problem_->counted_cells();
@@ -152,21 +155,25 @@ bool Stepper::advance(std::int64_t complete, std::int64_t count, bool look) {
     knows_first_rates_ = false;
     CopyRoles new_roles = roles_;
     for (std::int64_t taken = 0; taken < count; ++taken) new_roles.current = new_roles.target();
-    team_.run([&](int index) {
-        Worker& worker = workers_[static_cast<std::size_t>(index)];
-        work(worker, {0, complete, roles_},
-             static_cast<std::size_t>(count) * problem_->passes.size(), look);
-        if (look) worker.finite = rows_finite(worker, new_roles.current);
-    }, static_cast<int>(workers_.size()));
+    team_.run(
+        [&](int index) {
+            Worker& worker = workers_[static_cast<std::size_t>(index)];
+            work(worker, {0, complete, roles_},
+                 static_cast<std::size_t>(count) * problem_->passes.size(), look);
+            if (look) worker.finite = rows_finite(worker, new_roles.current);
+        },
+        static_cast<int>(workers_.size()));
     roles_ = new_roles;
     return !look || all_finite();
 }
 
 bool Stepper::is_finite() {
-    team_.run([&](int index) {
-        Worker& worker = workers_[static_cast<std::size_t>(index)];
-        worker.finite = rows_finite(worker, roles_.current);
-    }, static_cast<int>(workers_.size()));
+    team_.run(
+        [&](int index) {
+            Worker& worker = workers_[static_cast<std::size_t>(index)];
+            worker.finite = rows_finite(worker, roles_.current);
+        },
+        static_cast<int>(workers_.size()));
     return all_finite();
 }
 
@@ -177,7 +184,8 @@ void Stepper::work(Worker& worker, Level level, std::size_t left, bool meets) {
         run_levels(worker, level, levels);
         left -= levels;
         // One meeting is enough: after it nobody reads the copy that the next level overwrites, and
-        // every thread has filled the halo that comes from its own rows. Tiles end in any thread's rows.
+        // every thread has filled the halo that comes from its own rows. Tiles end in any thread's
+        // rows.
         if (left > 0 || (meets && tiles_->levels() > 1)) team_.barrier();
     }
 }
@@ -189,8 +197,8 @@ void Stepper::Level::go_on(std::size_t passes) {
     roles.current = roles.target();
 }
 
-/// How many levels to run together where `left` are to be run: tiles of nearly equal heights, up to a
-/// pass that needs all rows.
+/// How many levels to run together where `left` are to be run: tiles of nearly equal heights, up to
+/// a pass that needs all rows.
 std::size_t Stepper::levels_from(const Level& level, std::size_t left) const {
     const auto most = static_cast<std::size_t>(tiles_->levels());
     const std::size_t passes = problem_->passes.size();

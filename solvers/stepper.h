@@ -29,7 +29,7 @@ namespace cascade {
 /// Which of the copies is what.
 struct CopyRoles {
     static constexpr int none = -1;
-    int kept = 0;     ///< `none` of two copies.
+    int kept = 0;  ///< `none` of two copies.
     int current = 0;
 
     /// The copy that the next step writes: neither kept nor current.
@@ -41,9 +41,10 @@ struct CopyRoles {
 
 class Stepper {
 public:
-    /// Takes `species` as current, and as kept unless it `keeps` nothing; their halo is filled here. All
-    /// threads are in use at first; `most_threads` is lowered to what the grid is worth.
-    Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads, bool keeps = true);
+    /// Takes `species` as current, and as kept unless it `keeps` nothing; their halo is filled
+    /// here. All threads are in use at first; `most_threads` is lowered to what the grid is worth.
+    Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads,
+            bool keeps = true);
 
     /// Takes `count` steps, at least one; `complete` were complete before. With `look`, returns
     /// whether the new values are all finite; without, true.
@@ -99,8 +100,8 @@ public:
     std::vector<Tiling> tilings_to_try() const {
         return cascade::tilings_to_try(*problem_, reach_, CacheSizes::here(), most_threads());
     }
-    /// Goes through memory like that from now on, also where the problem changes; no result depends on it.
-    /// Layers are made as large as links reach.
+    /// Goes through memory like that from now on, also where the problem changes; no result depends
+    /// on it. Layers are made as large as links reach.
     void use_tiling(const Tiling& tiling);
     /// So many passes of steps are done for each pass through memory, where they allow it.
     int levels() const { return tiles_->levels(); }
@@ -153,11 +154,12 @@ private:
     StageClock clock_;
     std::array<std::vector<Field>, 3> copies_;  ///< The last is empty where nothing is kept.
     std::array<std::vector<void*>, 3> cells_;   ///< Species of a copy.
-    std::vector<std::vector<Field>> scratch_;    ///< Registers from 2 on.
+    std::vector<std::vector<Field>> scratch_;   ///< Registers from 2 on.
     std::vector<std::vector<void*>> scratch_cells_;
     CopyRoles roles_;
-    bool knows_first_rates_ = false;  ///< The register of first rates holds those of the current copy.
-    std::vector<Squares> squares_;    ///< By species.
+    bool knows_first_rates_ =
+        false;  ///< The register of first rates holds those of the current copy.
+    std::vector<Squares> squares_;  ///< By species.
     Team team_;
     std::optional<PassRunner> runner_;
     std::int64_t reach_ = 1;  ///< Rows that links reach.

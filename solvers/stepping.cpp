@@ -19,7 +19,8 @@ std::string hindrance(const StepProblem& problem) {
         return std::any_of(problem.passes.begin(), problem.passes.end(), is_so);
     };
     if (is_judged(problem)) return "each may be taken back";
-    if (any([](const auto& pass) { return pass.filter.has_value(); })) return "its waves need all cells";
+    if (any([](const auto& pass) { return pass.filter.has_value(); }))
+        return "its waves need all cells";
     if (any(needs_all_rows)) return "its aggregates need every step";
     return "";
 }
@@ -38,12 +39,14 @@ void describe(const StepProblem& problem, int levels, Stepping& stepping) {
     } else {
         stepping.words = "one step a pass";
         const bool is_small = stays_in_cache(problem, CacheSizes::here());
-        if (why.empty()) why = is_small ? "all stays in the cache" : "layers are too large for more";
+        if (why.empty())
+            why = is_small ? "all stays in the cache" : "layers are too large for more";
         stepping.why = std::move(why);
     }
 }
 
-/// Passes through memory of a step: tiles of nearly equal heights between passes that need all rows.
+/// Passes through memory of a step: tiles of nearly equal heights between passes that need all
+/// rows.
 double tiles_of_step(const StepProblem& problem, int levels) {
     const std::size_t passes = problem.passes.size();
     const auto begins = [&](std::size_t pass) {
@@ -74,7 +77,8 @@ Stepping stepping_with(const StepProblem& problem, const Tiling& tiling, int lev
     stepping.sweeps_at_once = passes / tiles;
     const bool is_tiled = stepping.sweeps_at_once > 1;
     stepping.meetings = tiles * (is_tiled ? phases : 1);
-    for (const StepProblem::Pass& pass : problem.passes) stepping.meetings += !pass.reductions.empty();
+    for (const StepProblem::Pass& pass : problem.passes)
+        stepping.meetings += !pass.reductions.empty();
     if (is_tiled) stepping.bytes_in_use = bytes_in_use(problem, tiling, levels);
     return stepping;
 }

@@ -35,11 +35,11 @@ private:
 
     int most_;
     int best_;
-    int current_;             ///< Differs from best_ during a trial.
-    int turn_ = 0;            ///< Whose turn to be tried it is.
+    int current_;               ///< Differs from best_ during a trial.
+    int turn_ = 0;              ///< Whose turn to be tried it is.
     double until_trial_ = 0.1;  ///< Seconds.
     double between_trials_ = 0.1;
-    Measured recent_;         ///< Of best_, the last tenth of a second or so.
+    Measured recent_;  ///< Of best_, the last tenth of a second or so.
     Measured trial_;
 };
 

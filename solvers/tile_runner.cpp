@@ -108,7 +108,8 @@ void TileRunner::run_layer(PassRunner::Worker& worker, int level, std::int64_t l
     };
     for (std::int64_t slice = first; slice < last; ++slice) {
         // What lies beyond an end of the axis is at the other end.
-        rows_of(slice, std::max<std::int64_t>(inner.begin, 0), std::min(inner.end, inner_.layers()));
+        rows_of(slice, std::max<std::int64_t>(inner.begin, 0),
+                std::min(inner.end, inner_.layers()));
         if (inner.begin < 0) rows_of(slice, inner.begin + inner_.layers(), inner_.layers());
         if (inner.end > inner_.layers()) rows_of(slice, 0, inner.end - inner_.layers());
     }

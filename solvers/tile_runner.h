@@ -1,11 +1,12 @@
 // Runs several levels (passes of steps) while what they read is in the cache: tiles in the shapes
 // of solvers/tile_shape.h, shared by a team of threads.
 //
-// A grid is cut along its rows, a grid with slices along its slices and, within each, its rows; or along its
-// rows alone, which are then those of all slices, where slices are few. With two
-// axes a tile is a part of the one times a part of the other, and there are four phases: a cell's
-// phase along each axis never decreases from level to level, so what it reads is done before it. Tiles of
-// the two phases that are upright along one axis and inverted along the other do not depend on each other.
+// A grid is cut along its rows, a grid with slices along its slices and, within each, its rows; or
+// along its rows alone, which are then those of all slices, where slices are few. With two axes a
+// tile is a part of the one times a part of the other, and there are four phases: a cell's phase
+// along each axis never decreases from level to level, so what it reads is done before it. Tiles of
+// the two phases that are upright along one axis and inverted along the other do not depend on each
+// other.
 #pragma once
 
 #include "core/parallel.h"
@@ -22,8 +23,8 @@ class TileRunner {
 public:
     static constexpr int most_levels = 64;
 
-    /// So many `threads` share the tiles. Fewer levels than the tiling asks for are used where bands are
-    /// too narrow for them. `runner` must outlive it.
+    /// So many `threads` share the tiles. Fewer levels than the tiling asks for are used where
+    /// bands are too narrow for them. `runner` must outlive it.
     TileRunner(const PassRunner& runner, const Tiling& tiling, int threads);
 
     /// Levels of a tile; 1 where tiles are of no use.
@@ -31,9 +32,9 @@ public:
     /// Parts of a tile that are run one after the other; threads meet between them.
     int phases() const { return (outer_.borders() > 0 ? 2 : 1) * (inner_.borders() > 0 ? 2 : 1); }
 
-    /// Runs levels 0 … `levels` − 1 of all workers, which all of them have bound alike. All threads of
-    /// the team in use call it. When it returns, another meeting of the team makes what was written
-    /// everybody's.
+    /// Runs levels 0 … `levels` − 1 of all workers, which all of them have bound alike. All threads
+    /// of the team in use call it. When it returns, another meeting of the team makes what was
+    /// written everybody's.
     void run(PassRunner::Worker& worker, Team& team, int levels) const;
 
 private:

@@ -10,7 +10,8 @@ namespace cascade {
 
 TileAxis::TileAxis(std::int64_t layers, int bands, bool wraps)
     : layers_(layers),
-      bands_(static_cast<int>(std::clamp<std::int64_t>(bands, 1, std::max<std::int64_t>(layers, 1)))),
+      bands_(
+          static_cast<int>(std::clamp<std::int64_t>(bands, 1, std::max<std::int64_t>(layers, 1)))),
       wraps_(wraps) {}
 
 std::int64_t TileAxis::begin_of(int band) const {

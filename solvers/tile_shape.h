@@ -1,9 +1,9 @@
 // The shape of a tile in time: which layers of an axis are computed when, if several levels (passes
 // of steps, one after the other) are done while the layers are in the cache.
 //
-// A level reads what is at most one layer away and writes its own layers. An axis is cut into bands.
-// Upright: a band does fewer layers from level to level, one less at each end that is a border.
-// Inverted: what is left around a border, wider from level to level.
+// A level reads what is at most one layer away and writes its own layers. An axis is cut into
+// bands. Upright: a band does fewer layers from level to level, one less at each end that is a
+// border. Inverted: what is left around a border, wider from level to level.
 //
 //     level 3      / inverted \      upright      / inverted \      |
 //           2     /            \                 /            \     | time
@@ -12,9 +12,10 @@
 //               border 0          band 1         border 1
 //
 // All upright parts first, at once if there are threads, then all inverted ones. In a part level l
-// does layer p − l at moment p, so that a layer is read again L moments after its first use and then
-// rests. What lies at most one layer away and belongs to another level is then in an earlier phase or
-// earlier in the same part, so planes may be overwritten as they are when each level has the whole axis.
+// does layer p − l at moment p, so that a layer is read again L moments after its first use and
+// then rests. What lies at most one layer away and belongs to another level is then in an earlier
+// phase or earlier in the same part, so planes may be overwritten as they are when each level has
+// the whole axis.
 //
 // Such shapes are known as split tiling; wavefronts through them as time skewing (R. Strzodka, M.
 // Shaheen, D. Pajak, H.-P. Seidel, "Cache accurate time skewing in iterative stencil computations",
@@ -26,8 +27,8 @@
 
 namespace cascade {
 
-/// Half-open range of layers. Where the axis wraps it may begin before layer 0 or end after the last
-/// layer: layer n of n is layer 0.
+/// Half-open range of layers. Where the axis wraps it may begin before layer 0 or end after the
+/// last layer: layer n of n is layer 0.
 struct LayerRange {
     std::int64_t begin = 0, end = 0;
     bool empty() const { return begin >= end; }
@@ -35,8 +36,8 @@ struct LayerRange {
 
 class TileAxis {
 public:
-    /// Cuts `layers` layers into at least one band and at most one for each layer. `wraps`: the last
-    /// layer and the first are neighbours.
+    /// Cuts `layers` layers into at least one band and at most one for each layer. `wraps`: the
+    /// last layer and the first are neighbours.
     TileAxis(std::int64_t layers, int bands, bool wraps);
 
     std::int64_t layers() const { return layers_; }

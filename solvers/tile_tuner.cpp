@@ -39,7 +39,8 @@ TileTuner::TileTuner(std::vector<Tiling> candidates, TilingMemory* memory, int t
 /// What is none of the candidates was kept for other steps.
 void TileTuner::recall() {
     const std::optional<Tiling> known = memory_->find(threads_);
-    const auto found = known ? std::find(candidates_.begin(), candidates_.end(), *known) : candidates_.end();
+    const auto found =
+        known ? std::find(candidates_.begin(), candidates_.end(), *known) : candidates_.end();
     if (found == candidates_.end()) return;
     current_ = static_cast<std::size_t>(found - candidates_.begin());
     choice_ = Choice::recalled;
@@ -47,7 +48,8 @@ void TileTuner::recall() {
 
 std::string TileTuner::how_found() const {
     if (choice_ == Choice::recalled) return "the fastest in an earlier run";
-    return choice_ == Choice::by_time ? fmt::format("the fastest of {} ways", candidates_.size()) : "";
+    return choice_ == Choice::by_time ? fmt::format("the fastest of {} ways", candidates_.size())
+                                      : "";
 }
 
 /// Those of whole tiles that take so long, or a little longer.
@@ -105,8 +107,8 @@ void TileTuner::end_round() {
     turn_ = 0;
     if (++round_ < rounds && tried_.size() > 1) return;
     end(std::min_element(tried_.begin(), tried_.end(), [](const Tried& a, const Tried& b) {
-        return a.least_in_all < b.least_in_all;
-    })->candidate);
+            return a.least_in_all < b.least_in_all;
+        })->candidate);
 }
 
 void TileTuner::end(std::size_t best) {

@@ -1,12 +1,13 @@
-// Which tiling a run uses. What is fastest depends on more than the sizes of caches, so a run that goes on
-// for long enough tries a few tilings on steps of its own, by turns in several rounds, and goes on with
-// the best. No result depends on it.
+// Which tiling a run uses. What is fastest depends on more than the sizes of caches, so a run that
+// goes on for long enough tries a few tilings on steps of its own, by turns in several rounds, and
+// goes on with the best. No result depends on it.
 //
-// What fits by the sizes of caches is used first, or what an earlier run found. Another one than what fits is
-// used only if it was clearly faster in every round; one that was not is tried no more. Of a turn its fastest
-// batch counts. So no disturbed moment decides, and after the first round time is spent only on what seems
-// to be faster. But other programs may be at work for as long as all rounds take, so now and then all is
-// tried again, and what an earlier run found as soon as anything would be.
+// What fits by the sizes of caches is used first, or what an earlier run found. Another one than
+// what fits is used only if it was clearly faster in every round; one that was not is tried no
+// more. Of a turn its fastest batch counts. So no disturbed moment decides, and after the first
+// round time is spent only on what seems to be faster. But other programs may be at work for as
+// long as all rounds take, so now and then all is tried again, and what an earlier run found as
+// soon as anything would be.
 #pragma once
 
 #include "solvers/tiling_memory.h"
@@ -25,9 +26,10 @@ class TileTuner {
 public:
     using Seconds = std::chrono::duration<double>;
 
-    /// At least one candidate; of one alone nothing is tried. What `memory` knows of so many threads is
-    /// used at first, and it is told what is found; nullptr: there is none.
-    explicit TileTuner(std::vector<Tiling> candidates, TilingMemory* memory = nullptr, int threads = 1);
+    /// At least one candidate; of one alone nothing is tried. What `memory` knows of so many
+    /// threads is used at first, and it is told what is found; nullptr: there is none.
+    explicit TileTuner(std::vector<Tiling> candidates, TilingMemory* memory = nullptr,
+                       int threads = 1);
 
     const std::vector<Tiling>& candidates() const { return candidates_; }
     /// That of the next batch of steps.
@@ -37,12 +39,12 @@ public:
     /// How a tiling was found to be the best, in words; empty before that.
     std::string how_found() const;
 
-    /// Sweeps (passes of steps) that a batch takes while trying: a part of a turn, of whole tiles of each
-    /// candidate.
+    /// Sweeps (passes of steps) that a batch takes while trying: a part of a turn, of whole tiles
+    /// of each candidate.
     std::int64_t sweeps_of_trial() const;
 
-    /// A batch of `sweeps` took so long with tiling(). At that speed the run is expected to go on for
-    /// `left`; trials begin where they cost little of it.
+    /// A batch of `sweeps` took so long with tiling(). At that speed the run is expected to go on
+    /// for `left`; trials begin where they cost little of it.
     void took(std::int64_t sweeps, Seconds duration, Seconds left);
 
 private:
@@ -76,8 +78,8 @@ private:
     double patience_ = 1;               ///< So many times as rarely as at first is all tried again.
     int round_ = 0;
     std::int64_t sweeps_of_turn_ = 0;
-    std::vector<Tried> tried_;      ///< Those that are still in; the first is what fits by size.
-    std::size_t turn_ = 0;          ///< Whose turn it is, of those.
+    std::vector<Tried> tried_;  ///< Those that are still in; the first is what fits by size.
+    std::size_t turn_ = 0;      ///< Whose turn it is, of those.
 };
 
 }  // namespace cascade

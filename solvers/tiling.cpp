@@ -13,9 +13,9 @@ namespace {
 
 using PlaneRef = StepProblem::PlaneRef;
 
-// A call of a kernel for fewer cells than this, those counted that stand around rows, costs more than what it
-// saves to keep them near: for three rows of 512. Layers of rows of 1024 cells are one row: two are 7 %
-// slower, for their levels fill more of the cache.
+// A call of a kernel for fewer cells than this, those counted that stand around rows, costs more
+// than what it saves to keep them near: for three rows of 512. Layers of rows of 1024 cells are one
+// row: two are 7 % slower, for their levels fill more of the cache.
 constexpr std::int64_t cells_of_a_layer = 1632;
 // So much of a cache do levels share; the rest is for what they do not touch again.
 constexpr double part_of_second = 0.6, part_of_third = 0.5;
@@ -39,8 +39,8 @@ int levels_in(double bytes, std::int64_t layer_bytes) {
     return static_cast<int>(std::clamp<std::int64_t>(layers - layers_besides, 1, enough_levels));
 }
 
-/// Does a level find what it reads in the second-level cache? It is what the level before has just written
-/// and what stood there before that.
+/// Does a level find what it reads in the second-level cache? It is what the level before has just
+/// written and what stood there before that.
 bool is_near(std::int64_t layer_bytes, const CacheSizes& caches) {
     return (1 + layers_besides) * layer_bytes <= caches.second;
 }
@@ -62,8 +62,8 @@ Tiling tiling_of_layers(std::int64_t height, std::int64_t count, std::int64_t by
     return tiling;
 }
 
-/// Whole slices, the same rows of all slices where those are flat, or bands of the rows of slices where
-/// neither has room.
+/// Whole slices, the same rows of all slices where those are flat, or bands of the rows of slices
+/// where neither has room.
 Tiling tiling_of_slices(const Grid& grid, std::int64_t bytes, const CacheSizes& caches) {
     const std::int64_t stride = PlaneLayout(grid).stride;
     const std::int64_t slices = height_of_layer(stride * grid.height, grid.depth);
@@ -87,7 +87,8 @@ Tiling tiling_of_slices(const Grid& grid, std::int64_t bytes, const CacheSizes& 
 }
 
 /// The tiling of planes of which most must come from memory in every step.
-Tiling tiling_beyond_cache(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches) {
+Tiling tiling_beyond_cache(const StepProblem& problem, std::int64_t reach,
+                           const CacheSizes& caches) {
     const Grid& grid = problem.grid;
     if (std::all_of(problem.passes.begin(), problem.passes.end(), needs_all_rows)) return {};
     const std::int64_t bytes = bytes_of_step(problem);
@@ -127,8 +128,8 @@ std::int64_t bytes_of_step(const StepProblem& problem) {
     }
     const std::int64_t planes =
         static_cast<std::int64_t>(species.size() + temporaries.size() + fixed.size());
-    const std::int64_t cells = PlaneLayout(problem.grid).stride * problem.grid.height *
-                               problem.grid.depth;
+    const std::int64_t cells =
+        PlaneLayout(problem.grid).stride * problem.grid.height * problem.grid.depth;
     return cells * (planes * static_cast<std::int64_t>(bytes_of(problem.precision)) +
                     static_cast<std::int64_t>(masks.size())) +
            (problem.links ? static_cast<std::int64_t>(problem.links->bytes()) : 0);
@@ -147,7 +148,8 @@ std::int64_t rows_reached(const StepProblem& problem) {
             const std::int32_t* last = links.targets + lanes * links.starts[(row + 1) * slices];
             if (first == last) continue;
             const auto [least, most] = std::minmax_element(first, last);
-            reached = std::max({reached, row - *least / layout.stride, *most / layout.stride - row});
+            reached =
+                std::max({reached, row - *least / layout.stride, *most / layout.stride - row});
         }
         return reached;
     });
@@ -155,7 +157,8 @@ std::int64_t rows_reached(const StepProblem& problem) {
 
 bool wraps(const StepProblem& problem, Side side) {
     const auto is_periodic = [&](const SideRules& rules) {
-        return rules[side].kind == SideKind::periodic || rules[opposite(side)].kind == SideKind::periodic;
+        return rules[side].kind == SideKind::periodic ||
+               rules[opposite(side)].kind == SideKind::periodic;
     };
     if (is_periodic(problem.grid.boundary)) return true;
     if (std::any_of(problem.sides.begin(), problem.sides.end(), is_periodic)) return true;
@@ -170,15 +173,16 @@ Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const Cache
     return stays_in_cache(problem, caches) ? Tiling() : tiling_beyond_cache(problem, reach, caches);
 }
 
-std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches,
-                                   int threads) {
+std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reach,
+                                   const CacheSizes& caches, int threads) {
     std::vector<Tiling> tilings = {choose_tiling(problem, reach, caches)};
     const Tiling tiled = tiling_beyond_cache(problem, reach, caches);
     const bool is_small = static_cast<double>(bytes_of_step(problem)) / threads <=
                           part_of_second * static_cast<double>(caches.second);
     if (tiled.levels == 1 || is_small || problem.error_register != 0) return tilings;
     const auto add = [&](const Tiling& other) {
-        if (std::find(tilings.begin(), tilings.end(), other) == tilings.end()) tilings.push_back(other);
+        if (std::find(tilings.begin(), tilings.end(), other) == tilings.end())
+            tilings.push_back(other);
     };
     add(tiled);
     Tiling fewer = tiled;

@@ -1,6 +1,6 @@
-// Waves by FFTW's transforms of real numbers, one axis after the other. Each call transforms one row,
-// or sixteen neighbouring columns, however many threads there are: so bits do not depend on them.
-// Plans are estimated and not measured, which would choose differently from run to run.
+// Waves by FFTW's transforms of real numbers, one axis after the other. Each call transforms one
+// row, or sixteen neighbouring columns, however many threads there are: so bits do not depend on
+// them. Plans are estimated and not measured, which would choose differently from run to run.
 #include "solvers/wave_filter.h"
 
 #include "core/check.h"
@@ -41,8 +41,8 @@ struct Fftw<double> {
 struct AxisWaves {
     fftw_r2r_kind forward = FFTW_R2HC;
     fftw_r2r_kind backward = FFTW_HC2R;
-    double shift = 0;         ///< Wave n makes (n + shift) / 2 periods over the axis.
-    bool is_periodic = false; ///< Waves are whole periods, in the order of FFTW_R2HC.
+    double shift = 0;          ///< Wave n makes (n + shift) / 2 periods over the axis.
+    bool is_periodic = false;  ///< Waves are whole periods, in the order of FFTW_R2HC.
 };
 
 AxisWaves waves_between(SideKind first, SideKind last) {
@@ -185,8 +185,8 @@ struct WaveFilter<Number>::Implementation {
         }
     }
 
-    void multiply(const Line& line, const Species& one, Number* plane, const DiffusionSymbol& symbol,
-                  WaveResponse response, double length) const {
+    void multiply(const Line& line, const Species& one, Number* plane,
+                  const DiffusionSymbol& symbol, WaveResponse response, double length) const {
         const Number* const along_x = one.along[x].differences->data() + line.column;
         const Number of_y = (*one.along[y].differences)[static_cast<std::size_t>(line.row)];
         const Number of_z = (*one.along[z].differences)[static_cast<std::size_t>(line.slice)];
@@ -210,7 +210,7 @@ struct WaveFilter<Number>::Implementation {
 
     PlaneLayout layout;
     Grid grid;
-    std::vector<Axis> axes;         ///< Of more than one cell, in the order of transforms.
+    std::vector<Axis> axes;  ///< Of more than one cell, in the order of transforms.
     std::vector<Species> species;
     std::map<std::pair<Axis, fftw_r2r_kind>, Plan> plans;
     std::map<std::pair<Axis, fftw_r2r_kind>, std::vector<Number>> differences;

@@ -1,10 +1,10 @@
 // Filters planes wave by wave: the heart of solvers that take diffusion implicitly.
 //
-// On a grid whose sides are periodic, or let nothing or a given amount through, or hold a value, the
-// discrete Laplacian has waves for eigenvectors: sines and cosines along each axis, whose phase the
-// sides decide. A change of a species obeys the same rules at the sides without their values: where
-// the species is held it is 0, where its flux is given nothing flows. So each plane is taken apart
-// into waves by FFTW, each wave multiplied, and the waves put together again.
+// On a grid whose sides are periodic, or let nothing or a given amount through, or hold a value,
+// the discrete Laplacian has waves for eigenvectors: sines and cosines along each axis, whose phase
+// the sides decide. A change of a species obeys the same rules at the sides without their values:
+// where the species is held it is 0, where its flux is given nothing flows. So each plane is taken
+// apart into waves by FFTW, each wave multiplied, and the waves put together again.
 #pragma once
 
 #include "core/parallel.h"
@@ -33,10 +33,11 @@ public:
     WaveFilter(WaveFilter&&) noexcept;
     ~WaveFilter();
 
-    /// Multiplies every wave of every plane, given by the addresses of their cells (0, 0, 0), one for
-    /// each species. `length` is the h of the response. Called by the first `threads` threads of the team, each with its
-    /// number and the same arguments; rows as of split_rows() are read before the first meeting of
-    /// the team and written after the last, by their own thread. Bits do not depend on `threads`.
+    /// Multiplies every wave of every plane, given by the addresses of their cells (0, 0, 0), one
+    /// for each species. `length` is the h of the response. Called by the first `threads` threads
+    /// of the team, each with its number and the same arguments; rows as of split_rows() are read
+    /// before the first meeting of the team and written after the last, by their own thread. Bits
+    /// do not depend on `threads`.
     void apply(Team& team, int thread, int threads, std::span<Number* const> planes,
                std::span<const DiffusionSymbol> symbols, WaveResponse response,
                double length) const;

@@ -28,15 +28,17 @@ struct Stretch {
 struct Anisotropy {
     /// Per triangle, of any length; what is normal to the triangle does not count.
     std::vector<Vector3d> direction;
-    /// Per triangle, 1 … `largest_ratio`: how many times as long as wide cells are. Diffusion over them
-    /// is `ratio` times as fast along the direction as it would be without, and a `ratio`-th across.
+    /// Per triangle, 1 … `largest_ratio`: how many times as long as wide cells are. Diffusion over
+    /// them is `ratio` times as fast along the direction as it would be without, and a `ratio`-th
+    /// across.
     std::vector<double> ratio;
 
     static constexpr double largest_ratio = 100;
 
     /// Of a triangle, brought to 1 … `largest_ratio`.
     double ratio_of(std::uint32_t triangle) const;
-    /// In the frame of the triangle. Of no direction within it nothing comes but the surface as it is.
+    /// In the frame of the triangle. Of no direction within it nothing comes but the surface as it
+    /// is.
     Stretch of(const SurfaceMesh& mesh, std::uint32_t triangle) const;
 };
 

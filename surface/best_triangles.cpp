@@ -11,7 +11,8 @@ namespace {
 
 /// Of the points of a ring from one to another.
 struct Part {
-    double worst = std::numeric_limits<double>::infinity();  ///< The worth of the worst triangle between them, at best.
+    double worst = std::numeric_limits<double>::infinity();  ///< The worth of the worst triangle
+                                                             ///< between them, at best.
     std::uint32_t middle = 0;  ///< The third corner of the triangle at the line that joins the two.
 };
 

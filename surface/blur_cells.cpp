@@ -19,8 +19,8 @@ constexpr double precision = 1e-4;  ///< Sum of what is left away of the series.
 /// What flows between cells, in units of the average area.
 struct Flows {
     std::vector<float> inverse_areas;
-    std::vector<float> walls;        ///< Length over distance, as in SurfaceCells::walls.
-    double fastest = 0;              ///< No wave decays faster than this.
+    std::vector<float> walls;  ///< Length over distance, as in SurfaceCells::walls.
+    double fastest = 0;        ///< No wave decays faster than this.
 };
 
 Flows flows_of(const SurfaceCells& cells) {
@@ -41,10 +41,10 @@ Flows flows_of(const SurfaceCells& cells) {
     return flows;
 }
 
-/// The coefficients of exp(z (x − 1)) in Chebyshev polynomials of x, −1 … 1: exp(−z) times the modified
-/// Bessel functions I₀(z), 2 I₁(z), 2 I₂(z), … (M. Abramowitz and I. Stegun, "Handbook of Mathematical
-/// Functions", 9.6.34), as many as are needed, scaled to the sum 1. They are found from the last one
-/// to the first by I_{k−1} = I_{k+1} + (2 k / z) I_k (J. Miller's way).
+/// The coefficients of exp(z (x − 1)) in Chebyshev polynomials of x, −1 … 1: exp(−z) times the
+/// modified Bessel functions I₀(z), 2 I₁(z), 2 I₂(z), … (M. Abramowitz and I. Stegun, "Handbook of
+/// Mathematical Functions", 9.6.34), as many as are needed, scaled to the sum 1. They are found
+/// from the last one to the first by I_{k−1} = I_{k+1} + (2 k / z) I_k (J. Miller's way).
 std::vector<float> coefficients(double z) {
     const auto last = static_cast<std::size_t>(std::sqrt(40 * z)) + 10;
     std::vector<double> found(last + 2);
@@ -67,9 +67,9 @@ std::vector<float> coefficients(double z) {
     return result;
 }
 
-/// Applies the exponential of a time times the flows. With B = 1 + 2 flows / fastest, whose waves are
-/// multiplied by −1 … 1, it is exp(z (B − 1)), z = time × fastest / 2: a sum of T_k(B) times the values,
-/// where T_{k+1} = 2 B T_k − T_{k−1}.
+/// Applies the exponential of a time times the flows. With B = 1 + 2 flows / fastest, whose waves
+/// are multiplied by −1 … 1, it is exp(z (B − 1)), z = time × fastest / 2: a sum of T_k(B) times
+/// the values, where T_{k+1} = 2 B T_k − T_{k−1}.
 class Diffusion {
 public:
     Diffusion(const SurfaceCells& cells, const Flows& flows, int channels)
@@ -90,8 +90,8 @@ public:
 private:
     /// next = a B current + b before; sum += term next.
     void sweep(float a, float b, float term, const std::vector<float>& current,
-               const std::vector<float>& before, std::vector<float>& next,
-               std::vector<float>& sum, Team& team) const {
+               const std::vector<float>& before, std::vector<float>& next, std::vector<float>& sum,
+               Team& team) const {
         const auto scale = static_cast<float>(2 / flows_.fastest);
         team.run([&](int thread) {
             const RowRange part =
@@ -106,7 +106,8 @@ private:
                 for (std::size_t wall = first; wall < cells_.ends[cell]; ++wall) {
                     const float* other = &current[cells_.walls[wall].neighbour * channels_];
                     const float flow = flows_.walls[wall];
-                    for (std::size_t k = 0; k < channels_; ++k) gained[k] += flow * (other[k] - own[k]);
+                    for (std::size_t k = 0; k < channels_; ++k)
+                        gained[k] += flow * (other[k] - own[k]);
                 }
                 const float rate = scale * flows_.inverse_areas[cell];
                 for (std::size_t k = 0; k < channels_; ++k) {

@@ -100,11 +100,13 @@ Result<Header> read_header(const std::filesystem::path& path, const CellKey& key
     if (!file || std::string_view(header.magic.data(), header.magic.size()) != magic) {
         return fails("is no file of cells");
     }
-    if (header.byte_order != byte_order_mark) return fails("is of a machine with another byte order");
+    if (header.byte_order != byte_order_mark)
+        return fails("is of a machine with another byte order");
     if (header.version != cell_file_version) {
         return fails(fmt::format("is of version {}, not {}", header.version, cell_file_version));
     }
-    if (header.key != key.words) return fails("holds cells of another surface or made in another way");
+    if (header.key != key.words)
+        return fails("holds cells of another surface or made in another way");
     if (header.cells > most || header.walls > most ||
         size != sizeof header + header.cells * bytes_per_cell + header.walls * bytes_per_wall + 8) {
         return fails("is damaged: its size is not what it says");
@@ -212,7 +214,8 @@ Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& 
     header.walls = cells.walls.size();
     header.bare_area = cells.bare_area;
     std::string bytes;
-    bytes.reserve(sizeof header + header.cells * bytes_per_cell + header.walls * bytes_per_wall + 8);
+    bytes.reserve(sizeof header + header.cells * bytes_per_cell + header.walls * bytes_per_wall +
+                  8);
     append(bytes, header);
     for (std::size_t k = 0; k < cells.places.size(); ++k) {
         append(bytes, cells.places[k].triangle);
@@ -254,7 +257,8 @@ Result<SurfaceCells> read_cells(const std::filesystem::path& path, const Surface
 }
 
 Result<KeptCells> kept_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
-                             const CellOptions& options, Team& team, const std::atomic<bool>& cancel) {
+                             const CellOptions& options, Team& team,
+                             const std::atomic<bool>& cancel) {
     const CellKey key = key_of(mesh, options);
     if (Result<SurfaceCells> cells = read_cells(path, mesh, key)) {
         return KeptCells{*std::move(cells), true, ""};

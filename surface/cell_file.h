@@ -41,10 +41,11 @@ Result<SurfaceCells> read_cells(const std::filesystem::path& path, const Surface
 /// The cells from the file if it holds these; otherwise they are made and written there.
 struct KeptCells {
     SurfaceCells cells;
-    bool were_kept = false;      ///< They came from the file.
-    std::string not_kept;        ///< Why the file could not be written; empty if it was.
+    bool were_kept = false;  ///< They came from the file.
+    std::string not_kept;    ///< Why the file could not be written; empty if it was.
 };
 Result<KeptCells> kept_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
-                             const CellOptions& options, Team& team, const std::atomic<bool>& cancel);
+                             const CellOptions& options, Team& team,
+                             const std::atomic<bool>& cancel);
 
 }  // namespace cascade

@@ -23,9 +23,7 @@ Vector3 single(Vector3d v) {
 }
 
 /// Of the square of a distance.
-float weight_of(float square) {
-    return std::max(0.0F, 1 + square * (2 * std::sqrt(square) - 3));
-}
+float weight_of(float square) { return std::max(0.0F, 1 + square * (2 * std::sqrt(square) - 3)); }
 
 /// Of the points the nearest one to each of some others, in space.
 std::vector<std::uint32_t> nearest_points(std::span<const Vector3d> points,
@@ -40,7 +38,8 @@ std::vector<std::uint32_t> nearest_points(std::span<const Vector3d> points,
                 const Vector3d apart = points[point] - others[k];
                 const double square = dot(apart, apart);
                 const bool is_first = nearest[k] == TriangleEdge::none;
-                if (!is_first && (square > least || (square == least && point > nearest[k]))) return;
+                if (!is_first && (square > least || (square == least && point > nearest[k])))
+                    return;
                 least = square;
                 nearest[k] = point;
             });
@@ -145,8 +144,8 @@ CellFilter::Sightings CellFilter::sightings_in(const CellImage& image) {
     return found;
 }
 
-/// Calls `visit(box)` for those of its triangle's boxes from which an image is within the radius: all
-/// between the lowest and highest that can be.
+/// Calls `visit(box)` for those of its triangle's boxes from which an image is within the radius:
+/// all between the lowest and highest that can be.
 template <typename Visit>
 void CellFilter::visit_boxes(const CellImage& image, const Visit& visit) const {
     const Patch& patch = patches_[image.triangle];
@@ -198,7 +197,8 @@ void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& c
     std::vector<bool> is_found(patches_.size());
     for (std::uint32_t t = 0; t < patches_.size(); ++t) {
         Patch& patch = patches_[t];
-        if (sightings_of(patch.first_box, std::size_t{patch.columns} * patch.rows).empty()) continue;
+        if (sightings_of(patch.first_box, std::size_t{patch.columns} * patch.rows).empty())
+            continue;
         patch.otherwise = nearest_cell(patch, flat_place(patch, {t, {1.0 / 3, 1.0 / 3, 1.0 / 3}}));
         is_found[t] = true;
         waiting.push_back(t);
@@ -252,8 +252,8 @@ std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPlace place) cons
     return nearest;
 }
 
-/// Calls `visit(near)` once for each cell nearer than the radius. On each edge a distance is that of
-/// the edge's own sighting, so that both sides agree; inside a triangle it is between those.
+/// Calls `visit(near)` once for each cell nearer than the radius. On each edge a distance is that
+/// of the edge's own sighting, so that both sides agree; inside a triangle it is between those.
 template <typename Visit>
 void CellFilter::visit_near(const Patch& patch, FlatPlace place, const Visit& visit) const {
     const Vector3 position = patch.origin + patch.x_axis * place.x + patch.y_axis * place.y;
@@ -311,8 +311,8 @@ void CellFilter::sloped_shares(const SurfacePlace& place, std::vector<SlopedShar
         const float weight = weight_of(near.square);
         // The derivative by d², times that of d².
         const float steep = 6 * (std::sqrt(near.square) - 1);
-        out.push_back({near.cell, weight,
-                       patch.x_axis * (steep * near.x) + patch.y_axis * (steep * near.y)});
+        out.push_back(
+            {near.cell, weight, patch.x_axis * (steep * near.x) + patch.y_axis * (steep * near.y)});
         sum += weight;
         slope = slope + out.back().slope;
     });

@@ -13,12 +13,12 @@ namespace cascade {
 ///
 ///     ∇f_i = Σ g_ij (f_j − f_i)    over the walls of i, j being what lies beyond.
 ///
-/// It is the vector in the plane of the cell's triangle, in space, that fits the differences best in
-/// the sense of least squares, neighbours being where the unfolded surface has them and counting by
-/// the length of the wall over the distance, so that a wall that vanishes does not matter (T. Barth,
-/// "A 3-D upwind Euler solver for unstructured meshes", AIAA 91-1548, 1991, has such fits). Exact for
-/// linear functions where the surface is flat or only folded; of first order where it is curved.
-/// Units are one over those of the model. Where neighbours lie on one line, or are spread
+/// It is the vector in the plane of the cell's triangle, in space, that fits the differences best
+/// in the sense of least squares, neighbours being where the unfolded surface has them and counting
+/// by the length of the wall over the distance, so that a wall that vanishes does not matter (T.
+/// Barth, "A 3-D upwind Euler solver for unstructured meshes", AIAA 91-1548, 1991, has such fits).
+/// Exact for linear functions where the surface is flat or only folded; of first order where it is
+/// curved. Units are one over those of the model. Where neighbours lie on one line, or are spread
 /// across it by less than 3 % of what they are along it, the part at right angles to it cannot be
 /// known and is 0; without neighbours all is. Always finite. The same on any number of
 /// threads; what it returns means nothing if `cancel` became true.

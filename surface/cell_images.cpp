@@ -1,6 +1,6 @@
-// From the triangle of a place its image is handed on over edges, the nearest first, each edge once. A
-// strip of triangles that is unfolded may wind back to where it came from; that no way along the
-// surface is shorter than that through space keeps it from going on.
+// From the triangle of a place its image is handed on over edges, the nearest first, each edge
+// once. A strip of triangles that is unfolded may wind back to where it came from; that no way
+// along the surface is shorter than that through space keeps it from going on.
 #include "surface/cell_images.h"
 
 #include <algorithm>
@@ -78,8 +78,8 @@ private:
         seen_.push_back({triangle, {}, {source, source, source}});
         for (std::uint32_t k = 0; k < 3; ++k) {
             if (k == edge.edge || !mesh_.across[triangle][k].exists()) continue;
-            const double along = square_distance(source, frames_[triangle][k],
-                                                 frames_[triangle][corner_after(k)]);
+            const double along =
+                square_distance(source, frames_[triangle][k], frames_[triangle][corner_after(k)]);
             const double in_space = square_distance(position_, mesh_.corner(triangle, k),
                                                     mesh_.corner(triangle, corner_after(k)));
             const double square = std::max(along, in_space);
@@ -94,8 +94,8 @@ private:
         if (here.is_reached[front.edge]) return;
         here.is_reached[front.edge] = true;
         const TriangleEdge other = mesh_.across[here.triangle][front.edge];
-        const Vector2d source = carried({here.triangle, front.edge}, other,
-                                        here.from_edges[front.edge]);
+        const Vector2d source =
+            carried({here.triangle, front.edge}, other, here.from_edges[front.edge]);
         if (last_seen_[other.triangle].cell != cell_) enter(other, source);
         Seen& there = seen_[last_seen_[other.triangle].number];
         there.is_reached[other.edge] = true;
@@ -122,7 +122,7 @@ private:
     Vector3d position_;
     std::vector<LastSeen> last_seen_;  ///< Per triangle.
     std::vector<Seen> seen_;
-    std::vector<Front> fronts_;        ///< A heap; the nearest comes out first.
+    std::vector<Front> fronts_;  ///< A heap; the nearest comes out first.
 };
 
 }  // namespace
@@ -154,8 +154,8 @@ std::vector<CellImage> cell_images(const SurfaceMesh& mesh, std::span<const Surf
         const RowRange part =
             split_rows(static_cast<std::int64_t>(places.size()), thread, team.size());
         ImageFinder finder(mesh, frames, radius);
-        for (auto k = static_cast<std::size_t>(part.begin);
-             k < static_cast<std::size_t>(part.end); ++k) {
+        for (auto k = static_cast<std::size_t>(part.begin); k < static_cast<std::size_t>(part.end);
+             ++k) {
             finder.find(static_cast<std::uint32_t>(k), places[k],
                         found[static_cast<std::size_t>(thread)]);
         }

@@ -87,9 +87,10 @@ public:
         : links_(links), seen_(links.ends.size(), 0), is_ordered_(links.ends.size(), false) {}
 
     struct Reached {
-        std::vector<std::uint32_t> cells;  ///< Level by level, those of a cell that has few links first.
+        std::vector<std::uint32_t>
+            cells;  ///< Level by level, those of a cell that has few links first.
         std::size_t levels = 0;
-        std::size_t last_level = 0;        ///< Where it begins.
+        std::size_t last_level = 0;  ///< Where it begins.
     };
     Reached from(std::uint32_t start) {
         ++round_;
@@ -105,14 +106,16 @@ public:
         return reached;
     }
 
-    /// From a cell at the rim of what `start` reaches: each is one of the farthest from the one before.
+    /// From a cell at the rim of what `start` reaches: each is one of the farthest from the one
+    /// before.
     Reached from_rim(std::uint32_t start) {
         constexpr int most_trials = 8;  // Two or three do.
         Reached best = from(start);
         for (int trial = 1; trial < most_trials; ++trial) {
             const auto rim = best.cells.begin() + static_cast<std::ptrdiff_t>(best.last_level);
-            Reached other = from(*std::min_element(
-                rim, best.cells.end(), [&](auto a, auto b) { return has_fewer_links(a, b); }));
+            Reached other = from(*std::min_element(rim, best.cells.end(), [&](auto a, auto b) {
+                return has_fewer_links(a, b);
+            }));
             if (other.levels <= best.levels) break;
             best = std::move(other);
         }
@@ -155,7 +158,8 @@ std::vector<std::uint32_t> order_along_curve(std::span<const Vector3d> positions
     std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
     keys.reserve(positions.size());
     for (const Vector3d& position : positions) {
-        keys.emplace_back(curve_key(cube.box_of(position)), static_cast<std::uint32_t>(keys.size()));
+        keys.emplace_back(curve_key(cube.box_of(position)),
+                          static_cast<std::uint32_t>(keys.size()));
     }
     std::sort(keys.begin(), keys.end());
     std::vector<std::uint32_t> order;
@@ -198,7 +202,8 @@ void group_by_links(std::vector<std::uint32_t>& order, const LinkList& links, st
 
 LinkList renumbered(const LinkList& links, std::span<const std::uint32_t> order) {
     std::vector<std::uint32_t> numbers(order.size());
-    for (std::size_t k = 0; k < order.size(); ++k) numbers[order[k]] = static_cast<std::uint32_t>(k);
+    for (std::size_t k = 0; k < order.size(); ++k)
+        numbers[order[k]] = static_cast<std::uint32_t>(k);
     LinkList result;
     result.ends.reserve(order.size());
     result.neighbours.reserve(links.neighbours.size());

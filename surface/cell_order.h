@@ -14,13 +14,14 @@
 namespace cascade {
 
 /// Along D. Hilbert's curve through the cube around all positions, of 2^21 boxes a side (by
-/// J. Skilling, "Programming the Hilbert curve", AIP Conference Proceedings 707, 2004). Cells in one box
-/// keep their order, and so do cells without a place in space (NaN), in front. O(n log n).
+/// J. Skilling, "Programming the Hilbert curve", AIP Conference Proceedings 707, 2004). Cells in
+/// one box keep their order, and so do cells without a place in space (NaN), in front. O(n log n).
 std::vector<std::uint32_t> order_along_curve(std::span<const Vector3d> positions);
 
-/// By distance from a cell at the rim, counted in links, so that neighbours lie in three bands (E. Cuthill
-/// and J. McKee, "Reducing the bandwidth of sparse symmetric matrices", ACM 1969; the rim is found
-/// as by A. George and J. Liu, ACM TOMS 5(3), 1979). Pieces that no link connects follow each other. O(n).
+/// By distance from a cell at the rim, counted in links, so that neighbours lie in three bands (E.
+/// Cuthill and J. McKee, "Reducing the bandwidth of sparse symmetric matrices", ACM 1969; the rim
+/// is found as by A. George and J. Liu, ACM TOMS 5(3), 1979). Pieces that no link connects follow
+/// each other. O(n).
 std::vector<std::uint32_t> order_by_levels(const LinkList& links);
 
 /// The order in which steps are fastest, as measured (docs/performance.md): by levels, grouped in

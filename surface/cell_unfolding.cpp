@@ -74,9 +74,10 @@ void match_turns(const SurfaceCells& cells, std::vector<UnfoldedNeighbour>& foun
             UnfoldedNeighbour& here = found[at++];
             if (wall.neighbour > cell) continue;
             const auto back = cells.walls_of(wall.neighbour);
-            const auto same = std::lower_bound(
-                back.begin(), back.end(), cell,
-                [](const CellWall& a, std::uint32_t number) { return a.neighbour < number; });
+            const auto same = std::lower_bound(back.begin(), back.end(), cell,
+                                               [](const CellWall& a, std::uint32_t number) {
+                                                   return a.neighbour < number;
+                                               });
             if (same == back.end() || same->neighbour != cell) continue;
             here.turn = -found[static_cast<std::size_t>(&*same - cells.walls.data())].turn;
         }

@@ -39,10 +39,12 @@ CellFinder::CellFinder(const SurfaceMesh& mesh, std::span<const SurfacePlace> ce
 
 std::span<const std::uint32_t> CellFinder::on(std::uint32_t triangle) const {
     const auto of = [&](std::uint32_t cell) { return cells_[cell].triangle; };
-    const auto first = std::partition_point(order_.begin(), order_.end(),
-                                            [&](std::uint32_t cell) { return of(cell) < triangle; });
-    const auto last = std::partition_point(first, order_.end(),
-                                           [&](std::uint32_t cell) { return of(cell) <= triangle; });
+    const auto first = std::partition_point(order_.begin(), order_.end(), [&](std::uint32_t cell) {
+        return of(cell) < triangle;
+    });
+    const auto last = std::partition_point(first, order_.end(), [&](std::uint32_t cell) {
+        return of(cell) <= triangle;
+    });
     return {first, last};
 }
 
@@ -90,7 +92,8 @@ std::vector<std::uint8_t> cells_within(const SurfaceMesh& mesh, const SurfaceCel
     const SurfaceDistance distances(mesh, sources, cancel);
     std::vector<std::uint8_t> within;
     within.reserve(cells.places.size());
-    for (const double away : distances_of_cells(distances, cells)) within.push_back(away <= distance);
+    for (const double away : distances_of_cells(distances, cells))
+        within.push_back(away <= distance);
     return within;
 }
 

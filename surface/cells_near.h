@@ -12,8 +12,8 @@
 
 namespace cascade {
 
-/// Finds the cell whose region holds a place. The mesh and the places of the cells must stay as they are. One
-/// object serves one thread at a time.
+/// Finds the cell whose region holds a place. The mesh and the places of the cells must stay as
+/// they are. One object serves one thread at a time.
 class CellFinder {
 public:
     static constexpr std::uint32_t nothing = 0xffffffff;

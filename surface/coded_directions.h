@@ -14,7 +14,8 @@ constexpr double cancelled_part = 1e-6;
 /// are the same and lines at right angles cancel out.
 class CodedDirections {
 public:
-    CodedDirections(const TangentPlanes& planes, DirectionKind kind) : planes_(planes), kind_(kind) {}
+    CodedDirections(const TangentPlanes& planes, DirectionKind kind)
+        : planes_(planes), kind_(kind) {}
 
     /// Keeps the length.
     Vector2d of(std::size_t plane, Vector3d v) const {

@@ -7,8 +7,8 @@ namespace cascade {
 
 ConvexRegion ConvexRegion::square(double half) {
     ConvexRegion region;
-    for (const Vector2d corner : {Vector2d{-half, -half}, Vector2d{half, -half}, Vector2d{half, half},
-                                  Vector2d{-half, half}}) {
+    for (const Vector2d corner : {Vector2d{-half, -half}, Vector2d{half, -half},
+                                  Vector2d{half, half}, Vector2d{-half, half}}) {
         region.edges_.push_back({corner, nothing});
     }
     return region;

@@ -12,7 +12,7 @@ class ConvexRegion {
 public:
     static constexpr std::uint32_t nothing = 0xffffffff;
     struct Edge {
-        Vector2d from;              ///< It ends where the next one begins, counterclockwise.
+        Vector2d from;  ///< It ends where the next one begins, counterclockwise.
         std::uint32_t beyond = nothing;
     };
 
@@ -28,7 +28,8 @@ public:
     /// Of the corner farthest from the origin.
     double farthest() const;
 
-    /// Keeps what lies to the left of the line from a to b; a new edge along it has `beyond` beyond.
+    /// Keeps what lies to the left of the line from a to b; a new edge along it has `beyond`
+    /// beyond.
     void cut(Vector2d a, Vector2d b, std::uint32_t beyond);
     /// Keeps what is nearer to the origin than to a point.
     void cut_halfway(Vector2d point, std::uint32_t beyond) {

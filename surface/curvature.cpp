@@ -31,8 +31,8 @@ std::array<double, 3> corner_areas(const SurfaceMesh& mesh, std::size_t triangle
             mesh.corner(triangle, corner_before(k)) - mesh.corner(triangle, corner_after(k));
         squares[k] = dot(opposite, opposite);
     }
-    const auto widest = static_cast<std::size_t>(
-        std::max_element(angles.begin(), angles.end()) - angles.begin());
+    const auto widest =
+        static_cast<std::size_t>(std::max_element(angles.begin(), angles.end()) - angles.begin());
     if (angles[widest] >= std::numbers::pi / 2) {
         shares.fill(area / 4);
         shares[widest] = area / 2;
@@ -103,8 +103,8 @@ TriangleForm form_of(const SurfaceMesh& mesh, const std::vector<Vector3d>& norma
     // The normal equations: [a b 0; b a+c b; 0 b c] (uu, uv, vv) = (r, s, t).
     double a = 0, b = 0, c = 0, r = 0, s = 0, t = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        const Vector3d change =
-            normals[mesh.triangles[triangle][corner_after(k)]] - normals[mesh.triangles[triangle][k]];
+        const Vector3d change = normals[mesh.triangles[triangle][corner_after(k)]] -
+                                normals[mesh.triangles[triangle][k]];
         const double x = dot(edges[k], u), y = dot(edges[k], v);
         const double dx = dot(change, u), dy = dot(change, v);
         a += x * x;

@@ -12,8 +12,8 @@
 
 namespace cascade {
 
-/// Of length 1, outwards: the mean of the normals of the triangles around each point, weighted so that
-/// it is exact on a sphere (N. Max, "Weights for computing vertex normals from facet normals",
+/// Of length 1, outwards: the mean of the normals of the triangles around each point, weighted so
+/// that it is exact on a sphere (N. Max, "Weights for computing vertex normals from facet normals",
 /// Journal of Graphics Tools 4(2), 1999).
 std::vector<Vector3d> sphere_normals(const SurfaceMesh& mesh);
 
@@ -44,11 +44,13 @@ PrincipalCurvatures principal_curvatures(const SurfaceMesh& mesh);
 /// the Euler characteristic, exactly but for rounding. Divided by `point_areas` it is a curvature.
 std::vector<double> angle_defects(const SurfaceMesh& mesh);
 
-/// The least radius of curvature as G. Turk estimates it (thesis, 1992, section 4.6.3): the least of
-/// all edges from a point, each taken as a chord of a circle that the point's normal is normal to
+/// The least radius of curvature as G. Turk estimates it (thesis, 1992, section 4.6.3): the least
+/// of all edges from a point, each taken as a chord of a circle that the point's normal is normal
+/// to
 /// (|tan θ| |P − Q| / 2), and then `rounds` times the mean with those of its neighbours; he takes
 /// one. Where the surface is flat there is no such circle: no radius is larger than the diagonal of
-/// the model's box, of which he does not speak. Above 0 but where an edge stands upright on the surface.
+/// the model's box, of which he does not speak. Above 0 but where an edge stands upright on the
+/// surface.
 std::vector<double> turk_radii(const SurfaceMesh& mesh, int rounds = 1);
 
 }  // namespace cascade

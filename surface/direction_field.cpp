@@ -69,7 +69,8 @@ private:
     const TangentPlanes& planes_;
     const CodedDirections& coded_;
     std::vector<Vector2d>& codes_;
-    std::vector<std::uint32_t> layers_;  ///< How far each is from what is known; none where it is not yet.
+    std::vector<std::uint32_t>
+        layers_;  ///< How far each is from what is known; none where it is not yet.
 };
 
 }  // namespace
@@ -80,7 +81,8 @@ std::vector<Vector3d> directions(const TangentPlanes& planes, std::span<const Ve
     // In units of the longest, so that squares neither overflow nor vanish.
     double longest = 0;
     for (const Vector3d& v : vectors) {
-        if (is_finite(v)) longest = std::max({longest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+        if (is_finite(v))
+            longest = std::max({longest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     }
     std::vector<Vector2d> codes(planes.size());
     for (std::size_t k = 0; k < codes.size() && longest > 0; ++k) {

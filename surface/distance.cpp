@@ -29,13 +29,14 @@ bool is_shorter(const Reach& a, const Reach& b) {
 
 /// Cuts that leave triangles of about the area that is asked for.
 double edge_for(double area, std::size_t triangles) {
-    // √(4/√3) is the edge of the equilateral triangle of area 1. Halving leaves edges of between a half
-    // and the whole of the longest that is allowed.
-    return 1.5197 * 1.4 * std::sqrt(area / static_cast<double>(std::max<std::size_t>(triangles, 1)));
+    // √(4/√3) is the edge of the equilateral triangle of area 1. Halving leaves edges of between a
+    // half and the whole of the longest that is allowed.
+    return 1.5197 * 1.4 *
+           std::sqrt(area / static_cast<double>(std::max<std::size_t>(triangles, 1)));
 }
 
-/// The way to a point p over the edge from a to b or along its ends, from how a and b were reached. All
-/// places are in one plane, and what reaches the edge comes from the other side of it than p.
+/// The way to a point p over the edge from a to b or along its ends, from how a and b were reached.
+/// All places are in one plane, and what reaches the edge comes from the other side of it than p.
 Reach over_edge(Vector2d a, const Reach& to_a, Vector2d b, const Reach& to_b, Vector2d p) {
     const Reach along_a = {to_a.distance + length(p - a), to_a.source};
     const Reach along_b = {to_b.distance + length(p - b), to_b.source};
@@ -147,11 +148,9 @@ void SurfaceDistance::spread(const std::atomic<bool>& cancel) {
 
 std::span<const SurfaceDistance::LocalSource> SurfaceDistance::sources_in(
     std::uint32_t triangle) const {
-    const auto [first, last] =
-        std::equal_range(sources_.begin(), sources_.end(), LocalSource{triangle, 0, {}},
-                         [](const LocalSource& a, const LocalSource& b) {
-                             return a.triangle < b.triangle;
-                         });
+    const auto [first, last] = std::equal_range(
+        sources_.begin(), sources_.end(), LocalSource{triangle, 0, {}},
+        [](const LocalSource& a, const LocalSource& b) { return a.triangle < b.triangle; });
     return {first, last};
 }
 
@@ -164,8 +163,8 @@ Reach SurfaceDistance::at(const SurfacePlace& place) const {
     Reach best = unreached;
     for (std::uint32_t k = 0; k < 3; ++k) {
         const std::uint32_t next = (k + 1) % 3;
-        const Reach found = over_edge(flat[k], reached_[corners[k]], flat[next],
-                                      reached_[corners[next]], p);
+        const Reach found =
+            over_edge(flat[k], reached_[corners[k]], flat[next], reached_[corners[next]], p);
         if (is_shorter(found, best)) best = found;
     }
     const Vector3d position = position_of(mesh, fine);

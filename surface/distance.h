@@ -18,17 +18,17 @@ struct DistanceOptions {
 
 /// The length of the shortest way along the surface from the nearest of some places, the sources.
 ///
-/// A front goes over the mesh as in Dijkstra's algorithm. What reaches an edge is taken to come from
-/// one place: the point in the plane of the next triangle that is as far from the ends of the edge
-/// as was found; from there it goes straight to the third corner (M. Novotni and R. Klein,
+/// A front goes over the mesh as in Dijkstra's algorithm. What reaches an edge is taken to come
+/// from one place: the point in the plane of the next triangle that is as far from the ends of the
+/// edge as was found; from there it goes straight to the third corner (M. Novotni and R. Klein,
 /// "Computing geodesic distances on triangular meshes", WSCG 2002). A point to which a shorter way
 /// is found later is visited again, so that obtuse angles need no care. On planes and around the
 /// edges of convex bodies this is exact, which plane fronts (R. Kimmel and J. Sethian, "Computing
-/// geodesic paths on manifolds", PNAS 95, 1998) are nowhere; exact windows (J. Mitchell, D. Mount and
-/// C. Papadimitriou, "The discrete geodesic problem", 1987) take much longer. On curved surfaces the
-/// error is of the order of the triangles' size: on a sphere of 30 000 triangles 0.0021 radii in
-/// the mean, and ten times that where ways from all directions meet. Time is n log n and does not
-/// depend on the number of sources.
+/// geodesic paths on manifolds", PNAS 95, 1998) are nowhere; exact windows (J. Mitchell, D. Mount
+/// and C. Papadimitriou, "The discrete geodesic problem", 1987) take much longer. On curved
+/// surfaces the error is of the order of the triangles' size: on a sphere of 30 000 triangles
+/// 0.0021 radii in the mean, and ten times that where ways from all directions meet. Time is n log
+/// n and does not depend on the number of sources.
 ///
 /// What is not connected with a source is infinitely far. Places must be on the mesh. Means
 /// nothing if `cancel` became true.

@@ -21,7 +21,8 @@ struct Face {
     std::uint32_t triangles = 0;
     double area = 0;
     Vector3d moment;  ///< Area times centroid.
-    double nearest = std::numeric_limits<double>::infinity();  ///< A triangle to the centroid, squared.
+    double nearest =
+        std::numeric_limits<double>::infinity();  ///< A triangle to the centroid, squared.
 };
 
 Vector3d centroid_of(const SurfaceMesh& mesh, std::uint32_t t) {
@@ -50,7 +51,8 @@ SurfacePlace middle_of(const SurfaceMesh& mesh, std::uint32_t t) {
         sum += weights[k];
     }
     double total = 0;
-    for (double& weight : weights) total += weight = std::max(sum > 0 ? weight / sum : 0, least_weight);
+    for (double& weight : weights)
+        total += weight = std::max(sum > 0 ? weight / sum : 0, least_weight);
     for (double& weight : weights) weight /= total;
     return {t, weights};
 }

@@ -100,7 +100,7 @@ std::vector<Vector2d> unroll(std::span<const double> distances, std::span<const 
 }
 
 std::vector<RingTriangle> cut_ears(std::span<const Vector2d> ring, bool is_closed,
-                                  const MayMake& may_make) {
+                                   const MayMake& may_make) {
     return EarCutter(ring, is_closed, may_make).cut();
 }
 

@@ -9,11 +9,12 @@
 
 namespace cascade {
 
-/// The one-ring of a point, which is the origin, in a plane: distances are kept, and the angles between
-/// neighbours, given one after the other, are scaled to a full turn, or to half a turn between the
-/// first and the last where the point is at a boundary (one angle less than distances): the geodesic
-/// polar map of W. Welch and A. Witkin, "Free-Form Shape Design Using Triangulated Surfaces", SIGGRAPH
-/// 1994. Unlike in a projection to the tangent plane the triangles never overlap.
+/// The one-ring of a point, which is the origin, in a plane: distances are kept, and the angles
+/// between neighbours, given one after the other, are scaled to a full turn, or to half a turn
+/// between the first and the last where the point is at a boundary (one angle less than distances):
+/// the geodesic polar map of W. Welch and A. Witkin, "Free-Form Shape Design Using Triangulated
+/// Surfaces", SIGGRAPH 1994. Unlike in a projection to the tangent plane the triangles never
+/// overlap.
 std::vector<Vector2d> unroll(std::span<const double> distances, std::span<const double> angles);
 
 /// Corners, as numbers of points of a ring, counterclockwise.
@@ -30,7 +31,7 @@ using MayMake = std::function<bool(const RingTriangle& corners)>;
 /// ears. Returns the triangles in order, the last what is left; nothing where no ear can be cut.
 /// O(n log n) but for those that may not be made.
 std::vector<RingTriangle> cut_ears(std::span<const Vector2d> ring, bool is_closed,
-                                  const MayMake& may_make);
+                                   const MayMake& may_make);
 
 /// How good a triangle would be, 0 if it may not be made.
 using Worth = std::function<double(const RingTriangle& corners)>;

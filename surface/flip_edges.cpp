@@ -13,9 +13,7 @@ constexpr double least_gain = 1e-9;   ///< Of a score: more than rounding can do
 constexpr double upside_down = 0.05;  ///< A mean cosine.
 
 /// Of an edge between triangles: 1 up to a right angle, 0 where they lie on each other.
-double openness_between(Vector3d one, Vector3d other) {
-    return std::min(1.0, 1 + dot(one, other));
-}
+double openness_between(Vector3d one, Vector3d other) { return std::min(1.0, 1 + dot(one, other)); }
 
 }  // namespace
 
@@ -53,8 +51,9 @@ void EdgeFlipper::improve(const std::atomic<bool>& cancel) {
 
 EdgeFlipper::Face EdgeFlipper::face(VertexHandle a, VertexHandle b, VertexHandle c) const {
     const Vector3d at_a = position(mesh_, a), at_b = position(mesh_, b), at_c = position(mesh_, c);
-    const TriangleQuality quality = quality_of(
-        {at_a, at_b, at_c}, {normals_[number(a)], normals_[number(b)], normals_[number(c)]});
+    const TriangleQuality quality =
+        quality_of({at_a, at_b, at_c},
+                   {normals_[number(a)], normals_[number(b)], normals_[number(c)]});
     return {quality.score(), quality.mean_cosine > upside_down,
             unit(cross(at_b - at_a, at_c - at_a))};
 }

@@ -31,10 +31,14 @@ class ImplicitStep {
 public:
     /// Masses are taken in units of their mean: it is `unit`.
     ImplicitStep(const DiffusionGraph<Number>& graph, double time, double unit, Team& team)
-        : graph_(graph), time_(time / unit), unit_(unit), team_(team),
+        : graph_(graph),
+          time_(time / unit),
+          unit_(unit),
+          team_(team),
           threads_(static_cast<int>(std::clamp<std::size_t>(
               graph.masses.size() / least_for_thread, 1, static_cast<std::size_t>(team.size())))),
-          diagonal_(graph.masses.size()), blocks_((graph.masses.size() + block - 1) / block) {
+          diagonal_(graph.masses.size()),
+          blocks_((graph.masses.size() + block - 1) / block) {
         for (std::size_t k = 0; k < diagonal_.size(); ++k) {
             diagonal_[k] = mass(k);
             for (std::size_t l = first(k); l < graph.ends[k]; ++l) {
@@ -53,7 +57,8 @@ public:
             return inner(values[k], values[k]) * mass(k);
         });
         double gain = sum([&](std::size_t k) { return inner(rest[k], towards[k]); });
-        const double enough = residual_tolerance * residual_tolerance * gain + rounding * rounding * scale;
+        const double enough =
+            residual_tolerance * residual_tolerance * gain + rounding * rounding * scale;
         for (int round = 0; round < most_rounds && gain > enough && !cancel; ++round) {
             const double bend = sum([&](std::size_t k) {
                 image[k] = towards[k] * mass(k) - rest_at(towards, k);

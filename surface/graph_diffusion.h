@@ -21,17 +21,17 @@ struct GraphLink {
 
 template <typename Number>
 struct DiffusionGraph {
-    std::vector<double> masses;       ///< Of each node, above 0 where it has links.
-    std::vector<std::size_t> ends;    ///< Node k's links end before links[ends[k]].
+    std::vector<double> masses;     ///< Of each node, above 0 where it has links.
+    std::vector<std::size_t> ends;  ///< Node k's links end before links[ends[k]].
     std::vector<GraphLink<Number>> links;
 };
 
 /// The solution of mass_i dv_i/dt = Σ coupling v_j − weight v_i after some time, by four implicit
 /// steps of Euler's, each solved by conjugate gradients until what is wrong is 10⁻⁶ of what was at
 /// first (J. Shewchuk, "An introduction to the conjugate gradient method without the agonizing
-/// pain", 1994, appendix B3; the preconditioner is the diagonal). Stable for any time; more than 100
-/// times the total mass counts as that. Numbers that are not finite spread. The same on any number
-/// of threads; means nothing if `cancel` became true.
+/// pain", 1994, appendix B3; the preconditioner is the diagonal). Stable for any time; more than
+/// 100 times the total mass counts as that. Numbers that are not finite spread. The same on any
+/// number of threads; means nothing if `cancel` became true.
 std::vector<double> diffused(const DiffusionGraph<double>& graph, std::vector<double> values,
                              double time, Team& team, const std::atomic<bool>& cancel);
 std::vector<Vector2d> diffused(const DiffusionGraph<Vector2d>& graph, std::vector<Vector2d> values,

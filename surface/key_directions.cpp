@@ -29,7 +29,9 @@ Vector3d safe_unit(Vector3d v) {
 class Flood {
 public:
     Flood(const TangentPlanes& planes, const CodedDirections& coded)
-        : planes_(planes), coded_(coded), codes_(planes.size()),
+        : planes_(planes),
+          coded_(coded),
+          codes_(planes.size()),
           distances_(planes.size(), std::numeric_limits<double>::infinity()) {}
 
     bool has_reached(std::size_t node) const { return std::isfinite(distances_[node]); }
@@ -125,8 +127,7 @@ std::vector<Vector3d> smoothed_directions(const TangentPlanes& planes,
     std::vector<Vector2d> codes;
     codes.reserve(field.size());
     for (std::size_t k = 0; k < field.size(); ++k) codes.push_back(coded.of(k, field[k]));
-    std::vector<Vector2d> smooth =
-        diffused(graph, codes, length * length / 2, team, cancel);
+    std::vector<Vector2d> smooth = diffused(graph, codes, length * length / 2, team, cancel);
     for (std::size_t k = 0; k < smooth.size(); ++k) {
         if (!(std::hypot(smooth[k].x, smooth[k].y) > cancelled_part)) smooth[k] = codes[k];
     }

@@ -30,9 +30,9 @@ Result<void> check_anisotropy(const SurfaceMesh& mesh, const Anisotropy& anisotr
     for (std::size_t t = 0; t < count; ++t) {
         const double ratio = anisotropy.ratio[t];
         if (!(ratio >= 1 && ratio <= Anisotropy::largest_ratio)) {
-            return failure(
-                fmt::format("cells of triangle {} are to be {} times as long as wide", t, ratio),
-                fmt::format("ratios are 1 … {}", Anisotropy::largest_ratio));
+            return failure(fmt::format("cells of triangle {} are to be {} times as long as wide", t,
+                                       ratio),
+                           fmt::format("ratios are 1 … {}", Anisotropy::largest_ratio));
         }
         if (!std::isfinite(dot(anisotropy.direction[t], anisotropy.direction[t]))) {
             return failure(fmt::format("the direction of cells of triangle {} is not finite", t));
@@ -59,12 +59,9 @@ Result<void> check_count(const SurfaceMesh& mesh, std::uint64_t count) {
 
 std::uint64_t count_cells(const SurfaceMesh& mesh, const CellOptions& options) {
     switch (options.kind) {
-        case CellKind::places:
-            return options.count;
-        case CellKind::vertices:
-            return mesh.points.size();
-        case CellKind::faces:
-            break;
+        case CellKind::places: return options.count;
+        case CellKind::vertices: return mesh.points.size();
+        case CellKind::faces: break;
     }
     std::vector<std::uint32_t> faces = mesh.faces;
     std::sort(faces.begin(), faces.end());

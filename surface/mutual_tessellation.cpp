@@ -174,10 +174,8 @@ private:
     /// Returns a face at the point, in the same old triangle as `near`.
     FaceHandle insert(std::uint32_t point, FaceHandle near) {
         const Found found = locate(steps_in(origin(near), vertex(point)), near);
-        if (found.edge.is_valid())
-            mesh_.split_copy(mesh_.edge_handle(found.edge), vertex(point));
-        else
-            mesh_.split_copy(found.face, vertex(point));
+        if (found.edge.is_valid()) mesh_.split_copy(mesh_.edge_handle(found.edge), vertex(point));
+        else mesh_.split_copy(found.face, vertex(point));
         restore(vertex(point));
         return found.face;
     }

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint32_t most_in_leaf = 4;
 
-/// Points farther away than so many sizes of the model are brought nearer along a straight line: what
-/// is nearest to them stays so, and distances stay different from each other.
+/// Points farther away than so many sizes of the model are brought nearer along a straight line:
+/// what is nearest to them stays so, and distances stay different from each other.
 constexpr double farthest = 1e5;
 
 /// The part of the way from a to b at which a point is nearest.
@@ -87,7 +87,8 @@ NearestPlace::NearestPlace(const SurfaceMesh& mesh) : mesh_(mesh), order_(mesh.t
         middles.push_back((a + b + c) * (1.0 / 3));
     }
     boxes_.push_back({{}, {}, 0, static_cast<std::uint32_t>(order_.size()), 0});
-    // Boxes are halved by number of triangles, so the list grows to less than the triangles' number.
+    // Boxes are halved by number of triangles, so the list grows to less than the triangles'
+    // number.
     for (std::uint32_t box = 0; box < boxes_.size(); ++box) {
         fit(boxes_[box]);
         if (boxes_[box].count > most_in_leaf) split(box, middles);

@@ -9,10 +9,10 @@
 
 namespace cascade {
 
-/// The triangles of a mesh in a tree of boxes, each halved along its longest side at the middle one of
-/// its triangles. A search visits few of them: O(log n) where the point is near the surface. Of places
-/// that are equally near the one on the triangle of the lowest number is found. The mesh must stay
-/// as it is while this is used; any number of threads may search at once.
+/// The triangles of a mesh in a tree of boxes, each halved along its longest side at the middle one
+/// of its triangles. A search visits few of them: O(log n) where the point is near the surface. Of
+/// places that are equally near the one on the triangle of the lowest number is found. The mesh
+/// must stay as it is while this is used; any number of threads may search at once.
 class NearestPlace {
 public:
     explicit NearestPlace(const SurfaceMesh& mesh);

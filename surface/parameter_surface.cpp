@@ -32,16 +32,15 @@ Position derivative(const Position& ahead, const Position& behind, double cells)
     return result;
 }
 
-double dot(const Position& a, const Position& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+double dot(const Position& a, const Position& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 MetricTensor metric_at(const SurfaceFunction& surface, const Grid& grid, double sx, double sy) {
-    const Position along_row = derivative(surface(sx + difference, sy), surface(sx - difference, sy),
-                                          static_cast<double>(grid.width));
-    const Position along_column = derivative(surface(sx, sy + difference),
-                                             surface(sx, sy - difference),
-                                             static_cast<double>(grid.height));
+    const Position along_row =
+        derivative(surface(sx + difference, sy), surface(sx - difference, sy),
+                   static_cast<double>(grid.width));
+    const Position along_column =
+        derivative(surface(sx, sy + difference), surface(sx, sy - difference),
+                   static_cast<double>(grid.height));
     return {dot(along_row, along_row), dot(along_row, along_column),
             dot(along_column, along_column)};
 }

@@ -31,13 +31,14 @@ using SurfaceFunction = std::function<Position(double sx, double sy)>;
 struct SurfaceMetric {
     Field inverse_11, inverse_12, inverse_22;  ///< Cells per unit.
     Field area;                                ///< s: of the cell, in square units.
-    Field flow_11, flow_12, flow_22;           ///< s Ṽ⁻¹ Ṽ⁻ᵀ: times differences, what flows.
-    double unit = 0;                           ///< Of length, in the units of the function.
+    Field flow_11, flow_12, flow_22;  ///< s Ṽ⁻¹ Ṽ⁻ᵀ: times differences, what flows.
+    double unit = 0;                  ///< Of length, in the units of the function.
 };
 
 /// Measures the surface at the centre of every cell; derivatives are central differences in
-/// binary64, and the fields are rounded to `precision`. `unit`, above 0: the length of one unit. Fails, naming the place, where the surface is
-/// not finite or where it has no area: its two directions are parallel or one has no length.
+/// binary64, and the fields are rounded to `precision`. `unit`, above 0: the length of one unit.
+/// Fails, naming the place, where the surface is not finite or where it has no area: its two
+/// directions are parallel or one has no length.
 Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid& grid,
                                       std::optional<double> unit,
                                       Precision precision = Precision::single);

@@ -12,8 +12,8 @@ namespace cascade {
 
 namespace {
 
-constexpr double weight_tolerance = 1e-6;       ///< Of weights.
-constexpr std::int64_t stride = 1 << 6;  ///< Steps between places that coincided.
+constexpr double weight_tolerance = 1e-6;  ///< Of weights.
+constexpr std::int64_t stride = 1 << 6;    ///< Steps between places that coincided.
 
 bool is_on(const SurfaceMesh& mesh, const SurfacePlace& place) {
     double sum = 0;

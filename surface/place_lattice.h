@@ -35,8 +35,8 @@ inline std::int64_t turn(const Steps& p, const Steps& q, const Steps& r) {
     return (q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1]);
 }
 
-/// Of a place on edge `edge` of its triangle: its steps in the triangle across, of which that edge is
-/// number `edge_there`.
+/// Of a place on edge `edge` of its triangle: its steps in the triangle across, of which that edge
+/// is number `edge_there`.
 Steps steps_across(const Steps& steps, std::uint32_t edge, std::uint32_t edge_there);
 
 /// Brings places to the lattice so that no two of them coincide: of several in the same place the

@@ -16,8 +16,8 @@ double value_at(const SurfaceMesh& mesh, const std::vector<Number>& point_values
                 const SurfacePlace& place) {
     double value = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        value += static_cast<double>(point_values[mesh.triangles[place.triangle][k]]) *
-                 place.weights[k];
+        value +=
+            static_cast<double>(point_values[mesh.triangles[place.triangle][k]]) * place.weights[k];
     }
     return value;
 }
@@ -34,7 +34,8 @@ std::vector<double> values_at(const SurfaceMesh& mesh, const std::vector<Number>
 
 /// Where a place of the surface lies in its texture, (0, 0) the lower left and (1, 1) the upper
 /// right of the image; beyond these it repeats. Linear between the corners of the triangle, each of
-/// which has places of its own, so seams are where the model has them. Nothing if the model has none.
+/// which has places of its own, so seams are where the model has them. Nothing if the model has
+/// none.
 inline std::optional<std::array<double, 2>> texture_place_at(const SurfaceMesh& mesh,
                                                              const SurfacePlace& place) {
     if (mesh.texture.empty()) return std::nullopt;

@@ -18,9 +18,9 @@ public:
     /// where they are as long as the index is used.
     PointIndex(std::span<const Vector3d> points, double reach);
 
-    /// Calls `visit(number)` for all points no farther than `radius` from `centre`, itself included,
-    /// in an order that depends on the points only. Many boxes are looked at where `radius` is many
-    /// times `reach`, but never more than there are points.
+    /// Calls `visit(number)` for all points no farther than `radius` from `centre`, itself
+    /// included, in an order that depends on the points only. Many boxes are looked at where
+    /// `radius` is many times `reach`, but never more than there are points.
     template <typename Visit>
     void near(Vector3d centre, double radius, const Visit& visit) const {
         const auto look_at = [&](const Entry& entry) {

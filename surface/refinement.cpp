@@ -46,7 +46,8 @@ public:
             const LongEdge edge = heap_.back();
             heap_.pop_back();
             const auto& corners = mesh_.triangles[edge.place.triangle];
-            if (corners[edge.place.edge] == edge.from && corners[corner_after(edge.place.edge)] == edge.to) {
+            if (corners[edge.place.edge] == edge.from &&
+                corners[corner_after(edge.place.edge)] == edge.to) {
                 return edge.place;
             }
         }

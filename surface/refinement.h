@@ -9,8 +9,8 @@
 
 namespace cascade {
 
-/// The same surface of more triangles. The longest edge is halved, and with it the triangles on both
-/// sides, until no edge is longer than `longest_edge` or `most_cuts` were made (M.-C. Rivara,
+/// The same surface of more triangles. The longest edge is halved, and with it the triangles on
+/// both sides, until no edge is longer than `longest_edge` or `most_cuts` were made (M.-C. Rivara,
 /// "Algorithms for refining triangular grids suitable for adaptive and multigrid techniques", 1984,
 /// on why halving longest edges keeps triangles well shaped). The points of the mesh keep their
 /// numbers. Texture places and attributes are left out.
@@ -26,8 +26,8 @@ public:
 private:
     static constexpr std::uint32_t none = 0xffffffff;
 
-    /// A triangle was cut from the middle of its edge `edge` to the corner opposite. It kept its number
-    /// and the edge's first half; `second` got the other half.
+    /// A triangle was cut from the middle of its edge `edge` to the corner opposite. It kept its
+    /// number and the edge's first half; `second` got the other half.
     struct Cut {
         std::uint32_t edge = 0;
         std::uint32_t second = 0;

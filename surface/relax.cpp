@@ -20,13 +20,15 @@ constexpr double skin = 0.25;
 /// A place moves no farther than this in a round, in radii. Where a surface is folded a place has
 /// so many others that they would throw it to and fro.
 constexpr double longest_step = 0.06;
-/// Two places as near as this, in radii, are pushed apart so much harder: a force that grows towards 0 no
-/// more than linearly lets the others press them together for good. Even places are 0.54 apart.
+/// Two places as near as this, in radii, are pushed apart so much harder: a force that grows
+/// towards 0 no more than linearly lets the others press them together for good. Even places are
+/// 0.54 apart.
 constexpr float core = 0.35F, core_strength = 4;
 /// Lists are made anew when more than one place in so many has moved half the skin: few are always
 /// thrown about, and evenness is no better for knowing them exactly.
 constexpr std::size_t places_per_far_one = 100;
-/// … and no sooner than after one round in so many of those done: the first ones move places farthest.
+/// … and no sooner than after one round in so many of those done: the first ones move places
+/// farthest.
 constexpr int rounds_per_age = 4;
 /// In the end those that have another nearer than `crowd` radii are pushed in rounds of their own.
 constexpr int settling_rounds = 12;
@@ -36,8 +38,8 @@ struct Vector2f {
     float x = 0, y = 0;
 };
 
-/// One place as another one sees it: where it stood when the list was made, in radii and in the frame
-/// in which the other stood then, and how its own frame is turned in that.
+/// One place as another one sees it: where it stood when the list was made, in radii and in the
+/// frame in which the other stood then, and how its own frame is turned in that.
 struct Other {
     std::uint32_t number = 0;
     Vector2f stood;
@@ -54,9 +56,17 @@ class Relaxation {
 public:
     Relaxation(const SurfaceMesh& mesh, std::vector<SurfacePlace>& places, Team& team,
                const std::atomic<bool>& cancel, const Anisotropy* anisotropy)
-        : mesh_(mesh), places_(places), team_(team), cancel_(cancel), anisotropy_(anisotropy),
-          radius_(repulsion_radius(mesh.total_area(), places.size())), shapes_(mesh),
-          turns_(places.size()), moved_(places.size()), moving_(places.size()), ends_(places.size()),
+        : mesh_(mesh),
+          places_(places),
+          team_(team),
+          cancel_(cancel),
+          anisotropy_(anisotropy),
+          radius_(repulsion_radius(mesh.total_area(), places.size())),
+          shapes_(mesh),
+          turns_(places.size()),
+          moved_(places.size()),
+          moving_(places.size()),
+          ends_(places.size()),
           parts_(static_cast<std::size_t>(team.size())) {}
 
     void run(int rounds) {
@@ -107,7 +117,8 @@ private:
     bool is_crowded(std::size_t k, std::span<const Vector3d> positions,
                     const PointIndex& index) const {
         bool crowded = false;
-        index.near(positions[k], crowd * radius_, [&](std::uint32_t other) { crowded |= other != k; });
+        index.near(positions[k], crowd * radius_,
+                   [&](std::uint32_t other) { crowded |= other != k; });
         return crowded;
     }
 
@@ -145,8 +156,8 @@ private:
             const Vector3d apart = positions[number] - positions[k];
             if (square > reach * reach || !Unfolding::is_image(square, dot(apart, apart))) return;
             const Vector2d base = (*flat)[1] - (*flat)[0];
-            part.others.push_back({number, in_float(stood * (1 / radius_)),
-                                   in_float(base * (1 / length(base)))});
+            part.others.push_back(
+                {number, in_float(stood * (1 / radius_)), in_float(base * (1 / length(base)))});
         });
         stand_still(k, part);
     }

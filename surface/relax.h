@@ -1,5 +1,5 @@
-// Places that push each other apart until they are evenly spread: G. Turk, "Texturing Surfaces Using
-// Reaction-Diffusion" (thesis, 1992), section 4.3.2.
+// Places that push each other apart until they are evenly spread: G. Turk, "Texturing Surfaces
+// Using Reaction-Diffusion" (thesis, 1992), section 4.3.2.
 #pragma once
 
 #include "core/parallel.h"

@@ -130,10 +130,8 @@ void PointRemoval::fill(std::span<const RingTriangle> triangles) {
     for (const auto& [before, tip, after] : triangles.first(triangles.size() - is_closed_)) {
         mesh_.flip(mesh_.edge_handle(spokes_[tip]));
     }
-    if (is_closed_)
-        mesh_.collapse(spokes_[triangles.back()[0]]);
-    else
-        mesh_.delete_face(mesh_.face_handle(spokes_[0]));
+    if (is_closed_) mesh_.collapse(spokes_[triangles.back()[0]]);
+    else mesh_.delete_face(mesh_.face_handle(spokes_[0]));
 }
 
 std::optional<WhyKept> PointRemoval::remove(std::uint32_t point, Care care) {

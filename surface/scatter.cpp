@@ -14,9 +14,7 @@ namespace cascade {
 namespace {
 
 /// In (0, 1).
-double uniform(std::uint32_t word) {
-    return (word + 0.5) / 4294967296.0;
-}
+double uniform(std::uint32_t word) { return (word + 0.5) / 4294967296.0; }
 
 /// Of two random numbers a place in a triangle (G. Turk, "Generating random points in triangles",
 /// Graphics Gems, 1990).

@@ -24,9 +24,9 @@ struct CellWall {
 struct SurfaceCells {
     std::vector<SurfacePlace> places;
     std::vector<double> areas;
-    std::vector<std::size_t> ends;   ///< Cell i's walls end before walls[ends[i]].
-    std::vector<CellWall> walls;     ///< Cell after cell, by the numbers of the neighbours.
-    double bare_area = 0;            ///< Of components of the surface without any cell.
+    std::vector<std::size_t> ends;  ///< Cell i's walls end before walls[ends[i]].
+    std::vector<CellWall> walls;    ///< Cell after cell, by the numbers of the neighbours.
+    double bare_area = 0;           ///< Of components of the surface without any cell.
 
     std::span<const CellWall> walls_of(std::size_t cell) const {
         const std::size_t first = cell == 0 ? 0 : ends[cell - 1];

@@ -28,8 +28,8 @@ TangentLink link_over(const SurfaceMesh& mesh, TriangleEdge here, TriangleEdge t
     const Vector3d half_way = from + along * 0.5;
     TangentLink link;
     link.neighbour = there.triangle;
-    // The other triangle has the edge the other way. The lower one is reckoned from, so that the two
-    // sides are each other's negatives to the last bit.
+    // The other triangle has the edge the other way. The lower one is reckoned from, so that the
+    // two sides are each other's negatives to the last bit.
     const double out = edge_angle(mesh, here), back = edge_angle(mesh, there);
     constexpr double half_turn = std::numbers::pi;
     link.turn = here.triangle < there.triangle ? out - back - half_turn : -(back - out - half_turn);

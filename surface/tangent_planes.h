@@ -17,7 +17,8 @@ namespace cascade {
 /// surfaces", 2010, for triangles).
 struct TangentLink {
     std::uint32_t neighbour = 0;
-    /// What has direction φ in the neighbour's frame has φ + turn here; the negative on the other side.
+    /// What has direction φ in the neighbour's frame has φ + turn here; the negative on the other
+    /// side.
     double turn = 0;
     double distance = 0;  ///< Between the places of the two, in units of the model.
     double weight = 0;    ///< Length of what they share over the distance between them.

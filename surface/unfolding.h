@@ -8,8 +8,8 @@
 
 namespace cascade {
 
-/// The shape of every triangle as it is seen from each of its edges: where the third corner lies, in
-/// lengths of the edge, along it and to its left. 48 bytes a triangle; for all threads.
+/// The shape of every triangle as it is seen from each of its edges: where the third corner lies,
+/// in lengths of the edge, along it and to its left. 48 bytes a triangle; for all threads.
 class EdgeShapes {
 public:
     explicit EdgeShapes(const SurfaceMesh& mesh);
@@ -31,9 +31,9 @@ private:
 /// exactly and others approximately. One object serves one thread at a time; it keeps four bytes a
 /// triangle.
 ///
-/// No way along a surface is shorter than the straight one, but an image in the plane may be nearer,
-/// where the straight line to it leaves the unfolded triangles: `is_image` tells those that mean
-/// nothing, and what lies out of reach in space is not unfolded at all.
+/// No way along a surface is shorter than the straight one, but an image in the plane may be
+/// nearer, where the straight line to it leaves the unfolded triangles: `is_image` tells those that
+/// mean nothing, and what lies out of reach in space is not unfolded at all.
 class Unfolding {
 public:
     /// The surface and its shapes must stay as long as the unfolding is used.
@@ -45,14 +45,15 @@ public:
         FlatTriangle flat;
     };
 
-    /// Whether what lies in the plane at a distance of this square from the place can be the image of what
-    /// lies in space at one of that square. A tenth is allowed for, as unfolding is not exact.
+    /// Whether what lies in the plane at a distance of this square from the place can be the image
+    /// of what lies in space at one of that square. A tenth is allowed for, as unfolding is not
+    /// exact.
     static bool is_image(double square_in_plane, double square_in_space) {
         return square_in_plane >= 0.81 * square_in_space;
     }
 
-    /// All triangles that a way no longer than `radius` reaches from the place, which is the origin;
-    /// directions are those of the frame of its triangle. Valid until the next call.
+    /// All triangles that a way no longer than `radius` reaches from the place, which is the
+    /// origin; directions are those of the frame of its triangle. Valid until the next call.
     std::span<const Piece> around(const SurfacePlace& place, double radius);
 
     /// Of the patch that was unfolded last: is it all that is connected with the place?
@@ -72,15 +73,16 @@ private:
         std::uint32_t piece = 0, edge = 0;
         friend bool operator<(const Front& a, const Front& b) { return a.square > b.square; }
     };
-    void add(std::uint32_t triangle, const FlatTriangle& flat, std::uint32_t entered, double square);
+    void add(std::uint32_t triangle, const FlatTriangle& flat, std::uint32_t entered,
+             double square);
     double square_in_space(std::uint32_t triangle, std::uint32_t edge) const;
 
     const SurfaceMesh& mesh_;
     const EdgeShapes& shapes_;
     std::vector<Piece> pieces_;
     std::vector<Front> fronts_;
-    Vector3d position_;                   ///< Of the place.
-    std::vector<std::uint32_t> marks_;    ///< first_mark_ + 1 + its piece for triangles in the patch.
+    Vector3d position_;                 ///< Of the place.
+    std::vector<std::uint32_t> marks_;  ///< first_mark_ + 1 + its piece for triangles in the patch.
     std::uint32_t first_mark_ = 0;
     bool is_everything_ = false;
 };

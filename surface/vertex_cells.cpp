@@ -24,7 +24,8 @@ void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>&
     for (std::uint32_t k = 0; k < 3; ++k) {
         if (cotangents[k] >= 0) continue;
         const std::uint32_t obtuse = corner_before(k);  // The corner that faces edge k.
-        for (std::uint32_t j = 0; j < 3; ++j) areas[corners[j]] += area * (j == obtuse ? 0.5 : 0.25);
+        for (std::uint32_t j = 0; j < 3; ++j)
+            areas[corners[j]] += area * (j == obtuse ? 0.5 : 0.25);
         return;
     }
     std::array<double, 3> parts;  // Of edge k: a² cot / 8 for each of its ends.

@@ -33,7 +33,11 @@ public:
     RegionFinder(const SurfaceMesh& mesh, const EdgeShapes& shapes,
                  const std::vector<SurfacePlace>& places, const std::vector<Vector3d>& positions,
                  const PointIndex& index, const Anisotropy* anisotropy)
-        : mesh_(mesh), places_(places), positions_(positions), index_(index), anisotropy_(anisotropy),
+        : mesh_(mesh),
+          places_(places),
+          positions_(positions),
+          index_(index),
+          anisotropy_(anisotropy),
           unfolding_(mesh, shapes) {}
 
     /// Unfolds as much of the surface as the region of a cell depends on, `reach` at least.
@@ -75,7 +79,8 @@ private:
     double size_of(std::span<const Unfolding::Piece> pieces) const {
         double size = 0;
         for (const Unfolding::Piece& piece : pieces) {
-            for (const Vector2d& corner : piece.flat) size = std::max(size, length(stretch_(corner)));
+            for (const Vector2d& corner : piece.flat)
+                size = std::max(size, length(stretch_(corner)));
         }
         return size;
     }
@@ -92,9 +97,10 @@ private:
             const double distance = length(place);
             if (distance > 0) neighbours_.push_back({distance, other, place});
         });
-        std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& a, const Neighbour& b) {
-            return std::tie(a.distance, a.number) < std::tie(b.distance, b.number);
-        });
+        std::sort(neighbours_.begin(), neighbours_.end(),
+                  [](const Neighbour& a, const Neighbour& b) {
+                      return std::tie(a.distance, a.number) < std::tie(b.distance, b.number);
+                  });
     }
 
     /// Claims what is nearer to the cell than to its neighbours; how far that goes.
@@ -188,10 +194,10 @@ void share_areas(const SurfaceMesh& mesh, const std::vector<Claim>& claims, Surf
         if (claim.area > most[claim.triangle].area) most[claim.triangle] = claim;
     }
     for (const Claim& claim : claims) {
-        cells.areas[claim.cell] +=
-            claim.area / claimed[claim.triangle] * mesh.area(claim.triangle);
+        cells.areas[claim.cell] += claim.area / claimed[claim.triangle] * mesh.area(claim.triangle);
     }
-    std::vector<std::uint32_t> next;  // Triangles that have an owner and may have neighbours without.
+    std::vector<std::uint32_t>
+        next;  // Triangles that have an owner and may have neighbours without.
     for (std::uint32_t t = 0; t < claimed.size(); ++t) {
         if (claimed[t] <= 0) continue;
         const auto& around = mesh.across[t];
@@ -217,14 +223,15 @@ void share_areas(const SurfaceMesh& mesh, const std::vector<Claim>& claims, Surf
 
 /// The wall to a neighbour in one of the lists, which are sorted; null if there is none.
 const CellWall* wall_to(std::uint32_t neighbour, std::span<const CellWall> walls) {
-    const auto found = std::lower_bound(
-        walls.begin(), walls.end(), neighbour,
-        [](const CellWall& wall, std::uint32_t number) { return wall.neighbour < number; });
+    const auto found = std::lower_bound(walls.begin(), walls.end(), neighbour,
+                                        [](const CellWall& wall, std::uint32_t number) {
+                                            return wall.neighbour < number;
+                                        });
     return found != walls.end() && found->neighbour == neighbour ? &*found : nullptr;
 }
 
-/// Takes the mean of what the two cells of a wall see; one that one cell alone sees is half as long.
-/// `cells` has the walls as they are seen.
+/// Takes the mean of what the two cells of a wall see; one that one cell alone sees is half as
+/// long. `cells` has the walls as they are seen.
 void match_walls(SurfaceCells& cells) {
     SurfaceCells matched;
     // Cells and the walls that their neighbours see but they do not.

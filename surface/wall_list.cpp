@@ -27,7 +27,8 @@ void WallList::put_into(SurfaceCells& cells, std::size_t count) {
         cells.walls.push_back({begin->to, length, length / weight});
         cells.ends[begin->from] = cells.walls.size();
     }
-    for (std::size_t k = 1; k < count; ++k) cells.ends[k] = std::max(cells.ends[k], cells.ends[k - 1]);
+    for (std::size_t k = 1; k < count; ++k)
+        cells.ends[k] = std::max(cells.ends[k], cells.ends[k - 1]);
     walls_.clear();
 }
 

@@ -39,9 +39,9 @@ std::vector<System> systems() {
 
 std::vector<HalideSchedule> schedules() {
     using Kind = HalideSchedule::Kind;
-    return {{Kind::rows, 1, 0, 1},      {Kind::rows, 1, 0, 4},       {Kind::tiles, 2, 256, 64},
-            {Kind::tiles, 4, 256, 64},  {Kind::windows, 2, 0},       {Kind::windows, 4, 0},
-            {Kind::windows, 8, 0},      {Kind::windows, 16, 0},      {Kind::windows, 8, 512},
+    return {{Kind::rows, 1, 0, 1},     {Kind::rows, 1, 0, 4},    {Kind::tiles, 2, 256, 64},
+            {Kind::tiles, 4, 256, 64}, {Kind::windows, 2, 0},    {Kind::windows, 4, 0},
+            {Kind::windows, 8, 0},     {Kind::windows, 16, 0},   {Kind::windows, 8, 512},
             {Kind::windows, 16, 1024}, {Kind::windows, 4, 2048}, {Kind::windows, 16, 2048}};
 }
 
@@ -60,7 +60,8 @@ void check_agreement(Backend& backend, const System& system, HalideProgram& prog
     std::exit(1);
 }
 
-/// The programs of a system by schedule, made and checked when first needed: compiling takes seconds.
+/// The programs of a system by schedule, made and checked when first needed: compiling takes
+/// seconds.
 class Programs {
 public:
     Programs(Backend& backend, const System& system) : backend_(backend), system_(system) {}
@@ -108,12 +109,12 @@ void run_contest(Backend& backend, const System& system, std::int64_t side, Prog
     });
     for (const HalideSchedule& schedule : schedules()) {
         if (schedule.width > side) continue;
-        benchmark::RegisterBenchmark(
-            title(system, side, schedule.name()).c_str(), [&, schedule](benchmark::State& state) {
-                HalideProgram& program = programs.get(schedule);
-                HalideSide& theirs = contest_made().theirs;
-                for (auto _ : state) theirs.advance(program, steps);
-            });
+        benchmark::RegisterBenchmark(title(system, side, schedule.name()).c_str(),
+                                     [&, schedule](benchmark::State& state) {
+                                         HalideProgram& program = programs.get(schedule);
+                                         HalideSide& theirs = contest_made().theirs;
+                                         for (auto _ : state) theirs.advance(program, steps);
+                                     });
     }
     benchmark::RunSpecifiedBenchmarks(&times);
     benchmark::ClearRegisteredBenchmarks();

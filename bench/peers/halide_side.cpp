@@ -60,12 +60,12 @@ Tuple stripes(const Around& c, const Expr& ai) {
     const StraightConstants k;
     const Expr made_a = 0.01F * c[0] * c[0] * c[4] * ai;
     const Expr made_b = 0.01F * c[1] * c[1] * c[3];
-    return Tuple(std::vector<Expr>{
-        c[0] + k.speed * (made_a / c[2] - k.p1 * c[0] + k.diff1 * c.laplacian(0)),
-        c[1] + k.speed * (made_b / c[2] - k.p1 * c[1] + k.diff1 * c.laplacian(1)),
-        c[2] + k.speed * (made_a + made_b - k.p2 * c[2]),
-        c[3] + k.speed * (k.p3 * (c[0] - c[3]) + k.diff2 * c.laplacian(3)),
-        c[4] + k.speed * (k.p3 * (c[1] - c[4]) + k.diff2 * c.laplacian(4))});
+    return Tuple(
+        std::vector<Expr>{c[0] + k.speed * (made_a / c[2] - k.p1 * c[0] + k.diff1 * c.laplacian(0)),
+                          c[1] + k.speed * (made_b / c[2] - k.p1 * c[1] + k.diff1 * c.laplacian(1)),
+                          c[2] + k.speed * (made_a + made_b - k.p2 * c[2]),
+                          c[3] + k.speed * (k.p3 * (c[0] - c[3]) + k.diff2 * c.laplacian(3)),
+                          c[4] + k.speed * (k.p3 * (c[1] - c[4]) + k.diff2 * c.laplacian(4))});
 }
 
 }  // namespace
@@ -84,7 +84,8 @@ HalideProgram::HalideProgram(HalideSystem system, const HalideSchedule& schedule
     : schedule_(schedule), target_(Halide::get_host_target()) {
     std::vector<Expr> cells;
     const int species = system == HalideSystem::stripes ? 5 : 2;
-    for (int k = 0; k < species; ++k) cells.push_back(now_.emplace_back(Halide::Float(32), 2)(x_, y_));
+    for (int k = 0; k < species; ++k)
+        cells.push_back(now_.emplace_back(Halide::Float(32), 2)(x_, y_));
     steps_.emplace_back("old_step");
     steps_.back()(x_, y_) = Tuple(cells);
     for (int step = 0; step < schedule.steps; ++step) add_step(system);
@@ -111,7 +112,8 @@ void HalideProgram::add_step(HalideSystem system) {
 void HalideProgram::apply_schedule() {
     const Var tile_x("tile_x"), tile_y("tile_y"), x("x_in_tile"), y("y_in_tile");
     Func& last = steps_.back();
-    // A vector at the end of a row lies over the one before it: steps before the last grow no wider.
+    // A vector at the end of a row lies over the one before it: steps before the last grow no
+    // wider.
     const auto inner_steps = [&](auto place) {
         for (std::size_t step = 1; step + 1 < steps_.size(); ++step) {
             steps_[step].vectorize(x_, vector_cells, TailStrategy::ShiftInwards);
@@ -132,11 +134,10 @@ void HalideProgram::apply_schedule() {
                 last.vectorize(x_, vector_cells);
                 inner_steps([&](Func& step) { step.store_root().compute_at(last, y_); });
             } else {
-                last.split(x_, tile_x, x, schedule_.width).reorder(x, y_, tile_x)
+                last.split(x_, tile_x, x, schedule_.width)
+                    .reorder(x, y_, tile_x)
                     .vectorize(x, vector_cells);
-                inner_steps([&](Func& step) {
-                    step.store_at(last, tile_x).compute_at(last, y_);
-                });
+                inner_steps([&](Func& step) { step.store_at(last, tile_x).compute_at(last, y_); });
             }
             break;
     }
@@ -152,15 +153,14 @@ void HalideProgram::run(const std::vector<Halide::Buffer<float>>& now,
     std::vector<Halide::Buffer<>> results;
     for (const Halide::Buffer<float>& plane : next) {
         // Without the halo; the cells are the same.
-        results.emplace_back(Halide::Buffer<float>(
-            plane.get()->cropped(0, 0, plane.width() - 2 * halo)
-                .cropped(1, 0, plane.height() - 2 * halo)));
+        results.emplace_back(Halide::Buffer<float>(plane.get()
+                                                       ->cropped(0, 0, plane.width() - 2 * halo)
+                                                       .cropped(1, 0, plane.height() - 2 * halo)));
     }
     pipeline_.realize(Halide::Realization(results), target_);
 }
 
-HalideSide::HalideSide(const CascadeSide& like, const std::string& varying)
-    : layout_(like.grid()) {
+HalideSide::HalideSide(const CascadeSide& like, const std::string& varying) : layout_(like.grid()) {
     for (const Field& field : like.start().species) {
         now_.push_back(plane_like(field.origin()));
         next_.push_back(plane_like(field.origin()));
@@ -186,7 +186,9 @@ Halide::Buffer<Number> HalideSide::plane_like(const Number* origin) const {
 template <typename Number>
 void HalideSide::fill_halo(Halide::Buffer<Number>& plane, int reach) const {
     const int width = static_cast<int>(layout_.width), height = static_cast<int>(layout_.height);
-    const auto bytes_of = [](int cells) { return static_cast<std::size_t>(cells) * sizeof(Number); };
+    const auto bytes_of = [](int cells) {
+        return static_cast<std::size_t>(cells) * sizeof(Number);
+    };
     for (int row = 0; row < height; ++row) {
         Number* cells = &plane(0, row);
         std::memcpy(cells - reach, cells + width - reach, bytes_of(reach));

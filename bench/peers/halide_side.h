@@ -1,9 +1,9 @@
 // A peer: the same steps by Halide, one core, with schedules written by hand.
 //
-// Halide separates what is computed from the order in which it is (J. Ragan-Kelley et al., "Halide: a
-// language and compiler for optimizing parallelism, locality, and recomputation in image processing
-// pipelines", PLDI 2013). Several steps are one pipeline here, so that a schedule may bring cells into the
-// cache once for all of them.
+// Halide separates what is computed from the order in which it is (J. Ragan-Kelley et al., "Halide:
+// a language and compiler for optimizing parallelism, locality, and recomputation in image
+// processing pipelines", PLDI 2013). Several steps are one pipeline here, so that a schedule may
+// bring cells into the cache once for all of them.
 #pragma once
 
 #include "bench/cascade_side.h"
@@ -24,13 +24,15 @@ enum class HalideSystem { turing, gray_scott, stripes };
 struct HalideSchedule {
     enum class Kind {
         rows,     ///< One step a pass, so many rows at once.
-        tiles,    ///< Tiles; around each the steps before the last are computed so far as they are needed.
-        windows,  ///< Row by row through all steps: of each but the last only those rows that the next needs.
+        tiles,    ///< Tiles; around each the steps before the last are computed so far as they are
+                  ///< needed.
+        windows,  ///< Row by row through all steps: of each but the last only those rows that the
+                  ///< next needs.
     };
     Kind kind = Kind::rows;
-    int steps = 1;            ///< For each pass, at most HalideProgram::most_steps.
-    int width = 0;            ///< Of tiles, or of strips of windows; 0: that of the grid.
-    int height = 1;           ///< Of tiles; of kind `rows` the rows at once.
+    int steps = 1;   ///< For each pass, at most HalideProgram::most_steps.
+    int width = 0;   ///< Of tiles, or of strips of windows; 0: that of the grid.
+    int height = 1;  ///< Of tiles; of kind `rows` the rows at once.
 
     std::string name() const;
 };
@@ -44,8 +46,8 @@ public:
 
     const HalideSchedule& schedule() const { return schedule_; }
 
-    /// Takes the schedule's steps from `now` to the cells [0, W) × [0, H) of `next`. Planes have a halo of
-    /// most_steps cells, of which a pass reads as many as it has steps.
+    /// Takes the schedule's steps from `now` to the cells [0, W) × [0, H) of `next`. Planes have a
+    /// halo of most_steps cells, of which a pass reads as many as it has steps.
     void run(const std::vector<Halide::Buffer<float>>& now, const Halide::Buffer<float>& varying,
              const Halide::Buffer<std::uint8_t>& frozen,
              const std::vector<Halide::Buffer<float>>& next);

@@ -29,15 +29,15 @@ struct Message {
     int line = 0;
     int column = 0;
     std::string text;
-    std::string hint;   ///< What to write instead; may be empty.
+    std::string hint;  ///< What to write instead; may be empty.
 };
 
 /// How a pattern is computed. Results do not depend on any of it.
 struct PatternOptions {
-    bool native_code = true;    ///< Compile the equations; false interprets them.
-    int threads = 0;            ///< 0 uses all the machine has.
+    bool native_code = true;        ///< Compile the equations; false interprets them.
+    int threads = 0;                ///< 0 uses all the machine has.
     std::string name = "<script>";  ///< What messages call the script.
-    std::string folder = ".";   ///< Paths in the script are relative to it.
+    std::string folder = ".";       ///< Paths in the script are relative to it.
 };
 
 /// A checked script and the state of its run.
@@ -60,8 +60,8 @@ public:
 
     /// Columns of the grid; 0 if the script is wrong. The cells of a model are one row of them.
     std::int64_t width() const;
-    std::int64_t height() const;   ///< Rows.
-    std::int64_t depth() const;    ///< Slices; 1 for a plane.
+    std::int64_t height() const;  ///< Rows.
+    std::int64_t depth() const;   ///< Slices; 1 for a plane.
 
     /// Names of the stages, in order.
     std::vector<std::string> stages() const;
@@ -78,10 +78,10 @@ public:
     /// Complete steps of that stage.
     std::int64_t steps() const;
 
-    /// The values of an expression over the present state, row by row, slice after slice: a species or parameter of
-    /// the current stage ("b"), of an earlier one ("stage1.b"), or arithmetic ("b - stage1.b").
-    /// Cells outside of the domain's mask are NaN, unless the expression is the same in all cells.
-    /// Empty if the expression is wrong; error() says why, and the pattern stays ok.
+    /// The values of an expression over the present state, row by row, slice after slice: a species
+    /// or parameter of the current stage ("b"), of an earlier one ("stage1.b"), or arithmetic ("b -
+    /// stage1.b"). Cells outside of the domain's mask are NaN, unless the expression is the same in
+    /// all cells. Empty if the expression is wrong; error() says why, and the pattern stays ok.
     std::vector<float> values(const std::string& expression);
 
     /// Makes a step() that is going on return after the present step. The next step() goes on.

@@ -29,8 +29,8 @@ std::optional<std::vector<Slopes>> slopes_of(FlatRates& rates, SlopeRules& rules
     return slopes;
 }
 
-/// The bounds of one line of the matrix of slopes: of a rate by every species, or of every rate by a
-/// species.
+/// The bounds of one line of the matrix of slopes: of a rate by every species, or of every rate by
+/// a species.
 class LineBound {
 public:
     explicit LineBound(FormulaBuilder& builder)
@@ -134,8 +134,8 @@ public:
         return largest(builder_, parts);
     }
 
-    /// A matrix has the eigenvalues of its transpose: where one species drags another along, as bait
-    /// does cells, its column may say less growth than the other's row.
+    /// A matrix has the eigenvalues of its transpose: where one species drags another along, as
+    /// bait does cells, its column may say less growth than the other's row.
     PartId reaction() {
         const PartId by_rows = growth_in(rows_);
         const auto crosses = [](const LineBound& row) { return row.has_cross_diffusion(); };
@@ -189,7 +189,8 @@ std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_
     }
     const PartId whole = matrix.whole(), reaction = matrix.reaction();
     if (builder.size() > most_calculus_parts) return std::nullopt;
-    return JacobianBound{over_domain(builder, whole), over_domain(builder, reaction), matrix.jumps()};
+    return JacobianBound{over_domain(builder, whole), over_domain(builder, reaction),
+                         matrix.jumps()};
 }
 
 }  // namespace cascade

@@ -15,7 +15,8 @@ std::optional<Formula> rate_derivative(const Program& program, std::uint32_t sta
                                        std::uint32_t of, std::uint32_t by);
 
 /// Bounds of the Jacobian J of the rates in a state, each one number: the largest of all cells (an
-/// aggregate over the domain). Coefficients of operators are taken at the cell itself; see slopes.h.
+/// aggregate over the domain). Coefficients of operators are taken at the cell itself; see
+/// slopes.h.
 struct JacobianBound {
     /// Of the magnitude of the eigenvalues: the largest Σ |J_ij| of a row i, j being species and
     /// cells (S. Gerschgorin, 1931). It bounds the step of an explicit method, or its stages.
@@ -28,8 +29,8 @@ struct JacobianBound {
     bool jumps = false;
 };
 
-/// Empty as above, or where the formulas become too large. `model` is what is known of the model that is the
-/// domain; null on grids.
+/// Empty as above, or where the formulas become too large. `model` is what is known of the model
+/// that is the domain; null on grids.
 std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_t stage,
                                             const ModelFacts* model = nullptr);
 

@@ -43,7 +43,8 @@ Term tanh(Term a) { return a.call(Function::tanh); }
 Term floor(Term a) { return a.call(Function::floor); }
 
 Term clamp_slope(Term v, Term low, Term high, std::size_t n) {
-    const Term zero = v.number(0), one = v.number(1), is_low = v < low, is_high = v > high;
+    const Term zero = v.number(0), one = v.number(1), is_low = v < low;
+    const Term is_high = v > high;
     if (n == 0) return where(is_low, zero, where(is_high, zero, one));
     return n == 1 ? where(is_low, one, zero) : where(is_low, zero, where(is_high, one, zero));
 }
@@ -61,8 +62,10 @@ std::optional<Term> slope_of(FormulaBuilder& builder, const Node& call, std::siz
     const Term c{&builder, call.operands[2]};
     const Term zero = a.number(0), one = a.number(1);
     switch (call.function) {
+        // clang-format off
 #define CASCADE_ELEMENTARY(id, value, kernel, slope) case Function::id: return slope;
 #include "lang/vocabulary/elementary.def"
+        // clang-format on
         // mean + spread · noise, the noise at most 1 in magnitude.
         case Function::random: return one;
         default: return std::nullopt;

@@ -28,7 +28,8 @@ public:
     /// The operators of all parts; fewer where they become too many.
     std::vector<Operators> run() && {
         found_.reserve(rates_.part_count());
-        for (PartId id = 0; id < rates_.part_count() && builder_.size() < most_calculus_parts; ++id) {
+        for (PartId id = 0; id < rates_.part_count() && builder_.size() < most_calculus_parts;
+             ++id) {
             found_.push_back(operators_of(id));
         }
         return std::move(found_);
@@ -113,8 +114,8 @@ private:
             return builder_.add(builder_.multiply(a, square(cosine)),
                                 builder_.multiply(b, square(sine)));
         };
-        const PartId a12 = builder_.absolute(builder_.multiply(
-            builder_.subtract(along, across), builder_.multiply(sine, cosine)));
+        const PartId a12 = builder_.absolute(
+            builder_.multiply(builder_.subtract(along, across), builder_.multiply(sine, cosine)));
         const auto factor = [&](PartId a) { return builder_.multiply(builder_.add(a, a12), own); };
         result.terms[laplacian_powers] = factor(mixed(along, across));
         result.terms[laplacian_powers + 1] = factor(mixed(across, along));

@@ -113,8 +113,7 @@ private:
                 visit_later(first, inside(guard, second, true));
                 visit_later(second, inside(guard, first, true));
                 return;
-            default:
-                break;
+            default: break;
         }
         for (std::size_t n = 0; n < operand_count(node); ++n) {
             const PartId operand = node.operands[n];
@@ -127,9 +126,9 @@ private:
         PartId lost = builder_.call(Function::not_equal, {id, id});
         for (; guard != none; guard = guards_[guard].around) {
             const Function holds = guards_[guard].is_zero ? Function::equal : Function::not_equal;
-            lost = builder_.call(
-                Function::logical_and,
-                {lost, builder_.call(holds, {guards_[guard].part, builder_.number(0)})});
+            lost = builder_.call(Function::logical_and,
+                                 {lost,
+                                  builder_.call(holds, {guards_[guard].part, builder_.number(0)})});
         }
         found_.push_back({builder_.formula(lost), builder_[id].span});
     }

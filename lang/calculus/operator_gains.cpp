@@ -20,8 +20,8 @@ PartId SlopeRules::metric(MetricPlane plane) {
     return builder_.part(node);
 }
 
-/// 2 / h: a difference across a face counts both cells. On a surface times what Ṽ⁻¹ makes of it; the
-/// second direction has parts of columns and of rows.
+/// 2 / h: a difference across a face counts both cells. On a surface times what Ṽ⁻¹ makes of it;
+/// the second direction has parts of columns and of rows.
 PartId SlopeRules::gradient_gain(std::size_t axis) {
     // A gradient and a divergence are a Laplacian, whose parts are those of three axes.
     if (links_) return number(std::sqrt(2 * *links_ / 3));
@@ -32,8 +32,8 @@ PartId SlopeRules::gradient_gain(std::size_t axis) {
     return product(plane, sum(size(MetricPlane::inverse_12), size(MetricPlane::inverse_22)));
 }
 
-/// The largest factor of an operator that makes all waves decay. Of lap: neighbours count 1 each and
-/// the cell as much as all of them; of a tensor its trace counts (see times_tensor).
+/// The largest factor of an operator that makes all waves decay. Of lap: neighbours count 1 each
+/// and the cell as much as all of them; of a tensor its trace counts (see times_tensor).
 std::optional<PartId> SlopeRules::diffusion_gain(const Node& node) {
     const double along_axis = 4 / (grid_.spacing * grid_.spacing);
     switch (node.function) {
@@ -41,8 +41,7 @@ std::optional<PartId> SlopeRules::diffusion_gain(const Node& node) {
             // Gershgorin: the cell counts as much as its neighbours together.
             if (links_) return number(2 * *links_);
             if (!has_metric_) return number(along_axis * grid_.stencil().axes());
-            const PartId trace =
-                sum(metric(MetricPlane::flow_11), metric(MetricPlane::flow_22));
+            const PartId trace = sum(metric(MetricPlane::flow_11), metric(MetricPlane::flow_22));
             return product(number(4), builder_.divide(trace, metric(MetricPlane::area)));
         }
         case Function::diffuse: break;
@@ -60,9 +59,9 @@ std::optional<PartId> SlopeRules::diffusion_gain(const Node& node) {
     const auto [a11, a12, a22] = tensor_entries(a1, a2, node.operands[3]);
     const PartId p = metric(MetricPlane::inverse_11), q = metric(MetricPlane::inverse_12);
     const PartId r = metric(MetricPlane::inverse_22);
-    const PartId in_columns = sum(product(product(p, p), a11),
-                                  sum(product(product(number(2), product(p, q)), a12),
-                                      product(product(q, q), a22)));
+    const PartId in_columns =
+        sum(product(product(p, p), a11),
+            sum(product(product(number(2), product(p, q)), a12), product(product(q, q), a22)));
     return product(number(4), sum(in_columns, product(product(r, r), a22)));
 }
 
@@ -96,8 +95,8 @@ PartId SlopeRules::derivative(PartId of, std::size_t axis) {
     return builder_.call(functions[axis], {of});
 }
 
-/// A vector's components at the cell itself. Operands come before what reads them, so that they have
-/// been noted.
+/// A vector's components at the cell itself. Operands come before what reads them, so that they
+/// have been noted.
 void SlopeRules::note_components(PartId vector, const Node& node) {
     if (!components_.contains(vector)) components_.emplace(vector, components_of(node));
 }
@@ -105,7 +104,8 @@ void SlopeRules::note_components(PartId vector, const Node& node) {
 std::array<PartId, 3> SlopeRules::components_of(const Node& node) {
     const PartId a = node.operands[0], b = node.operands[1];
     const auto each = [&](const auto& make) {
-        return std::array<PartId, 3>{make(std::size_t{0}), make(std::size_t{1}), make(std::size_t{2})};
+        return std::array<PartId, 3>{make(std::size_t{0}), make(std::size_t{1}),
+                                     make(std::size_t{2})};
     };
     const auto of = [&](PartId vector, std::size_t axis) { return components_.at(vector)[axis]; };
     const bool by_tensor = builder_[a].type == ValueType::tensor;

@@ -35,8 +35,11 @@ void SlopeRules::add(Slope& sum_so_far, const Slope& slope) {
 
 Slope SlopeRules::scaled(const Slope& slope, PartId factor) {
     const PartId size = magnitude(factor);
-    Slope result{product(slope.own, factor), product(slope.far, size), {},
-                 product(slope.other, size), slope.jumps};
+    Slope result{product(slope.own, factor),
+                 product(slope.far, size),
+                 {},
+                 product(slope.other, size),
+                 slope.jumps};
     for (const PartId each : slope.diffusion) result.diffusion.push_back(product(each, factor));
     return result;
 }
@@ -174,8 +177,9 @@ Slope SlopeRules::of_divergence(const Slopes& flux) {
         if (!has_axis(axis)) continue;
         const PartId gain = gradient_gain(axis);
         slope.far = sum(slope.far, product(gain, all_of(along)));
-        slope.other = sum(slope.other,
-                          product(gain, sum(product(number(0.5), magnitude(along.own)), along.other)));
+        slope.other =
+            sum(slope.other,
+                product(gain, sum(product(number(0.5), magnitude(along.own)), along.other)));
         if (slope.diffusion.size() < along.diffusion.size()) {
             slope.diffusion.resize(along.diffusion.size(), zero_);
         }
@@ -183,7 +187,8 @@ Slope SlopeRules::of_divergence(const Slopes& flux) {
             slope.diffusion[k] = sum(slope.diffusion[k], product(gain, along.diffusion[k]));
         }
     }
-    // On a model components make no flux: that of the cell itself is bounded as those of neighbours are.
+    // On a model components make no flux: that of the cell itself is bounded as those of neighbours
+    // are.
     if (changes && !links_) slope.own = builder_.call(Function::div, {builder_.part(vector)});
     return slope;
 }
@@ -206,8 +211,8 @@ std::optional<Slopes> SlopeRules::of_vector(const Node& node, const std::vector<
             case Function::add:
             case Function::subtract:
                 slopes[axis] = operand(0)[axis];
-                add(slopes[axis], scaled(operand(1)[axis],
-                                         number(node.function == Function::add ? 1 : -1)));
+                add(slopes[axis],
+                    scaled(operand(1)[axis], number(node.function == Function::add ? 1 : -1)));
                 break;
             case Function::multiply:
             case Function::divide: return of_product(node, before);

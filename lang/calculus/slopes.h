@@ -21,7 +21,7 @@ namespace cascade {
 
 /// The change of a number, or of one component of a vector at the faces.
 struct Slope {
-    PartId own = 0;    ///< The derivative by the cell's own value, without operators.
+    PartId own = 0;  ///< The derivative by the cell's own value, without operators.
     /// Σ of the magnitudes of the derivatives through operators and aggregates, by all cells: no
     /// wave is multiplied by more. Never below 0.
     PartId far = 0;

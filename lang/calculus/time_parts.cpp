@@ -17,7 +17,8 @@ struct Kind {
 
 Kind kind_of(const Node& node, const std::vector<Kind>& before, const Program& program,
              std::uint32_t stage) {
-    const bool is_time = node.kind == NodeKind::builtin && static_cast<Builtin>(node.index) == Builtin::t;
+    const bool is_time =
+        node.kind == NodeKind::builtin && static_cast<Builtin>(node.index) == Builtin::t;
     if (node.kind != NodeKind::call) {
         const bool is_constant = (node.kind == NodeKind::number || node.kind == NodeKind::own ||
                                   node.kind == NodeKind::earlier) &&
@@ -45,7 +46,8 @@ std::vector<Formula> parts_of_time(const Program& program, std::uint32_t stage) 
     std::vector<PartId> found;
     const auto note = [&](PartId id) {
         const bool is_wanted = kinds[id].is_of_time && kinds[id].reads_time;
-        if (is_wanted && std::find(found.begin(), found.end(), id) == found.end()) found.push_back(id);
+        if (is_wanted && std::find(found.begin(), found.end(), id) == found.end())
+            found.push_back(id);
     };
     for (PartId id = 0; id < rates.part_count(); ++id) {
         const Node& node = rates.builder()[id];

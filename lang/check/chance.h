@@ -8,8 +8,7 @@
 namespace cascade {
 
 /// Warns of --seed where neither a stage nor the mask draws random numbers.
-void warn_of_idle_seed(const ast::Script& script, const Program& program,
-                       Diagnostics& diagnostics);
+void warn_of_idle_seed(const ast::Script& script, const Program& program, Diagnostics& diagnostics);
 
 /// Warns of draws at each step in stages that choose their steps: the shorter the steps, the weaker
 /// the noise. `white` makes up for that.

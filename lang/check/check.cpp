@@ -40,7 +40,8 @@ void check_systems(Workspace& work, const ast::Script& script,
         if (each.base) base = numbers[*each.base];
         const std::size_t errors_before = work.diagnostics.error_count();
         numbers.push_back(checking::check_system(work, each, base));
-        checking::check_system_sides(work, *each.from.script, *each.from.block, numbers.back(), base);
+        checking::check_system_sides(work, *each.from.script, *each.from.block, numbers.back(),
+                                     base);
         const bool is_sound = work.diagnostics.error_count() == errors_before;
         CHECK(is_sound || !each.from.built_in, "the systems of the library are sound");
     }
@@ -100,8 +101,8 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
 
 std::optional<Formula> check_view(const ast::Script& script, ast::Expression expression,
                                   std::uint32_t stage, std::uint32_t last_stage,
-                                  const Program& program,
-                                  const Sources& /*sources*/, Diagnostics& diagnostics) {
+                                  const Program& program, const Sources& /*sources*/,
+                                  Diagnostics& diagnostics) {
     Workspace work = workspace_of(program, diagnostics);
     checking::Scope scope;
     scope.place = checking::Place::picture;

@@ -160,8 +160,7 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
         return refuse("second derivatives by name have no meaning on a surface; lap and div have");
     }
     if (place == Place::constant && varies) {
-        fault(span, fmt::format("{} must be one number, but {} is {}", scope_.subject,
-                                row.spelling,
+        fault(span, fmt::format("{} must be one number, but {} is {}", scope_.subject, row.spelling,
                                 row.is_aggregate ? "known only in a run" : "varying by cell"));
         return false;
     }
@@ -327,14 +326,17 @@ void ExpressionChecker::fold_constants(const Node& node) {
     if (!value) return;
     const bool was_finite = std::all_of(values.begin(), values.begin() + node.operand_count,
                                         [](double each) { return std::isfinite(each); });
-    const bool was_in_range = std::all_of(values.begin(), values.begin() + node.operand_count,
-                                          [](double each) { return std::abs(each) <= double{FLT_MAX}; });
+    const bool was_in_range =
+        std::all_of(values.begin(), values.begin() + node.operand_count,
+                    [](double each) { return std::abs(each) <= double{FLT_MAX}; });
     const bool leaves_range = was_in_range && std::abs(*value) > double{FLT_MAX};
     if (was_finite && (!std::isfinite(*value) || leaves_range)) {
         const std::string hint =
-            std::isnan(*value)   ? "it is not defined for these numbers"
-            : std::isinf(*value) ? "it is infinite for these numbers"
-                                 : fmt::format("{:.3g} is infinite in single precision, which ends at 3.4e38", *value);
+            std::isnan(*value) ? "it is not defined for these numbers"
+            : std::isinf(*value)
+                ? "it is infinite for these numbers"
+                : fmt::format("{:.3g} is infinite in single precision, which ends at 3.4e38",
+                              *value);
         warn(node.span, fmt::format("{} has no finite value here", info(node.function).spelling),
              hint);
     }

@@ -18,10 +18,10 @@ std::string describe_cycle(const std::vector<std::string>& names) {
 namespace {
 
 void report_cycle(Workspace& work, Span span, const char* what,
-                   const std::vector<std::string>& names) {
+                  const std::vector<std::string>& names) {
     if (names.size() == 1) {
-        work.diagnostics.error(span, fmt::format("{} needs itself: {}", names[0],
-                                                 describe_cycle(names)));
+        work.diagnostics.error(span,
+                               fmt::format("{} needs itself: {}", names[0], describe_cycle(names)));
         return;
     }
     work.diagnostics.error(span, fmt::format("{} need each other in a cycle: {}", what,
@@ -39,9 +39,9 @@ Span place_of(const Formula& formula, NodeKind kind, std::uint32_t index) {
 }  // namespace
 
 void report_item_cycle(Workspace& work, const System& system,
-                        const std::vector<const Formula*>& items,
-                        const std::vector<bool>& from_system,
-                        const std::vector<std::uint32_t>& cycle) {
+                       const std::vector<const Formula*>& items,
+                       const std::vector<bool>& from_system,
+                       const std::vector<std::uint32_t>& cycle) {
     std::size_t first = 0;
     while (first + 1 < cycle.size() && from_system[cycle[first]]) ++first;
     if (from_system[cycle[first]]) first = 0;
@@ -54,7 +54,7 @@ void report_item_cycle(Workspace& work, const System& system,
 }
 
 void report_step_cycle(Workspace& work, const System& system,
-                        const std::vector<std::uint32_t>& cycle) {
+                       const std::vector<std::uint32_t>& cycle) {
     const auto definition_count = static_cast<std::uint32_t>(system.definitions.size());
     std::vector<std::string> names;
     for (const std::uint32_t value : cycle) {
@@ -62,9 +62,8 @@ void report_step_cycle(Workspace& work, const System& system,
                             ? system.definitions[value].name
                             : system.quantities[value - definition_count].name + "'");
     }
-    const auto& formula = cycle[0] < definition_count
-                              ? system.definitions[cycle[0]].formula
-                              : system.rates[cycle[0] - definition_count];
+    const auto& formula = cycle[0] < definition_count ? system.definitions[cycle[0]].formula
+                                                      : system.rates[cycle[0] - definition_count];
     const std::uint32_t next = cycle[1 % cycle.size()];
     const Span span = next < definition_count
                           ? place_of(formula, NodeKind::definition, next)

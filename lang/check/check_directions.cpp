@@ -15,8 +15,8 @@ namespace {
 
 using Kind = DirectionSettings::Kind;
 
-// Lengths in longest sides of the model. Curvature is measured triangle by triangle, so its lines are
-// smoothed a little, and those of keys, which jump where two of them meet, more.
+// Lengths in longest sides of the model. Curvature is measured triangle by triangle, so its lines
+// are smoothed a little, and those of keys, which jump where two of them meet, more.
 constexpr double smoothing_of_curvature = 0.02;
 constexpr double smoothing_of_keys = 0.1;
 constexpr double largest_number = 1e15;
@@ -24,16 +24,19 @@ constexpr double largest_number = 1e15;
 struct DirectionName {
     std::string_view word;
     Kind kind;
-    Arity arity;      ///< Of curvature: none but a smoothing.
-    double smoothing; ///< Where none is written.
+    Arity arity;       ///< Of curvature: none but a smoothing.
+    double smoothing;  ///< Where none is written.
     std::string_view form;
 };
 constexpr std::array<DirectionName, 5> direction_names{{
     {"axis", Kind::axis, 3, 0, "axis(0, 1, 0)"},
     {"gradient", Kind::gradient, 1, 0, "gradient(x^2 + z^2)"},
-    {"curvature_high", Kind::curvature_high, either(0, 1), smoothing_of_curvature, "curvature_high or curvature_high(0.05)"},
-    {"curvature_low", Kind::curvature_low, either(0, 1), smoothing_of_curvature, "curvature_low or curvature_low(0.05)"},
-    {"keys", Kind::keys, groups_of(6, 1), smoothing_of_keys, "keys(x, y, z, dx, dy, dz, …) or keys(…, smoothing)"},
+    {"curvature_high", Kind::curvature_high, either(0, 1), smoothing_of_curvature,
+     "curvature_high or curvature_high(0.05)"},
+    {"curvature_low", Kind::curvature_low, either(0, 1), smoothing_of_curvature,
+     "curvature_low or curvature_low(0.05)"},
+    {"keys", Kind::keys, groups_of(6, 1), smoothing_of_keys,
+     "keys(x, y, z, dx, dy, dz, …) or keys(…, smoothing)"},
 }};
 
 const DirectionName* direction_named(std::string_view word) {
@@ -103,9 +106,9 @@ std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Sc
     if (name == nullptr) {
         std::vector<std::string> words;
         for (const DirectionName& each : direction_names) words.emplace_back(each.word);
-        work.diagnostics.error(value.span,
-                               "directions are axis, gradient, curvature_high, curvature_low or keys",
-                               did_you_mean(work, word, words));
+        work.diagnostics.error(
+            value.span, "directions are axis, gradient, curvature_high, curvature_low or keys",
+            did_you_mean(work, word, words));
         return std::nullopt;
     }
     const std::vector<ast::Expression> arguments = arguments_of(script, statement.values[0]);

@@ -66,15 +66,14 @@ void check_grid(Workspace& work, const ast::Script& script, const ast::Statement
         if (cells <= most_cells) counts[axis] = static_cast<std::int64_t>(*side);
     }
     if (!is_sound) return;
-    const Span sides = join(span_of(script, statement.values.front()),
-                            span_of(script, statement.values.back()));
+    const Span sides =
+        join(span_of(script, statement.values.front()), span_of(script, statement.values.back()));
     if (cells < 2) {
         work.diagnostics.error(sides, "a grid needs more than one cell");
         return;
     }
     if (!(cells <= most_cells)) {
-        work.diagnostics.error(sides, "the grid is too large",
-                               "the largest has 2147483648 cells");
+        work.diagnostics.error(sides, "the grid is too large", "the largest has 2147483648 cells");
         return;
     }
     Grid& grid = work.draft->domain.grid;
@@ -178,8 +177,9 @@ void check_precision(Workspace& work, const ast::Script& script, const ast::Stat
 void check_fast(Workspace& work, const ast::Statement& option) {
     work.draft->domain.fast = has_multiply_add();
     if (work.program.domain.fast) return;
-    work.diagnostics.warning(option.span, "this processor does not multiply and add in one operation: "
-                                          "--fast changes nothing");
+    work.diagnostics.warning(option.span,
+                             "this processor does not multiply and add in one operation: "
+                             "--fast changes nothing");
 }
 
 /// Of one species, in a block that knows none.
@@ -195,14 +195,15 @@ void report_no_setting(Workspace& work, const ast::Word& name) {
     std::string hint = hint_about(work, name.text, WordPlace::domain,
                                   settings_of({SettingBlock::domain, SettingBlock::side}));
     if (hint.empty()) {
-        hint = "a domain has grid, spacing, boundary, sides, mask, precision, seed, surface and mesh";
+        hint =
+            "a domain has grid, spacing, boundary, sides, mask, precision, seed, surface and mesh";
     }
     work.diagnostics.error(name.span, fmt::format("'{}' is not a setting of the domain", name.text),
                            std::move(hint));
 }
 
 void check_domain_statement(Workspace& work, const ast::Script& script,
-                           const ast::Statement& statement) {
+                            const ast::Statement& statement) {
     if (statement.kind != ast::StatementKind::value) {
         work.diagnostics.error(statement.span, "a domain holds settings only (name: …)");
         return;
@@ -265,7 +266,8 @@ void check_domain(Workspace& work, const ast::Script& script) {
     }
     report_sides(work, block);
     for (const std::string_view name : {"grid", "seed", "precision"}) {
-        if (const auto* option = find_option(script, name)) check_domain_statement(work, script, *option);
+        if (const auto* option = find_option(script, name))
+            check_domain_statement(work, script, *option);
     }
     if (const auto* option = find_option(script, "fast")) check_fast(work, *option);
     if (!check_model(work, script, block)) check_surface(work, script, block);
@@ -281,10 +283,10 @@ void check_picture(Workspace& work, const ast::Script& script) {
         if (statement.kind != ast::StatementKind::value || statement.name.text != "color") {
             const std::string hint = hint_about(work, statement.name.text, WordPlace::picture,
                                                 settings_of({SettingBlock::picture}));
-            work.diagnostics.error(
-                statement.name.span,
-                fmt::format("'{}' is not a setting of the picture", statement.name.text),
-                hint.empty() ? "a picture has color: …" : hint);
+            work.diagnostics.error(statement.name.span,
+                                   fmt::format("'{}' is not a setting of the picture",
+                                               statement.name.text),
+                                   hint.empty() ? "a picture has color: …" : hint);
         } else if (first != nullptr) {
             report_twice(work, statement.name.span, first->name.span,
                          "'color' is given a value twice");

@@ -52,8 +52,7 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
     if (faulty) return std::nullopt;
     const std::uint32_t root = expanded_ != nullptr ? expanded_->root : count - 1;
     CheckedExpression checked;
-    checked.formula =
-        expanded_ != nullptr ? keep_needed(formula_, root) : std::move(formula_);
+    checked.formula = expanded_ != nullptr ? keep_needed(formula_, root) : std::move(formula_);
     if (parts_[root].constant) checked.constant = parts_[root].value;
     return checked;
 }
@@ -133,8 +132,7 @@ void ExpressionChecker::visit(const ast::Binary& binary) {
 }
 
 std::optional<CheckedExpression> check_expression(Workspace& work, const ast::Script& script,
-                                                  ast::Expression expression,
-                                                  const Scope& scope) {
+                                                  ast::Expression expression, const Scope& scope) {
     if (!needs_expansion(work, script, expression, scope)) {
         return check_parts(work, script, expression, scope);
     }

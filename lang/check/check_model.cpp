@@ -22,7 +22,7 @@ constexpr double most_cells = 268435456;  // 2^28: elements of a plane are numbe
 struct ShapeName {
     std::string_view word;
     ModelShape shape;
-    std::size_t sizes;     ///< How many lengths may stand in brackets.
+    std::size_t sizes;  ///< How many lengths may stand in brackets.
     std::string_view example;
 };
 constexpr std::array<ShapeName, 5> shape_names{{
@@ -45,7 +45,8 @@ const ast::Statement* model_of(const ast::Script& script, const ast::Block& doma
     for (const ast::Statement& statement : domain.statements) {
         if (statement.values.empty()) continue;
         if (statement.name.text == "mesh") return &statement;
-        if (statement.name.text == "surface" && is_model_surface(script, statement)) return &statement;
+        if (statement.name.text == "surface" && is_model_surface(script, statement))
+            return &statement;
     }
     return nullptr;
 }
@@ -75,8 +76,8 @@ public:
             check_named(mesh != nullptr ? *mesh : *surface);
         }
         if (!model_) return;
-        // A unit is a length of the surface of parameters that the script would have without --mesh, and
-        // an axis that points upwards is that of the script's own model.
+        // A unit is a length of the surface of parameters that the script would have without
+        // --mesh, and an axis that points upwards is that of the script's own model.
         const bool is_own = option_ == nullptr;
         if (const auto* cells = find("cells")) check_cells(*cells);
         if (const auto* laplacian = find("laplacian")) check_laplacian(*laplacian);
@@ -109,8 +110,9 @@ private:
         if (!setting || includes(info(*setting).domains, Domains::model)) return;
         const bool is_shape = word == "grid" || word == "spacing" || word == "metric";
         work_.diagnostics.error(statement.name.span, fmt::format("a model has no {}", word),
-                                is_shape ? "its cells are spread over it: cells: 20000, or --cells 20000"
-                                         : "it ends where its surface ends, and nothing flows out");
+                                is_shape
+                                    ? "its cells are spread over it: cells: 20000, or --cells 20000"
+                                    : "it ends where its surface ends, and nothing flows out");
     }
 
     /// Those of the plane that --mesh takes the place of.
@@ -140,7 +142,9 @@ private:
         else check_shape(statement);
     }
 
-    Span span_of(const ast::Statement& statement) const { return value_of(script_, statement).span; }
+    Span span_of(const ast::Statement& statement) const {
+        return value_of(script_, statement).span;
+    }
 
     void check_mesh(const ast::Statement& statement) {
         if (!has_one_value(work_, script_, statement)) return;
@@ -168,10 +172,14 @@ private:
         if (arguments.size() != name.sizes && !has_box && (is_implicit || !arguments.empty())) {
             work_.diagnostics.error(
                 value.span,
-                name.sizes == 0 ? fmt::format("'{}' stands alone", name.word)
-                                : fmt::format("{} takes {} in brackets", name.word,
-                                              is_implicit ? "an expression of x, y and z, and perhaps half the side of its box"
-                                              : name.sizes == 2 ? "its two radii" : "its three sides"),
+                name.sizes == 0
+                    ? fmt::format("'{}' stands alone", name.word)
+                    : fmt::format(
+                          "{} takes {} in brackets", name.word,
+                          is_implicit
+                              ? "an expression of x, y and z, and perhaps half the side of its box"
+                          : name.sizes == 2 ? "its two radii"
+                                            : "its three sides"),
                 fmt::format("surface: {}", name.example));
             return;
         }
@@ -255,12 +263,14 @@ private:
         if (const auto axis = axis_of_name(word)) {
             model_->up = *axis;
         } else {
-            work_.diagnostics.error(span_of(statement), "the axis that points upwards is x, y or z");
+            work_.diagnostics.error(span_of(statement),
+                                    "the axis that points upwards is x, y or z");
         }
     }
 
     void check_anisotropy(const ast::Statement* directions, const ast::Statement* stretch) {
-        if (directions != nullptr) model_->directions = check_directions(work_, script_, *directions);
+        if (directions != nullptr)
+            model_->directions = check_directions(work_, script_, *directions);
         if (model_->directions && model_->cells != ModelCellKind::spread) {
             work_.diagnostics.error(model_->directions->span,
                                     "only cells that are spread over a model can be stretched",
@@ -314,8 +324,9 @@ bool check_model(Workspace& work, const ast::Script& script, const ast::Block& d
     }
     const auto refuse = [&](const ast::Statement& statement) {
         if (statement.values.empty() || !is_model_setting(statement.name.text)) return;
-        work.diagnostics.error(statement.name.span, "only a domain with a model has this setting",
-                               "mesh: \"horse.ply\", surface: sphere or --mesh sphere makes it one");
+        work.diagnostics.error(
+            statement.name.span, "only a domain with a model has this setting",
+            "mesh: \"horse.ply\", surface: sphere or --mesh sphere makes it one");
     };
     std::for_each(script.options.begin(), script.options.end(), refuse);
     if (!gives_way) std::for_each(domain.statements.begin(), domain.statements.end(), refuse);

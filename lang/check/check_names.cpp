@@ -90,7 +90,8 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
         return std::nullopt;
     }
     if (scope.place == Place::position && !varies_by_cell(name)) {
-        report(work, span, fmt::format("a surface cannot depend on '{}'", name), "it stays as it is");
+        report(work, span, fmt::format("a surface cannot depend on '{}'", name),
+               "it stays as it is");
         return std::nullopt;
     }
     if (scope.place == Place::mask && !varies_by_cell(name)) {
@@ -146,7 +147,8 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
     const std::string names = list_names(quantity_names(system));
     std::string hint(advice_about(name, WordPlace::value));
     if (hint.empty()) hint = did_you_mean(work, name, readable_names(system, scope));
-    if (hint.empty() && scope.place == Place::rate) hint = fmt::format("add {}: 0.1, for example", name);
+    if (hint.empty() && scope.place == Place::rate)
+        hint = fmt::format("add {}: 0.1, for example", name);
     if (function_named(name)) hint = fmt::format("'{0}' is a function: {0}(…)", name);
     if (name == "steady") hint = "write steady(0.1)";
     std::string note = fmt::format("{} has {}", system.name, names);
@@ -230,8 +232,10 @@ std::optional<Node> resolve_other(Workspace& work, std::uint32_t stage, std::str
     const Meaning* meaning = find(work.names[work.program.stages[stage].system], name);
     if (meaning == nullptr || meaning->is_faulty) return std::nullopt;
     if (meaning->is_definition) {
-        report(work, span, fmt::format("'{}' is a definition of {}, not a value of its stages",
-                                       name, system.name), "");
+        report(work, span,
+               fmt::format("'{}' is a definition of {}, not a value of its stages", name,
+                           system.name),
+               "");
         return std::nullopt;
     }
     return make_node(NodeKind::earlier, span, meaning->index, stage);
@@ -346,8 +350,8 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
         const std::vector<std::string> names = quantity_names(system);
         std::string hint = did_you_mean(work, qualified.name.text, names);
         report(work, qualified.name.span, not_a_parameter(qualified.name.text, system),
-               std::move(hint), fmt::format("stage '{}' has {}", qualified.stage.text,
-                                            list_names(names)));
+               std::move(hint),
+               fmt::format("stage '{}' has {}", qualified.stage.text, list_names(names)));
         return std::nullopt;
     }
     return resolve_other(work, *stage, qualified.name.text, qualified.name.span);

@@ -18,8 +18,9 @@ const ast::Statement* value_statement(const ast::Statement& statement) {
 }
 
 const ast::Statement* find_option(const ast::Script& script, std::string_view name) {
-    const auto found = std::find_if(script.options.begin(), script.options.end(),
-                                    [&](const ast::Statement& option) { return option.name.text == name; });
+    const auto found =
+        std::find_if(script.options.begin(), script.options.end(),
+                     [&](const ast::Statement& option) { return option.name.text == name; });
     return found == script.options.end() ? nullptr : &*found;
 }
 
@@ -85,12 +86,13 @@ bool has_species(const Workspace& work, const Stage& stage, const ast::Statement
     if (stage.system == unknown_system) return false;
     const System& system = work.program.systems[stage.system];
     const std::string name = statement.index.empty() ? std::string(statement.name.text)
-                                                    : fmt::format("{}[", statement.name.text);
+                                                     : fmt::format("{}[", statement.name.text);
     return std::any_of(system.quantities.begin(), system.quantities.end(),
                        [&](const Quantity& quantity) {
-        if (!quantity.is_species) return false;
-        return statement.index.empty() ? quantity.name == name : quantity.name.starts_with(name);
-    });
+                           if (!quantity.is_species) return false;
+                           return statement.index.empty() ? quantity.name == name
+                                                          : quantity.name.starts_with(name);
+                       });
 }
 
 /// A change of a side: `stage` is empty where it is for all stages with the species.
@@ -110,9 +112,9 @@ std::optional<SideChange> as_side(const Workspace& work, const ast::Override& ch
     SideChange side{{}, change.statement};
     side.statement.side = side.statement.name;
     side.statement.name = change.stage;
-    const bool is_species = std::any_of(
-        work.program.stages.begin(), work.program.stages.end(),
-        [&](const Stage& stage) { return has_species(work, stage, side.statement); });
+    const bool is_species =
+        std::any_of(work.program.stages.begin(), work.program.stages.end(),
+                    [&](const Stage& stage) { return has_species(work, stage, side.statement); });
     return is_species ? std::optional(std::move(side)) : std::nullopt;
 }
 
@@ -137,9 +139,9 @@ SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& scri
         bool is_stage = false, is_used = false;
         for (std::size_t k = 0; k < result.size(); ++k) {
             const Stage& stage = work.program.stages[k];
-            const bool is_its_system =
-                stage.system != unknown_system && !work.stages.contains(std::string(side->stage.text)) &&
-                work.program.systems[stage.system].name == side->stage.text;
+            const bool is_its_system = stage.system != unknown_system &&
+                                       !work.stages.contains(std::string(side->stage.text)) &&
+                                       work.program.systems[stage.system].name == side->stage.text;
             const bool is_named = stage.name == side->stage.text || is_its_system;
             is_stage |= is_named;
             // That a stage which is named lacks the species is said there.
@@ -151,8 +153,8 @@ SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& scri
         if (!side->stage.empty() && !is_stage) {
             report_unknown_stage(work, side->stage);
         } else {
-            work.diagnostics.error(statement.name.span, fmt::format("no stage has a species '{}'",
-                                                                   statement.name.text));
+            work.diagnostics.error(statement.name.span,
+                                   fmt::format("no stage has a species '{}'", statement.name.text));
         }
     }
     return result;

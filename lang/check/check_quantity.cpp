@@ -15,7 +15,7 @@ bool take_text(System& system, const Declaration& declaration) {
     std::string* target = declaration.name == "title"   ? &system.title
                           : declaration.name == "cite"  ? &system.cite
                           : declaration.name == "about" ? &system.about
-                                                      : nullptr;
+                                                        : nullptr;
     if (target != nullptr) *target = text->value;
     return target != nullptr;
 }
@@ -26,7 +26,7 @@ void check_range(Workspace& work, const Declaration& declaration, Quantity& quan
     const ast::Script& script = *declaration.range_script;
     if (quantity.is_species) {
         work.diagnostics.error(written.span, "a range belongs to a parameter",
-                                fmt::format("'{}' is a species", quantity.name));
+                               fmt::format("'{}' is a species", quantity.name));
         return;
     }
     const auto low = check_constant(work, script, written.low, "the end of a range");
@@ -41,7 +41,7 @@ void check_range(Workspace& work, const Declaration& declaration, Quantity& quan
         work.diagnostics.error(written.span, "a range goes from a lower to a higher number");
     } else if (range.step && !(*range.step > 0 && *range.step <= *high - *low)) {
         work.diagnostics.error(written.span,
-                                "the step of a range is above 0 and no longer than the range");
+                               "the step of a range is above 0 and no longer than the range");
     } else {
         quantity.range = range;
         const ast::Expression default_value = declaration.statement->values[0];
@@ -55,8 +55,9 @@ void warn_outside(Workspace& work, const Quantity& quantity, std::optional<doubl
     if (!quantity.range || !value) return;
     const auto [low, high, step] = *quantity.range;
     if (*value >= low && *value <= high) return;
-    work.diagnostics.warning(span, fmt::format("{} is {:.7g}, outside of its range {:.7g} .. {:.7g}",
-                                               quantity.name, *value, low, high));
+    work.diagnostics.warning(span,
+                             fmt::format("{} is {:.7g}, outside of its range {:.7g} .. {:.7g}",
+                                         quantity.name, *value, low, high));
 }
 
 }  // namespace cascade::checking

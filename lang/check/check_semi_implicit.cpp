@@ -27,9 +27,9 @@ bool has_diffusion(const std::vector<SpeciesDiffusion>& diffusion) {
 std::optional<std::size_t> held_and_nested(const Stage& stage,
                                            const std::vector<SpeciesDiffusion>& diffusion) {
     for (std::size_t s = 0; s < stage.sides.size(); ++s) {
-        const bool is_held = std::any_of(
-            stage.sides[s].begin(), stage.sides[s].end(),
-            [](const SideSetting& side) { return side.kind == SideKind::fixed; });
+        const bool is_held =
+            std::any_of(stage.sides[s].begin(), stage.sides[s].end(),
+                        [](const SideSetting& side) { return side.kind == SideKind::fixed; });
         const auto powers = diffusion[s].begin() + laplacian_powers;
         if (is_held && std::any_of(diffusion[s].begin() + 1, powers, is_there)) return s;
     }
@@ -50,39 +50,50 @@ void check_semi_implicit(const Program& program, std::uint32_t stage, Span span,
     const Solver solver = checked.time.solver;
     if (!is_semi_implicit(solver)) return;
     if (program.domain.model) {
-        diagnostics.error(span, fmt::format("stage '{}': the solver {} needs the waves of a grid, which "
-                                            "a model does not have", checked.name, name_of(solver)),
+        diagnostics.error(span,
+                          fmt::format("stage '{}': the solver {} needs the waves of a grid, which "
+                                      "a model does not have",
+                                      checked.name, name_of(solver)),
                           "rkl1 takes long steps on models");
         return;
     }
     if (program.domain.surface && program.domain.surface->has_metric) {
-        diagnostics.error(span, fmt::format("stage '{}': {} needs cells that are squares, and these "
-                                            "lie on a surface", checked.name, name_of(solver)),
+        diagnostics.error(span,
+                          fmt::format("stage '{}': {} needs cells that are squares, and these "
+                                      "lie on a surface",
+                                      checked.name, name_of(solver)),
                           "rkl1 takes long steps there");
         return;
     }
     if (program.domain.mask) {
-        diagnostics.error(span, fmt::format("stage '{}': {} needs all cells of the grid, and the domain has "
-                                            "a mask", checked.name, name_of(solver)),
-                          "rkl1 takes long steps there");
+        diagnostics.error(
+            span,
+            fmt::format("stage '{}': {} needs all cells of the grid, and the domain has "
+                        "a mask",
+                        checked.name, name_of(solver)),
+            "rkl1 takes long steps there");
         return;
     }
     if (!checked.uniform[program.system_of(stage).frozen_item()]) {
-        diagnostics.error(span, fmt::format("stage '{}' freezes cells, which {} cannot: its waves run "
-                                            "through all of them", checked.name, name_of(solver)),
+        diagnostics.error(span,
+                          fmt::format("stage '{}' freezes cells, which {} cannot: its waves run "
+                                      "through all of them",
+                                      checked.name, name_of(solver)),
                           "rkl1 takes long steps around frozen cells");
         return;
     }
     const std::vector<SpeciesDiffusion> diffusion = diffusion_of(program, stage);
     if (const auto held = held_and_nested(checked, diffusion)) {
-        diagnostics.error(span, fmt::format("stage '{}': {} cannot hold {} at a side, for its rate "
-                                            "applies lap to lap of it", checked.name,
-                                            name_of(solver),
-                                            species_name(program.system_of(stage), *held)),
+        diagnostics.error(span,
+                          fmt::format("stage '{}': {} cannot hold {} at a side, for its rate "
+                                      "applies lap to lap of it",
+                                      checked.name, name_of(solver),
+                                      species_name(program.system_of(stage), *held)),
                           "rkl1 can");
     } else if (!has_diffusion(diffusion)) {
-        diagnostics.error(span, fmt::format("stage '{}': {} finds no diffusion to take implicitly",
-                                            checked.name, name_of(solver)),
+        diagnostics.error(span,
+                          fmt::format("stage '{}': {} finds no diffusion to take implicitly",
+                                      checked.name, name_of(solver)),
                           "it looks for lap, dxx, diffuse or div(k * grad(u)) in the rate of u; "
                           "rk45 takes what comes");
     }

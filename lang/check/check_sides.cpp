@@ -42,7 +42,9 @@ std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
     if (std::holds_alternative<ast::Garbage>(value.node)) return std::nullopt;
     const auto* name = std::get_if<ast::Name>(&value.node);
     const auto* call = std::get_if<ast::Call>(&value.node);
-    const std::string_view word = name ? name->name : call ? call->function.text : std::string_view();
+    const std::string_view word = name   ? name->name
+                                  : call ? call->function.text
+                                         : std::string_view();
     const auto kind = kind_of_word(word);
     if (!kind) {
         std::string hint(advice_about(word, WordPlace::side));
@@ -87,7 +89,9 @@ std::vector<const ast::Statement*> in_order(std::span<const ast::Statement> stat
 }
 
 /// What a statement sets, in messages: `u.left`.
-Span head_of(const ast::Statement& statement) { return join(statement.name.span, statement.side.span); }
+Span head_of(const ast::Statement& statement) {
+    return join(statement.name.span, statement.side.span);
+}
 
 /// t and step reach a side as numbers: what takes the values of many cells, or knows the place of
 /// one, is computed when the stage starts.
@@ -115,20 +119,22 @@ bool is_known_along_side(Workspace& work, const Formula& value) {
     return true;
 }
 
-/// What to write in a rate in place of a flux that depends on a species: a source in the cells at the
-/// side, as `lap` divides what flows through a face by the spacing.
+/// What to write in a rate in place of a flux that depends on a species: a source in the cells at
+/// the side, as `lap` divides what flows through a face by the spacing.
 std::string as_source(std::string_view species, Side side) {
-    constexpr std::array<std::string_view, side_count> places{
-        "sx < 1/W", "sx > 1 - 1/W", "sy < 1/H", "sy > 1 - 1/H", "sz < 1/D", "sz > 1 - 1/D"};
+    constexpr std::array<std::string_view, side_count> places{"sx < 1/W", "sx > 1 - 1/W",
+                                                              "sy < 1/H", "sy > 1 - 1/H",
+                                                              "sz < 1/D", "sz > 1 - 1/D"};
     constexpr std::array<std::string_view, 3> counts{"W columns", "H rows", "D slices"};
     const auto number = static_cast<std::size_t>(side);
-    return fmt::format("for flux(E) write noflux, and {0}' += k/h * (E) * ({1}) in the system: "
-                       "k times lap({0}), cells of side h, {2}",
-                       species, places[number], counts[number / 2]);
+    return fmt::format(
+        "for flux(E) write noflux, and {0}' += k/h * (E) * ({1}) in the system: "
+        "k times lap({0}), cells of side h, {2}",
+        species, places[number], counts[number / 2]);
 }
 
-/// Values of sides are found when the stage starts, and species change. False, with a message, where one
-/// reads a species.
+/// Values of sides are found when the stage starts, and species change. False, with a message,
+/// where one reads a species.
 bool reads_no_species(Workspace& work, const System& system, const SideSetting& setting, Side side,
                       std::string_view of) {
     const auto& nodes = setting.value.nodes;
@@ -163,7 +169,8 @@ public:
 
     std::vector<SpeciesSide> check(std::span<const ast::Statement> statements) {
         for (const ast::Statement* statement : in_order(statements)) {
-            for (const Declaration& each : stage_declarations(work_, system_, script_, *statement)) {
+            for (const Declaration& each :
+                 stage_declarations(work_, system_, script_, *statement)) {
                 if (!is_replaced(each)) check(each);
             }
         }
@@ -191,8 +198,7 @@ private:
         const std::string side(declaration.statement->side.text);
         const std::string what = declaration.name + "." + side;
         const Span span = head_of(*declaration.statement);
-        const auto [first, is_new] =
-            seen_.try_emplace(what + (declaration.index ? "*" : ""), span);
+        const auto [first, is_new] = seen_.try_emplace(what + (declaration.index ? "*" : ""), span);
         if (!is_new) {
             report_twice(work_, span, first->second, fmt::format("'{}' is given twice", what));
         }
@@ -221,7 +227,8 @@ private:
             if (!reads_no_species(work_, system_, setting, side, declaration.name)) return;
         }
         for (const Side side : sides_of_word(statement.side.text)) {
-            rules_.push_back({{meaning->index, side, setting}, declaration.index.has_value(),
+            rules_.push_back({{meaning->index, side, setting},
+                              declaration.index.has_value(),
                               statement.side.text == "sides"});
         }
     }
@@ -284,8 +291,9 @@ bool are_pairs(Workspace& work, const AllSides& sides) {
     return true;
 }
 
-/// Which cell lies beyond a periodic side is the mask's matter too, and there is one for all species.
-/// False, with a message, where a species is periodic and the domain is not, or the other way round.
+/// Which cell lies beyond a periodic side is the mask's matter too, and there is one for all
+/// species. False, with a message, where a species is periodic and the domain is not, or the other
+/// way round.
 bool are_periodic_as_boundary(Workspace& work, const AllSides& sides) {
     const SideRules boundary(work.program.domain.grid.boundary);
     for (std::size_t side = 0; side < side_count; ++side) {
@@ -305,10 +313,10 @@ bool are_periodic_as_boundary(Workspace& work, const AllSides& sides) {
 void resolve(Workspace& work, Stage& stage, const std::vector<SpeciesSide>& own) {
     const System& system = work.program.systems[stage.system];
     const AllSides base = sides_of_domain(work.program.domain);
-    const bool is_plain = own.empty() && system.sides.empty() &&
-                          std::none_of(work.program.domain.sides.begin(),
-                                       work.program.domain.sides.end(),
-                                       [](const auto& side) { return side.has_value(); });
+    const bool is_plain =
+        own.empty() && system.sides.empty() &&
+        std::none_of(work.program.domain.sides.begin(), work.program.domain.sides.end(),
+                     [](const auto& side) { return side.has_value(); });
     if (is_plain) return;
     std::vector<std::size_t> number(system.quantities.size());  // Of the species, by item.
     for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
@@ -367,13 +375,14 @@ void check_system_sides(Workspace& work, const ast::Script& script, const ast::B
     }
 }
 
-void check_domain_side(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+void check_domain_side(Workspace& work, const ast::Script& script,
+                       const ast::Statement& statement) {
     const auto written = read_side(work, script, statement);
     if (!written) return;
     SideSetting setting{written->kind, {}, statement.span};
     if (written->value) {
-        const auto value = check_constant(work, script, *written->value,
-                                          "the value of a side of all species");
+        const auto value =
+            check_constant(work, script, *written->value, "the value of a side of all species");
         Node node;
         node.number = value.value_or(0);  // A wrong one has its message; the side's kind holds.
         node.span = statement.span;

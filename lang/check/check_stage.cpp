@@ -34,8 +34,8 @@ public:
                  std::size_t& copied)
         : work_(work), script_(script), index_(index), copied_(copied) {}
 
-    /// `overrides` come from outside the script; of two with one name the last counts. `asked` is what
-    /// options say of every stage's time.
+    /// `overrides` come from outside the script; of two with one name the last counts. `asked` is
+    /// what options say of every stage's time.
     void run(const ast::Block& block, const std::vector<const ast::Statement*>& overrides,
              const TimeSettings& asked);
 
@@ -52,7 +52,7 @@ private:
         return result;
     }
     std::vector<Declaration> collect(const ast::Block& block,
-                                   const std::vector<const ast::Statement*>& overrides);
+                                     const std::vector<const ast::Statement*>& overrides);
     std::vector<Declaration> declarations_of(const ast::Statement& statement);
     void set(const Declaration& declaration);
     void report_unknown(const Declaration& declaration);
@@ -81,8 +81,8 @@ std::vector<Declaration> StageChecker::declarations_of(const ast::Statement& sta
     return {std::move(declaration)};
 }
 
-std::vector<Declaration> StageChecker::collect(const ast::Block& block,
-                                             const std::vector<const ast::Statement*>& overrides) {
+std::vector<Declaration> StageChecker::collect(
+    const ast::Block& block, const std::vector<const ast::Statement*>& overrides) {
     std::vector<Declaration> declarations;
     std::unordered_map<std::string, std::size_t> positions;
     const auto add = [&](Declaration declaration, bool from_outside) {
@@ -110,19 +110,20 @@ std::vector<Declaration> StageChecker::collect(const ast::Block& block,
             continue;
         }
         if (statement.range) {
-            work_.diagnostics.error(statement.range->span, "the range of a parameter stands in "
-                                                          "its system");
+            work_.diagnostics.error(statement.range->span,
+                                    "the range of a parameter stands in "
+                                    "its system");
         }
         for (Declaration& declaration : declarations_of(*value)) add(std::move(declaration), false);
     }
     for (const ast::Statement* statement : overrides) {
-        for (Declaration& declaration : declarations_of(*statement)) add(std::move(declaration), true);
+        for (Declaration& declaration : declarations_of(*statement))
+            add(std::move(declaration), true);
     }
     return declarations;
 }
 
-void StageChecker::run(const ast::Block& block,
-                       const std::vector<const ast::Statement*>& overrides,
+void StageChecker::run(const ast::Block& block, const std::vector<const ast::Statement*>& overrides,
                        const TimeSettings& asked) {
     const std::vector<Declaration> declarations = collect(block, overrides);
     if (stage().system == unknown_system) return;
@@ -134,9 +135,8 @@ void StageChecker::run(const ast::Block& block,
         return is_end_setting(declaration.name) &&
                (declaration.span().source != own_source) == from_outside;
     };
-    const bool has_new_end = std::any_of(declarations.begin(), declarations.end(), [&](const auto& each) {
-        return is_end(each, true);
-    });
+    const bool has_new_end = std::any_of(declarations.begin(), declarations.end(),
+                                         [&](const auto& each) { return is_end(each, true); });
     for (const Declaration& declaration : declarations) {
         if (!has_new_end || !is_end(declaration, false)) set(declaration);
     }
@@ -163,9 +163,9 @@ void StageChecker::set(const Declaration& declaration) {
     if (meaning == nullptr) return report_unknown(declaration);
     if (meaning->is_faulty) return;
     if (meaning->is_definition) {
-        work_.diagnostics.error(
-            statement.name.span,
-            fmt::format("'{}' is a definition of {} and cannot be set", name, system().name));
+        work_.diagnostics.error(statement.name.span,
+                                fmt::format("'{}' is a definition of {} and cannot be set", name,
+                                            system().name));
         return;
     }
     if (!has_one_value(work_, script_, statement)) return;
@@ -193,13 +193,15 @@ void StageChecker::report_unknown(const Declaration& declaration) {
         fmt::format("'{}' is not a parameter of {}", declaration.name, system().name);
     if (!is_hopeless(work_)) {
         std::vector<std::string> names = quantity_names(system());
-        diagnostic.notes.push_back({std::nullopt, fmt::format("{} has {}", system().name,
-                                                              list_names(names))});
-        for (std::string& each : settings_of({SettingBlock::stage})) names.push_back(std::move(each));
+        diagnostic.notes.push_back(
+            {std::nullopt, fmt::format("{} has {}", system().name, list_names(names))});
+        for (std::string& each : settings_of({SettingBlock::stage}))
+            names.push_back(std::move(each));
         diagnostic.hint = hint_about(work_, declaration.name, WordPlace::stage, names);
         if (is_side_word(declaration.name)) {
-            diagnostic.hint = fmt::format("a side of one species is SPECIES.{0}: …, of all {0}: … in the domain",
-                                          declaration.name);
+            diagnostic.hint =
+                fmt::format("a side of one species is SPECIES.{0}: …, of all {0}: … in the domain",
+                            declaration.name);
         }
     }
     work_.diagnostics.add(std::move(diagnostic));
@@ -260,9 +262,8 @@ void StageChecker::order_items() {
     Order order = topological_order(item_dependencies(items));
     for (const auto& cycle : order.cycles) {
         // A cycle of defaults has been reported with the system.
-        const bool is_default = std::all_of(cycle.begin(), cycle.end(), [&](std::uint32_t item) {
-            return from_system_[item];
-        });
+        const bool is_default = std::all_of(cycle.begin(), cycle.end(),
+                                            [&](std::uint32_t item) { return from_system_[item]; });
         if (!is_default) report_item_cycle(work_, system(), items, from_system_, cycle);
     }
     stage().order = std::move(order.order);
@@ -305,8 +306,8 @@ void add_stage(Workspace& work, const ast::Block& block) {
     const auto index = static_cast<std::uint32_t>(work.program.stages.size());
     Stage stage;
     stage.span = block.name.empty() ? block.keyword.span : block.name.span;
-    stage.name = block.name.empty() ? fmt::format("stage{}", index + 1)
-                                    : std::string(block.name.text);
+    stage.name =
+        block.name.empty() ? fmt::format("stage{}", index + 1) : std::string(block.name.text);
     stage.system = find_system(work, block.base);
     const auto [first, is_new] = work.stages.try_emplace(stage.name, index);
     if (!is_new) {

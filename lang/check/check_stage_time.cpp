@@ -45,9 +45,10 @@ void fill_end(Stage& stage, const Settings& own, const Settings& defaults) {
 
 /// The first part of a formula that reads an item; nothing where none does.
 const Node* find_reader(const Formula& formula, std::uint32_t item) {
-    const auto found = std::find_if(
-        formula.nodes.begin(), formula.nodes.end(),
-        [&](const Node& node) { return node.kind == NodeKind::own && node.index == item; });
+    const auto found =
+        std::find_if(formula.nodes.begin(), formula.nodes.end(), [&](const Node& node) {
+            return node.kind == NodeKind::own && node.index == item;
+        });
     return found == formula.nodes.end() ? nullptr : &*found;
 }
 
@@ -81,10 +82,10 @@ const Node* varying_part(const Program& program, std::uint32_t stage, const Form
 }
 
 void check_condition(Workspace& work, std::uint32_t stage) {
-    const Node* varying =
-        varying_part(work.program, stage, *work.program.stages[stage].time.until);
+    const Node* varying = varying_part(work.program, stage, *work.program.stages[stage].time.until);
     if (varying == nullptr) return;
-    work.diagnostics.error(varying->span, "a stage ends for all cells at once, and this differs by cell",
+    work.diagnostics.error(varying->span,
+                           "a stage ends for all cells at once, and this differs by cell",
                            "take one number of all cells, as in mean(u over domain) > 0.5");
 }
 
@@ -116,24 +117,28 @@ void check_time(Workspace& work, std::uint32_t index) {
     const Formula& speed = stage.items[system.speed_item()];
     const Span speed_span = speed.nodes.back().span;
     if (!takes_speed_by_cell(time.solver) && !stage.uniform[system.speed_item()]) {
-        work.diagnostics.error(
-            speed_span, fmt::format("with {} the speed is the same in all cells", name_of(time.solver)),
-            "euler and symplectic take one that varies");
+        work.diagnostics.error(speed_span,
+                               fmt::format("with {} the speed is the same in all cells",
+                                           name_of(time.solver)),
+                               "euler and symplectic take one that varies");
     }
     if (time.automatic_speed && !time.has_duration() && !time.open_end) {
         work.diagnostics.error(speed_span, "with 'speed: auto' a stage ends by its duration",
                                "write duration: … in place of iterations");
     }
     if (time.largest_step && !time.chooses_steps()) {
-        work.diagnostics.error(time.largest_step_span, "'largest_step' limits steps that are chosen, and these "
+        work.diagnostics.error(time.largest_step_span,
+                               "'largest_step' limits steps that are chosen, and these "
                                "are as long as 'speed' says",
                                "write speed: auto, or take the solver rk23 or rk45");
     }
     if (time.chooses_steps()) {
         if (const Node* reader = reader_of_speed(work.program, stage)) {
             work.diagnostics.error(
-                reader->span, fmt::format("stage '{}' chooses its steps as it runs: its speed is no "
-                                          "number that can be read", stage.name));
+                reader->span,
+                fmt::format("stage '{}' chooses its steps as it runs: its speed is no "
+                            "number that can be read",
+                            stage.name));
         }
     }
     if (time.until) check_condition(work, index);
@@ -164,16 +169,18 @@ void check_coarse_starts(const Program& program, Diagnostics& diagnostics) {
         if (times == 1) continue;
         if (obstacle != nullptr) {
             diagnostics.error(stage.time.coarse_span,
-                              fmt::format("stage '{}' starts on a coarser grid, {}", stage.name, obstacle));
+                              fmt::format("stage '{}' starts on a coarser grid, {}", stage.name,
+                                          obstacle));
             continue;
         }
         for (const std::int64_t cells : {grid.width, grid.height, grid.depth}) {
             if (cells == 1 || (cells % times == 0 && cells / times >= fewest_cells)) continue;
-            diagnostics.error(stage.time.coarse_span,
-                              fmt::format("a side of {} cells has no grid of {} times as wide cells",
-                                          cells, times),
-                              fmt::format("sides must be multiples of {}, and {} at least", times,
-                                          fewest_cells * times));
+            diagnostics.error(
+                stage.time.coarse_span,
+                fmt::format("a side of {} cells has no grid of {} times as wide cells", cells,
+                            times),
+                fmt::format("sides must be multiples of {}, and {} at least", times,
+                            fewest_cells * times));
             break;
         }
     }

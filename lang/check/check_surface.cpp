@@ -9,7 +9,8 @@ namespace {
 
 void check_position(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     if (statement.values.size() != 3) {
-        work.diagnostics.error(statement.span, "a surface is three expressions: x, y and z in space",
+        work.diagnostics.error(statement.span,
+                               "a surface is three expressions: x, y and z in space",
                                "surface: sx, sy, 0.1 * sin(2 * pi * sx)");
         return;
     }
@@ -84,8 +85,7 @@ void check_surface(Workspace& work, const ast::Script& script, const ast::Block&
                                "grid: 128, 128");
     }
     if (grid.spacing != 1) {
-        work.diagnostics.error(surface->name.span,
-                               "a domain has a surface or a spacing, not both",
+        work.diagnostics.error(surface->name.span, "a domain has a surface or a spacing, not both",
                                "unit: … is the length of one unit on a surface");
     }
     if (metric != nullptr) check_metric(work, script, *metric);

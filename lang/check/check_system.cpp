@@ -24,7 +24,9 @@ struct RateStatements {
 class SystemChecker {
 public:
     SystemChecker(Workspace& work, const DerivedSystem& derived, std::uint32_t index)
-        : work_(work), derived_(derived), index_(index),
+        : work_(work),
+          derived_(derived),
+          index_(index),
           declarations_(system_declarations(work, system(), derived.statements)) {}
 
     void run();
@@ -113,8 +115,8 @@ bool SystemChecker::can_declare(const Declaration& declaration) {
     const std::string_view name = declaration.statement->name.text;
     const Reserved kind = reserved(name);
     if (kind == Reserved::builtin) {
-        work_.diagnostics.error(
-            declaration.span(), fmt::format("'{}' is built in and cannot be declared", name));
+        work_.diagnostics.error(declaration.span(),
+                                fmt::format("'{}' is built in and cannot be declared", name));
         return false;
     }
     const bool is_member = !declaration.statement->index.empty();
@@ -139,10 +141,12 @@ bool SystemChecker::can_declare(const Declaration& declaration) {
 /// No quantity is a text: one whose name is near that of a text is told so.
 bool SystemChecker::is_misspelt_text(const Declaration& declaration) {
     const ast::ExprId value = declaration.statement->values[0].root;
-    if (!std::holds_alternative<ast::Text>(declaration.script->expressions[value].node)) return false;
+    if (!std::holds_alternative<ast::Text>(declaration.script->expressions[value].node))
+        return false;
     std::string hint = did_you_mean(work_, declaration.name, settings_of({SettingBlock::system}));
     if (hint.empty()) return false;
-    work_.diagnostics.error(declaration.span(), fmt::format("'{}' cannot be a text", declaration.name),
+    work_.diagnostics.error(declaration.span(),
+                            fmt::format("'{}' cannot be a text", declaration.name),
                             std::move(hint));
     return true;
 }
@@ -203,7 +207,8 @@ void SystemChecker::report_rate_of_definition(const Declaration& rate) {
                      [&](const Declaration* each) { return each->name == rate.name; });
     if (definition != definitions_.end() && (*definition)->level >= rate.level) {
         work_.diagnostics.error((*definition)->span(),
-                                fmt::format("'{}' is a species and cannot be a definition", rate.name),
+                                fmt::format("'{}' is a species and cannot be a definition",
+                                            rate.name),
                                 fmt::format("write {}: … for its starting value", rate.name));
         return;
     }
@@ -328,10 +333,10 @@ void SystemChecker::report_no_bound(const Declaration& declaration) {
         if (quantity.is_species && !is_hopeless(work_)) species.push_back(quantity.name);
     }
     std::string hint = did_you_mean(work_, declaration.name, species);
-    work_.diagnostics.error(
-        declaration.span(),
-        fmt::format("'{}' is not a species of {}", declaration.name, system().name),
-        std::move(hint));
+    work_.diagnostics.error(declaration.span(),
+                            fmt::format("'{}' is not a species of {}", declaration.name,
+                                        system().name),
+                            std::move(hint));
 }
 
 void SystemChecker::check_invariants() {
@@ -354,7 +359,8 @@ void SystemChecker::check_settings() {
     Settings settings;
     std::uint32_t level_of_end = 0;
     for (const Declaration* declaration : settings_) {
-        if (is_end_setting(declaration->name)) level_of_end = std::max(level_of_end, declaration->level);
+        if (is_end_setting(declaration->name))
+            level_of_end = std::max(level_of_end, declaration->level);
     }
     for (const Declaration* declaration : settings_) {
         if (is_end_setting(declaration->name) && declaration->level < level_of_end) continue;

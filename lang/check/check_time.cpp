@@ -78,7 +78,8 @@ void check_until(Workspace& work, const ast::Script& script, ast::Expression val
                                    "as in steady(0.01)");
             return;
         }
-        time.steady = check_range(work, script, argument_of(script, value, *call), "steady", 1e-6, 0.9);
+        time.steady =
+            check_range(work, script, argument_of(script, value, *call), "steady", 1e-6, 0.9);
         return;
     }
     // It reads the stage as it is when it is tested, as a picture does.

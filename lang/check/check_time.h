@@ -16,7 +16,8 @@ inline constexpr std::int64_t most_iterations = 1'000'000'000;
 /// Is this `speed: auto`?
 bool is_automatic(const ast::Script& script, const ast::Statement& speed);
 
-/// `iterations` and `duration`: a stage ends by one of them, and what replaces either replaces both.
+/// `iterations` and `duration`: a stage ends by one of them, and what replaces either replaces
+/// both.
 bool is_end_setting(std::string_view name);
 
 /// Sets it. The statement has one value.
@@ -27,8 +28,9 @@ void check_time_setting(Workspace& work, const ast::Script& script, const ast::S
 /// language's.
 void fill_time(Stage& stage, const Settings& own, const Settings& defaults);
 
-/// The stage takes the solver of `asked` (`--solver`) and keeps the time it takes: iterations · speed
-/// where it has no duration. Stabilised and semi-implicit solvers choose their steps as with `speed: auto`.
+/// The stage takes the solver of `asked` (`--solver`) and keeps the time it takes: iterations ·
+/// speed where it has no duration. Stabilised and semi-implicit solvers choose their steps as with
+/// `speed: auto`.
 void change_solver(Stage& stage, const TimeSettings& asked);
 
 /// Faults that only show when the whole stage is known: settings that do not go together, a speed

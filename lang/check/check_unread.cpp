@@ -41,9 +41,8 @@ std::vector<Unread> find_unread(const Workspace& work, std::uint32_t index) {
             unread.push_back({&definition.name, definition.span, "definition"});
         }
     }
-    std::erase_if(unread, [&](const Unread& each) {
-        return !read.insert(family_of(*each.name)).second;
-    });
+    std::erase_if(unread,
+                  [&](const Unread& each) { return !read.insert(family_of(*each.name)).second; });
     return unread;
 }
 
@@ -56,10 +55,10 @@ void report_change_of_nothing(Workspace& work, const System& system, const Unrea
     if (family != *unread.name && has_family(base, family)) return;
     std::vector<std::string> names = quantity_names(base);
     for (const Definition& definition : base.definitions) names.push_back(definition.name);
-    work.diagnostics.error(
-        unread.span,
-        fmt::format("{} has no '{}' to change, and nothing reads it", base.name, family),
-        did_you_mean(work, *unread.name, names));
+    work.diagnostics.error(unread.span,
+                           fmt::format("{} has no '{}' to change, and nothing reads it", base.name,
+                                       family),
+                           did_you_mean(work, *unread.name, names));
 }
 
 }  // namespace

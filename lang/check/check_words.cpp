@@ -71,8 +71,8 @@ namespace {
 template <typename Take>
 void each_member(const System& system, std::string_view family, const Take& take) {
     const auto look = [&](const std::string& name) {
-        const bool is_member = name.size() > family.size() && name.starts_with(family) &&
-                               name[family.size()] == '[';
+        const bool is_member =
+            name.size() > family.size() && name.starts_with(family) && name[family.size()] == '[';
         if (is_member) take(std::string_view(name).substr(family.size() + 1));
     };
     for (const Quantity& quantity : system.quantities) look(quantity.name);
@@ -102,9 +102,9 @@ std::optional<Explanation> explain_family(Workspace& work, const System& system,
                            fmt::format("there are {0}[{1}] to {0}[{2}]", family, first, last)};
     }
     if (family.size() < name.size()) {
-        const auto same = std::find_if(
-            system.quantities.begin(), system.quantities.end(),
-            [&](const Quantity& quantity) { return quantity.name == family; });
+        const auto same =
+            std::find_if(system.quantities.begin(), system.quantities.end(),
+                         [&](const Quantity& quantity) { return quantity.name == family; });
         if (same == system.quantities.end()) return std::nullopt;
         return Explanation{fmt::format("'{}' is no family", family),
                            fmt::format("write {} without an index", family)};

@@ -47,9 +47,8 @@ std::optional<Index> check_index(Workspace& work, const SystemStatement& from) {
         return std::nullopt;
     }
     if (*high - *low >= most_members) {
-        work.diagnostics.error(statement.span,
-                               fmt::format("the index '{}' has more than {} values", index.name,
-                                           most_members));
+        work.diagnostics.error(statement.span, fmt::format("the index '{}' has more than {} values",
+                                                           index.name, most_members));
         return std::nullopt;
     }
     return index;
@@ -57,9 +56,8 @@ std::optional<Index> check_index(Workspace& work, const SystemStatement& from) {
 
 bool can_be_index(Workspace& work, const ast::Word& name) {
     if (reserved(name.text) == Reserved::no && name.text != "domain") return true;
-    work.diagnostics.error(name.span,
-                           fmt::format("'{}' belongs to the language and cannot be an index",
-                                       name.text));
+    work.diagnostics.error(
+        name.span, fmt::format("'{}' belongs to the language and cannot be an index", name.text));
     return false;
 }
 
@@ -83,7 +81,8 @@ void collect_indices(Workspace& work, System& system, std::span<const SystemStat
     for (const SystemStatement& each : statements) {
         const auto found = latest.find(each.statement->name.text);
         if (found == latest.end() || found->second != &each) continue;
-        auto index = can_be_index(work, each.statement->name) ? check_index(work, each) : std::nullopt;
+        auto index =
+            can_be_index(work, each.statement->name) ? check_index(work, each) : std::nullopt;
         if (!index) {
             work.incomplete[number_of(work, system)] = true;
             work.faulty_indices.push_back(each.statement->name.text);
@@ -131,8 +130,8 @@ void report_unknown_index(Workspace& work, const System& system, const ast::Word
 
 /// What one statement stands for.
 std::vector<Declaration> expand_statement(Workspace& work, const System& system,
-                                       const ast::Script& script, const ast::Statement& statement,
-                                       std::uint32_t level) {
+                                          const ast::Script& script,
+                                          const ast::Statement& statement, std::uint32_t level) {
     Declaration declaration;
     declaration.script = &script;
     declaration.statement = &statement;
@@ -235,7 +234,7 @@ private:
 
     void add_bound(Declaration declaration) {
         auto& before = declaration.kind() == Kind::at_least ? lower_[declaration.name]
-                                                          : upper_[declaration.name];
+                                                            : upper_[declaration.name];
         std::erase_if(before, [&](std::size_t i) {
             if (all_[i].level == declaration.level) return false;
             dropped_[i] = true;
@@ -254,7 +253,7 @@ private:
 }  // namespace
 
 std::vector<Declaration> system_declarations(Workspace& work, System& system,
-                                         std::span<const SystemStatement> statements) {
+                                             std::span<const SystemStatement> statements) {
     collect_indices(work, system, statements);
     StatementList list;
     for (const SystemStatement& each : statements) {
@@ -267,11 +266,10 @@ std::vector<Declaration> system_declarations(Workspace& work, System& system,
             list.add(std::move(declaration));
         }
         if (list.size() > most_declarations && !statement.index.empty()) {
-            work.diagnostics.error(statement.name.span,
-                                   fmt::format("the families of {} are too large together",
-                                               system.name),
-                                   fmt::format("a system has at most {} statements",
-                                               most_declarations));
+            work.diagnostics.error(
+                statement.name.span,
+                fmt::format("the families of {} are too large together", system.name),
+                fmt::format("a system has at most {} statements", most_declarations));
             break;
         }
     }
@@ -279,8 +277,8 @@ std::vector<Declaration> system_declarations(Workspace& work, System& system,
 }
 
 std::vector<Declaration> stage_declarations(Workspace& work, const System& system,
-                                        const ast::Script& script,
-                                        const ast::Statement& statement) {
+                                            const ast::Script& script,
+                                            const ast::Statement& statement) {
     return expand_statement(work, system, script, statement, 0);
 }
 

@@ -25,7 +25,7 @@ struct Declaration {
     std::string name;                 ///< `ka`, or of a member `u[2]`.
     std::optional<IndexValue> index;  ///< With u[i]: the value of i. Empty for u[2] and ka.
     std::uint32_t level = 0;
-    std::string doc;                  ///< Its own, or that of the statement it has replaced.
+    std::string doc;  ///< Its own, or that of the statement it has replaced.
     /// The range of its own, or that of the statement it has replaced; null where it has none.
     const ast::Range* range = nullptr;
     const ast::Script* range_script = nullptr;
@@ -40,10 +40,11 @@ struct Declaration {
 /// definition, in its place; `a' =` the whole rate; `a >= e` all bounds of the kind. On one level
 /// `u[2]: e` replaces what `u[i]: e` says of u[2], and so for definitions and rates.
 std::vector<Declaration> system_declarations(Workspace& work, System& system,
-                                         std::span<const SystemStatement> statements);
+                                             std::span<const SystemStatement> statements);
 
 /// The declarations that one statement of a stage stands for, with the indices of its system.
 std::vector<Declaration> stage_declarations(Workspace& work, const System& system,
-                                        const ast::Script& script, const ast::Statement& statement);
+                                            const ast::Script& script,
+                                            const ast::Statement& statement);
 
 }  // namespace cascade::checking

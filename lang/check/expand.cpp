@@ -35,12 +35,12 @@ public:
 
 private:
     enum class TaskKind : std::uint8_t {
-        visit,     ///< Write out a part and what it reads.
-        finish,    ///< Its operands are written: write the part itself.
-        call,      ///< The arguments are written: go on with the function's value.
-        leave,     ///< The function's value is written.
-        repeat,    ///< An aggregate: bind its index to `value` and write the operand.
-        combine,   ///< The operand is written for `value`.
+        visit,    ///< Write out a part and what it reads.
+        finish,   ///< Its operands are written: write the part itself.
+        call,     ///< The arguments are written: go on with the function's value.
+        leave,    ///< The function's value is written.
+        repeat,   ///< An aggregate: bind its index to `value` and write the operand.
+        combine,  ///< The operand is written for `value`.
     };
     struct Task {
         TaskKind kind = TaskKind::visit;
@@ -107,8 +107,9 @@ Expanded Expander::run(ast::ExprId root) {
             results_.clear();
             if (work_.parts_written == most_parts + 1) {
                 work_.diagnostics.error(
-                    span, "this expression is too large when its functions and families are "
-                          "written out",
+                    span,
+                    "this expression is too large when its functions and families are "
+                    "written out",
                     fmt::format("a script may grow to {} parts", most_parts));
             }
             frames_.resize(1);
@@ -216,7 +217,8 @@ void Expander::visit_over(ast::ExprId part, const ast::Over& over) {
     }
     const Index* index = find_index(work_, scope_, over.index.text);
     const auto& faulty = work_.faulty_indices;
-    if (index == nullptr && std::find(faulty.begin(), faulty.end(), over.index.text) != faulty.end()) {
+    if (index == nullptr &&
+        std::find(faulty.begin(), faulty.end(), over.index.text) != faulty.end()) {
         return emit(over.index.span, ast::Garbage{});
     }
     if (index == nullptr) {
@@ -296,8 +298,7 @@ void Expander::finish_member(const ast::Expr& here, const ast::Indexed& member,
                              std::size_t before) {
     --open_indices_;
     const ast::ExprId last = take();
-    const auto value =
-        index_value(static_cast<ast::ExprId>(before), last, expr(member.index).span);
+    const auto value = index_value(static_cast<ast::ExprId>(before), last, expr(member.index).span);
     out_.parts.expressions.resize(before, {{}, ast::Garbage{}});
     out_.calls.resize(before);
     if (!value) return emit(here.span, ast::Garbage{});

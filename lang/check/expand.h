@@ -20,7 +20,7 @@ namespace cascade::checking {
 /// An expression that was written out. Operands still come before operators, but a part may be read
 /// by several others, or by none.
 struct Expanded {
-    ast::Script parts;                       ///< Expressions and arguments only.
+    ast::Script parts;  ///< Expressions and arguments only.
     ast::ExprId root = 0;
     std::deque<std::string> names;           ///< Of members; the parts' names are views of them.
     std::vector<std::optional<Span>> calls;  ///< By part: the call that it was written out for.

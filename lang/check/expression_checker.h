@@ -1,8 +1,8 @@
 // Checking one expression, part by part (internal to the checker).
 //
 // check_expression.cpp walks the parts and resolves names and texts; check_call.cpp checks what is
-// called: arguments, places, types and constants; check_operators.cpp what is particular to operators
-// of derivatives, vectors and tensors.
+// called: arguments, places, types and constants; check_operators.cpp what is particular to
+// operators of derivatives, vectors and tensors.
 #pragma once
 
 #include "lang/check/check_expression.h"
@@ -20,7 +20,7 @@ struct Part {
     bool faulty = false;  ///< A message has been given; whatever reads it stays silent.
     bool constant = false;
     double value = 0;
-    bool turned = false;   ///< A vector that a tensor has multiplied, or is made of such.
+    bool turned = false;  ///< A vector that a tensor has multiplied, or is made of such.
 };
 
 class ExpressionChecker {
@@ -31,9 +31,12 @@ public:
     /// For an expression that was written out: `from` is the script that it was written in.
     ExpressionChecker(Workspace& work, const ast::Script& from, const Expanded& expanded,
                       const Scope& scope)
-        : work_(work), script_(expanded.parts),
+        : work_(work),
+          script_(expanded.parts),
           expression_{0, static_cast<ast::ExprId>(expanded.parts.expressions.size() - 1)},
-          scope_(scope), from_(from), expanded_(&expanded) {}
+          scope_(scope),
+          from_(from),
+          expanded_(&expanded) {}
 
     std::optional<CheckedExpression> run();
 
@@ -85,7 +88,7 @@ private:
     const ast::Script& script_;
     ast::Expression expression_;
     const Scope& scope_;
-    const ast::Script& from_ = script_;    ///< Whose functions can be called.
+    const ast::Script& from_ = script_;  ///< Whose functions can be called.
     const Expanded* expanded_ = nullptr;
     Formula formula_;
     std::vector<Part> parts_;

@@ -1,5 +1,5 @@
-// Settings that are a word, alone or with arguments in brackets, as in `surface: torus(1, 0.4)` (internal
-// to the checker).
+// Settings that are a word, alone or with arguments in brackets, as in `surface: torus(1, 0.4)`
+// (internal to the checker).
 #pragma once
 
 #include "lang/syntax/ast.h"
@@ -21,7 +21,8 @@ inline std::string_view word_of(const ast::Expr& value) {
 }
 
 /// The arguments of a call, whose parts stand one after the other before it.
-inline std::vector<ast::Expression> arguments_of(const ast::Script& script, ast::Expression written) {
+inline std::vector<ast::Expression> arguments_of(const ast::Script& script,
+                                                 ast::Expression written) {
     std::vector<ast::Expression> arguments;
     const auto* call = std::get_if<ast::Call>(&script.expressions[written.root].node);
     if (call == nullptr) return arguments;

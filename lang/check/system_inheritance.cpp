@@ -60,11 +60,11 @@ void Derivation::report_cycle(const std::vector<std::uint32_t>& cycle) {
         is_known_[system] = false;
         names.emplace_back(blocks_[system].block->name.text);
     }
-    work_.diagnostics.error(
-        blocks_[cycle[0]].block->base.span,
-        cycle.size() == 1
-            ? fmt::format("'{}' is derived from itself", names[0])
-            : fmt::format("systems are derived from each other in a cycle: {}", describe_cycle(names)));
+    work_.diagnostics.error(blocks_[cycle[0]].block->base.span,
+                            cycle.size() == 1
+                                ? fmt::format("'{}' is derived from itself", names[0])
+                                : fmt::format("systems are derived from each other in a cycle: {}",
+                                              describe_cycle(names)));
 }
 
 DerivedSystem Derivation::derive(std::uint32_t index, const std::vector<DerivedSystem>& before) {
@@ -114,8 +114,7 @@ std::vector<DerivedSystem> Derivation::run() {
 
 }  // namespace
 
-std::vector<DerivedSystem> derive_systems(Workspace& work,
-                                          const std::vector<SystemBlock>& blocks) {
+std::vector<DerivedSystem> derive_systems(Workspace& work, const std::vector<SystemBlock>& blocks) {
     return Derivation(work, blocks).run();
 }
 

@@ -1,5 +1,5 @@
-// Systems from systems: `system b: a { … }` has the statements of a, changed by its own (internal to
-// the checker).
+// Systems from systems: `system b: a { … }` has the statements of a, changed by its own (internal
+// to the checker).
 #pragma once
 
 #include "lang/check/declarations.h"
@@ -20,7 +20,7 @@ struct SystemBlock {
 struct DerivedSystem {
     SystemBlock from;
     std::vector<SystemStatement> statements;  ///< Those of its bases first.
-    std::optional<std::size_t> base;        ///< Its place in the same list.
+    std::optional<std::size_t> base;          ///< Its place in the same list.
     bool is_known = true;  ///< False where its base is not known: told; nothing else is said of it.
 };
 

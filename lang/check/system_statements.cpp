@@ -36,7 +36,7 @@ std::string member_of(const ast::Statement& statement) {
 }
 
 SaidStatement said(const ast::Script& script, const Sources& sources,
-                  const ast::Statement& statement) {
+                   const ast::Statement& statement) {
     SaidStatement result{&script, &sources, &statement};
     if (!statement.doc.empty()) result.doc = &statement;
     if (statement.range) {
@@ -58,7 +58,7 @@ SystemBlocks system_blocks(const ast::Script& script) {
 }
 
 SystemStatements::SystemStatements(const ast::Script& script, const Sources& sources,
-                                 const SystemBlocks& blocks, std::string_view system) {
+                                   const SystemBlocks& blocks, std::string_view system) {
     std::vector<Place> chain;  // From the system to the one that is derived from none.
     Place place = find_block({&script, &sources, &blocks, nullptr}, system);
     if (place.block == nullptr) place = find_in_library(system);
@@ -142,8 +142,7 @@ SystemStatements::Place SystemStatements::find_in_library(std::string_view syste
     if (text == nullptr) return {};
     LibraryScript& read = library_.emplace_back();
     Diagnostics never_any;
-    const SourceId source =
-        read.sources.add(std::string(text->file_name), std::string(text->text));
+    const SourceId source = read.sources.add(std::string(text->file_name), std::string(text->text));
     read.script = parse(source, read.sources, never_any);
     read.blocks = system_blocks(read.script);
     return find_block({&read.script, &read.sources, &read.blocks, nullptr}, system);

@@ -37,7 +37,7 @@ class SystemStatements {
 public:
     /// `blocks` are those of `script`.
     SystemStatements(const ast::Script& script, const Sources& sources, const SystemBlocks& blocks,
-                    std::string_view system);
+                     std::string_view system);
 
     /// False if there is no such system.
     bool found() const { return found_; }

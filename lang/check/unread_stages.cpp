@@ -34,12 +34,14 @@ std::string how_to_go_on(const Program& program, std::uint32_t stage) {
         return name.find('[') != std::string::npos;
     });
     if (!is_alike || is_family || species.size() > 4) {
-        return fmt::format("a stage begins with its own starting values: 'p: {}.{}' would read this one",
-                           program.stages[stage].name, species.front());
+        return fmt::format(
+            "a stage begins with its own starting values: 'p: {}.{}' would read this one",
+            program.stages[stage].name, species.front());
     }
     std::vector<std::string> statements;
     for (const std::string& name : species) statements.push_back(fmt::format("{}: {}", name, name));
-    return fmt::format("'{}' in stage '{}' goes on from it", fmt::join(statements, "; "), next.name);
+    return fmt::format("'{}' in stage '{}' goes on from it", fmt::join(statements, "; "),
+                       next.name);
 }
 
 }  // namespace

@@ -27,8 +27,7 @@ std::vector<std::string> FunctionTable::names() const {
 
 class FunctionTableMaker {
 public:
-    FunctionTableMaker(Workspace& work, const ast::Script& script)
-        : work_(work), script_(script) {}
+    FunctionTableMaker(Workspace& work, const ast::Script& script) : work_(work), script_(script) {}
 
     FunctionTable run() {
         for (const ast::FunctionDefinition& definition : script_.functions) declare(definition);
@@ -76,8 +75,7 @@ void FunctionTableMaker::declare(const ast::FunctionDefinition& definition) {
     const auto index = static_cast<std::uint32_t>(table_.functions_.size());
     const auto [first, is_new] = table_.by_name_.try_emplace(name.text, index);
     if (!is_new) {
-        report_twice(work_, name.span,
-                     table_.functions_[first->second].definition->name.span,
+        report_twice(work_, name.span, table_.functions_[first->second].definition->name.span,
                      fmt::format("there are two functions '{}'", name.text));
     }
     table_.functions_.push_back(std::move(function));
@@ -112,8 +110,7 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
         } else if (std::holds_alternative<ast::Bracketed>(part.node) ||
                    std::holds_alternative<ast::Qualified>(part.node) ||
                    std::holds_alternative<ast::RateOf>(part.node)) {
-            fault(function, part.span, "a function cannot read a stage or a system",
-                  what_it_reads);
+            fault(function, part.span, "a function cannot read a stage or a system", what_it_reads);
         }
     }
 }
@@ -157,11 +154,12 @@ void FunctionTableMaker::report_cycle(const std::vector<std::uint32_t>& cycle) {
         const auto* call = std::get_if<ast::Call>(&script_.expressions[id].node);
         if (call != nullptr && call->function.text == next) span = call->function.span;
     }
-    work_.diagnostics.error(
-        span,
-        cycle.size() == 1 ? fmt::format("the function '{}' calls itself", names[0])
-                           : fmt::format("functions call each other in a cycle: {}", describe_cycle(names)),
-        "a function cannot be computed by itself");
+    work_.diagnostics.error(span,
+                            cycle.size() == 1
+                                ? fmt::format("the function '{}' calls itself", names[0])
+                                : fmt::format("functions call each other in a cycle: {}",
+                                              describe_cycle(names)),
+                            "a function cannot be computed by itself");
 }
 
 const FunctionTable& functions_of(Workspace& work, const ast::Script& script) {

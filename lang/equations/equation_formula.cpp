@@ -81,7 +81,9 @@ const Row* find(const Row (&rows)[count], decltype(Row::function) function) {
 class FormulaPrinter {
 public:
     FormulaPrinter(const ast::Script& script, const Sources& sources, const Symbols& symbols)
-        : script_(script), sources_(sources), symbols_(symbols),
+        : script_(script),
+          sources_(sources),
+          symbols_(symbols),
           tex_(symbols.notation == Notation::tex) {}
 
     std::string run(ast::ExprId root, int least) {
@@ -129,7 +131,8 @@ private:
                 if constexpr (std::is_same_v<Node, ast::Number>) {
                     text_ += symbols_.number(sources_.text(expression.span));
                 } else if constexpr (std::is_same_v<Node, ast::Text>) {
-                    text_ += both("\"" + node.value + "\"", "\\texttt{" + tex_text(node.value) + "}");
+                    text_ +=
+                        both("\"" + node.value + "\"", "\\texttt{" + tex_text(node.value) + "}");
                 } else if constexpr (std::is_same_v<Node, ast::Name>) {
                     text_ += symbols_.name(node.name);
                 } else if constexpr (std::is_same_v<Node, ast::Bracketed>) {
@@ -205,9 +208,8 @@ private:
     /// A sum over an index would swallow the factors after it.
     int factor(ast::ExprId id, int least) const {
         const auto* const over = as<ast::Over>(id);
-        return over && (over->function.text == "sum" || over->function.text == "product")
-                   ? a_sign
-                   : least;
+        return over && (over->function.text == "sum" || over->function.text == "product") ? a_sign
+                                                                                          : least;
     }
     /// Side by side, with a point where two numbers would meet.
     void write_product(const ast::Binary& node, int least) {
@@ -215,8 +217,7 @@ private:
         const auto* const right = as<ast::Binary>(node.right);
         const bool right_is_power = right && right->op == Function::power;
         const bool right_is_product = right && right->op == Function::multiply;
-        const ast::ExprId first =
-            right_is_power || right_is_product ? right->left : node.right;
+        const ast::ExprId first = right_is_power || right_is_product ? right->left : node.right;
         const bool meets_number = as<ast::Number>(first) != nullptr;
         // On one line `a / b c` would read as a / (b c).
         const bool left_is_quotient = !tex_ && left && left->op == Function::divide;
@@ -234,8 +235,8 @@ private:
                                  a_power, least);
         }
         const bool of_numbers = as<ast::Number>(node.left) && as<ast::Number>(node.right);
-        push_operator({Operand{node.left, factor(node.left, a_product)},
-                       of_numbers ? "/" : " / ", Operand{node.right, factor(node.right, a_power)}},
+        push_operator({Operand{node.left, factor(node.left, a_product)}, of_numbers ? "/" : " / ",
+                       Operand{node.right, factor(node.right, a_power)}},
                       a_product, least);
     }
     void write_power(ast::ExprId base, ast::ExprId exponent, int least) {
@@ -266,9 +267,9 @@ private:
                              both(around->unicode_close, around->tex_close)});
             }
             if (const Prefix* prefix = find(prefixes, function)) {
-                return push_operator(
-                    {both(prefix->unicode, prefix->tex), Operand{operands[0], an_atom}}, a_power,
-                    least);
+                return push_operator({both(prefix->unicode, prefix->tex),
+                                      Operand{operands[0], an_atom}},
+                                     a_power, least);
             }
             if (function == "sqrt") return write_root("√", "\\sqrt", operands[0], least);
             if (function == "cbrt") return write_root("∛", "\\sqrt[3]", operands[0], least);

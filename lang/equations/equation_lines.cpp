@@ -22,11 +22,12 @@ std::string_view command_at(std::string_view formula, std::size_t at) {
 
 /// How much deeper in brackets, groups or environments a formula is after a command.
 int deeper_after(std::string_view command) {
-    if (command == "\\left" || command == "\\begin" || command == "\\lfloor" || command == "\\lceil") {
+    if (command == "\\left" || command == "\\begin" || command == "\\lfloor" ||
+        command == "\\lceil") {
         return 1;
     }
-    const bool closes = command == "\\right" || command == "\\end" || command == "\\rfloor" ||
-                        command == "\\rceil";
+    const bool closes =
+        command == "\\right" || command == "\\end" || command == "\\rfloor" || command == "\\rceil";
     return closes ? -1 : 0;
 }
 
@@ -45,7 +46,8 @@ std::vector<std::string_view> terms_of(std::string_view formula) {
             ++depth;
         } else if (c == '}') {
             --depth;
-        } else if (depth == 0 && (formula.substr(at, 3) == " + " || formula.substr(at, 3) == " - ")) {
+        } else if (depth == 0 &&
+                   (formula.substr(at, 3) == " + " || formula.substr(at, 3) == " - ")) {
             terms.push_back(formula.substr(begin, at - begin));
             begin = at + 1;
         }
@@ -114,8 +116,8 @@ std::vector<std::string> broken_sum(std::string_view formula) {
     }
     std::vector<std::string> lines;
     for (const std::string_view term : terms_of(formula)) {
-        const bool fits = !lines.empty() && width_in_signs(lines.back()) + width_in_signs(term) <=
-                                                signs_of_a_line;
+        const bool fits = !lines.empty() &&
+                          width_in_signs(lines.back()) + width_in_signs(term) <= signs_of_a_line;
         if (fits) lines.back().append(" ").append(term);
         else lines.emplace_back(term);
     }

@@ -17,13 +17,13 @@ struct Letter {
 /// Names that stand for a letter; TeX knows them by the same names, except those it writes as a
 /// Latin letter, which are left out. `epsilon` and `phi` are the forms that papers print.
 constexpr Letter greek[] = {
-    {"alpha", "α"},   {"beta", "β"},   {"gamma", "γ"},   {"delta", "δ"}, {"epsilon", "ε"},
-    {"zeta", "ζ"},    {"eta", "η"},    {"theta", "θ"},   {"iota", "ι"},  {"kappa", "κ"},
-    {"lambda", "λ"},  {"mu", "μ"},     {"nu", "ν"},      {"xi", "ξ"},    {"pi", "π"},
-    {"rho", "ρ"},     {"sigma", "σ"},  {"tau", "τ"},     {"phi", "φ"},   {"chi", "χ"},
-    {"psi", "ψ"},     {"omega", "ω"},  {"Gamma", "Γ"},   {"Delta", "Δ"}, {"Theta", "Θ"},
-    {"Lambda", "Λ"},  {"Xi", "Ξ"},     {"Pi", "Π"},      {"Sigma", "Σ"}, {"Phi", "Φ"},
-    {"Psi", "Ψ"},     {"Omega", "Ω"},
+    {"alpha", "α"},  {"beta", "β"},  {"gamma", "γ"}, {"delta", "δ"}, {"epsilon", "ε"},
+    {"zeta", "ζ"},   {"eta", "η"},   {"theta", "θ"}, {"iota", "ι"},  {"kappa", "κ"},
+    {"lambda", "λ"}, {"mu", "μ"},    {"nu", "ν"},    {"xi", "ξ"},    {"pi", "π"},
+    {"rho", "ρ"},    {"sigma", "σ"}, {"tau", "τ"},   {"phi", "φ"},   {"chi", "χ"},
+    {"psi", "ψ"},    {"omega", "ω"}, {"Gamma", "Γ"}, {"Delta", "Δ"}, {"Theta", "Θ"},
+    {"Lambda", "Λ"}, {"Xi", "Ξ"},    {"Pi", "Π"},    {"Sigma", "Σ"}, {"Phi", "Φ"},
+    {"Psi", "Ψ"},    {"Omega", "Ω"},
 };
 
 constexpr Letter above[] = {
@@ -32,19 +32,17 @@ constexpr Letter above[] = {
 };
 
 constexpr Letter below[] = {
-    {"0", "₀"}, {"1", "₁"}, {"2", "₂"}, {"3", "₃"}, {"4", "₄"}, {"5", "₅"}, {"6", "₆"},
-    {"7", "₇"}, {"8", "₈"}, {"9", "₉"}, {"-", "₋"}, {"+", "₊"}, {"(", "₍"}, {")", "₎"},
-    {"a", "ₐ"}, {"e", "ₑ"}, {"h", "ₕ"}, {"i", "ᵢ"}, {"j", "ⱼ"}, {"k", "ₖ"}, {"l", "ₗ"},
-    {"m", "ₘ"}, {"n", "ₙ"}, {"o", "ₒ"}, {"p", "ₚ"}, {"r", "ᵣ"}, {"s", "ₛ"}, {"t", "ₜ"},
-    {"u", "ᵤ"}, {"v", "ᵥ"}, {"x", "ₓ"},
+    {"0", "₀"}, {"1", "₁"}, {"2", "₂"}, {"3", "₃"}, {"4", "₄"}, {"5", "₅"}, {"6", "₆"}, {"7", "₇"},
+    {"8", "₈"}, {"9", "₉"}, {"-", "₋"}, {"+", "₊"}, {"(", "₍"}, {")", "₎"}, {"a", "ₐ"}, {"e", "ₑ"},
+    {"h", "ₕ"}, {"i", "ᵢ"}, {"j", "ⱼ"}, {"k", "ₖ"}, {"l", "ₗ"}, {"m", "ₘ"}, {"n", "ₙ"}, {"o", "ₒ"},
+    {"p", "ₚ"}, {"r", "ᵣ"}, {"s", "ₛ"}, {"t", "ₜ"}, {"u", "ᵤ"}, {"v", "ᵥ"}, {"x", "ₓ"},
 };
 
 template <std::size_t count>
 const Letter* find(const Letter (&letters)[count], std::string_view name) {
     const auto* const end = letters + count;
-    const auto* const found = std::find_if(letters, end, [&](const Letter& letter) {
-        return letter.name == name;
-    });
+    const auto* const found =
+        std::find_if(letters, end, [&](const Letter& letter) { return letter.name == name; });
     return found == end ? nullptr : found;
 }
 
@@ -167,7 +165,8 @@ std::string Symbols::number(std::string_view digits) const {
     const bool is_one = significand == "1" || significand == "1.0";
     if (notation == Notation::tex) {
         const std::string power = "10^{" + std::string(exponent) + "}";
-        return is_one ? "{" + power + "}" : "{" + std::string(significand) + " \\cdot " + power + "}";
+        return is_one ? "{" + power + "}"
+                      : "{" + std::string(significand) + " \\cdot " + power + "}";
     }
     const std::string power = "10" + superscript(exponent).value_or("^" + std::string(exponent));
     return is_one ? power : std::string(significand) + "·" + power;

@@ -30,9 +30,8 @@ public:
         : system_(system), name_(name) {
         symbols_.notation = notation;
         for (const SaidStatement& said : system.all()) {
-            symbols_.subscripts =
-                symbols_.subscripts && (is_setting(*said.statement) ||
-                                        has_subscript(said.statement->name.text));
+            symbols_.subscripts = symbols_.subscripts && (is_setting(*said.statement) ||
+                                                          has_subscript(said.statement->name.text));
         }
         for (const SaidStatement& said : system.all()) sort(said);
         add_functions();
@@ -60,9 +59,9 @@ private:
         const bool is_text =
             std::holds_alternative<ast::Text>(said.script->expressions[first.root].node);
         if (is_setting(statement) || is_text) return;
-        const std::string symbol =
-            statement.index.empty() ? symbols_.name(statement.name.text)
-                                   : symbols_.member(statement.name.text, statement.index.text);
+        const std::string symbol = statement.index.empty()
+                                       ? symbols_.name(statement.name.text)
+                                       : symbols_.member(statement.name.text, statement.index.text);
         switch (statement.kind) {
             case ast::StatementKind::rate:
             case ast::StatementKind::rate_term: return add_rate(said, symbol);
@@ -206,9 +205,8 @@ std::vector<std::string> print_equations(const ast::Script& script, const Source
     std::vector<std::string> texts;
     for (const std::string_view system : systems) {
         const SystemStatements statements(script, sources, blocks, system);
-        texts.push_back(statements.found()
-                            ? EquationPrinter(statements, notation, system).run(parts)
-                            : "");
+        texts.push_back(
+            statements.found() ? EquationPrinter(statements, notation, system).run(parts) : "");
     }
     return texts;
 }

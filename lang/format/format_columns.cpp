@@ -102,8 +102,7 @@ private:
             for (Candidate& candidate : here) {
                 const std::size_t at = word(line, candidate.cell).column;
                 while (k < above.size() && word(line - 1, above[k].cell).column < at) ++k;
-                const bool meets = k < above.size() &&
-                                   word(line - 1, above[k].cell).column == at &&
+                const bool meets = k < above.size() && word(line - 1, above[k].cell).column == at &&
                                    above[k].alignment == candidate.alignment;
                 if (!meets) continue;
                 if (above[k].column == none) {
@@ -193,9 +192,9 @@ private:
         switch (word(line, cell).kind) {
             case TokenKind::open_round:
             case TokenKind::open_square:
-                brackets_.push_back(is_last ? Bracket{here.indentation + 2, here.indentation}
-                                            : Bracket{here.cells[cell + 1].column,
-                                                      here.cells[cell].column});
+                brackets_.push_back(
+                    is_last ? Bracket{here.indentation + 2, here.indentation}
+                            : Bracket{here.cells[cell + 1].column, here.cells[cell].column});
                 break;
             case TokenKind::close_round:
             case TokenKind::close_square:

@@ -144,7 +144,7 @@ private:
     std::size_t open_brackets_ = 0;
     bool in_block_ = false;
     bool in_one_line_block_ = false;
-    bool block_begins_ = false;                ///< Nothing but `{` and its comment is written yet.
+    bool block_begins_ = false;  ///< Nothing but `{` and its comment is written yet.
     bool needs_line_ = false;
     bool splits_at_semicolons_ = false;
 };

@@ -21,8 +21,8 @@ struct FormatLine {
     std::vector<Cell> cells;
     std::optional<std::size_t> comment;  ///< The word after the cells, or alone on the line.
     std::size_t comment_column = 0;
-    std::size_t indentation = 0;         ///< Where the line begins; of one that goes on: unknown.
-    bool goes_on = false;                ///< Inside a statement that began further up.
+    std::size_t indentation = 0;  ///< Where the line begins; of one that goes on: unknown.
+    bool goes_on = false;         ///< Inside a statement that began further up.
     bool blank_line_before = false;
 };
 

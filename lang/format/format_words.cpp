@@ -153,7 +153,7 @@ std::size_t blanks_between(const FormatWord& left, const FormatWord& right) {
         case Kind::open_square:
         case Kind::dot:
         case Kind::caret: return 0;
-        
+
         case Kind::star:
         case Kind::slash: return left.is_spaced ? 1 : 0;
         default: break;

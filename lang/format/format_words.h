@@ -1,4 +1,5 @@
-// The words of a script as the formatter sees them: tokens and comments, with what was between them.
+// The words of a script as the formatter sees them: tokens and comments, with what was between
+// them.
 //
 // Internal to the formatter.
 #pragma once
@@ -15,13 +16,13 @@ namespace cascade {
 /// A token other than a line end, or a comment.
 struct FormatWord {
     TokenKind kind = TokenKind::end_of_text;  ///< Of a comment: newline.
-    std::string_view text;       ///< A comment's is without blanks at its end.
-    std::size_t breaks = 0;      ///< Line ends between the word before and this one.
-    std::size_t blanks = 0;      ///< Columns between the word before, or the line's start, and it.
-    std::size_t column = 0;      ///< Where it stood on its line, from 0.
-    bool is_sign = false;        ///< A minus that stands before its operand.
-    bool is_spaced = false;      ///< An operator of the author's choice: with blanks around it.
-    bool is_infix = false;       ///< A name that stands between operands: over, in, step.
+    std::string_view text;                    ///< A comment's is without blanks at its end.
+    std::size_t breaks = 0;                   ///< Line ends between the word before and this one.
+    std::size_t blanks = 0;  ///< Columns between the word before, or the line's start, and it.
+    std::size_t column = 0;  ///< Where it stood on its line, from 0.
+    bool is_sign = false;    ///< A minus that stands before its operand.
+    bool is_spaced = false;  ///< An operator of the author's choice: with blanks around it.
+    bool is_infix = false;   ///< A name that stands between operands: over, in, step.
 
     bool is_comment() const { return kind == TokenKind::newline; }
 };

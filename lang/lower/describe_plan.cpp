@@ -49,24 +49,27 @@ std::string describe_choice(const PartGraph& graph, const PassPlanner::OperandCh
     }
     const std::string neighbours = counted(choice.places, "neighbour");
     if (choice.is_open) {
-        return fmt::format("{} is computed again at {} for {}: beyond a side it is made of what "
-                           "stands there", operand, neighbours, reader);
+        return fmt::format(
+            "{} is computed again at {} for {}: beyond a side it is made of what "
+            "stands there",
+            operand, neighbours, reader);
     }
     if (!choice.is_written) {
         return fmt::format("{} is computed again at {} for {}", operand, neighbours, reader);
     }
     return fmt::format("{} is written to a plane: {} reads it at {}, where {}", operand, reader,
                        neighbours,
-                       choice.is_forced
-                           ? "it cannot be computed again"
-                           : "computing it again would take longer than reading it");
+                       choice.is_forced ? "it cannot be computed again"
+                                        : "computing it again would take longer than reading it");
 }
 
 std::string describe_step_invariant(const PartGraph& graph, PartId id) {
     const std::string name = name_of(graph, id);
     if (graph[id].is_uniform) return fmt::format("{} is computed once: no step changes it", name);
-    return fmt::format("{} is computed once and kept in a plane: no step changes it, and computing it "
-                       "again would take longer than reading it", name);
+    return fmt::format(
+        "{} is computed once and kept in a plane: no step changes it, and computing it "
+        "again would take longer than reading it",
+        name);
 }
 
 }  // namespace
@@ -75,7 +78,8 @@ std::string describe(const PartGraph& graph, const PassPlanner& planner, const S
     std::string text = counted(plan.passes.size(), "pass");
     if (plan.temporaries > 0) text += ", " + counted(plan.temporaries, "temporary plane");
     if (plan.aggregates > 0) text += ", " + counted(plan.aggregates, "aggregate");
-    if (plan.step_invariants > 0) text += ", " + counted(plan.step_invariants, "step-invariant part");
+    if (plan.step_invariants > 0)
+        text += ", " + counted(plan.step_invariants, "step-invariant part");
     for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
         const std::vector<std::string>& results = plan.passes[pass].bound.kernel.result_names;
         if (results.empty()) continue;
@@ -87,11 +91,13 @@ std::string describe(const PartGraph& graph, const PassPlanner& planner, const S
         text += ": ";
         for (std::size_t k = 0; k < results.size(); ++k) text += (k > 0 ? ", " : "") + results[k];
     }
-    std::vector<std::pair<std::string, std::size_t>> step_invariants;  // And how many parts of one name.
+    std::vector<std::pair<std::string, std::size_t>>
+        step_invariants;  // And how many parts of one name.
     for (PartId id = 0; id < graph.size(); ++id) {
         if (!planner.is_needed(id) || !planner.is_step_invariant(id)) continue;
         std::string words = describe_step_invariant(graph, id);
-        if (step_invariants.empty() || step_invariants.back().first != words) step_invariants.emplace_back(words, 0);
+        if (step_invariants.empty() || step_invariants.back().first != words)
+            step_invariants.emplace_back(words, 0);
         ++step_invariants.back().second;
     }
     for (const auto& [words, count] : step_invariants) {

@@ -39,8 +39,7 @@ std::vector<bool> items_of_aggregates(const Stage& stage) {
     for (const std::uint32_t item : stage.order) {
         if (!stage.uniform[item]) continue;
         for (const Node& node : stage.items[item].nodes) {
-            const bool takes_one =
-                node.kind == NodeKind::call && info(node.function).is_aggregate;
+            const bool takes_one = node.kind == NodeKind::call && info(node.function).is_aggregate;
             const bool reads_one = node.kind == NodeKind::own && late[node.index];
             if (takes_one || reads_one) late[item] = true;
         }
@@ -73,8 +72,8 @@ StepPlan plan_items(const Program& program, std::uint32_t stage, const PlanOptio
         items.push_back(item);
         parts.push_back(part);
     }
-    StepPlan plan = build_plan({graph, parts, options},
-                               [&](KernelAssembly& assembly, const PassLowering& values) {
+    StepPlan plan = build_plan({graph, parts, options}, [&](KernelAssembly& assembly,
+                                                            const PassLowering& values) {
         for (std::size_t k = 0; k < items.size(); ++k) {
             const ValueId value = values.value(parts[k])[0];
             assembly.result(std::string(system.item_name(items[k])),
@@ -88,8 +87,8 @@ StepPlan plan_items(const Program& program, std::uint32_t stage, const PlanOptio
 /// All formulas of a stage's step: every plan of it numbers their parts alike.
 struct StepGraph {
     PartGraph graph;
-    std::vector<PartId> rates;    ///< By item.
-    std::vector<PartId> bounds;   ///< By invariant.
+    std::vector<PartId> rates;            ///< By item.
+    std::vector<PartId> bounds;           ///< By invariant.
     std::vector<PartId> step_invariants;  ///< What is computed once.
 
     StepGraph(const Program& program, std::uint32_t stage, const PlanOptions& options)
@@ -114,14 +113,12 @@ private:
         for (const std::uint32_t value : topological_order(step_dependencies(system)).order) {
             if (value < definition_count) {
                 const Definition& definition = system.definitions[value];
-                graph.set_definition(value,
-                                     graph.add(definition.formula, {definition.name, true}));
+                graph.set_definition(value, graph.add(definition.formula, {definition.name, true}));
                 continue;
             }
             const std::uint32_t item = value - definition_count;
             if (!system.is_species(item)) continue;
-            rates[item] =
-                graph.add(system.rates[item], {system.quantities[item].name + "'", true});
+            rates[item] = graph.add(system.rates[item], {system.quantities[item].name + "'", true});
             graph.set_rate(item, rates[item]);
         }
     }
@@ -146,7 +143,8 @@ public:
         std::vector<PartId> wanted;
         for (const std::uint32_t item : system_.rate_order) {
             if (!is_written(item)) continue;
-            if (form_.uses_rates() || (form_.holds && is_bounded(item))) wanted.push_back(rates_[item]);
+            if (form_.uses_rates() || (form_.holds && is_bounded(item)))
+                wanted.push_back(rates_[item]);
         }
         for (std::size_t k = 0; k < system_.invariants.size(); ++k) {
             if (!is_written(system_.invariants[k].species)) continue;
@@ -157,8 +155,9 @@ public:
         StepPlan plan = build_plan({step.graph, wanted, options, true, slots, step.step_invariants,
                                     program_.domain.fast},
                                    [&](KernelAssembly& assembly, const PassLowering& values) {
-            for (std::size_t o = 0; o < form_.outputs.size(); ++o) emit(assembly, values, o);
-        });
+                                       for (std::size_t o = 0; o < form_.outputs.size(); ++o)
+                                           emit(assembly, values, o);
+                                   });
         for (std::size_t o = 0; o < form_.outputs.size(); ++o) {
             plan.results.insert(plan.results.end(), species_.begin(), species_.end());
         }
@@ -190,8 +189,8 @@ private:
                 break;
             case SweepTerm::Source::rate:
                 value = values.value(rates_[item])[0];
-                // A method that puts a step together from rates, or filters them, would otherwise let a
-                // held cell pull at others.
+                // A method that puts a step together from rates, or filters them, would otherwise
+                // let a held cell pull at others.
                 if (kind != SweepOutput::Kind::change) break;
                 if (const auto held = is_held(assembly, values, item)) {
                     value = builder.select(*held, builder.number(0), value);
@@ -228,17 +227,17 @@ private:
         const bool freezes = !assembly.stage().uniform[system_.frozen_item()];
         for (const std::uint32_t item : species_) {
             if (freezes) {
-                const ValueId kept = output.kind == SweepOutput::Kind::state
-                                         ? base(assembly, item)
-                                         : builder.number(0);
-                next[item] = builder.select(assembly.own_item(system_.frozen_item()), kept,
-                                            next[item]);
+                const ValueId kept = output.kind == SweepOutput::Kind::state ? base(assembly, item)
+                                                                             : builder.number(0);
+                next[item] =
+                    builder.select(assembly.own_item(system_.frozen_item()), kept, next[item]);
             }
             assembly.result(system_.quantities[item].name, within_mask(assembly, next[item], 0));
         }
     }
 
-    void hold(KernelAssembly& assembly, const PassLowering& values, std::vector<ValueId>& next) const {
+    void hold(KernelAssembly& assembly, const PassLowering& values,
+              std::vector<ValueId>& next) const {
         for (const std::uint32_t item : species_) {
             if (const auto held = is_held(assembly, values, item)) {
                 next[item] = assembly.builder().select(*held, base(assembly, item), next[item]);
@@ -254,12 +253,12 @@ private:
             const ValueId bound = values.value(part)[0];
             ValueId& value = next[invariant->species];
             value = invariant->at_least ? builder.clamp_below(value, bound)
-                                       : builder.clamp_above(value, bound);
+                                        : builder.clamp_above(value, bound);
         }
     }
 
-    /// Does a value stand at a bound in input 0, which its rate would carry it beyond? Empty where nothing
-    /// bounds it.
+    /// Does a value stand at a bound in input 0, which its rate would carry it beyond? Empty where
+    /// nothing bounds it.
     std::optional<ValueId> is_held(KernelAssembly& assembly, const PassLowering& values,
                                    std::uint32_t item) const {
         KernelBuilder& builder = assembly.builder();
@@ -273,8 +272,9 @@ private:
             const auto less = [&](Op op, ValueId low, ValueId high) {
                 return at_least ? builder.apply(op, low, high) : builder.apply(op, high, low);
             };
-            const ValueId is_here = builder.apply(Op::logical_and, less(Op::less_equal, value, bound),
-                                                  less(Op::less, rate, zero));
+            const ValueId is_here =
+                builder.apply(Op::logical_and, less(Op::less_equal, value, bound),
+                              less(Op::less, rate, zero));
             held = held ? builder.apply(Op::logical_or, *held, is_here) : is_here;
         }
         return held;
@@ -284,8 +284,8 @@ private:
     std::uint32_t stage_;
     const SweepForm& form_;
     const System& system_;
-    std::vector<std::uint32_t> species_;  ///< Items that are written.
-    std::vector<PartId> rates_;           ///< By item.
+    std::vector<std::uint32_t> species_;                       ///< Items that are written.
+    std::vector<PartId> rates_;                                ///< By item.
     std::vector<std::pair<const Invariant*, PartId>> bounds_;  ///< Of species that are written.
 };
 
@@ -294,17 +294,15 @@ private:
 StepPlan plan_uniform_start(const Program& program, std::uint32_t stage) {
     const Stage& source = program.stages[stage];
     const std::vector<bool> late = items_of_aggregates(source);
-    return plan_items(program, stage, {}, [&](std::uint32_t item) {
-        return source.uniform[item] && !late[item];
-    });
+    return plan_items(program, stage, {},
+                      [&](std::uint32_t item) { return source.uniform[item] && !late[item]; });
 }
 
 StepPlan plan_start(const Program& program, std::uint32_t stage, const PlanOptions& options) {
     const Stage& source = program.stages[stage];
     const std::vector<bool> late = items_of_aggregates(source);
-    return plan_items(program, stage, options, [&](std::uint32_t item) {
-        return !source.uniform[item] || late[item];
-    });
+    return plan_items(program, stage, options,
+                      [&](std::uint32_t item) { return !source.uniform[item] || late[item]; });
 }
 
 SweepForm euler_form() {
@@ -330,27 +328,31 @@ StepPlan plan_rates(const Program& program, std::uint32_t stage, const PlanOptio
     const std::vector<std::uint32_t> species = species_items(system);
     std::vector<PartId> wanted;
     for (const std::uint32_t item : system.rate_order) wanted.push_back(step.rates[item]);
-    StepPlan plan = build_plan({step.graph, wanted, options, true, species, step.step_invariants},
-                               [&](KernelAssembly& assembly, const PassLowering& values) {
-        for (const std::uint32_t item : species) {
-            assembly.result(system.quantities[item].name,
-                            within_mask(assembly, values.value(step.rates[item])[0], 0));
-        }
-    });
+    StepPlan plan = build_plan(
+        {step.graph, wanted, options, true, species, step.step_invariants},
+        [&](KernelAssembly& assembly, const PassLowering& values) {
+            for (const std::uint32_t item : species) {
+                assembly.result(system.quantities[item].name,
+                                within_mask(assembly, values.value(step.rates[item])[0], 0));
+            }
+        });
     plan.results = species;
     return plan;
 }
 
-StepPlan plan_step_invariants(const Program& program, std::uint32_t stage, const PlanOptions& options) {
+StepPlan plan_step_invariants(const Program& program, std::uint32_t stage,
+                              const PlanOptions& options) {
     const StepGraph step(program, stage, options);
-    StepPlan plan = build_plan({step.graph, step.step_invariants, options, true},
-                               [&](KernelAssembly& assembly, const PassLowering& values) {
-        for (std::size_t k = 0; k < step.step_invariants.size(); ++k) {
-            const std::string& name = step.graph.name(step.step_invariants[k]);
-            assembly.result(name.empty() ? fmt::format("(step-invariant {})", k) : name,
-                            values.value(step.step_invariants[k])[0]);
-        }
-    });
+    StepPlan plan =
+        build_plan({step.graph, step.step_invariants, options, true},
+                   [&](KernelAssembly& assembly, const PassLowering& values) {
+                       for (std::size_t k = 0; k < step.step_invariants.size(); ++k) {
+                           const std::string& name = step.graph.name(step.step_invariants[k]);
+                           assembly.result(name.empty() ? fmt::format("(step-invariant {})", k)
+                                                        : name,
+                                           values.value(step.step_invariants[k])[0]);
+                       }
+                   });
     for (PassTarget& target : plan.passes.back().targets) {
         if (target.kind != PassTarget::Kind::result) continue;
         const PartId part = step.step_invariants[target.index];
@@ -372,12 +374,13 @@ SidePlans plan_side(const Program& program, const SideSetting& setting, Side sid
     if (plans.changes) step_invariants = largest_step_invariants(graph, wanted);
     plans.once = build_plan({graph, step_invariants, {}},
                             [&](KernelAssembly& assembly, const PassLowering& values) {
-        for (const PartId each : step_invariants) assembly.result("step-invariant", values.value(each)[0]);
-    });
+                                for (const PartId each : step_invariants)
+                                    assembly.result("step-invariant", values.value(each)[0]);
+                            });
     plans.each = build_plan({graph, wanted, {}, false, {}, step_invariants},
                             [&](KernelAssembly& assembly, const PassLowering& values) {
-        assembly.result("value", values.value(part)[0]);
-    });
+                                assembly.result("value", values.value(part)[0]);
+                            });
     return plans;
 }
 
@@ -386,8 +389,8 @@ StepPlan plan_view(const Program& program, std::span<const Formula* const> formu
     PartGraph graph(program, stage);
     std::vector<PartId> parts;
     for (const Formula* formula : formulas) parts.push_back(graph.add(*formula, {}));
-    return build_plan({graph, parts, options},
-                      [&](KernelAssembly& assembly, const PassLowering& values) {
+    return build_plan({graph, parts, options}, [&](KernelAssembly& assembly,
+                                                   const PassLowering& values) {
         static constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
         for (const PartId part : parts) {
             const bool is_number = graph[part].node.type != ValueType::colour;
@@ -407,8 +410,8 @@ StepPlan plan_mask(const Program& program) {
     const PartId part = graph.add(program.domain.mask->formula, {"mask", false, "domain"});
     return build_plan({graph, std::span(&part, 1), {}},
                       [&](KernelAssembly& assembly, const PassLowering& values) {
-        assembly.result("mask", values.value(part)[0]);
-    });
+                          assembly.result("mask", values.value(part)[0]);
+                      });
 }
 
 StepPlan plan_view(const Program& program, const Formula& formula, std::uint32_t stage) {
@@ -423,11 +426,12 @@ std::string describe_plans(const Program& program) {
         const std::string& name = program.stages[k].name;
         text += fmt::format("stage '{}', starting values: {}\n", name,
                             plan_start(program, k, options).words);
-        if (const StepPlan once = plan_step_invariants(program, k, options); once.result_count > 0) {
+        if (const StepPlan once = plan_step_invariants(program, k, options);
+            once.result_count > 0) {
             text += fmt::format("stage '{}', once before the first step: {}\n", name, once.words);
         }
-        text += fmt::format("stage '{}', one step: {}\n", name,
-                            plan_step(program, k, options).words);
+        text +=
+            fmt::format("stage '{}', one step: {}\n", name, plan_step(program, k, options).words);
     }
     return text;
 }

@@ -6,9 +6,9 @@
 //
 //     new = old + speed · rate, clamped by the invariants in order of writing; old where frozen,
 //
-// or the plans of the sweeps of another integrator. Outside of the mask of the domain all items that
-// vary are 0, at the start and after every step, and all rates are 0. The plan of a view computes a
-// picture: one result (a number) or three (a colour).
+// or the plans of the sweeps of another integrator. Outside of the mask of the domain all items
+// that vary are 0, at the start and after every step, and all rates are 0. The plan of a view
+// computes a picture: one result (a number) or three (a colour).
 #pragma once
 
 #include "core/grid.h"
@@ -23,20 +23,18 @@
 
 namespace cascade {
 
-/// The stage's uniform items, in their order, but for those that need an aggregate. One pass without
-/// field slots. May have no results.
+/// The stage's uniform items, in their order, but for those that need an aggregate. One pass
+/// without field slots. May have no results.
 StepPlan plan_uniform_start(const Program& program, std::uint32_t stage);
 
 /// Starting values of all other items. A result that is uniform (Stage::uniform) is the same in all
 /// cells of its plane. `frozen`, if it varies, is stored as a number like the others.
-StepPlan plan_start(const Program& program, std::uint32_t stage,
-                    const PlanOptions& options = {});
+StepPlan plan_start(const Program& program, std::uint32_t stage, const PlanOptions& options = {});
 
 /// One explicit Euler step, one result per species. Where `frozen` varies it is a mask slot; where
 /// it is the same everywhere it is not in the kernels at all, and the time loop takes no steps if
 /// it is true.
-StepPlan plan_step(const Program& program, std::uint32_t stage,
-                   const PlanOptions& options = {});
+StepPlan plan_step(const Program& program, std::uint32_t stage, const PlanOptions& options = {});
 
 /// One sweep of a time integrator: result o·S + s is output o of the s-th of S species written.
 /// Formulas read input 0, which are the items of the stage (SlotSource::item); further inputs are
@@ -48,16 +46,16 @@ StepPlan plan_sweep(const Program& program, std::uint32_t stage, const SweepForm
 SweepForm euler_form();
 
 /// The rates alone, one result per species: dt-free right-hand sides, for stability.
-StepPlan plan_rates(const Program& program, std::uint32_t stage,
-                    const PlanOptions& options = {});
+StepPlan plan_rates(const Program& program, std::uint32_t stage, const PlanOptions& options = {});
 
 /// What decides which cells are inside the mask of the domain, which must have one: one result.
 /// Of a program with a stage.
 StepPlan plan_mask(const Program& program);
-/// What no step of the stage changes, as far as keeping it pays (PlanOptions::keeps_step_invariants; without
-/// it nothing): result k is step-invariant part k, which every step reads from a plane or, where it is the
-/// same in all cells, as a number.
-StepPlan plan_step_invariants(const Program& program, std::uint32_t stage, const PlanOptions& options);
+/// What no step of the stage changes, as far as keeping it pays
+/// (PlanOptions::keeps_step_invariants; without it nothing): result k is step-invariant part k,
+/// which every step reads from a plane or, where it is the same in all cells, as a number.
+StepPlan plan_step_invariants(const Program& program, std::uint32_t stage,
+                              const PlanOptions& options);
 
 /// The value of a side: of a flux on a surface in units of the grid.
 struct SidePlans {

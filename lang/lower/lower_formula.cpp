@@ -29,8 +29,7 @@ Value KernelAssembly::call(const Node& node, const Cursor& cursor) {
         case FunctionKind::draw:
         case FunctionKind::pattern: return {random(node, cursor)};
         case FunctionKind::shape: return {shape(node, cursor)};
-        case FunctionKind::text:
-            return {beside(file_slot(node.function, cursor.operand(0).index))};
+        case FunctionKind::text: return {beside(file_slot(node.function, cursor.operand(0).index))};
         case FunctionKind::colour:
             if (node.function == Function::palette) return palette(node, cursor);
             return {cursor.number(node, 0), cursor.number(node, 1), cursor.number(node, 2)};
@@ -52,8 +51,10 @@ Value KernelAssembly::call(const Node& node, const Cursor& cursor) {
 ValueId KernelAssembly::elementary(Function function, ValueId a, ValueId b, ValueId c) {
     KernelBuilder& k = builder_;
     switch (function) {
+        // clang-format off
 #define CASCADE_ELEMENTARY(id, value, kernel, slope) case Function::id: return kernel;
 #include "lang/vocabulary/elementary.def"
+        // clang-format on
         default: break;
     }
     CHECK(false, "lowering: every function of numbers has a row");

@@ -111,8 +111,8 @@ private:
     bool frozen_is_mask_ = false;
 };
 
-/// The key of one occurrence of a random function: FNV-1a of the seed, the stage, the formula's origin and
-/// the number of the occurrence in it, each written as text and ended by a line feed.
+/// The key of one occurrence of a random function: FNV-1a of the seed, the stage, the formula's
+/// origin and the number of the occurrence in it, each written as text and ended by a line feed.
 std::uint64_t random_key(std::uint32_t seed, std::string_view stage, std::string_view origin,
                          std::size_t occurrence);
 

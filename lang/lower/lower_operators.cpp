@@ -1,5 +1,5 @@
-// Operators as differences of what the cells around have. c is the own cell, N, S, E, W, U and D the
-// ones around; h is the side of a cell. Spec/numerics.md has the same formulas.
+// Operators as differences of what the cells around have. c is the own cell, N, S, E, W, U and D
+// the ones around; h is the side of a cell. Spec/numerics.md has the same formulas.
 #include "lang/lower/lower_pass.h"
 
 #include "core/check.h"
@@ -21,12 +21,14 @@ bool PassLowering::can_read_as_plane(PartId id) const {
 
 /// Of a part that a pass has written, this one or that of the step-invariant parts.
 std::uint32_t PassLowering::slot_of_own_plane(PartId id) {
-    return planner_.is_step_invariant(id) ? assembly_.step_invariant_slot(storage_.step_invariants[id])
-                                   : assembly_.temporary_slot(storage_.temporary[id]);
+    return planner_.is_step_invariant(id)
+               ? assembly_.step_invariant_slot(storage_.step_invariants[id])
+               : assembly_.temporary_slot(storage_.temporary[id]);
 }
 
 std::uint32_t PassLowering::slot_of_plane(PartId id) {
-    if (planner_.is_step_invariant(id) || planner_.is_plane_in(id, pass_)) return slot_of_own_plane(id);
+    if (planner_.is_step_invariant(id) || planner_.is_plane_in(id, pass_))
+        return slot_of_own_plane(id);
     return assembly_.plane_slot(graph_, id);
 }
 
@@ -84,7 +86,8 @@ ValueId PassLowering::laplacian(PartId operand) {
     if (axes.has(2)) add(2, -1), add(2, 1);
     const auto neighbours = static_cast<double>(2 * axes.present.size());
     const ValueId own = builder_.multiply(builder_.number(neighbours), number_at(operand, {}));
-    // As the operation on a plane rounds it, so that contraction cannot tell which of the two was taken.
+    // As the operation on a plane rounds it, so that contraction cannot tell which of the two was
+    // taken.
     builder_.keep(own);
     return scaled(builder_.subtract(*sum, own), factor);
 }
@@ -92,9 +95,8 @@ ValueId PassLowering::laplacian(PartId operand) {
 /// (E − W) / 2h.
 ValueId PassLowering::difference(PartId operand, int axis) {
     if (!planner_.axes().has(axis)) return builder_.number(0);
-    const ValueId difference =
-        builder_.subtract(beside(operand, Offset::along(axis, 1)),
-                          beside(operand, Offset::along(axis, -1)));
+    const ValueId difference = builder_.subtract(beside(operand, Offset::along(axis, 1)),
+                                                 beside(operand, Offset::along(axis, -1)));
     return scaled(difference, 1 / (2 * grid_.spacing));
 }
 
@@ -138,8 +140,7 @@ ValueId PassLowering::advection(const Part& part) {
         if (static_cast<std::uint32_t>(axis) >= velocities) continue;
         const ValueId velocity = number_at(part.operands[static_cast<std::size_t>(axis)], {});
         const ValueId own = number_at(operand, {});
-        const ValueId behind =
-            builder_.subtract(own, beside(operand, Offset::along(axis, -1)));
+        const ValueId behind = builder_.subtract(own, beside(operand, Offset::along(axis, -1)));
         const ValueId ahead = builder_.subtract(beside(operand, Offset::along(axis, 1)), own);
         const ValueId flows_forwards = builder_.apply(Op::less, builder_.number(0), velocity);
         const ValueId term =

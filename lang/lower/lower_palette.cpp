@@ -15,8 +15,7 @@ Value KernelAssembly::palette(const Node& node, const Cursor& cursor) {
     CHECK(palette != nullptr, "lowering: the checker has found every palette");
     const ValueId low = cursor.number(node, 1);
     const ValueId range = builder_.subtract(cursor.number(node, 2), low);
-    const ValueId position =
-        builder_.divide(builder_.subtract(cursor.number(node, 0), low), range);
+    const ValueId position = builder_.divide(builder_.subtract(cursor.number(node, 0), low), range);
     const std::span<const Colour> stops = palette->stops;
     const ValueId zero = builder_.number(0);
     const ValueId one = builder_.number(1);
@@ -28,8 +27,8 @@ Value KernelAssembly::palette(const Node& node, const Cursor& cursor) {
     }
     for (std::size_t k = 0; k + 1 < stops.size(); ++k) {
         const ValueId start = builder_.number(static_cast<float>(k));
-        const ValueId ramp = builder_.clamp_above(
-            builder_.clamp_below(builder_.subtract(scaled, start), zero), one);
+        const ValueId ramp =
+            builder_.clamp_above(builder_.clamp_below(builder_.subtract(scaled, start), zero), one);
         for (std::size_t channel = 0; channel < 3; ++channel) {
             const ValueId rise = builder_.number(stops[k + 1][channel] - stops[k][channel]);
             colour[channel] = builder_.add(colour[channel], builder_.multiply(rise, ramp));
@@ -37,8 +36,8 @@ Value KernelAssembly::palette(const Node& node, const Cursor& cursor) {
     }
     const ValueId is_number = builder_.apply(Op::equal, position, position);
     for (std::size_t channel = 0; channel < 3; ++channel) {
-        colour[channel] = builder_.select(is_number, colour[channel],
-                                          builder_.number(colour_of_nan[channel]));
+        colour[channel] =
+            builder_.select(is_number, colour[channel], builder_.number(colour_of_nan[channel]));
     }
     return colour;
 }

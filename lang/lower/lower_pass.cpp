@@ -99,8 +99,7 @@ void PassLowering::need_of_stencil(const Part& part) {
     if (graph_.is_linked()) return need(operand, own_cell);
     const bool reads_plane =
         part.calls(Function::lap) && !graph_.has_mask() && can_read_as_plane(operand);
-    need(operand,
-         reads_plane ? own_cell : planner_.reach(stencil_offsets(part, planner_.axes())));
+    need(operand, reads_plane ? own_cell : planner_.reach(stencil_offsets(part, planner_.axes())));
 }
 
 /// The two cells beside each face.
@@ -181,9 +180,8 @@ void PassLowering::compute_part(PartId id) {
     const Part& part = graph_[id];
     const auto first = static_cast<ValueId>(builder_.size());
     if (is_vector(part)) {
-        for_each_face(needs_[id], [&](Face face) {
-            slot(id, face.number()) = {vector_at(id, face)};
-        });
+        for_each_face(needs_[id],
+                      [&](Face face) { slot(id, face.number()) = {vector_at(id, face)}; });
         if (part.is_step_invariant) builder_.keep_from(first);
         return;
     }
@@ -210,7 +208,8 @@ void PassLowering::compute_part(PartId id) {
 
 ValueId PassLowering::source(PartId id) {
     const bool is_step_invariant = planner_.is_step_invariant(id);
-    if (is_step_invariant && graph_[id].is_uniform) return assembly_.step_invariant_number(storage_.step_invariants[id]);
+    if (is_step_invariant && graph_[id].is_uniform)
+        return assembly_.step_invariant_number(storage_.step_invariants[id]);
     const bool is_written = planner_.is_plane_in(id, pass_);
     if (is_step_invariant || is_written) return assembly_.beside(slot_of_own_plane(id));
     return assembly_.aggregate(storage_.aggregate[id]);

@@ -20,7 +20,8 @@ namespace cascade::lowering {
 struct Storage {
     std::vector<std::uint32_t> temporary;  ///< By part, where it is written.
     std::vector<std::uint32_t> aggregate;  ///< By part, where it is an aggregate.
-    std::vector<std::uint32_t> step_invariants;    ///< By part, where it is known before the first pass.
+    std::vector<std::uint32_t>
+        step_invariants;  ///< By part, where it is known before the first pass.
 };
 
 class PassLowering {
@@ -97,7 +98,7 @@ private:
     std::vector<std::uint32_t> needs_;  ///< By part: where it is needed.
     std::vector<std::uint32_t> first_;  ///< By part: its first value.
     std::vector<Value> values_;
-    std::vector<Crossing> crossings_;   ///< By part; empty until it is asked.
+    std::vector<Crossing> crossings_;  ///< By part; empty until it is asked.
 };
 
 /// Which entry (0: a11, 1: a12, 2: a22) of a tensor lies in a row and column; −1 where it is 0.

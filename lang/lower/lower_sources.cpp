@@ -49,8 +49,8 @@ std::uint32_t KernelAssembly::field_slot(std::uint32_t stage, std::uint32_t item
 
 std::uint32_t KernelAssembly::surface_value_slot(std::uint32_t number) {
     // The numbers of a long list would not fit into a name; this one is as unlike the others.
-    const std::uint32_t slot = builder_.field_slot(
-        fmt::format("({} {})", info(program_.literals->surface_values()[number].function).spelling, number));
+    const std::uint32_t slot = builder_.field_slot(fmt::format(
+        "({} {})", info(program_.literals->surface_values()[number].function).spelling, number));
     if (slot == bound_.fields.size()) {
         bound_.fields.push_back({SlotSource::Kind::surface_value, 0, number});
     }
@@ -67,9 +67,10 @@ std::uint32_t KernelAssembly::file_slot(Function function, std::uint32_t text) {
 }
 
 std::uint32_t KernelAssembly::metric_slot(std::uint32_t plane) {
-    static constexpr std::array<const char*, metric_plane_count> names{
-        "(metric 11)", "(metric 12)", "(metric 22)", "(area)", "(flow 11)", "(flow 12)",
-        "(flow 22)"};
+    static constexpr std::array<const char*, metric_plane_count> names{"(metric 11)", "(metric 12)",
+                                                                       "(metric 22)", "(area)",
+                                                                       "(flow 11)",   "(flow 12)",
+                                                                       "(flow 22)"};
     const std::uint32_t slot = builder_.field_slot(names[plane]);
     if (slot == bound_.fields.size()) {
         bound_.fields.push_back({SlotSource::Kind::metric, 0, plane});
@@ -78,10 +79,22 @@ std::uint32_t KernelAssembly::metric_slot(std::uint32_t plane) {
 }
 
 std::uint32_t KernelAssembly::model_slot(ModelPlane plane) {
-    static constexpr std::array<const char*, model_plane_count> names{
-        "(number)", "(area)", "(x)", "(y)", "(z)", "(sx)", "(sy)", "(sz)",
-        "(nx)", "(ny)", "(nz)", "(curvature)",
-        "(curvature_mean)", "(curvature_high)", "(curvature_low)", "(curvature_gauss)"};
+    static constexpr std::array<const char*, model_plane_count> names{"(number)",
+                                                                      "(area)",
+                                                                      "(x)",
+                                                                      "(y)",
+                                                                      "(z)",
+                                                                      "(sx)",
+                                                                      "(sy)",
+                                                                      "(sz)",
+                                                                      "(nx)",
+                                                                      "(ny)",
+                                                                      "(nz)",
+                                                                      "(curvature)",
+                                                                      "(curvature_mean)",
+                                                                      "(curvature_high)",
+                                                                      "(curvature_low)",
+                                                                      "(curvature_gauss)"};
     const auto number = static_cast<std::uint32_t>(plane);
     const std::uint32_t slot = builder_.field_slot(names[number]);
     if (slot == bound_.fields.size()) {
@@ -98,8 +111,8 @@ ValueId KernelAssembly::inside(Offset offset) {
     if (slot == bound_.fields.size()) {
         bound_.fields.push_back({SlotSource::Kind::neighbourhood, 0, 0});
     }
-    const ValueId bit = builder_.apply(Op::bits_and, builder_.field(slot),
-                                       builder_.word(only(offset)));
+    const ValueId bit =
+        builder_.apply(Op::bits_and, builder_.field(slot), builder_.word(only(offset)));
     return builder_.apply(Op::bits_to_number, bit);
 }
 
@@ -140,8 +153,7 @@ ValueId KernelAssembly::step_invariant_number(std::uint32_t number) {
 }
 
 ValueId KernelAssembly::aggregate(std::uint32_t index) {
-    return uniform(fmt::format("(aggregate {})", index),
-                   {SlotSource::Kind::aggregate, 0, index});
+    return uniform(fmt::format("(aggregate {})", index), {SlotSource::Kind::aggregate, 0, index});
 }
 
 ValueId KernelAssembly::coefficient(std::uint32_t index) {
@@ -168,7 +180,8 @@ std::uint32_t KernelAssembly::plane_slot(const PartGraph& graph, PartId id) {
     if (part.node.kind == NodeKind::own) return field_slot(stage_, part.node.index);
     if (part.node.kind == NodeKind::earlier) return field_slot(part.node.stage, part.node.index);
     if (part.node.kind == NodeKind::metric) return metric_slot(part.node.index);
-    if (part.node.kind == NodeKind::model) return model_slot(static_cast<ModelPlane>(part.node.index));
+    if (part.node.kind == NodeKind::model)
+        return model_slot(static_cast<ModelPlane>(part.node.index));
     if (part.node.kind == NodeKind::surface_value) return surface_value_slot(part.node.index);
     CHECK(part.node.kind == NodeKind::call && reads_file(part.node.function),
           "lowering: a plane is an item or a file");
@@ -218,9 +231,8 @@ ValueId KernelAssembly::wrapped(ValueId cell, int by, std::int64_t count, Bounda
     const std::int64_t opposite = by > 0 ? first : last;
     const ValueId moved =
         builder_.apply(by > 0 ? Op::bits_add : Op::bits_subtract, cell, builder_.word(1));
-    const ValueId is_at_side =
-        builder_.apply(Op::equal, builder_.apply(Op::bits_to_number, cell),
-                       builder_.number(static_cast<double>(at_side)));
+    const ValueId is_at_side = builder_.apply(Op::equal, builder_.apply(Op::bits_to_number, cell),
+                                              builder_.number(static_cast<double>(at_side)));
     const std::int64_t beyond = boundary == Boundary::periodic ? opposite : at_side;
     return builder_.select(is_at_side, builder_.word(static_cast<std::uint32_t>(beyond)), moved);
 }

@@ -23,7 +23,9 @@ std::vector<ValueId> values_of(std::span<const Value> values, std::size_t first,
 Space KernelAssembly::space() {
     const Grid& grid = program_.domain.grid;
     if (program_.domain.model) {
-        const auto along = [&](ModelPlane plane) { return SpaceAxis{of_model(plane), 1, false, true}; };
+        const auto along = [&](ModelPlane plane) {
+            return SpaceAxis{of_model(plane), 1, false, true};
+        };
         return {along(ModelPlane::x), along(ModelPlane::y), along(ModelPlane::z)};
     }
     const std::int64_t longest = grid.longest_side();
@@ -32,13 +34,12 @@ Space KernelAssembly::space() {
         return SpaceAxis{coordinate(cell, longest), length, boundary == Boundary::periodic,
                          side > 1};
     };
-    return {axis(grid.width, column(), grid.boundary.x),
-            axis(grid.height, row(), grid.boundary.y),
+    return {axis(grid.width, column(), grid.boundary.x), axis(grid.height, row(), grid.boundary.y),
             axis(grid.depth, slice(), grid.boundary.z)};
 }
 
-/// The draw of a cell, a word of 32 bits. Its hash knows columns and rows; slices other than the first
-/// change the draw.
+/// The draw of a cell, a word of 32 bits. Its hash knows columns and rows; slices other than the
+/// first change the draw.
 ValueId KernelAssembly::draw_of_cell(ValueId draw) {
     if (program_.domain.model) {
         builder_.set_cell(of_model(ModelPlane::number));
@@ -56,15 +57,12 @@ ValueId KernelAssembly::shape(const Node& node, const Cursor& cursor) {
     const auto number = [&](std::size_t k) { return cursor.number(node, k); };
     const auto first = [&](std::size_t n) { return values_of(cursor.values, 0, n); };
     switch (node.function) {
-        case Function::disc:
-            return disc(builder_, space(), first(count - 1), number(count - 1));
-        case Function::gauss:
-            return gauss(builder_, space(), first(count - 1), number(count - 1));
+        case Function::disc: return disc(builder_, space(), first(count - 1), number(count - 1));
+        case Function::gauss: return gauss(builder_, space(), first(count - 1), number(count - 1));
         case Function::ring:
             return ring(builder_, space(), first(count - 2), number(count - 2), number(count - 1));
         case Function::box: {
-            const std::vector<ValueId> size =
-                values_of(cursor.values, count / 2, count / 2);
+            const std::vector<ValueId> size = values_of(cursor.values, count / 2, count / 2);
             return box(builder_, space(), first(count / 2), size);
         }
         case Function::stripe:
@@ -80,11 +78,10 @@ ValueId KernelAssembly::random(const Node& node, const Cursor& cursor) {
     const auto step_word = [&] {
         return builder_.draw_word(uniform("draw", {SlotSource::Kind::draw, stage_, 0}));
     };
-    const Draw draw{
-        cursor.noise.every_step ? step_word() : builder_.word(0),
-        random_key(program_.domain.seed,
-                   cursor.noise.owner.empty() ? stage().name : cursor.noise.owner,
-                   cursor.noise.origin, cursor.occurrences)};
+    const Draw draw{cursor.noise.every_step ? step_word() : builder_.word(0),
+                    random_key(program_.domain.seed,
+                               cursor.noise.owner.empty() ? stage().name : cursor.noise.owner,
+                               cursor.noise.origin, cursor.occurrences)};
     const auto number = [&](std::size_t k) { return cursor.number(node, k); };
     switch (node.function) {
         case Function::random: {
@@ -100,8 +97,8 @@ ValueId KernelAssembly::random(const Node& node, const Cursor& cursor) {
             return smooth_noise(builder_, space(), number(0), static_cast<int>(node.number), draw);
         case Function::lattice:
         case Function::diamond: {
-            const LatticeKind kind = node.function == Function::diamond ? LatticeKind::diamond
-                                                                        : LatticeKind::square;
+            const LatticeKind kind =
+                node.function == Function::diamond ? LatticeKind::diamond : LatticeKind::square;
             const ValueId jitter = operand_count(node) == 3 ? number(2) : builder_.number(0);
             return seed_lattice(builder_, space(), kind, number(0), number(1), jitter, draw);
         }
@@ -118,8 +115,9 @@ ValueId KernelAssembly::cell_content() {
     return builder_.number(std::pow(grid.spacing, axes));
 }
 
-/// White noise in space and time: of a step of length dt in cells of content h^d it has the variance
-/// strength² / (dt h^d), so that what it adds over a time and an area does not depend on either.
+/// White noise in space and time: of a step of length dt in cells of content h^d it has the
+/// variance strength² / (dt h^d), so that what it adds over a time and an area does not depend on
+/// either.
 ValueId KernelAssembly::white(ValueId strength, const Draw& draw) {
     const ValueId normal = builder_.random_normal(draw_of_cell(draw.word), draw.key);
     const ValueId share = builder_.multiply(time_step(), cell_content());

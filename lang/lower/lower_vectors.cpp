@@ -28,8 +28,8 @@ ValueId PassLowering::gradient(PartId operand, Face face) {
         return builder_.number(0);
     }
     if (face.component == face.axis) {
-        const ValueId across = builder_.subtract(beside(operand, face.next()),
-                                                 beside(operand, face.cell()));
+        const ValueId across =
+            builder_.subtract(beside(operand, face.next()), beside(operand, face.cell()));
         return scaled(across, 1 / grid_.spacing);
     }
     const auto along = [&](Offset cell) {
@@ -137,8 +137,8 @@ ValueId PassLowering::through_sides(PartId flux, Face face, ValueId value) {
                          : face.axis == 1 ? builder_.cell_row()
                                           : builder_.cell_slice();
     const auto last = static_cast<double>(face.side == 0 ? count - 1 : 0);
-    const ValueId is_side = builder_.apply(Op::equal, builder_.apply(Op::bits_to_number, cell),
-                                           builder_.number(last));
+    const ValueId is_side =
+        builder_.apply(Op::equal, builder_.apply(Op::bits_to_number, cell), builder_.number(last));
     return builder_.select(is_side, builder_.number(0), value);
 }
 

@@ -1,9 +1,9 @@
 // Operators on the cells of a model, which have links to their neighbours and no rows and columns.
 //
-// What reads neighbours is a sum over links (ir/operations.def). A flux is known as what flows through
-// each link, so vectors are sums of gradients times numbers, and div takes each of them by itself:
-// div(a * grad(e)) is the sum over the links of w (a_i + a_j) / 2 (e_j - e_i). Spec/models.md has the
-// formulas, and lang/check/check_model.cpp refuses the rest.
+// What reads neighbours is a sum over links (ir/operations.def). A flux is known as what flows
+// through each link, so vectors are sums of gradients times numbers, and div takes each of them by
+// itself: div(a * grad(e)) is the sum over the links of w (a_i + a_j) / 2 (e_j - e_i).
+// Spec/models.md has the formulas, and lang/check/check_model.cpp refuses the rest.
 #include "lang/lower/part_graph.h"
 
 #include "core/check.h"
@@ -66,8 +66,8 @@ PartGraph::Gradients PartGraph::sum_of_gradients(const Part& part) {
             const PartId by = is_vector(first) ? second : first;
             sum = gradients_of(is_vector(first) ? first : second);
             for (auto& [of, factor] : sum) {
-                const bool is_one = parts_[factor].node.kind == NodeKind::number &&
-                                    parts_[factor].node.number == 1;
+                const bool is_one =
+                    parts_[factor].node.kind == NodeKind::number && parts_[factor].node.number == 1;
                 factor = is_one ? by : call(Function::multiply, {by, factor});
             }
             return sum;
@@ -76,9 +76,8 @@ PartGraph::Gradients PartGraph::sum_of_gradients(const Part& part) {
         case Function::subtract: {
             sum = gradients_of(first);
             for (const auto& [of, factor] : gradients_of(second)) {
-                const auto known = std::find_if(sum.begin(), sum.end(), [&](const auto& each) {
-                    return each.first == of;
-                });
+                const auto known = std::find_if(sum.begin(), sum.end(),
+                                                [&](const auto& each) { return each.first == of; });
                 if (known != sum.end()) {
                     known->second = call(part.node.function, {known->second, factor});
                 } else {

@@ -76,8 +76,7 @@ bool PartGraph::is_plane(PartId id) const {
     const Part& part = parts_[id];
     if (part.is_uniform) return false;
     switch (part.node.kind) {
-        case NodeKind::own:
-            return part.node.index != program_.system_of(stage_).frozen_item();
+        case NodeKind::own: return part.node.index != program_.system_of(stage_).frozen_item();
         case NodeKind::earlier:
         case NodeKind::metric:
         case NodeKind::surface_value:
@@ -147,8 +146,7 @@ const std::string& PartGraph::name(PartId part) const {
     return found == names_.end() ? none : found->second;
 }
 
-PartId PartGraph::call(Function function, std::initializer_list<PartId> operands,
-                       ValueType type) {
+PartId PartGraph::call(Function function, std::initializer_list<PartId> operands, ValueType type) {
     Part part;
     part.node.kind = NodeKind::call;
     part.node.function = function;
@@ -170,12 +168,9 @@ PartId PartGraph::tensor(const Part& part) {
     const PartId cosine2 = square(cosine);
     const PartId sine2 = square(sine);
     const auto times = [&](PartId a, PartId b) { return call(Function::multiply, {a, b}); };
-    const PartId a11 =
-        call(Function::add, {times(along, cosine2), times(across, sine2)});
-    const PartId a22 =
-        call(Function::add, {times(along, sine2), times(across, cosine2)});
-    const PartId a12 =
-        times(call(Function::subtract, {along, across}), times(sine, cosine));
+    const PartId a11 = call(Function::add, {times(along, cosine2), times(across, sine2)});
+    const PartId a22 = call(Function::add, {times(along, sine2), times(across, cosine2)});
+    const PartId a12 = times(call(Function::subtract, {along, across}), times(sine, cosine));
     return call(Function::tensor, {a11, a12, a22}, ValueType::tensor);
 }
 

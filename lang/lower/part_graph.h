@@ -36,7 +36,7 @@ enum class Beyond : std::uint8_t {
 };
 
 struct Part {
-    Node node;                         ///< Its operands are positions in a formula: see below.
+    Node node;  ///< Its operands are positions in a formula: see below.
     std::array<PartId, most_operands> operands{};
     std::uint32_t operand_count = 0;
     const Formula* formula = nullptr;  ///< Where it is written; none of parts that are made here.
@@ -44,9 +44,9 @@ struct Part {
     const Noise* noise = nullptr;      ///< Of parts that draw random numbers.
     std::size_t draw = 0;              ///< Which draw of its formula, from 1.
     bool is_uniform = false;           ///< The same in all cells.
-    bool is_step_invariant = false;           ///< The same in all steps of the stage.
+    bool is_step_invariant = false;    ///< The same in all steps of the stage.
 
-    std::array<Beyond, 3> beyond{};    ///< By axis.
+    std::array<Beyond, 3> beyond{};  ///< By axis.
 
     /// Is it beyond some side neither what it is in the opposite cell nor what it is in the cell
     /// at the side? Then its plane has no halo, and it is computed there.
@@ -102,8 +102,8 @@ public:
     std::uint32_t stage() const { return stage_; }
     /// Are there cells of the grid that are no part of the domain?
     bool has_mask() const { return has_mask_; }
-    /// Do cells read neighbours over links? Then operators read planes alone, and `lap` of two operands
-    /// is div(first * grad(second)).
+    /// Do cells read neighbours over links? Then operators read planes alone, and `lap` of two
+    /// operands is div(first * grad(second)).
     bool is_linked() const { return has_model_; }
     std::size_t size() const { return parts_.size(); }
     const Part& operator[](PartId id) const { return parts_[id]; }

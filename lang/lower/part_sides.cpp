@@ -31,7 +31,8 @@ Axes3 beyond_of_item(const Program& program, std::uint32_t stage, std::uint32_t 
     const auto& sides = program.stages[stage].sides;
     if (sides.empty() || !system.is_species(item)) return beyond_of(program.domain.grid.boundary);
     std::size_t species = 0;
-    for (std::uint32_t before = 0; before < item; ++before) species += system.is_species(before) ? 1 : 0;
+    for (std::uint32_t before = 0; before < item; ++before)
+        species += system.is_species(before) ? 1 : 0;
     Axes3 beyond{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         beyond[axis] = beyond_of(sides[species][2 * axis].kind, sides[species][2 * axis + 1].kind);

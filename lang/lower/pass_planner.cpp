@@ -39,7 +39,8 @@ Offsets Axes::diagonal(int first, int second) const {
     if (!has(first) || !has(second)) return 0;
     Offsets offsets = 0;
     for (const int a : {-1, 1}) {
-        for (const int b : {-1, 1}) offsets |= only(Offset::along(first, a) + Offset::along(second, b));
+        for (const int b : {-1, 1})
+            offsets |= only(Offset::along(first, a) + Offset::along(second, b));
     }
     return offsets;
 }
@@ -54,8 +55,9 @@ Offsets with_stand_ins(Offsets offsets) {
     for (std::uint32_t number = 0; number < Offset::count; ++number) {
         if ((offsets >> number & 1) == 0) continue;
         const Offset offset = Offset::of(number);
-        for (const Offset between : {Offset{0, offset.dy, offset.dz}, Offset{offset.dx, 0, offset.dz},
-                                     Offset{offset.dx, offset.dy, 0}}) {
+        for (const Offset between :
+             {Offset{0, offset.dy, offset.dz}, Offset{offset.dx, 0, offset.dz},
+              Offset{offset.dx, offset.dy, 0}}) {
             all |= only(between);
         }
     }
@@ -65,13 +67,14 @@ Offsets with_stand_ins(Offsets offsets) {
 Offsets stencil_offsets(const Part& stencil, const Axes& axes) {
     const auto [order, first, second] = derivative_of(stencil.node.function);
     if (order == 1) return axes.pair(first);
-    if (order == 2) return first == second ? own_cell | axes.pair(first) : axes.diagonal(first, second);
+    if (order == 2)
+        return first == second ? own_cell | axes.pair(first) : axes.diagonal(first, second);
     if (!stencil.calls(Function::diffuse)) return axes.crosswise();
     return own_cell | axes.pair(0) | axes.pair(1) | axes.diagonal(0, 1);
 }
 
-PassPlanner::PassPlanner(const PartGraph& graph, std::span<const PartId> roots, Materialise materialise,
-                         std::span<const PartId> step_invariants)
+PassPlanner::PassPlanner(const PartGraph& graph, std::span<const PartId> roots,
+                         Materialise materialise, std::span<const PartId> step_invariants)
     : graph_(graph),
       axes_(graph.program().domain.grid),
       materialise_(materialise),
@@ -139,7 +142,8 @@ void PassPlanner::decide(PartId id) {
     }
     const bool differs = !part.is_uniform;
     if (differs && is_stencil(function) && graph_.is_linked()) {
-        for (std::uint32_t k = 0; k < part.operand_count; ++k) provide_over_links(part.operands[k], id);
+        for (std::uint32_t k = 0; k < part.operand_count; ++k)
+            provide_over_links(part.operands[k], id);
     } else if (differs && is_stencil(function)) {
         provide(last, reach(stencil_offsets(part, axes_)) & ~own_cell, id);
     } else if (differs && (part.node.type == ValueType::vector || function == Function::div) &&
@@ -167,12 +171,11 @@ void PassPlanner::decide_own(PartId id) {
     const bool reads_beside = !part.is_uniform && (is_stencil(function) || is_vector);
     stays_[id] = !part.is_uniform &&
                  (is_stencil(function) || function == Function::div ||
-                  (varies_by_cell(function) && !differentiates(function) &&
-                   !reads_file(function)));
+                  (varies_by_cell(function) && !differentiates(function) && !reads_file(function)));
     for (std::uint32_t k = 0; k < part.operand_count; ++k) {
         const PartId operand = part.operands[k];
-        const bool is_moved = reads_beside && (is_vector || k + 1 == part.operand_count ||
-                                               graph_.is_linked());
+        const bool is_moved =
+            reads_beside && (is_vector || k + 1 == part.operand_count || graph_.is_linked());
         pass_[id] = std::max(pass_[id], pass_[operand]);
         // Those of open parts are looked for where they are read: more may be written until then.
         if (!part.is_open() && !graph_[operand].is_open()) {
@@ -208,7 +211,8 @@ void PassPlanner::for_each_closed(PartId open, const Visit& visit) const {
 std::uint32_t PassPlanner::pass_beside(PartId operand) const {
     const Part& part = graph_[operand];
     std::uint32_t pass = 0;
-    if (part.node.type == ValueType::tensor) {  // Its entries may have been written for another reader.
+    if (part.node.type ==
+        ValueType::tensor) {  // Its entries may have been written for another reader.
         for (const PartId entry : std::span(part.operands).first(part.operand_count)) {
             pass = std::max(pass, pass_beside(entry));
         }

@@ -68,8 +68,8 @@ struct Axes {
 
     explicit Axes(const Grid& grid);
     bool has(int axis) const;
-    Offsets crosswise() const;          ///< The own cell and the next ones along all axes.
-    Offsets pair(int axis) const;       ///< The two cells beside along an axis.
+    Offsets crosswise() const;     ///< The own cell and the next ones along all axes.
+    Offsets pair(int axis) const;  ///< The two cells beside along an axis.
     Offsets diagonal(int first, int second) const;  ///< The four cells across two axes.
 };
 
@@ -79,8 +79,8 @@ Offsets stencil_offsets(const Part& stencil, const Axes& axes);
 /// About how many operations of a kernel a part takes, its operands being known.
 int operations_of(const Part& part);
 
-/// The number of operations on a cell that take a core as long as writing a plane and reading it back
-/// (about twelve bytes of traffic a cell).
+/// The number of operations on a cell that take a core as long as writing a plane and reading it
+/// back (about twelve bytes of traffic a cell).
 inline constexpr int operations_of_writing = 40;
 /// Reading a plane alone is a third of that traffic.
 inline constexpr int operations_of_reading = operations_of_writing / 3;
@@ -88,8 +88,8 @@ inline constexpr int operations_of_reading = operations_of_writing / 3;
 /// The decisions about the parts of a graph.
 class PassPlanner {
 public:
-    /// `roots` are needed in the own cell, in the last pass. `step_invariants` parts are known before the
-    /// first: those that vary lie in planes.
+    /// `roots` are needed in the own cell, in the last pass. `step_invariants` parts are known
+    /// before the first: those that vary lie in planes.
     PassPlanner(const PartGraph& graph, std::span<const PartId> roots, Materialise materialise,
                 std::span<const PartId> step_invariants = {});
 
@@ -108,10 +108,10 @@ public:
     /// How an operand is provided at the neighbours at which its reader needs it.
     struct OperandChoice {
         PartId operand = 0, reader = 0;
-        std::uint32_t places = 0;   ///< The largest number of neighbours.
-        bool is_written = false;    ///< To a plane; else it is recomputed there.
-        bool is_forced = false;     ///< It cannot be recomputed.
-        bool is_open = false;       ///< It has to be: see Part::is_open.
+        std::uint32_t places = 0;  ///< The largest number of neighbours.
+        bool is_written = false;   ///< To a plane; else it is recomputed there.
+        bool is_forced = false;    ///< It cannot be recomputed.
+        bool is_open = false;      ///< It has to be: see Part::is_open.
     };
     /// Of all operands that are no planes and vary, in order of their readers.
     const std::vector<OperandChoice>& choices() const { return choices_; }
@@ -139,9 +139,9 @@ private:
     Materialise materialise_;
     std::uint32_t pass_count_ = 1;
     std::vector<bool> needed_, written_, step_invariant_;
-    std::vector<bool> stays_;             ///< Cannot be computed for a neighbour.
-    std::vector<std::uint32_t> pass_;     ///< The first in which the own cell's value is known …
-    std::vector<std::uint32_t> beside_;   ///< … and the values of neighbours, planes being read.
+    std::vector<bool> stays_;            ///< Cannot be computed for a neighbour.
+    std::vector<std::uint32_t> pass_;    ///< The first in which the own cell's value is known …
+    std::vector<std::uint32_t> beside_;  ///< … and the values of neighbours, planes being read.
     std::vector<OperandChoice> choices_;
 };
 

@@ -37,11 +37,9 @@ public:
         share_temporaries();
         plan_.is_uniform = std::all_of(request_.wanted.begin(), request_.wanted.end(),
                                        [&](PartId id) { return graph_[id].is_uniform; });
-        plan_.result_count = static_cast<std::uint32_t>(
-            std::count_if(plan_.passes.back().targets.begin(), plan_.passes.back().targets.end(),
-                          [](const PassTarget& target) {
-                              return target.kind == PassTarget::Kind::result;
-                          }));
+        plan_.result_count = static_cast<std::uint32_t>(std::count_if(
+            plan_.passes.back().targets.begin(), plan_.passes.back().targets.end(),
+            [](const PassTarget& target) { return target.kind == PassTarget::Kind::result; }));
         if (request_.options.describe) plan_.words = describe(graph_, planner_, plan_);
         return std::move(plan_);
     }
@@ -52,7 +50,8 @@ private:
         storage_.aggregate.assign(graph_.size(), 0);
         storage_.step_invariants.assign(graph_.size(), 0);
         plan_.step_invariants = static_cast<std::uint32_t>(request_.step_invariants.size());
-        for (std::uint32_t k = 0; k < plan_.step_invariants; ++k) storage_.step_invariants[request_.step_invariants[k]] = k;
+        for (std::uint32_t k = 0; k < plan_.step_invariants; ++k)
+            storage_.step_invariants[request_.step_invariants[k]] = k;
         for (PartId id = 0; id < graph_.size(); ++id) {
             if (!planner_.is_needed(id) || planner_.is_step_invariant(id)) continue;
             if (planner_.is_written(id)) {
@@ -107,8 +106,7 @@ private:
             if (planner_.pass_of(id) != pass) continue;
             const Part& part = graph_[id];
             plan_.passes[pass].reductions.push_back(
-                {kind_of(part.node.function), source_of(part.operands[0]),
-                 storage_.aggregate[id]});
+                {kind_of(part.node.function), source_of(part.operands[0]), storage_.aggregate[id]});
         }
     }
 
@@ -131,8 +129,7 @@ private:
         }
         if (part.node.kind == NodeKind::model) return {SlotSource::Kind::model, 0, part.node.index};
         const bool is_own = part.node.kind == NodeKind::own;
-        return {SlotSource::Kind::item, is_own ? graph_.stage() : part.node.stage,
-                part.node.index};
+        return {SlotSource::Kind::item, is_own ? graph_.stage() : part.node.stage, part.node.index};
     }
 
     /// Calls visit(source) for all that a pass reads.

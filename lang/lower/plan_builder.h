@@ -22,8 +22,8 @@ struct PlanRequest {
     std::span<const std::uint32_t> first_slots = {};
     /// Parts that are known before the first pass, in the order of their numbers.
     std::span<const PartId> step_invariants = {};
-    /// With fewer roundings. Bits do not depend on what is computed once for all steps, but may on which
-    /// operands are written to planes.
+    /// With fewer roundings. Bits do not depend on what is computed once for all steps, but may on
+    /// which operands are written to planes.
     bool contracts = false;
 };
 

@@ -90,7 +90,8 @@ private:
             std::uint32_t places = part.is_step_invariant ? places_[id] : 1;
             if (at_faces) {
                 places = count(axes_.crosswise());
-            } else if (is_operator && is_stencil(part.node.function) && k + 1 == part.operand_count) {
+            } else if (is_operator && is_stencil(part.node.function) &&
+                       k + 1 == part.operand_count) {
                 places = count(stencil_offsets(part, axes_));
             }
             need(part.operands[k], places);

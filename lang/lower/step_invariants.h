@@ -15,8 +15,8 @@ namespace cascade::lowering {
 /// and the reading of the planes taken together. `roots` are needed in every step.
 std::vector<PartId> step_invariant_parts(const PartGraph& graph, std::span<const PartId> roots);
 
-/// All step-invariant parts that vary or are aggregates, but for planes, of which other parts are made: so
-/// that what is left knows of no place.
+/// All step-invariant parts that vary or are aggregates, but for planes, of which other parts are
+/// made: so that what is left knows of no place.
 std::vector<PartId> largest_step_invariants(const PartGraph& graph, std::span<const PartId> roots);
 
 }  // namespace cascade::lowering

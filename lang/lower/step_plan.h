@@ -24,18 +24,19 @@ struct SlotSource {
         image,      ///< The picture named Literals::texts()[item], as a field slot.
         attribute,  ///< The model's attribute Literals::texts()[item], as a field slot.
         texture,    ///< The picture painted on the model Literals::texts()[item], as a field slot.
-        surface_value,  ///< Literals::surface_values()[item], as a field slot.
-        metric,     ///< MetricPlane `item` of the surface, as a field slot.
-        model,      ///< ModelPlane `item` of the cells of a model, as a field slot.
-        neighbourhood,  ///< Which cells around are inside the mask, as a field slot of words.
-        step_invariant,    ///< Step-invariant part `item` of stage `stage`: a field slot, or a uniform.
-        step,       ///< Uniform: complete steps of the stage when the step begins.
-        draw,       ///< Uniform: the word of that step in draws (ir/draw_of_step.h).
-        time,       ///< Uniform: the stage's t when the rates are evaluated.
-        time_step,  ///< Uniform: the length of the step that is taken.
-        temporary,  ///< Temporary plane `item`, as a field slot.
-        aggregate,  ///< Uniform: aggregate `item` of the plan.
-        input,      ///< The stage's species `item` in input `stage` of a sweep, as a field slot.
+        surface_value,   ///< Literals::surface_values()[item], as a field slot.
+        metric,          ///< MetricPlane `item` of the surface, as a field slot.
+        model,           ///< ModelPlane `item` of the cells of a model, as a field slot.
+        neighbourhood,   ///< Which cells around are inside the mask, as a field slot of words.
+        step_invariant,  ///< Step-invariant part `item` of stage `stage`: a field slot, or a
+                         ///< uniform.
+        step,            ///< Uniform: complete steps of the stage when the step begins.
+        draw,            ///< Uniform: the word of that step in draws (ir/draw_of_step.h).
+        time,            ///< Uniform: the stage's t when the rates are evaluated.
+        time_step,       ///< Uniform: the length of the step that is taken.
+        temporary,       ///< Temporary plane `item`, as a field slot.
+        aggregate,       ///< Uniform: aggregate `item` of the plan.
+        input,        ///< The stage's species `item` in input `stage` of a sweep, as a field slot.
         coefficient,  ///< Uniform: coefficient `item` of a sweep.
     };
     Kind kind = Kind::item;
@@ -64,33 +65,34 @@ struct BoundKernel {
 struct PassTarget {
     enum class Kind { result, temporary };
     Kind kind = Kind::result;
-    std::uint32_t index = 0;  ///< Of the plan's results or temporaries.
-    bool is_uniform = false;  ///< The same in all cells.
-    Boundaries boundary = {}; ///< How the halo of a temporary or a step-invariant part is filled.
+    std::uint32_t index = 0;   ///< Of the plan's results or temporaries.
+    bool is_uniform = false;   ///< The same in all cells.
+    Boundaries boundary = {};  ///< How the halo of a temporary or a step-invariant part is filled.
 };
 
 /// An aggregate over the domain, computed from a plane.
 struct Reduction {
     ReductionKind kind = ReductionKind::sum;
-    SlotSource operand;            ///< An item, a file or a temporary.
-    std::uint32_t aggregate = 0;   ///< Which aggregate of the plan it is.
+    SlotSource operand;           ///< An item, a file or a temporary.
+    std::uint32_t aggregate = 0;  ///< Which aggregate of the plan it is.
 };
 
 struct Pass {
     std::vector<Reduction> reductions;  ///< Done before the pass, after the one before it.
     BoundKernel bound;
-    std::vector<PassTarget> targets;    ///< One for each result of the kernel.
+    std::vector<PassTarget> targets;  ///< One for each result of the kernel.
 };
 
 struct StepPlan {
-    std::vector<Pass> passes;           ///< The last one writes all results. Never empty.
-    std::vector<std::uint32_t> results; ///< Item numbers of the stage; empty for views.
+    std::vector<Pass> passes;            ///< The last one writes all results. Never empty.
+    std::vector<std::uint32_t> results;  ///< Item numbers of the stage; empty for views.
     std::uint32_t result_count = 0;
-    std::uint32_t temporaries = 0;      ///< Planes that passes write for later ones.
+    std::uint32_t temporaries = 0;  ///< Planes that passes write for later ones.
     std::uint32_t aggregates = 0;
-    std::uint32_t step_invariants = 0;          ///< Step-invariant parts (plan_step_invariants) that may be read.
-    bool is_uniform = false;            ///< Every result is the same in all cells.
-    std::string words;                  ///< What the passes do and why, where it was asked for.
+    std::uint32_t step_invariants =
+        0;                    ///< Step-invariant parts (plan_step_invariants) that may be read.
+    bool is_uniform = false;  ///< Every result is the same in all cells.
+    std::string words;        ///< What the passes do and why, where it was asked for.
 };
 
 /// Which operands of operators are written to a plane (materialised); the others are recomputed at
@@ -103,9 +105,10 @@ enum class Materialise : std::uint8_t {
 
 struct PlanOptions {
     Materialise materialise = Materialise::when_cheaper;
-    bool describe = false;       ///< Fill in StepPlan::words.
-    /// Parts of rates that no step changes are read, where that pays, from what plan_step_invariants()
-    /// computes once. The bits are those of computing them anew in each step.
+    bool describe = false;  ///< Fill in StepPlan::words.
+    /// Parts of rates that no step changes are read, where that pays, from what
+    /// plan_step_invariants() computes once. The bits are those of computing them anew in each
+    /// step.
     bool keeps_step_invariants = false;
 };
 

@@ -1,9 +1,9 @@
 // Operators on a surface: what they measure there, written as parts in columns and rows.
 //
 // p, q and r are the entries 11, 12 and 22 of Ṽ⁻¹, s is the area of the cell (surface/
-// parameter_surface.h). A gradient on the surface is Ṽ⁻ᵀ∇. What flows through the faces of a cell is
-// s Ṽ⁻¹ times the flux: vectors are kept in that form, so that their differences are what they are
-// on the plane, and a gradient is a tensor times ∇. Spec/surfaces.md has the formulas.
+// parameter_surface.h). A gradient on the surface is Ṽ⁻ᵀ∇. What flows through the faces of a cell
+// is s Ṽ⁻¹ times the flux: vectors are kept in that form, so that their differences are what they
+// are on the plane, and a gradient is a tensor times ∇. Spec/surfaces.md has the formulas.
 #include "lang/lower/part_graph.h"
 
 #include "core/check.h"
@@ -32,7 +32,7 @@ PartId PartGraph::in_cells(PartId tensor) {
     const PartId q = metric(MetricPlane::inverse_12);
     const PartId r = metric(MetricPlane::inverse_22);
     const auto times = [&](PartId a, PartId b) { return call(Function::multiply, {a, b}); };
-    const PartId first = sum_of_products(p, a11, q, a12);   // The first row of Ṽ⁻¹ A.
+    const PartId first = sum_of_products(p, a11, q, a12);  // The first row of Ṽ⁻¹ A.
     const PartId second = sum_of_products(p, a12, q, a22);
     return call(Function::tensor,
                 {sum_of_products(first, p, second, q), times(second, r), times(times(r, r), a22)},
@@ -73,8 +73,8 @@ PartId PartGraph::flow_of_vector(PartId along, PartId across) {
     return flow;
 }
 
-/// What flows of A v, where `flow` is what flows of v: A goes to the gradients and vectors that v is
-/// made of. Parts come before what reads them, so that their order is one to build in.
+/// What flows of A v, where `flow` is what flows of v: A goes to the gradients and vectors that v
+/// is made of. Parts come before what reads them, so that their order is one to build in.
 PartId PartGraph::flow_times_tensor(PartId tensor, PartId flow) {
     std::vector<PartId> reached{flow};
     std::unordered_map<PartId, PartId> images{{flow, flow}};
@@ -92,10 +92,10 @@ PartId PartGraph::flow_times_tensor(PartId tensor, PartId flow) {
     for (const PartId id : reached) {
         if (const auto known = flows_.find(id); known != flows_.end()) {
             const auto [first, second] = known->second;
-            images[id] = second ? flow_of_vector(sum_of_products(a[0], first, a[1], *second),
-                                                 sum_of_products(a[1], first, a[2], *second))
-                                : call(Function::multiply, {flow_tensor(tensor), first},
-                                       ValueType::vector);
+            images[id] =
+                second ? flow_of_vector(sum_of_products(a[0], first, a[1], *second),
+                                        sum_of_products(a[1], first, a[2], *second))
+                       : call(Function::multiply, {flow_tensor(tensor), first}, ValueType::vector);
             continue;
         }
         Part part = parts_[id];
@@ -110,8 +110,7 @@ PartId PartGraph::flow_times_tensor(PartId tensor, PartId flow) {
 
 /// The derivatives along the two directions of the tangent plane.
 PartId PartGraph::along_row(PartId of) {
-    return call(Function::multiply,
-                {metric(MetricPlane::inverse_11), call(Function::dx, {of})});
+    return call(Function::multiply, {metric(MetricPlane::inverse_11), call(Function::dx, {of})});
 }
 
 PartId PartGraph::across_row(PartId of) {
@@ -127,8 +126,8 @@ PartId PartGraph::across_side(PartId value, Side side) {
     const PartId p = metric(MetricPlane::inverse_11), q = metric(MetricPlane::inverse_12);
     const PartId r = metric(MetricPlane::inverse_22);
     const bool is_column = side == Side::left || side == Side::right;
-    const PartId diagonal = is_column ? sum_of_products(p, p, q, q)
-                                      : call(Function::multiply, {r, r});
+    const PartId diagonal =
+        is_column ? sum_of_products(p, p, q, q) : call(Function::multiply, {r, r});
     return call(Function::divide, {value, call(Function::sqrt, {diagonal})});
 }
 
@@ -140,8 +139,7 @@ PartId PartGraph::on_surface(const Part& part) {
     };
     switch (part.node.function) {
         case Function::lap:
-            return per_area(flow_of_gradient(
-                call(Function::grad, {first}, ValueType::vector)));
+            return per_area(flow_of_gradient(call(Function::grad, {first}, ValueType::vector)));
         case Function::div: return per_area(first);
         case Function::grad: return flow_of_gradient(intern(part));
         case Function::vector: return flow_of_vector(first, part.operands[1]);
@@ -156,12 +154,10 @@ PartId PartGraph::on_surface(const Part& part) {
             const PartId across = part.operands[1];
             const PartId column = sum_of_products(metric(MetricPlane::inverse_11), first,
                                                   metric(MetricPlane::inverse_12), across);
-            const PartId row =
-                call(Function::multiply, {metric(MetricPlane::inverse_22), across});
+            const PartId row = call(Function::multiply, {metric(MetricPlane::inverse_22), across});
             return call(Function::advect, {column, row, part.operands[2]});
         }
-        case Function::diffuse:
-            return call(Function::diffuse, {in_cells(first), part.operands[1]});
+        case Function::diffuse: return call(Function::diffuse, {in_cells(first), part.operands[1]});
         case Function::domain_sum:
             return call(Function::domain_sum, {call(Function::multiply, {first, area})});
         case Function::domain_mean:
@@ -170,8 +166,8 @@ PartId PartGraph::on_surface(const Part& part) {
                          call(Function::domain_sum, {area})});
         default: break;
     }
-    const bool by_tensor = part.calls(Function::multiply) &&
-                           parts_[first].node.type == ValueType::tensor;
+    const bool by_tensor =
+        part.calls(Function::multiply) && parts_[first].node.type == ValueType::tensor;
     return by_tensor ? flow_times_tensor(first, part.operands[1]) : intern(part);
 }
 

@@ -60,9 +60,9 @@ std::string starting_script(const LibraryText& text) {
     Diagnostics never_any;
     const SourceId source = sources.add(std::string(text.file_name), std::string(text.text));
     const ast::Script script = parse(source, sources, never_any);
-    const bool has_stage = std::any_of(
-        script.blocks.begin(), script.blocks.end(),
-        [](const ast::Block& block) { return block.kind == ast::BlockKind::stage; });
+    const bool has_stage =
+        std::any_of(script.blocks.begin(), script.blocks.end(),
+                    [](const ast::Block& block) { return block.kind == ast::BlockKind::stage; });
     std::string result(text.text);
     if (!has_stage) result += fmt::format("\nstage first: {} {{ }}\n", text.system_name());
     return result;

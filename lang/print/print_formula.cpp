@@ -100,7 +100,8 @@ private:
     std::string leaf(const Node& node) const {
         switch (node.kind) {
             case NodeKind::number: return fmt::format("{}", node.number);
-            case NodeKind::text: return fmt::format("\"{}\"", program_.literals->texts()[node.index]);
+            case NodeKind::text:
+                return fmt::format("\"{}\"", program_.literals->texts()[node.index]);
             case NodeKind::own:
                 if (!stage_) return std::string(system_.item_name(node.index));
                 return fmt::format("[{}]", system_.item_name(node.index));
@@ -108,7 +109,8 @@ private:
                 return fmt::format("{}.{}", program_.stages[node.stage].name,
                                    program_.system_of(node.stage).item_name(node.index));
             case NodeKind::builtin: return std::string(builtin_names[node.index]);
-            case NodeKind::surface_value: return text_of(program_.literals->surface_values()[node.index]);
+            case NodeKind::surface_value:
+                return text_of(program_.literals->surface_values()[node.index]);
             case NodeKind::definition: return system_.definitions[node.index].name;
             case NodeKind::rate: return system_.quantities[node.index].name + "'";
             case NodeKind::metric:

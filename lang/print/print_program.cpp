@@ -119,8 +119,7 @@ const char* word_of(Boundary boundary) {
 
 std::string boundary_words(const Boundaries& boundary) {
     if (boundary == Boundaries(boundary.x)) return word_of(boundary.x);
-    return fmt::format("{}, {}, {}", word_of(boundary.x), word_of(boundary.y),
-                       word_of(boundary.z));
+    return fmt::format("{}, {}, {}", word_of(boundary.x), word_of(boundary.y), word_of(boundary.z));
 }
 
 void print_grid(const Program& program, Output out) {
@@ -139,14 +138,21 @@ void print_directions(const Program& program, const ModelSettings& model, Output
     fmt::format_to(out, "  directions: ");
     using Kind = DirectionSettings::Kind;
     switch (directions.kind) {
-        case Kind::axis: fmt::format_to(out, "axis({})", fmt::join(directions.numbers, ", ")); break;
+        case Kind::axis:
+            fmt::format_to(out, "axis({})", fmt::join(directions.numbers, ", "));
+            break;
         case Kind::gradient:
             fmt::format_to(out, "gradient({})", print_formula(program, {}, *directions.height));
             break;
-        case Kind::curvature_high: fmt::format_to(out, "curvature_high({})", directions.smoothing); break;
-        case Kind::curvature_low: fmt::format_to(out, "curvature_low({})", directions.smoothing); break;
+        case Kind::curvature_high:
+            fmt::format_to(out, "curvature_high({})", directions.smoothing);
+            break;
+        case Kind::curvature_low:
+            fmt::format_to(out, "curvature_low({})", directions.smoothing);
+            break;
         case Kind::keys:
-            fmt::format_to(out, "keys({}, {})", fmt::join(directions.numbers, ", "), directions.smoothing);
+            fmt::format_to(out, "keys({}, {})", fmt::join(directions.numbers, ", "),
+                           directions.smoothing);
             break;
     }
     fmt::format_to(out, "\n  stretch: {}\n", model.stretch);
@@ -160,7 +166,8 @@ void print_model(const Program& program, Output out) {
         std::vector<std::string> sizes;
         if (model.implicit) sizes.push_back(print_formula(program, {}, *model.implicit));
         for (const double size : model.sizes) sizes.push_back(fmt::format("{}", size));
-        const std::string brackets = sizes.empty() ? "" : fmt::format("({})", fmt::join(sizes, ", "));
+        const std::string brackets =
+            sizes.empty() ? "" : fmt::format("({})", fmt::join(sizes, ", "));
         fmt::format_to(out, "  surface: {}{}\n", word_of(model.shape), brackets);
     }
     switch (model.cells) {

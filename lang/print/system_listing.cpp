@@ -45,7 +45,7 @@ Row row_of(const SaidStatement& said, const SystemStatements& system) {
     Row row;
     row.kind = is_setting ? "setting" : system.is_species(name) ? "species" : "parameter";
     row.name = statement.index.empty() ? std::string(name)
-                                      : fmt::format("{}[{}]", name, statement.index.text);
+                                       : fmt::format("{}[{}]", name, statement.index.text);
     row.value = source_of(said, statement.values.front());
     if (statement.kind == ast::StatementKind::index) {
         row.kind = "index";

@@ -12,8 +12,8 @@ namespace cascade {
 /// `definitions.size() + item` the rate of an item.
 Dependencies step_dependencies(const System& system);
 
-/// What the items of a stage (or the defaults of a system) read of each other. An item without a formula
-/// (nullptr) reads nothing.
+/// What the items of a stage (or the defaults of a system) read of each other. An item without a
+/// formula (nullptr) reads nothing.
 Dependencies item_dependencies(const std::vector<const Formula*>& items);
 
 }  // namespace cascade

@@ -30,8 +30,10 @@ std::optional<double> fold(Function function, std::span<const double> operands) 
     const double b = operands[1];
     const double c = operands[2];
     switch (function) {
+        // clang-format off
 #define CASCADE_ELEMENTARY(id, value, ...) case Function::id: return value;
 #include "lang/vocabulary/elementary.def"
+        // clang-format on
         default: return std::nullopt;
     }
 }

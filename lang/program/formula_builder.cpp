@@ -28,8 +28,10 @@ Node call_node(Function function, std::initializer_list<PartId> operands) {
 
 PartId FormulaBuilder::part(Node node) {
     // Two equal draws of random numbers are two draws.
-    const Key key{node.kind,  node.function, node.type,          std::bit_cast<std::uint64_t>(node.number),
-                  node.index, node.stage,    node.operand_count, node.operands};
+    const Key key{node.kind,          node.function,
+                  node.type,          std::bit_cast<std::uint64_t>(node.number),
+                  node.index,         node.stage,
+                  node.operand_count, node.operands};
     const auto next = static_cast<PartId>(nodes_.size());
     if (!is_draw(node)) {
         const auto [known, is_new] = known_.try_emplace(key, next);

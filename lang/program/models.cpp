@@ -9,7 +9,8 @@ namespace cascade {
 
 namespace {
 
-// Long enough that the padding of rows is small beside them, short enough that threads share them evenly.
+// Long enough that the padding of rows is small beside them, short enough that threads share them
+// evenly.
 constexpr std::int64_t cells_of_row = 512;
 
 /// Why an operator is refused on a model; "" for those that have a meaning.
@@ -36,7 +37,8 @@ std::string_view reason_against(Function function) {
 
 /// What a value is of that only a model has; nothing for all else.
 std::optional<Function> of_model_only(const Program& program, const Node& node) {
-    if (node.kind == NodeKind::surface_value) return program.literals->surface_values()[node.index].function;
+    if (node.kind == NodeKind::surface_value)
+        return program.literals->surface_values()[node.index].function;
     if (node.kind == NodeKind::call && needs_model(node.function)) return node.function;
     return std::nullopt;
 }
@@ -55,7 +57,8 @@ bool has_meaning_on_model(const Formula& formula, Diagnostics& diagnostics) {
     return has_meaning;
 }
 
-bool has_meaning_on_plane(const Program& program, const Formula& formula, Diagnostics& diagnostics) {
+bool has_meaning_on_plane(const Program& program, const Formula& formula,
+                          Diagnostics& diagnostics) {
     bool has_meaning = true;
     for (const Node& node : formula.nodes) {
         const auto function = of_model_only(program, node);
@@ -99,7 +102,8 @@ std::string_view word_of(ModelShape shape) {
     return "";
 }
 
-bool has_meaning_on_domain(const Program& program, const Formula& formula, Diagnostics& diagnostics) {
+bool has_meaning_on_domain(const Program& program, const Formula& formula,
+                           Diagnostics& diagnostics) {
     if (program.domain.model) return has_meaning_on_model(formula, diagnostics);
     return has_meaning_on_plane(program, formula, diagnostics);
 }

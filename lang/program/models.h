@@ -14,8 +14,8 @@ namespace cascade {
 /// The rows in which so many cells lie, as a grid: see Grid::linked.
 Grid rows_of_cells(std::int64_t cells);
 
-/// What is known of the cells of a model when they are made. DomainSettings::grid are the rows of as many
-/// as the script asks for.
+/// What is known of the cells of a model when they are made. DomainSettings::grid are the rows of
+/// as many as the script asks for.
 struct ModelFacts {
     Grid grid;                  ///< The rows in which they lie.
     double largest_weight = 0;  ///< The largest sum of the weights of a cell's links.
@@ -28,7 +28,8 @@ std::string_view word_of(ModelShape shape);
 
 /// Adds an error for every function of a formula that has no meaning on the domain, such as second
 /// derivatives by name on a model and distances along it on a plane; true where there is none.
-bool has_meaning_on_domain(const Program& program, const Formula& formula, Diagnostics& diagnostics);
+bool has_meaning_on_domain(const Program& program, const Formula& formula,
+                           Diagnostics& diagnostics);
 
 /// Every formula that the stages of a program compute, those of their systems once.
 std::vector<const Formula*> formulas_of(const Program& program);

@@ -13,8 +13,8 @@ bool holds_in(const Formula& formula, const Test& test) {
     return std::any_of(formula.nodes.begin(), formula.nodes.end(), test);
 }
 
-/// The first node of a definition, or else of a rate, for which `test` holds; nullptr where it holds
-/// for none.
+/// The first node of a definition, or else of a rate, for which `test` holds; nullptr where it
+/// holds for none.
 template <typename Test>
 const Node* find_in_rates(const System& system, const Test& test) {
     const auto find_in = [&](const Formula& formula) -> const Node* {

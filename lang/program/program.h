@@ -22,14 +22,17 @@
 namespace cascade {
 
 /// What operators read of the surface, a plane each (surface/parameter_surface.h).
+// clang-format off
 enum class MetricPlane : std::uint8_t {
     inverse_11, inverse_12, inverse_22,  ///< Ṽ⁻¹.
     area,                                ///< s, of the cell.
     flow_11, flow_12, flow_22,           ///< s Ṽ⁻¹ Ṽ⁻ᵀ: times the differences, what flows.
 };
+// clang-format on
 inline constexpr std::size_t metric_plane_count = 7;
 
 /// What kernels read of the cells of a model, a plane each (run/domain/model_cells.h).
+// clang-format off
 enum class ModelPlane : std::uint8_t {
     number,      ///< The cell's own number, a word; draws of random numbers take it.
     area,        ///< In square units; 0 in cells that only fill the last row.
@@ -41,23 +44,24 @@ enum class ModelPlane : std::uint8_t {
     curvature_mean, curvature_high, curvature_low,  ///< In 1 / unit.
     curvature_gauss,                                ///< In 1 / unit².
 };
+// clang-format on
 inline constexpr std::size_t model_plane_count = 16;
 /// Is the plane made only for those who read it?
 constexpr bool is_made_when_read(ModelPlane plane) { return plane >= ModelPlane::curvature_mean; }
 
 enum class NodeKind : std::uint8_t {
-    number,      ///< `number`
-    text,        ///< Literals::texts()[index]
-    own,         ///< item `index` of this stage
-    earlier,     ///< item `index` of stage `stage`
-    builtin,     ///< Builtin `index`
-    definition,  ///< definition `index` of the stage's system
-    rate,        ///< rate of species item `index`
-    call,        ///< `function` of `operands`
+    number,         ///< `number`
+    text,           ///< Literals::texts()[index]
+    own,            ///< item `index` of this stage
+    earlier,        ///< item `index` of stage `stage`
+    builtin,        ///< Builtin `index`
+    definition,     ///< definition `index` of the stage's system
+    rate,           ///< rate of species item `index`
+    call,           ///< `function` of `operands`
     surface_value,  ///< Literals::surface_values()[index]
-    metric,      ///< MetricPlane `index`; only lowering makes such nodes
-    model,       ///< ModelPlane `index`; only lowering makes such nodes
-    inside,      ///< true where the cell is inside the mask; only lowering makes such nodes
+    metric,         ///< MetricPlane `index`; only lowering makes such nodes
+    model,          ///< ModelPlane `index`; only lowering makes such nodes
+    inside,         ///< true where the cell is inside the mask; only lowering makes such nodes
 };
 
 enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };
@@ -97,12 +101,12 @@ struct ParameterRange {
 
 /// A species or a parameter of a system.
 struct Quantity {
-    std::string name;       ///< Of a member of a family: `u[2]`.
-    Span span;              ///< Where it was declared.
+    std::string name;  ///< Of a member of a family: `u[2]`.
+    Span span;         ///< Where it was declared.
     bool is_species = false;
-    std::string doc;        ///< What its doc comment says; may be empty.
+    std::string doc;  ///< What its doc comment says; may be empty.
     std::optional<ParameterRange> range;
-    Formula start;          ///< Default value; its `own` nodes are items of whichever stage.
+    Formula start;  ///< Default value; its `own` nodes are items of whichever stage.
 };
 
 struct Definition {
@@ -120,7 +124,7 @@ struct Invariant {
 /// Settings of time that a system may give as defaults and a stage may replace.
 struct TimeSettings {
     std::optional<Solver> solver;
-    Span solver_span;                     ///< Where it was written.
+    Span solver_span;  ///< Where it was written.
     std::optional<double> tolerance;
     std::optional<double> duration;
     std::optional<bool> automatic_speed;  ///< `speed: auto`; false where `speed` is an expression.
@@ -129,37 +133,39 @@ struct TimeSettings {
     std::optional<std::int64_t> check;
     std::optional<double> largest_step;
     Span largest_step_span;
-    std::optional<std::int64_t> coarse;   ///< `start: coarse(…)`.
+    std::optional<std::int64_t> coarse;  ///< `start: coarse(…)`.
     Span coarse_span;
 };
 
 /// How the time of a stage goes on (spec/time.md).
 struct StageTime {
     Solver solver = Solver::euler;
-    Span solver_span;                 ///< Where it was written, for messages.
-    std::optional<double> tolerance;  ///< Of steps of chosen length, as written; see step_tolerance().
+    Span solver_span;  ///< Where it was written, for messages.
+    std::optional<double>
+        tolerance;  ///< Of steps of chosen length, as written; see step_tolerance().
     /// Steps of chosen length are no longer than this.
     std::optional<double> largest_step;
-    Span largest_step_span;           ///< Where that was written.
+    Span largest_step_span;  ///< Where that was written.
     /// The stage ends when t is so large; empty where it ends after its iterations.
     std::optional<double> duration;
     /// The duration is so many times the speed when the stage starts.
     std::optional<std::int64_t> duration_in_steps;
-    bool open_end = false;            ///< Only `until` ends it, or the most steps it may take.
-    bool automatic_speed = false;     ///< The step is as long as stability and accuracy allow.
-    std::optional<Formula> until;     ///< The stage ends where this, the same in all cells, is true.
-    std::optional<double> steady;     ///< The stage ends when its pattern has settled so far.
+    bool open_end = false;         ///< Only `until` ends it, or the most steps it may take.
+    bool automatic_speed = false;  ///< The step is as long as stability and accuracy allow.
+    std::optional<Formula> until;  ///< The stage ends where this, the same in all cells, is true.
+    std::optional<double> steady;  ///< The stage ends when its pattern has settled so far.
     std::optional<std::int64_t> check;  ///< Steps between two looks at `until`; see below.
     /// The stage is run first on a grid whose cells are so many times as wide; 1 for no such run.
     std::int64_t coarse = 1;
-    Span coarse_span;                 ///< Where that was written.
+    Span coarse_span;  ///< Where that was written.
 
     bool has_duration() const { return duration || duration_in_steps; }
     /// Are the steps of different length, chosen as the stage runs?
     bool chooses_steps() const { return automatic_speed || is_adaptive(solver); }
     /// The relative error of a step of chosen length.
     double step_tolerance() const {
-        return tolerance.value_or(is_adaptive(solver) ? default_tolerance : default_automatic_tolerance);
+        return tolerance.value_or(is_adaptive(solver) ? default_tolerance
+                                                      : default_automatic_tolerance);
     }
     static constexpr double default_tolerance = 1e-4, default_automatic_tolerance = 1e-3;
     /// Steps that are as long as the state allows need closer looks.
@@ -174,7 +180,7 @@ struct Settings {
     std::optional<std::int64_t> interval;
     std::optional<Formula> frozen;
     std::optional<Formula> speed;
-    std::optional<Formula> show;   ///< What a picture of a stage shows by default.
+    std::optional<Formula> show;  ///< What a picture of a stage shows by default.
     TimeSettings time;
 };
 
@@ -189,8 +195,9 @@ struct Index {
 /// What a species is at a side.
 struct SideSetting {
     SideKind kind = SideKind::no_flux;
-    Formula value;  ///< Of fixed and flux: found when a stage starts; its `own` nodes are of the stage.
-    Span span;      ///< Where it was written; empty where it comes from the boundary.
+    Formula
+        value;  ///< Of fixed and flux: found when a stage starts; its `own` nodes are of the stage.
+    Span span;  ///< Where it was written; empty where it comes from the boundary.
 };
 
 /// A rule of one species.
@@ -204,16 +211,17 @@ struct System {
     std::string name;
     Span span;
     bool built_in = false;
-    std::optional<std::uint32_t> base;     ///< The system that it is derived from.
-    std::string doc;                       ///< What its doc comment says; may be empty.
-    std::string title, cite, about;        ///< Its texts; may be empty.
-    std::vector<Index> indices;            ///< Their families are quantities u[1], u[2], …
-    std::vector<Quantity> quantities;      ///< In order of writing.
-    std::vector<Definition> definitions;   ///< Each after those it reads.
-    std::vector<Formula> rates;            ///< One per quantity; empty nodes for parameters.
-    std::vector<std::uint32_t> rate_order; ///< Species items, each after those whose rate it reads.
+    std::optional<std::uint32_t> base;    ///< The system that it is derived from.
+    std::string doc;                      ///< What its doc comment says; may be empty.
+    std::string title, cite, about;       ///< Its texts; may be empty.
+    std::vector<Index> indices;           ///< Their families are quantities u[1], u[2], …
+    std::vector<Quantity> quantities;     ///< In order of writing.
+    std::vector<Definition> definitions;  ///< Each after those it reads.
+    std::vector<Formula> rates;           ///< One per quantity; empty nodes for parameters.
+    std::vector<std::uint32_t>
+        rate_order;  ///< Species items, each after those whose rate it reads.
     std::vector<Invariant> invariants;
-    std::vector<SpeciesSide> sides;        ///< Later ones replace earlier ones.
+    std::vector<SpeciesSide> sides;  ///< Later ones replace earlier ones.
     Settings settings;
 
     // A stage's items are its quantities, then `frozen`, then `speed`.
@@ -228,7 +236,7 @@ struct System {
 };
 
 struct Stage {
-    std::string name;       ///< As written, or stage1, stage2, … by position.
+    std::string name;  ///< As written, or stage1, stage2, … by position.
     Span span;
     std::uint32_t system = 0;
     std::vector<Formula> items;        ///< Starting value of every item.
@@ -286,21 +294,21 @@ struct DirectionSettings {
 /// A surface in space whose cells are the domain: the file of a model, or a shape.
 struct ModelSettings {
     ModelShape shape = ModelShape::file;
-    std::string path;             ///< Of a file.
-    std::vector<double> sizes;    ///< Of a torus (its two radii) or a box (its three sides).
+    std::string path;                 ///< Of a file.
+    std::vector<double> sizes;        ///< Of a torus (its two radii) or a box (its three sides).
     std::optional<Formula> implicit;  ///< The surface is where this is 0.
     ModelCellKind cells = ModelCellKind::spread;
-    std::int64_t count = 16384;   ///< Of cells that are spread.
+    std::int64_t count = 16384;  ///< Of cells that are spread.
     ModelLaplacian laplacian = ModelLaplacian::finite_volumes;
-    std::optional<double> unit;   ///< Length of one unit; empty: the mean cell has area 1.
-    Axis up = Axis::y;            ///< The axis of the model that becomes y of the script.
+    std::optional<double> unit;  ///< Length of one unit; empty: the mean cell has area 1.
+    Axis up = Axis::y;           ///< The axis of the model that becomes y of the script.
     std::optional<DirectionSettings> directions;
-    double stretch = 2;           ///< How many times as long as wide cells are along the directions.
-    Span span;                    ///< Of what names the model.
+    double stretch = 2;  ///< How many times as long as wide cells are along the directions.
+    Span span;           ///< Of what names the model.
 };
 
-/// What is known of the cells of a model from places on it: distance(…) and keys(…), whose values are
-/// numbers.
+/// What is known of the cells of a model from places on it: distance(…) and keys(…), whose values
+/// are numbers.
 struct SurfaceValue {
     Function function = Function::distance;
     std::vector<double> numbers;  ///< As written.
@@ -309,18 +317,18 @@ struct SurfaceValue {
 };
 
 struct DomainSettings {
-    Grid grid;                   ///< 64 × 64, periodic, unless said otherwise.
+    Grid grid;                               ///< 64 × 64, periodic, unless said otherwise.
     std::optional<ModelSettings> model;      ///< Then the grid is linked.
     std::optional<MaskSettings> mask;        ///< Without one all cells of the grid.
     std::optional<SurfaceSettings> surface;  ///< Without one the plane.
     std::uint32_t seed = 1;
     Precision precision = Precision::single;  ///< Of all numbers of a run.
-    bool fast = false;           ///< Steps are computed with fewer roundings (ir/contraction.h).
+    bool fast = false;  ///< Steps are computed with fewer roundings (ir/contraction.h).
     std::array<std::optional<SideSetting>, side_count> sides;  ///< Of all species.
 };
 
-/// What formulas name by its number, as it does not fit into a Node. Entries never change; a view of a
-/// checked program that names something new adds it at the end. From one thread at a time.
+/// What formulas name by its number, as it does not fit into a Node. Entries never change; a view
+/// of a checked program that names something new adds it at the end. From one thread at a time.
 class Literals {
 public:
     /// The number of an equal one that is there already, or of a new one.
@@ -337,16 +345,17 @@ private:
 };
 
 struct Program {
-    std::vector<System> systems;   ///< Built-in ones first.
+    std::vector<System> systems;  ///< Built-in ones first.
     std::vector<Stage> stages;
     DomainSettings domain;
-    std::shared_ptr<Literals> literals = std::make_shared<Literals>();  ///< Never null; shared by copies.
+    std::shared_ptr<Literals> literals =
+        std::make_shared<Literals>();  ///< Never null; shared by copies.
 
     const System& system_of(std::uint32_t stage) const { return systems[stages[stage].system]; }
 };
 
-/// Does a node of a formula of `stage` differ from cell to cell? `operand_differs` tells whether one of
-/// its operands does. What a stage lacks an answer for yet, its items, is taken to differ.
+/// Does a node of a formula of `stage` differ from cell to cell? `operand_differs` tells whether
+/// one of its operands does. What a stage lacks an answer for yet, its items, is taken to differ.
 bool differs_by_cell(const Node& node, bool operand_differs, const Program& program,
                      std::uint32_t stage);
 

@@ -27,6 +27,7 @@ struct Word {
     bool empty() const { return text.empty(); }
 };
 
+// clang-format off
 struct Number { double value; };
 struct Text { std::string value; };                    ///< "leopard.npy"
 struct Name { std::string_view name; };                ///< p
@@ -42,6 +43,7 @@ struct Over { Word function; ExprId operand; Word index; };
 /// u[index], [u[index]], large.u[index], u[index]': `base` is the Name, Bracketed, Qualified or
 /// RateOf of the family, which stands directly before the parts of the index.
 struct Indexed { ExprId base, index; };
+// clang-format on
 /// What could not be read. A message has been given already; later stages stay silent about it.
 struct Garbage {};
 
@@ -103,7 +105,7 @@ struct Block {
     Word base;
     std::vector<Statement> statements;
     std::vector<Statement> sides;  ///< `u.left: …`, `u[1].left: …`.
-    std::string doc;  ///< The text of its doc comments, joined to one line.
+    std::string doc;               ///< The text of its doc comments, joined to one line.
     /// Something of it could not be read and is not in these lists; it has its message.
     bool is_damaged = false;
 };

@@ -49,7 +49,8 @@ ExpressionParser::Progress ExpressionParser::read_operand() {
             const TokenKind before = cursor_.previous().kind;
             const bool is_after_operator = !pending_.empty() && wants_operand(before);
             if (is_after_operator && before != TokenKind::comma) break;
-            while (cursor_.take_if(TokenKind::plus)) {}
+            while (cursor_.take_if(TokenKind::plus)) {
+            }
             cursor_.error(token.span, "numbers have no sign '+'", "leave it out");
             return Progress::going_on;
         }
@@ -182,8 +183,7 @@ ExpressionParser::Progress ExpressionParser::read_not() {
 
 /// 'tan' instead of "tan".
 ExpressionParser::Progress ExpressionParser::read_text_in_primes() {
-    const bool is_text =
-        cursor_.kind(1) == TokenKind::name && cursor_.kind(2) == TokenKind::prime;
+    const bool is_text = cursor_.kind(1) == TokenKind::name && cursor_.kind(2) == TokenKind::prime;
     if (!is_text) return missing_operand();
     const Span open = cursor_.take().span;
     const Token word = cursor_.take();
@@ -199,8 +199,7 @@ ExpressionParser::Progress ExpressionParser::missing_operand() {
     const Token before = cursor_.previous();
     const Token here = cursor_.peek();
     const bool ends = cursor_.at_statement_end();
-    const bool closes =
-        here.kind == TokenKind::close_round || here.kind == TokenKind::close_square;
+    const bool closes = here.kind == TokenKind::close_round || here.kind == TokenKind::close_square;
     if (closes && open_brackets_ == 0) {
         return fail(here.span, fmt::format("this '{}' closes nothing", cursor_.text(here)));
     }

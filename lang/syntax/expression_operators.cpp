@@ -155,8 +155,7 @@ ExpressionParser::Progress ExpressionParser::read_close_round() {
     const Pending open = pending_.back();
     if (open.kind == PendingKind::index) {
         if (close.kind == TokenKind::close_square) return close_index();
-        return fail(open.token.span, "this '[' is never closed",
-                    "a ']' is missing before the ')'");
+        return fail(open.token.span, "this '[' is never closed", "a ']' is missing before the ')'");
     }
     if (close.kind == TokenKind::close_square) {
         cursor_.error({Severity::error,
@@ -218,8 +217,7 @@ ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_lin
         case TokenKind::dots:
         case TokenKind::plus_assign:
         case TokenKind::open_curly:
-            return fail(token.span,
-                        cursor_.describe(token) + " has no place inside an expression");
+            return fail(token.span, cursor_.describe(token) + " has no place inside an expression");
         default: return missing_operator(on_new_line);
     }
 }
@@ -236,8 +234,7 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
     const bool is_statement = cursor_.begins_statement();
     if (is_statement && open_brackets_ > 0) return unclosed();
     if (is_statement) {
-        cursor_.error(here.span,
-                      cursor_.describe(here) + " begins a second statement on this line",
+        cursor_.error(here.span, cursor_.describe(here) + " begins a second statement on this line",
                       "put ';' between them");
         return Progress::finished;
     }

@@ -55,8 +55,7 @@ void ExpressionParser::push_binary(Function op) {
     const bool meets_equal = !pending_.empty() && pending_.back().kind == PendingKind::binary &&
                              pending_.back().precedence() == pending.precedence();
     if (meets_equal && is_comparison(op)) {
-        pending.chain =
-            pending_.back().chain == Chain::none ? Chain::to_report : Chain::reported;
+        pending.chain = pending_.back().chain == Chain::none ? Chain::to_report : Chain::reported;
         pending.detail = operands_.back().outer;
     }
     if (meets_equal && op != Function::power) reduce();

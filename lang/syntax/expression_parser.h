@@ -17,8 +17,7 @@ namespace cascade {
 /// Reads expressions at the cursor and appends their parts to a script.
 class ExpressionParser {
 public:
-    ExpressionParser(TokenCursor& cursor, ast::Script& script)
-        : cursor_(cursor), script_(script) {}
+    ExpressionParser(TokenCursor& cursor, ast::Script& script) : cursor_(cursor), script_(script) {}
 
     /// Reads one expression and leaves the cursor at what ends it: a line end, `;`, `}`, `,` or the
     /// end of the text. Where it cannot be read, a message is given, the cursor goes to the end of

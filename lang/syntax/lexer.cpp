@@ -30,8 +30,7 @@ std::optional<std::string> hint_of_other_number(std::string_view word) {
     }
     const std::string_view before = word.substr(0, cross), after = word.substr(cross + 1);
     std::uint64_t value = 0;
-    const auto [end, fault] =
-        std::from_chars(after.data(), after.data() + after.size(), value, 16);
+    const auto [end, fault] = std::from_chars(after.data(), after.data() + after.size(), value, 16);
     if (before == "0" && fault == std::errc() && end == after.data() + after.size()) {
         return fmt::format("write {}", value);
     }
@@ -53,8 +52,7 @@ class Lexer {
 public:
     Lexer(SourceId source, const Sources& sources, Diagnostics& diagnostics,
           std::vector<Span>* docs)
-        : source_(source), text_(sources[source].text()), diagnostics_(diagnostics),
-          docs_(docs) {}
+        : source_(source), text_(sources[source].text()), diagnostics_(diagnostics), docs_(docs) {}
 
     std::vector<Token> run() {
         report_unreadable_bytes();
@@ -62,8 +60,8 @@ public:
         while (offset_ < text_.size()) {
             if (tokens_.size() == most_tokens) {
                 tokens_.clear();
-                diagnostics_.error(span(0, 0), fmt::format("this script has more than {} words",
-                                                           most_tokens));
+                diagnostics_.error(span(0, 0),
+                                   fmt::format("this script has more than {} words", most_tokens));
                 break;
             }
             read_token();
@@ -148,8 +146,8 @@ void Lexer::report_run(std::size_t begin, std::size_t end) {
     constexpr std::size_t most_named = 4;
     std::string bytes;
     for (std::size_t k = begin; k < std::min(end, begin + most_named); ++k) {
-        bytes += fmt::format("{}0x{:02x}", k == begin ? "" : " ",
-                             static_cast<unsigned char>(text_[k]));
+        bytes +=
+            fmt::format("{}0x{:02x}", k == begin ? "" : " ", static_cast<unsigned char>(text_[k]));
     }
     if (count > most_named) bytes += fmt::format(" and {} more", count - most_named);
     diagnostics_.error(span(begin, end),
@@ -241,20 +239,21 @@ void Lexer::read_bad_name(std::size_t begin) {
             continue;
         }
         if (first_wrong.empty()) {
-            first_wrong = fmt::format("'{}' (U+{:04X})", letter,
-                                      static_cast<std::uint32_t>(point.value));
+            first_wrong =
+                fmt::format("'{}' (U+{:04X})", letter, static_cast<std::uint32_t>(point.value));
         }
         has_spelling = has_spelling && !latin_spelling(point.value).empty();
         latin += latin_spelling(point.value);
     }
     has_spelling = has_spelling && end - begin <= 64;
-    std::string hint = has_spelling ? "write '" + latin + "'"
-                                    : "names are of a to z, A to Z, 0 to 9 and _";
+    std::string hint =
+        has_spelling ? "write '" + latin + "'" : "names are of a to z, A to Z, 0 to 9 and _";
     const CodePoint first = decode_utf8(text_, begin);
     const std::string_view sign = latin_spelling(first.value);
     if (has_spelling && (sign == "lap" || sign == "grad")) {
         // ∇² is one sign. What an operator is of stands in brackets.
-        const bool is_square = sign == "grad" && decode_utf8(text_, begin + first.size).value == U'²';
+        const bool is_square =
+            sign == "grad" && decode_utf8(text_, begin + first.size).value == U'²';
         if (is_square) end = begin + first.size + decode_utf8(text_, begin + first.size).size;
         const std::string operand = latin.substr(sign.size());
         hint = fmt::format("write '{}({})'", is_square ? "lap" : sign,
@@ -351,12 +350,11 @@ void Lexer::read_look_alike(const LookAlike& look_alike) {
         return;
     }
     const bool is_power = look_alike.meant == TokenKind::garbage;
-    diagnostics_.error(span(begin, begin + point.size),
-                       fmt::format("'{}' (U+{:04X}) has no meaning in the language", letter,
-                                   number),
-                       look_alike.meant == TokenKind::prime
-                           ? "write the apostrophe '"
-                           : fmt::format("write '{}'", look_alike.write));
+    diagnostics_.error(
+        span(begin, begin + point.size),
+        fmt::format("'{}' (U+{:04X}) has no meaning in the language", letter, number),
+        look_alike.meant == TokenKind::prime ? "write the apostrophe '"
+                                             : fmt::format("write '{}'", look_alike.write));
     if (look_alike.meant == TokenKind::text) {
         const std::string_view closing = point.value == U'\u201e' ? "\u201c" : "\u201d";
         const bool is_guillemet = point.value == U'\u00ab';

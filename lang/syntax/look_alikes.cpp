@@ -10,6 +10,7 @@ namespace {
 
 using Kind = TokenKind;
 
+// clang-format off
 constexpr LookAlike look_alikes[] = {
     // Primes: typographic quotation marks, accents, the prime of mathematics.
     {U'\u2018', Kind::prime, "'"}, {U'\u2019', Kind::prime, "'"}, {U'\u2032', Kind::prime, "'"},
@@ -47,12 +48,14 @@ constexpr LookAlike look_alikes[] = {
     {U'\u205f', Kind::newline, " "}, {U'\u3000', Kind::newline, " "},
     {U'\ufeff', Kind::newline, " "},
 };
+// clang-format on
 
 struct Letter {
     char32_t code_point;
     std::string_view spelling;
 };
 
+// clang-format off
 constexpr Letter letters[] = {
     {U'α', "alpha"},  {U'β', "beta"},    {U'γ', "gamma"}, {U'δ', "delta"},  {U'ε', "epsilon"},
     {U'ζ', "zeta"},   {U'η', "eta"},     {U'θ', "theta"}, {U'κ', "kappa"},  {U'λ', "lambda"},
@@ -63,6 +66,7 @@ constexpr Letter letters[] = {
     {U'а', "a"}, {U'е', "e"}, {U'о', "o"}, {U'р', "p"}, {U'с', "c"}, {U'у', "y"}, {U'х', "x"},
     {U'і', "i"}, {U'ѕ', "s"}, {U'ј', "j"},
 };
+// clang-format on
 
 }  // namespace
 
@@ -74,9 +78,9 @@ const LookAlike* find_look_alike(char32_t code_point) {
 }
 
 std::string_view latin_spelling(char32_t code_point) {
-    const auto found =
-        std::find_if(std::begin(letters), std::end(letters),
-                     [&](const Letter& row) { return row.code_point == code_point; });
+    const auto found = std::find_if(std::begin(letters), std::end(letters), [&](const Letter& row) {
+        return row.code_point == code_point;
+    });
     return found == std::end(letters) ? std::string_view() : found->spelling;
 }
 

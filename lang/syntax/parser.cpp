@@ -52,12 +52,11 @@ void parse_used(SourceId source, const Sources& sources, ast::Script& script,
     TokenCursor cursor(source, sources, diagnostics);
     ScriptParser(cursor, script).parse_script();
     if (diagnostics.error_count() == errors_before) cursor.report_lost_docs();
-    script.blocks.erase(
-        std::remove_if(script.blocks.begin() + blocks_before, script.blocks.end(),
-                       [](const ast::Block& block) {
-                           return block.kind != ast::BlockKind::system;
-                       }),
-        script.blocks.end());
+    script.blocks.erase(std::remove_if(script.blocks.begin() + blocks_before, script.blocks.end(),
+                                       [](const ast::Block& block) {
+                                           return block.kind != ast::BlockKind::system;
+                                       }),
+                        script.blocks.end());
 }
 
 std::optional<ast::Expression> parse_expression(SourceId source, const Sources& sources,
@@ -129,8 +128,8 @@ void ScriptParser::parse_override() {
     const ast::Word& name = statement.name;
     if (!cursor_.take_if(TokenKind::assign) && !cursor_.take_if(TokenKind::colon)) {
         if (cursor_.at(TokenKind::garbage)) return;
-        return cursor_.error(
-            name.span, fmt::format("'=' is missing after '{}'", shortened(name.text)), form);
+        return cursor_.error(name.span,
+                             fmt::format("'=' is missing after '{}'", shortened(name.text)), form);
     }
     change.statement.values.push_back(
         expressions_.parse("the value of '" + shortened(name.text) + "'"));

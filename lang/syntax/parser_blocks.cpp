@@ -216,9 +216,8 @@ void ScriptParser::parse_base_of_classic_stage(ast::Block& block) {
     if (cursor_.at_statement_end()) return;
     const bool is_told = !has_colon || block.base.empty() || cursor_.at(TokenKind::garbage);
     if (!is_told) {
-        cursor_.error(cursor_.peek().span,
-                      fmt::format("{} has no place after the name of a system",
-                                  cursor_.describe(cursor_.peek())));
+        cursor_.error(cursor_.peek().span, fmt::format("{} has no place after the name of a system",
+                                                       cursor_.describe(cursor_.peek())));
     }
     cursor_.skip_statement();
 }

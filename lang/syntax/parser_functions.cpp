@@ -51,8 +51,7 @@ void ScriptParser::parse_function() {
     } else if (!cursor_.take_if(TokenKind::assign)) {
         if (!cursor_.at(TokenKind::garbage)) {
             cursor_.error(function.name.span,
-                          fmt::format("'=' is missing after the function {}", name),
-                          function_form);
+                          fmt::format("'=' is missing after the function {}", name), function_form);
         }
         return keep_damaged(std::move(function));
     }
@@ -116,9 +115,8 @@ void ScriptParser::parse_use() {
     const std::string_view text = cursor_.text(file);
     script_.uses.push_back({file.span, std::string(text.substr(1, text.size() - 2))});
     if (cursor_.at_statement_end()) return;
-    cursor_.error(cursor_.peek().span,
-                  fmt::format("{} has no place after the name of a file",
-                              cursor_.describe(cursor_.peek())));
+    cursor_.error(cursor_.peek().span, fmt::format("{} has no place after the name of a file",
+                                                   cursor_.describe(cursor_.peek())));
     cursor_.skip_statement();
 }
 

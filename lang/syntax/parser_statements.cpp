@@ -67,8 +67,8 @@ void ScriptParser::add_docs(std::string& doc, const std::string& more) {
 
 /// The `[i]` of `u[i]: e`, if there is one. False, with a message, if it cannot be read.
 bool ScriptParser::parse_index(ast::Statement& statement) {
-    const bool is_index = cursor_.at(TokenKind::open_square) &&
-                          cursor_.peek().span.begin == statement.name.span.end;
+    const bool is_index =
+        cursor_.at(TokenKind::open_square) && cursor_.peek().span.begin == statement.name.span.end;
     if (!is_index) return true;
     const Token open = cursor_.take();
     const bool is_plain = cursor_.at(TokenKind::name) || cursor_.at(TokenKind::number);
@@ -212,8 +212,8 @@ bool ScriptParser::take_paper_rate(ast::Statement& statement) {
     return true;
 }
 
-/// A name is followed by something that makes no statement: mostly the colon is missing, or the name
-/// should begin a block. True if the value can be read on.
+/// A name is followed by something that makes no statement: mostly the colon is missing, or the
+/// name should begin a block. True if the value can be read on.
 bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
     const ast::Word& name = statement.name;
     const std::string quoted = cursor_.describe({TokenKind::name, name.span});
@@ -256,8 +256,7 @@ bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
 std::string ScriptParser::report_no_block(const ast::Word& word) {
     const std::array<std::string, 4> keywords = {"system", "stage", "domain", "picture"};
     std::string near = nearest_name(word.text, keywords);
-    cursor_.error(word.span,
-                  cursor_.describe({TokenKind::name, word.span}) + " begins no block",
+    cursor_.error(word.span, cursor_.describe({TokenKind::name, word.span}) + " begins no block",
                   near.empty() ? "blocks are system, stage, domain and picture"
                                : "did you mean '" + near + "'?");
     return near;
@@ -265,8 +264,8 @@ std::string ScriptParser::report_no_block(const ast::Word& word) {
 
 /// One expression, or several with commas between them.
 void ScriptParser::parse_values(ast::Statement& statement) {
-    const bool colon_is_missing = !wants_operand(cursor_.previous().kind) &&
-                                  cursor_.previous().kind != TokenKind::colon;
+    const bool colon_is_missing =
+        !wants_operand(cursor_.previous().kind) && cursor_.previous().kind != TokenKind::colon;
     const std::string owner =
         fmt::format("the {} of {}",
                     statement.kind == ast::StatementKind::value        ? "value"
@@ -306,10 +305,9 @@ void ScriptParser::parse_values(ast::Statement& statement) {
 /// An expression that may begin on the next line where an operator is the last word of this one.
 /// The ':' is none.
 ast::Expression ScriptParser::parse_after_operator(const std::string& owner,
-                                                    std::string_view end_word) {
-    const bool goes_on = wants_operand(cursor_.previous().kind) &&
-                         cursor_.at(TokenKind::newline) && !cursor_.begins_statement(1) &&
-                         cursor_.kind(1) != TokenKind::close_curly;
+                                                   std::string_view end_word) {
+    const bool goes_on = wants_operand(cursor_.previous().kind) && cursor_.at(TokenKind::newline) &&
+                         !cursor_.begins_statement(1) && cursor_.kind(1) != TokenKind::close_curly;
     if (goes_on) cursor_.take();
     return expressions_.parse(owner, end_word);
 }

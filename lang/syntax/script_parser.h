@@ -77,14 +77,13 @@ private:
     std::string docs_after(std::uint32_t begin);
     static void add_docs(std::string& doc, const std::string& more);
 
-    void report_rest(const std::string& what, ast::Expression expression,
-                     const std::string& hint);
+    void report_rest(const std::string& what, ast::Expression expression, const std::string& hint);
 
     TokenCursor& cursor_;
     ast::Script& script_;
     ExpressionParser expressions_;
-    bool in_classic_stage_ = false;   ///< Statements belong to the last block of the script.
-    bool outside_reported_ = false;   ///< One message serves a run of statements outside of stages.
+    bool in_classic_stage_ = false;  ///< Statements belong to the last block of the script.
+    bool outside_reported_ = false;  ///< One message serves a run of statements outside of stages.
     std::size_t forgiven_closings_ = 0;  ///< `}` that are left over by a block told to be unclosed.
 };
 

@@ -13,7 +13,8 @@ constexpr std::size_t longest_shown = 40;  // Bytes of a script's words in a mes
 }  // namespace
 
 TokenCursor::TokenCursor(SourceId source, const Sources& sources, Diagnostics& diagnostics)
-    : sources_(sources), diagnostics_(diagnostics),
+    : sources_(sources),
+      diagnostics_(diagnostics),
       tokens_(lex(source, sources, diagnostics, &docs_)) {
     docs_taken_.assign(docs_.size(), false);
 }
@@ -61,9 +62,9 @@ std::string TokenCursor::describe(const Token& token) const {
 std::string TokenCursor::take_docs(std::uint32_t begin, std::uint32_t end) {
     constexpr std::string_view white = " \t\r\n";
     std::string joined;
-    const auto first = std::lower_bound(
-        docs_.begin(), docs_.end(), begin,
-        [](const Span& doc, std::uint32_t offset) { return doc.begin < offset; });
+    const auto first =
+        std::lower_bound(docs_.begin(), docs_.end(), begin,
+                         [](const Span& doc, std::uint32_t offset) { return doc.begin < offset; });
     for (auto doc = first; doc != docs_.end() && doc->begin < end; ++doc) {
         const auto index = static_cast<std::size_t>(doc - docs_.begin());
         if (docs_taken_[index]) continue;
@@ -116,16 +117,16 @@ bool TokenCursor::begins_block(std::size_t ahead) const {
     }
     if (word != "domain" && word != "picture") return false;
     if (next == TokenKind::open_curly) return true;
-    const bool has_extra = next == TokenKind::newline || next == TokenKind::colon ||
-                           next == TokenKind::name;
+    const bool has_extra =
+        next == TokenKind::newline || next == TokenKind::colon || next == TokenKind::name;
     return has_extra && kind(ahead + 2) == TokenKind::open_curly;
 }
 
 bool TokenCursor::begins_statement(std::size_t ahead) const {
     if (kind(ahead) != TokenKind::name) return false;
     std::size_t relation = ahead + 1;
-    const bool is_member = kind(relation) == TokenKind::open_square &&
-                           kind(relation + 2) == TokenKind::close_square;
+    const bool is_member =
+        kind(relation) == TokenKind::open_square && kind(relation + 2) == TokenKind::close_square;
     if (is_member) relation += 3;  // u[i]: …
     const TokenKind next = kind(relation);
     if (next == TokenKind::colon || next == TokenKind::assign) return true;
@@ -146,9 +147,7 @@ void TokenCursor::skip_statement(std::size_t open_brackets) {
     for (; !at_end(); take()) {
         switch (kind()) {
             case TokenKind::open_round:
-            case TokenKind::open_square:
-                ++open_brackets;
-                break;
+            case TokenKind::open_square: ++open_brackets; break;
             case TokenKind::close_round:
             case TokenKind::close_square:
                 if (open_brackets > 0) --open_brackets;
@@ -170,8 +169,7 @@ void TokenCursor::skip_statement(std::size_t open_brackets) {
                 if (!is_open && line_ends_statement()) return;
                 break;
             }
-            default:
-                break;
+            default: break;
         }
     }
 }
@@ -207,10 +205,8 @@ bool wants_operand(TokenKind kind) {
         case TokenKind::minus:
         case TokenKind::star:
         case TokenKind::slash:
-        case TokenKind::caret:
-            return true;
-        default:
-            return false;
+        case TokenKind::caret: return true;
+        default: return false;
     }
 }
 

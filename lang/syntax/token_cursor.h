@@ -29,8 +29,8 @@ public:
     /// Back to the token taken last.
     void step_back();
     void skip_newlines() { take_if(TokenKind::newline); }
-    /// The same inside brackets: not where the next line begins a statement, since the bracket's end
-    /// is missing then.
+    /// The same inside brackets: not where the next line begins a statement, since the bracket's
+    /// end is missing then.
     void skip_newlines_in_brackets() {
         if (at(TokenKind::newline) && !begins_statement(1)) take();
     }

@@ -7,8 +7,8 @@ namespace cascade {
 
 enum class Domains : std::uint8_t {
     plane = 1,
-    surface = 2,               ///< A grid on a surface that a formula gives.
-    grid = plane | surface,    ///< Cells have rows and columns.
+    surface = 2,             ///< A grid on a surface that a formula gives.
+    grid = plane | surface,  ///< Cells have rows and columns.
     model = 4,
     straight = plane | model,  ///< Axes are straight.
     bent = surface | model,

@@ -23,10 +23,12 @@ inline constexpr std::size_t function_count = 0
     ;
 
 // The columns of functions.def, which says what each word means.
+// clang-format off
 enum class FunctionKind : std::uint8_t {
     logic, comparison, arithmetic, elementary, choice,
     derivative, stencil, flux, draw, pattern, shape, text, landmarks, aggregate, colour,
 };
+// clang-format on
 enum class Behaviour : std::uint8_t { plain, jumps, chooses, partial, divides, raises };
 enum class Places : std::uint8_t { any, cells, rates, values, noisy, picture };
 
@@ -78,9 +80,7 @@ const FunctionInfo& info(Function function);
 std::optional<Function> function_named(std::string_view name);
 
 /// Does it make a number of numbers alone? Those are the rows of elementary.def.
-inline bool is_elementary(Function function) {
-    return info(function).kind <= FunctionKind::choice;
-}
+inline bool is_elementary(Function function) { return info(function).kind <= FunctionKind::choice; }
 inline bool is_comparison(Function function) {
     return info(function).kind == FunctionKind::comparison;
 }
@@ -104,7 +104,8 @@ inline bool varies_by_cell(Function function) {
     const FunctionKind kind = info(function).kind;
     return kind >= FunctionKind::derivative && kind <= FunctionKind::landmarks;
 }
-/// Does it read what a text names (a file, an attribute of a model), which lies in a plane of its own?
+/// Does it read what a text names (a file, an attribute of a model), which lies in a plane of its
+/// own?
 inline bool reads_file(Function function) { return info(function).kind == FunctionKind::text; }
 /// Is it about places on the surface of a model, which a plane does not have?
 inline bool needs_model(Function function) { return info(function).domains == Domains::model; }
@@ -126,15 +127,19 @@ struct Derivative {
 Derivative derivative_of(Function function);
 
 /// Values that every expression may read. `pi` is folded into a number.
+// clang-format off
 enum class Builtin : std::uint8_t {
     x, y, z, sx, sy, sz, t, step, nx, ny, nz,
     curvature, curvature_mean, curvature_gauss, curvature_high, curvature_low,
 };
+// clang-format on
 inline constexpr std::size_t builtin_count = 16;
 /// How they are written, by Builtin.
+// clang-format off
 inline constexpr std::array<std::string_view, builtin_count> builtin_names{
     "x", "y", "z", "sx", "sy", "sz", "t", "step", "nx", "ny", "nz",
     "curvature", "curvature_mean", "curvature_gauss", "curvature_high", "curvature_low"};
+// clang-format on
 std::optional<Builtin> builtin_named(std::string_view name);
 /// Does only a model tell one cell from another by it? On a plane it is a number.
 constexpr bool is_of_model(Builtin builtin) { return builtin >= Builtin::nx; }

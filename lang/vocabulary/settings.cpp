@@ -17,7 +17,9 @@ constexpr SettingInfo setting_table[] = {
 
 }  // namespace
 
-const SettingInfo& info(Setting setting) { return setting_table[static_cast<std::size_t>(setting)]; }
+const SettingInfo& info(Setting setting) {
+    return setting_table[static_cast<std::size_t>(setting)];
+}
 
 std::optional<Setting> setting_named(std::string_view word) {
     for (std::size_t i = 0; i < setting_count; ++i) {

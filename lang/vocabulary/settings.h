@@ -27,7 +27,14 @@ inline constexpr std::size_t setting_count = 0
 // The columns of settings.def, which says what each word means.
 enum class SettingBlock : std::uint8_t { stage, domain, side, picture, system };
 enum class SettingValue : std::uint8_t {
-    count, number, numbers, expression, expressions, word, words, text,
+    count,
+    number,
+    numbers,
+    expression,
+    expressions,
+    word,
+    words,
+    text,
 };
 
 struct SettingInfo {
@@ -52,8 +59,9 @@ std::vector<std::string> words_taken_by(Setting setting);
 std::string_view home_of(std::string_view word);
 
 /// The words that begin statements and blocks, and those between the parts of an expression.
-inline constexpr std::string_view keywords[] = {
-    "system", "stage", "domain", "picture", "system_name", "fn", "use",
-    "and", "or", "not", "over", "in", "pi"};
+inline constexpr std::string_view keywords[] = {"system",      "stage", "domain", "picture",
+                                                "system_name", "fn",    "use",    "and",
+                                                "or",          "not",   "over",   "in",
+                                                "pi"};
 
 }  // namespace cascade

@@ -121,14 +121,13 @@ bool has_word(std::string_view words, std::string_view word) {
 
 }  // namespace
 
-std::span<const WordElsewhere> words_elsewhere() {
-    return rows;
-}
+std::span<const WordElsewhere> words_elsewhere() { return rows; }
 
 std::string_view advice_about(std::string_view word, WordPlace place) {
-    const auto found = std::find_if(
-        std::begin(rows), std::end(rows),
-        [&](const WordElsewhere& row) { return row.place == place && has_word(row.words, word); });
+    const auto found =
+        std::find_if(std::begin(rows), std::end(rows), [&](const WordElsewhere& row) {
+            return row.place == place && has_word(row.words, word);
+        });
     return found == std::end(rows) ? std::string_view() : found->advice;
 }
 

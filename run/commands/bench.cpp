@@ -35,7 +35,9 @@ public:
     StageMeter(Simulation& simulation, std::uint32_t stage, double seconds, RunControl& control,
                std::set<std::string>& said)
         : simulation_(simulation), k_(stage), seconds_(seconds), control_(control), said_(said) {
-        watched_.report = [this](const Progress&) { if (control_.cancel) watched_.cancel = true; };
+        watched_.report = [this](const Progress&) {
+            if (control_.cancel) watched_.cancel = true;
+        };
         watched_.warn = [this](const std::string& message) {
             // A stage that is begun again has nothing new to say.
             if (said_.insert(message).second && control_.warn) control_.warn(message);
@@ -52,7 +54,8 @@ public:
         const double enough = std::min(least_warm_up, seconds_);
         const auto warm = Clock::now();
         step_seconds_ = bench.first_step;
-        for (std::int64_t count = 2; seconds_since(warm) < most_warm_up && !control_.cancel; count *= 4) {
+        for (std::int64_t count = 2; seconds_since(warm) < most_warm_up && !control_.cancel;
+             count *= 4) {
             if (auto ready = begin_again_where_done(); !ready) return ready;
             const auto start = Clock::now();
             const auto taken = advance(count, count);
@@ -68,8 +71,8 @@ public:
     Result<void> measure(StageBench& bench, std::int64_t steps_of_tile) {
         begin_ = Clock::now();
         const double batch = std::clamp(seconds_ / batches_wanted, 1e-4, 0.25);
-        std::int64_t every = static_cast<std::int64_t>(
-            std::clamp(batch / std::max(step_seconds_, 1e-9), 1.0, 1e9));
+        std::int64_t every =
+            static_cast<std::int64_t>(std::clamp(batch / std::max(step_seconds_, 1e-9), 1.0, 1e9));
         every = (every + steps_of_tile - 1) / steps_of_tile * steps_of_tile;
         while (!is_enough() && !control_.cancel) {
             if (auto ready = begin_again_where_done(); !ready) return ready;
@@ -128,8 +131,10 @@ private:
             if (control_.cancel || is_enough()) watched_.cancel = true;
         };
         const bool measures = count > every;
-        auto end = simulation_.advance_stage(
-            k_, last, watched_, measures ? std::function<void()>(look) : std::function<void()>(), every);
+        auto end = simulation_.advance_stage(k_, last, watched_,
+                                             measures ? std::function<void()>(look)
+                                                      : std::function<void()>(),
+                                             every);
         if (!end) return tl::unexpected(end.error());
         return simulation_.state(k_).steps - before;
     }
@@ -202,8 +207,8 @@ private:
         bench.precision = script_.program->domain.precision;
         bench.fast = script_.program->domain.fast;
         bench.is_native = request_.simulation.backend == BackendKind::jit;
-        bench.most_threads = request_.simulation.threads > 0 ? request_.simulation.threads
-                                                              : hardware_threads();
+        bench.most_threads =
+            request_.simulation.threads > 0 ? request_.simulation.threads : hardware_threads();
         if (stage.iterations == 0 && !stage.time.has_duration()) {
             bench.nothing = "it takes no step";
             return bench;
@@ -247,7 +252,8 @@ private:
             native.backend = BackendKind::jit;
             auto backend = make_stepper(native);
             if (!backend) return tl::unexpected(backend.error());
-            auto measured = measure_limits(**backend, bench.precision, bench.threads, control_.cancel);
+            auto measured =
+                measure_limits(**backend, bench.precision, bench.threads, control_.cancel);
             if (!measured && control_.cancel) return {};
             if (!measured) return tl::unexpected(measured.error());
             known = std::move(*measured);
@@ -261,7 +267,7 @@ private:
     RunControl& control_;
     TimeAccount account_;
     std::unique_ptr<Simulation> simulation_;
-    double compiled_ = 0;  ///< Seconds of compiling so far.
+    double compiled_ = 0;                                 ///< Seconds of compiling so far.
     std::map<int, std::optional<MachineLimits>> limits_;  ///< By threads.
     std::set<std::string> said_;
 };

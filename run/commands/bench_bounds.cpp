@@ -16,7 +16,9 @@ const MachineLimits::Memory* cache_of_tiles(const StageBench& bench) {
 }
 
 /// That a cell-step moves from and to where all planes lie: sweeps of a tile share them.
-double home_bytes(const StageBench& bench) { return bench.work.bytes / bench.stepping.sweeps_at_once; }
+double home_bytes(const StageBench& bench) {
+    return bench.work.bytes / bench.stepping.sweeps_at_once;
+}
 
 }  // namespace
 
@@ -27,10 +29,11 @@ std::vector<Bound> bounds_of(const StageBench& bench) {
     const StepWork& work = bench.work;
     const double rate = bench.cell_steps_per_second();
     using Kind = Bound::Kind;
-    bounds.push_back({Kind::operations, "arithmetic", rate * work.cost.operations, limits.operations});
+    bounds.push_back(
+        {Kind::operations, "arithmetic", rate * work.cost.operations, limits.operations});
     if (work.cost.divisions > 0) {
-        bounds.push_back({Kind::divisions, "divisions and roots", rate * work.cost.divisions,
-                          limits.divisions});
+        bounds.push_back(
+            {Kind::divisions, "divisions and roots", rate * work.cost.divisions, limits.divisions});
     }
     const auto& nearest = limits.memories.front();
     bounds.push_back({Kind::nearest, "loads and stores, " + nearest.name,
@@ -39,15 +42,16 @@ std::vector<Bound> bounds_of(const StageBench& bench) {
     const auto& home = limits.home_of(work.working_set);
     const auto* const tiles = cache_of_tiles(bench);
     if (tiles != nullptr && tiles != &nearest) {
-        bounds.push_back({Kind::tiles, "tiles, " + tiles->name, rate * work.bytes, tiles->bytes_per_second});
+        bounds.push_back(
+            {Kind::tiles, "tiles, " + tiles->name, rate * work.bytes, tiles->bytes_per_second});
     }
     if (&home != &nearest) {
-        bounds.push_back({Kind::home, "planes, " + home.name, rate * home_bytes(bench),
-                          home.bytes_per_second});
+        bounds.push_back(
+            {Kind::home, "planes, " + home.name, rate * home_bytes(bench), home.bytes_per_second});
     }
     if (bench.threads > 1 && limits.meeting > 0) {
-        bounds.push_back({Kind::meetings, "meetings of threads", bench.stepping.meetings / bench.step,
-                          1 / limits.meeting});
+        bounds.push_back({Kind::meetings, "meetings of threads",
+                          bench.stepping.meetings / bench.step, 1 / limits.meeting});
     }
     return bounds;
 }
@@ -60,9 +64,8 @@ bool is_outdone(const Bound& bound) {
 const Bound& tightest(const std::vector<Bound>& bounds) {
     CHECK(!bounds.empty(), "there are limits");
     const auto weight = [](const Bound& bound) { return is_outdone(bound) ? -1 : bound.share(); };
-    return *std::max_element(bounds.begin(), bounds.end(), [&](const Bound& a, const Bound& b) {
-        return weight(a) < weight(b);
-    });
+    return *std::max_element(bounds.begin(), bounds.end(),
+                             [&](const Bound& a, const Bound& b) { return weight(a) < weight(b); });
 }
 
 std::optional<Roof> attainable(const StageBench& bench) {
@@ -76,7 +79,8 @@ std::optional<Roof> attainable(const StageBench& bench) {
     if (const auto* const tiles = cache_of_tiles(bench)) {
         lower(tiles->bytes_per_second / work.bytes, tiles->name);
     }
-    if (work.cost.operations > 0) lower(bench.limits->operations / work.cost.operations, "arithmetic");
+    if (work.cost.operations > 0)
+        lower(bench.limits->operations / work.cost.operations, "arithmetic");
     return roof;
 }
 

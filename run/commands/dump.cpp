@@ -19,7 +19,7 @@ namespace cascade {
 namespace {
 
 constexpr std::array<std::string_view, 9> kinds = {"tokens", "ast", "equations", "tex", "program",
-                                                   "plan", "ir", "llvm", "asm"};
+                                                   "plan",   "ir",  "llvm",      "asm"};
 
 /// Steps are shown as they are taken.
 constexpr PlanOptions as_run{Materialise::when_cheaper, false, true};
@@ -64,8 +64,8 @@ std::string dump_equations(const Script& script, Notation notation) {
         const System& system = program.systems[k];
         if (program.stages.empty() ? !system.built_in : shown[k]) names.push_back(system.name);
     }
-    const auto equations = print_equations(script.tree, script.sources, names, notation,
-                                           EquationParts::all);
+    const auto equations =
+        print_equations(script.tree, script.sources, names, notation, EquationParts::all);
     std::string text;
     for (std::size_t k = 0; k < names.size(); ++k) {
         if (!text.empty()) text += '\n';
@@ -93,7 +93,8 @@ Result<std::string> dump_code([[maybe_unused]] const Program& program,
     }
     return text;
 #else
-    return failure("this build has no native compiler", "tokens, ast, program, plan and ir can be shown");
+    return failure("this build has no native compiler",
+                   "tokens, ast, program, plan and ir can be shown");
 #endif
 }
 

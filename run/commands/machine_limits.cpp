@@ -29,8 +29,8 @@ std::string level_name(int number) {
     return fmt::format("{}-level cache", names[static_cast<std::size_t>(at)]);
 }
 
-/// The caches of this machine; where they are not known those that no present processor falls below by
-/// much.
+/// The caches of this machine; where they are not known those that no present processor falls below
+/// by much.
 std::vector<CacheLevel> known_caches() {
     std::vector<CacheLevel> levels = cache_levels();
     if (levels.empty()) levels = {{1, 32 << 10, 1}, {2, 512 << 10, 1}, {3, 8 << 20, 1}};
@@ -105,7 +105,8 @@ public:
                 repeat(kernel, planes[static_cast<std::size_t>(thread)], layout, times);
             });
             if (seconds < least_seconds && times < (std::int64_t{1} << 40)) {
-                const double factor = std::clamp(1.3 * least_seconds / std::max(seconds, 1e-9), 2.0, 64.0);
+                const double factor =
+                    std::clamp(1.3 * least_seconds / std::max(seconds, 1e-9), 2.0, 64.0);
                 times = static_cast<std::int64_t>(static_cast<double>(times) * factor);
                 continue;
             }
@@ -180,7 +181,8 @@ Result<MachineLimits> measure(Backend& backend, int threads, const std::atomic<b
     const auto compile = [&](const CellKernel& kernel) {
         return backend.compile(kernel, Stencil::plane);
     };
-    const CellKernel arithmetic = arithmetic_kernel(precision), division = division_kernel(precision);
+    const CellKernel arithmetic = arithmetic_kernel(precision),
+                     division = division_kernel(precision);
     const auto sums = compile(arithmetic), quotients = compile(division);
     const auto triad = compile(triad_kernel(precision));
     for (const auto* const made : {&sums, &quotients, &triad}) {
@@ -201,9 +203,9 @@ Result<MachineLimits> measure(Backend& backend, int threads, const std::atomic<b
     const auto bandwidth = [&](double bytes_of_thread) {
         const double cells = bytes_of_thread / (planes * sizeof(Number));
         const double width = std::clamp(cells, 64.0, 1024.0);
-        const double speed =
-            meter.cells_per_second(**triad, 2, static_cast<std::int64_t>(width),
-                                   std::max<std::int64_t>(1, static_cast<std::int64_t>(cells / width)));
+        const double speed = meter.cells_per_second(
+            **triad, 2, static_cast<std::int64_t>(width),
+            std::max<std::int64_t>(1, static_cast<std::int64_t>(cells / width)));
         return speed * planes * sizeof(Number);
     };
     double largest = 0;
@@ -212,7 +214,8 @@ Result<MachineLimits> measure(Backend& backend, int threads, const std::atomic<b
         const auto caches = static_cast<double>(std::max<std::int64_t>(1, threads / level.cores));
         const auto bytes = static_cast<double>(level.bytes) * caches;
         largest = std::max(largest, bytes);
-        limits.memories.push_back({level_name(level.number), bytes, bandwidth(bytes / 2 / threads)});
+        limits.memories.push_back(
+            {level_name(level.number), bytes, bandwidth(bytes / 2 / threads)});
     }
     constexpr double least = 64e6, most = 512e6;
     const double beyond = std::clamp(4 * largest, least, most);

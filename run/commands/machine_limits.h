@@ -1,8 +1,8 @@
-// What this machine can do at most, measured: arithmetic, the bandwidth of its caches and of its memory,
-// meetings of threads.
+// What this machine can do at most, measured: arithmetic, the bandwidth of its caches and of its
+// memory, meetings of threads.
 //
-// They are measured by kernels of our own, compiled as those of steps are, so that they use the vectors
-// that steps use and the strict arithmetic that steps do: products and sums apart.
+// They are measured by kernels of our own, compiled as those of steps are, so that they use the
+// vectors that steps use and the strict arithmetic that steps do: products and sums apart.
 #pragma once
 
 #include "core/precision.h"
@@ -32,8 +32,8 @@ struct MachineLimits {
     const Memory& home_of(double bytes) const;
 };
 
-/// Measures for some tenths of a second. Fails where a kernel cannot be compiled, and where `cancel` is
-/// set meanwhile. Throws std::bad_alloc.
+/// Measures for some tenths of a second. Fails where a kernel cannot be compiled, and where
+/// `cancel` is set meanwhile. Throws std::bad_alloc.
 Result<MachineLimits> measure_limits(Backend& backend, Precision precision, int threads,
                                      const std::atomic<bool>& cancel);
 

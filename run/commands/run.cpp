@@ -128,8 +128,8 @@ Result<void> Runner::prepare() {
     return restore_run(request_.resume, script_, *simulation_);
 }
 
-/// Saves the run now and then, so that one that is killed goes on from there. What cannot be written
-/// then does not end the run; it may be possible later.
+/// Saves the run now and then, so that one that is killed goes on from there. What cannot be
+/// written then does not end the run; it may be possible later.
 void Runner::keep_while_running() {
     if (!(request_.checkpoint_seconds > 0)) return;
     const auto between = std::chrono::duration<double>(request_.checkpoint_seconds);
@@ -140,8 +140,8 @@ void Runner::keep_while_running() {
             const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
             const auto written = save_run(request_.save, script_, *simulation_);
             if (!written && control_.warn) {
-                control_.warn(fmt::format("the run could not be kept at {}, and goes on: {}", place(),
-                                          written.error().message));
+                control_.warn(fmt::format("the run could not be kept at {}, and goes on: {}",
+                                          place(), written.error().message));
             }
             *kept_at = Clock::now();
         });
@@ -180,14 +180,14 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
     if (simulation_->state(k).done) return StageEnd::finished;
     if (log_) log_->record(*simulation_, k);
     std::int64_t last = stage.iterations;
-    const bool stops_here = request_.stop_at && request_.stop_at->stage == stage.name &&
-                            request_.stop_at->step <= last;
+    const bool stops_here =
+        request_.stop_at && request_.stop_at->stage == stage.name && request_.stop_at->step <= last;
     if (stops_here) last = request_.stop_at->step;
     const std::int64_t before = simulation_->state(k).steps;
     tenths_seen_ = tenths_done(k);
     const auto start = Clock::now();
-    auto end = simulation_->advance_stage(k, std::max(last, before), control_,
-                                          [&] { observe(k); }, observation_interval(stage));
+    auto end = simulation_->advance_stage(
+        k, std::max(last, before), control_, [&] { observe(k); }, observation_interval(stage));
     report_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
     report_.steps += simulation_->state(k).steps - before;
     if (log_) log_->record(*simulation_, k);
@@ -205,8 +205,7 @@ Result<void> Runner::run_stages() {
             if (simulation_->state(k).steps > before) remark(simulation_->remark_on(k));
             continue;
         }
-        report_.status =
-            *end == StageEnd::cancelled ? RunStatus::cancelled : RunStatus::stopped;
+        report_.status = *end == StageEnd::cancelled ? RunStatus::cancelled : RunStatus::stopped;
         return {};
     }
     return {};
@@ -223,14 +222,15 @@ void Runner::remark_on_resumed() {
     const auto& stages = script_.program->stages;
     for (std::uint32_t k = 0; k + 1 < script_.stage_count(); ++k) {
         const StageState& state = simulation_->state(k);
-        const bool is_short = state.done && !state.condition_met && !stages[k].time.has_duration() &&
-                              state.steps < stages[k].iterations;
+        const bool is_short = state.done && !state.condition_met &&
+                              !stages[k].time.has_duration() && state.steps < stages[k].iterations;
         if (!is_short || !simulation_->state(k + 1).started) continue;
-        remark(fmt::format("stage '{}' stays at step {}: stage '{}' has begun from it", stages[k].name,
-                           with_commas(state.steps), stages[k + 1].name));
+        remark(fmt::format("stage '{}' stays at step {}: stage '{}' has begun from it",
+                           stages[k].name, with_commas(state.steps), stages[k + 1].name));
     }
     if (report_.steps > 0 || report_.status != RunStatus::finished) return;
-    remark(fmt::format("the saved run had come to its end, and no step was left to take: {}", place()));
+    remark(fmt::format("the saved run had come to its end, and no step was left to take: {}",
+                       place()));
 }
 
 /// So many steps apart that neither a frame nor a row of the log is missed.
@@ -319,8 +319,8 @@ Result<void> Runner::write_turntable(const std::filesystem::path& path, const Ca
     return done;
 }
 
-/// The numbers that go into files of models: the species of the stage that is shown, and what --show
-/// asks for.
+/// The numbers that go into files of models: the species of the stage that is shown, and what
+/// --show asks for.
 std::vector<Channel> Runner::channels(const Canvas& canvas) const {
     const ModelCells& model = *simulation_->model();
     std::vector<Channel> channels;
@@ -347,7 +347,8 @@ Result<void> Runner::write_model_files(const Canvas& canvas) {
         if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
         say(fmt::format("writing {}", output.filename().string()));
         auto written = writer.write(output);
-        if (written) report_.written.insert(report_.written.end(), written->begin(), written->end());
+        if (written)
+            report_.written.insert(report_.written.end(), written->begin(), written->end());
         else if (!first) first = written.error();
     }
     for (const std::string& warning : writer.warnings()) {
@@ -377,7 +378,8 @@ Result<void> Runner::write_frames() {
                                   embed_script(script_, request_.picture));
     if (!written) return tl::unexpected(written.error());
     report_.written.insert(report_.written.end(), written->begin(), written->end());
-    if (const std::size_t stale = remove_stale_frames(earlier_frames_, *written); stale > 0 && control_.note) {
+    if (const std::size_t stale = remove_stale_frames(earlier_frames_, *written);
+        stale > 0 && control_.note) {
         control_.note(fmt::format("removed {} of an earlier run from {}",
                                   counted(static_cast<std::int64_t>(stale), "frame"),
                                   request_.frames.string()));
@@ -434,8 +436,9 @@ Result<void> Runner::write_results() {
     if (!request_.volume.empty()) attempt(write_volume());
     if (!request_.save.empty()) attempt(write_saved_run());
     if (painter_->fell_back() && control_.warn) {
-        control_.warn("where the picture names a stage that has not run, the default picture is "
-                      "drawn instead");
+        control_.warn(
+            "where the picture names a stage that has not run, the default picture is "
+            "drawn instead");
     }
     if (!first) return {};
     if (!report_.written.empty()) {

@@ -30,16 +30,16 @@ struct RunRequest {
     /// folder.
     std::vector<std::filesystem::path> outputs;
     ModelFileOptions model_files;
-    int turntable = 0;                 ///< Pictures from so many places around; 0: from one.
-    std::filesystem::path sheet;       ///< `--sheet FILE`; empty: none.
-    std::filesystem::path frames;      ///< `--frames DIR`; empty: none.
-    std::filesystem::path save;        ///< `--save DIR`; empty: none.
-    double checkpoint_seconds = 0;     ///< Above 0: what --save writes is also written so often.
-    std::filesystem::path volume;      ///< `--volume FILE.vti`; empty: none.
-    std::filesystem::path resume;      ///< `--resume DIR`; empty: from the start.
+    int turntable = 0;              ///< Pictures from so many places around; 0: from one.
+    std::filesystem::path sheet;    ///< `--sheet FILE`; empty: none.
+    std::filesystem::path frames;   ///< `--frames DIR`; empty: none.
+    std::filesystem::path save;     ///< `--save DIR`; empty: none.
+    double checkpoint_seconds = 0;  ///< Above 0: what --save writes is also written so often.
+    std::filesystem::path volume;   ///< `--volume FILE.vti`; empty: none.
+    std::filesystem::path resume;   ///< `--resume DIR`; empty: from the start.
     std::optional<StopAt> stop_at;
     LogRequest log;
-    bool features = false;             ///< Measure what the picture shows.
+    bool features = false;  ///< Measure what the picture shows.
 };
 
 enum class RunStatus {
@@ -65,9 +65,10 @@ struct RunReport {
 /// the script, `script.diagnostics` has errors.
 Result<RunReport> run(Script& script, const RunRequest& request, RunControl& control);
 
-/// Writes every field of the started stages as STAGE.NAME.npy, the script, and `run.json`. A run that is
-/// saved there already is replaced in one move (run/commands/saved_folder.h): until the new one is complete, the old
-/// one is. Fails, and changes nothing, where a file that is not of that run has one of these names.
+/// Writes every field of the started stages as STAGE.NAME.npy, the script, and `run.json`. A run
+/// that is saved there already is replaced in one move (run/commands/saved_folder.h): until the new
+/// one is complete, the old one is. Fails, and changes nothing, where a file that is not of that
+/// run has one of these names.
 Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path& folder,
                                                     const Script& script,
                                                     const Simulation& simulation);
@@ -80,9 +81,9 @@ Result<void> check_savable(const std::filesystem::path& folder, const Script& sc
 Result<void> restore_run(const std::filesystem::path& folder, const Script& script,
                          Simulation& simulation);
 
-/// The script and overrides of a saved run. `changes` may lift or set `steps` and `until_stage`, grant
-/// reads and say where the model lies. The script's files lie in `script_folder`, where the user has
-/// named it, else where find_script_folder() says.
+/// The script and overrides of a saved run. `changes` may lift or set `steps` and `until_stage`,
+/// grant reads and say where the model lies. The script's files lie in `script_folder`, where the
+/// user has named it, else where find_script_folder() says.
 Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes,
                                  const std::filesystem::path& script_folder = {});
 

@@ -22,7 +22,8 @@ std::vector<std::filesystem::path> outputs_of(const Script& script, const RunReq
     const std::filesystem::path picture = output_stem(script) + ".png";
     // A picture that is grown again is no output to be lost.
     std::error_code error;
-    if (std::filesystem::equivalent(picture, script.file, error)) return {output_stem(script) + "-again.png"};
+    if (std::filesystem::equivalent(picture, script.file, error))
+        return {output_stem(script) + "-again.png"};
     return {picture};
 }
 
@@ -32,7 +33,8 @@ std::filesystem::path log_path(const RunRequest& request,
     return std::filesystem::path(first_output).replace_extension(".csv");
 }
 
-std::vector<std::filesystem::path> turntable_paths(const std::filesystem::path& picture, int count) {
+std::vector<std::filesystem::path> turntable_paths(const std::filesystem::path& picture,
+                                                   int count) {
     const std::size_t digits = std::max<std::size_t>(3, fmt::formatted_size("{}", count));
     std::vector<std::filesystem::path> paths;
     for (int k = 1; k <= count; ++k) {
@@ -92,9 +94,10 @@ Result<void> check_outputs(const RunRequest& request,
         return a.path.lexically_normal() < b.path.lexically_normal();
     });
     const auto twice =
-        std::adjacent_find(files.begin(), files.end(), [](const OutputFile& a, const OutputFile& b) {
-            return a.path.lexically_normal() == b.path.lexically_normal();
-        });
+        std::adjacent_find(files.begin(), files.end(),
+                           [](const OutputFile& a, const OutputFile& b) {
+                               return a.path.lexically_normal() == b.path.lexically_normal();
+                           });
     if (twice == files.end()) return {};
     return failure(fmt::format("{} and {} are both to be written to {}", twice[0].what,
                                twice[1].what, twice->path.string()));
@@ -156,7 +159,8 @@ void check_stop_at(Script& script, const StopAt& stop_at) {
     const std::int64_t iterations = script.program->stages[*stage].iterations;
     if (stop_at.step <= iterations) return;
     span.begin = length + 1;
-    script.diagnostics.error(span, fmt::format("stage '{}' has {} steps", stop_at.stage, iterations));
+    script.diagnostics.error(span,
+                             fmt::format("stage '{}' has {} steps", stop_at.stage, iterations));
 }
 
 /// Says of options that they do not go with the domain or with each other.
@@ -164,7 +168,8 @@ class OptionRefuser {
 public:
     explicit OptionRefuser(Script& script) : script_(script) {}
 
-    void refuse_if(bool is_wrong, const std::string& option, std::string message, std::string hint) {
+    void refuse_if(bool is_wrong, const std::string& option, std::string message,
+                   std::string hint) {
         if (is_wrong) refuse(option, option, std::move(message), std::move(hint));
     }
     void refuse(const std::string& option, const std::string& value, std::string message,
@@ -197,9 +202,11 @@ void check_model_files(OptionRefuser& options, const RunRequest& request) {
     for (const auto& output : request.outputs) {
         has_picture = has_picture || output_kind(output) == OutputKind::picture;
         is_baked = is_baked || files.is_baked(output);
-        is_tiled = is_tiled || (output_kind(output) == OutputKind::model && !files.is_baked(output));
+        is_tiled =
+            is_tiled || (output_kind(output) == OutputKind::model && !files.is_baked(output));
     }
-    options.refuse_if(files.retile && !is_tiled, "--retile", "no model is written that it could tile",
+    options.refuse_if(files.retile && !is_tiled, "--retile",
+                      "no model is written that it could tile",
                       "-o NAME.ply, .obj, .glb or .vtp writes one");
     options.refuse_if(files.bake > 0 && !is_baked, "--bake", "no model is written with its maps",
                       "-o NAME.glb writes one");
@@ -213,8 +220,8 @@ void check_without_model(OptionRefuser& options, const RunRequest& request) {
     const std::string hint = "--mesh FILE, or mesh: \"FILE\" in the domain, makes it one";
     for (const auto& output : request.outputs) {
         if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
-        options.refuse("-o", output.string(), "only what grows on a model is written so, and " + message,
-                       hint);
+        options.refuse("-o", output.string(),
+                       "only what grows on a model is written so, and " + message, hint);
     }
     options.refuse_if(request.model_files.retile, "--retile", message, hint);
     options.refuse_if(request.model_files.bake > 0, "--bake", message, hint);
@@ -246,7 +253,8 @@ Result<void> check_request(Script& script, const RunRequest& request) {
     std::error_code error;
     options.refuse_if(is_called_like_a_movie(request.frames) &&
                           !std::filesystem::is_directory(request.frames, error),
-                      "--frames", "frames are pictures in a folder, and this is called like a movie",
+                      "--frames",
+                      "frames are pictures in a folder, and this is called like a movie",
                       how_to_make_a_movie(request.frames));
     options.refuse_if(request.picture.slice != Slice{} && domain.grid.depth == 1, "--slice",
                       "a plane has no slices", "grid: W, H, D makes a volume");

@@ -11,7 +11,8 @@ namespace cascade {
 std::vector<std::filesystem::path> outputs_of(const Script& script, const RunRequest& request);
 
 /// Where the log goes: beside the first output, unless it is said.
-std::filesystem::path log_path(const RunRequest& request, const std::filesystem::path& first_output);
+std::filesystem::path log_path(const RunRequest& request,
+                               const std::filesystem::path& first_output);
 
 /// The pictures of a turntable: NAME-001.png …, with as many digits as the last one has.
 std::vector<std::filesystem::path> turntable_paths(const std::filesystem::path& picture, int count);
@@ -19,8 +20,8 @@ std::vector<std::filesystem::path> turntable_paths(const std::filesystem::path& 
 /// What is asked for must fit the script; where it does not, the script's diagnostics say so.
 Result<void> check_request(Script& script, const RunRequest& request);
 
-/// Everything that could fail at the end of a long run is tried at its beginning. Leaves nothing behind,
-/// also nothing of what killed runs left there.
+/// Everything that could fail at the end of a long run is tried at its beginning. Leaves nothing
+/// behind, also nothing of what killed runs left there.
 Result<void> check_outputs(const RunRequest& request,
                            std::span<const std::filesystem::path> outputs);
 /// Makes the folders, and tries them.

@@ -59,8 +59,8 @@ bool RunLog::check_expression(Script& script, const std::string& text) {
     bool fits_some = false;
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
         Diagnostics unspoken;
-        auto formula = check_view(script.tree, *expression, k, k, *script.program, script.sources,
-                                  unspoken);
+        auto formula =
+            check_view(script.tree, *expression, k, k, *script.program, script.sources, unspoken);
         if (unspoken.has_errors()) formula.reset();
         if (formula && formula->nodes.back().type != ValueType::number) {
             script.diagnostics.error(formula->nodes.back().span, "--log takes numbers");

@@ -15,9 +15,9 @@
 namespace cascade {
 
 struct LogRequest {
-    std::vector<std::string> expressions;   ///< Each the same in all cells; none: no log.
-    std::int64_t every = 0;                 ///< Steps from row to row; 0: each stage's `interval`.
-    std::filesystem::path file;             ///< Empty: beside the picture.
+    std::vector<std::string> expressions;  ///< Each the same in all cells; none: no log.
+    std::int64_t every = 0;                ///< Steps from row to row; 0: each stage's `interval`.
+    std::filesystem::path file;            ///< Empty: beside the picture.
 };
 
 /// A log of more rows is refused: it would fill memory.
@@ -49,7 +49,7 @@ private:
 
     LogRequest request_;
     std::vector<std::string> stage_names_;
-    std::vector<std::vector<std::optional<Formula>>> formulas_;   ///< Per expression, per stage.
+    std::vector<std::vector<std::optional<Formula>>> formulas_;  ///< Per expression, per stage.
     std::vector<Row> rows_;
     std::vector<double> values_;  ///< Of all rows: t, then the expressions.
     Precision precision_ = Precision::single;

@@ -51,14 +51,16 @@ Failure damaged(const std::filesystem::path& folder, const std::string& why) {
 /// Species as they were at the last look of `until: steady(…)` have this after their names.
 constexpr std::string_view last_look = ".last";
 
-Result<std::vector<Field>> read_species(const std::filesystem::path& folder, const nlohmann::json& manifest,
+Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
+                                        const nlohmann::json& manifest,
                                         const Simulation& simulation, std::uint32_t stage,
                                         std::string_view suffix = "") {
     std::vector<Field> species;
     const Program& program = simulation.program();
     const System& system = program.system_of(stage);
     const auto model = simulation.model();
-    const Grid grid = model ? Grid{static_cast<std::int64_t>(model->count()), 1} : program.domain.grid;
+    const Grid grid =
+        model ? Grid{static_cast<std::int64_t>(model->count()), 1} : program.domain.grid;
     for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
         if (!system.is_species(item)) continue;
         const std::string name =
@@ -71,16 +73,15 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder, con
                 damaged(folder, fmt::format("cannot read '{}': {}", name, array.error().message)));
         }
         if (!fits(*array, grid)) {
-            return tl::unexpected(
-                damaged(folder, fmt::format("{} has another shape", name)));
+            return tl::unexpected(damaged(folder, fmt::format("{} has another shape", name)));
         }
         Field field = to_field(*array, program.domain.precision);
         if (model) field = in_rows(field, *model);
         // Outside of the mask files have NaN and runs have 0.
         if (simulation.mask()) field = with_outside(field, *simulation.mask(), 0);
         if (first_not_finite(field)) {
-            return tl::unexpected(damaged(
-                folder, fmt::format("{} has a value that is not finite", name)));
+            return tl::unexpected(
+                damaged(folder, fmt::format("{} has a value that is not finite", name)));
         }
         species.push_back(std::move(field));
     }
@@ -118,8 +119,10 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
     const Program& program = *script.program;
     const auto write = [&](const std::string& name, const Field& field) {
         const DomainMask* mask = simulation.mask();
-        if (mask) return (*change)->add(name, encode_npy(with_outside(field, *mask, nothing_outside)));
-        if (simulation.model()) return (*change)->add(name, encode_npy(in_one_row(field, *simulation.model())));
+        if (mask)
+            return (*change)->add(name, encode_npy(with_outside(field, *mask, nothing_outside)));
+        if (simulation.model())
+            return (*change)->add(name, encode_npy(in_one_row(field, *simulation.model())));
         return (*change)->add(name, encode_npy(field));
     };
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
@@ -128,12 +131,14 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
         const System& system = program.system_of(k);
         for (std::uint32_t item = 0; item < system.item_count(); ++item) {
             if (!is_saved(program, k, item)) continue;
-            auto done = write(array_name(stage, system.item_name(item)), simulation.state(k).field(item));
+            auto done =
+                write(array_name(stage, system.item_name(item)), simulation.state(k).field(item));
             if (!done) return tl::unexpected(done.error());
         }
         const std::span<const Field> looked_at = simulation.state(k).watch.last();
         for (std::size_t species = 0; species < looked_at.size(); ++species) {
-            auto done = write(array_name(stage, fmt::format("{}{}", species_name(system, species), last_look)),
+            auto done = write(array_name(stage, fmt::format("{}{}", species_name(system, species),
+                                                            last_look)),
                               looked_at[species]);
             if (!done) return tl::unexpected(done.error());
         }
@@ -146,7 +151,9 @@ namespace {
 /// The model of a saved run may have another place, which the user says, and no other name.
 Result<void> take_model(Overrides& saved, const Overrides& changes) {
     if (!changes.model) return {};
-    const auto name = [](const std::string& path) { return std::filesystem::path(path).filename(); };
+    const auto name = [](const std::string& path) {
+        return std::filesystem::path(path).filename();
+    };
     if (!saved.model || name(*saved.model) != name(*changes.model)) {
         return failure("a resumed run keeps its model", "--mesh can only say where that lies now");
     }
@@ -174,11 +181,12 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
                                  const std::filesystem::path& script_folder) {
     auto json = read_saved_manifest(folder);
     if (!json) return tl::unexpected(json.error());
-    if (!changes.sets.empty() || changes.grid || changes.seed || changes.solver || changes.precision ||
-        changes.fast || changes.cells || changes.up) {
-        return failure("a resumed run keeps its grid, seed, precision, rounding, parameters and solver",
-                       "--steps, --until-stage and --allow-read can change, and --mesh where the "
-                       "same model lies elsewhere now");
+    if (!changes.sets.empty() || changes.grid || changes.seed || changes.solver ||
+        changes.precision || changes.fast || changes.cells || changes.up) {
+        return failure(
+            "a resumed run keeps its grid, seed, precision, rounding, parameters and solver",
+            "--steps, --until-stage and --allow-read can change, and --mesh where the "
+            "same model lies elsewhere now");
     }
     try {
         auto overrides = overrides_from_json(json->at("overrides").dump());
@@ -223,19 +231,21 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             const bool condition_met = stages[k].value("condition_met", done);
             // More steps may be asked for than before; but what a later stage began from stays.
             const bool is_last = k + 1 == stages.size();
-            done = done && (!is_last || condition_met || steps >= script.program->stages[k].iterations);
+            done = done &&
+                   (!is_last || condition_met || steps >= script.program->stages[k].iterations);
             if (steps < 0) return tl::unexpected(damaged(folder, "a number of steps is negative"));
             // A run that --steps has cut short may have taken more than it may now.
             if (!script.overrides.steps && steps > script.program->stages[k].iterations) {
-                return tl::unexpected(damaged(folder, fmt::format("stage {} has too many steps", k + 1)));
+                return tl::unexpected(
+                    damaged(folder, fmt::format("stage {} has too many steps", k + 1)));
             }
             if (auto started = simulation.start_stage(k); !started) return started;
             auto species = read_species(folder, *json, simulation, k);
             if (!species) return tl::unexpected(species.error());
             simulation.set_species(k, std::move(*species), steps, done, condition_met);
             if (!stages[k].contains("time")) continue;
-            const auto time = saved_time_from(
-                stages[k].at("time"), script.program->stages[k].time.solver);
+            const auto time =
+                saved_time_from(stages[k].at("time"), script.program->stages[k].time.solver);
             if (!time) return tl::unexpected(damaged(folder, "its time makes no sense"));
             SteadyWatch watch;
             if (time->last_look) {

@@ -34,9 +34,9 @@ constexpr std::uint64_t largest_array = std::uint64_t{1} << 36;
 
 tl::unexpected<Failure> cannot_write(const fs::path& path, int error) {
     const bool is_full = error == ENOSPC || error == EDQUOT;
-    return failure(
-        fmt::format("cannot write '{}': {}", path.string(), std::generic_category().message(error)),
-        is_full ? "free some space and run it again" : "");
+    return failure(fmt::format("cannot write '{}': {}", path.string(),
+                               std::generic_category().message(error)),
+                   is_full ? "free some space and run it again" : "");
 }
 
 bool is_manifest(const nlohmann::json& json) {
@@ -60,9 +60,10 @@ std::optional<SavedFile> saved_file(const nlohmann::json& manifest, const std::s
     const std::string digits = text("fnv1a");
     const char* const end = digits.data() + digits.size();
     const auto parsed = std::from_chars(digits.data(), end, file.checksum, 16);
-    const bool is_right = parsed.ec == std::errc() && parsed.ptr == end &&
-                          entry.contains("bytes") && entry.at("bytes").is_number_unsigned() &&
-                          (file.written_as.empty() || is_temporary_name(file.written_as, unfinished_ending));
+    const bool is_right =
+        parsed.ec == std::errc() && parsed.ptr == end && entry.contains("bytes") &&
+        entry.at("bytes").is_number_unsigned() &&
+        (file.written_as.empty() || is_temporary_name(file.written_as, unfinished_ending));
     if (!is_right) return std::nullopt;
     file.bytes = entry.at("bytes").get<std::uint64_t>();
     return file;
@@ -184,8 +185,8 @@ Result<void> SavedFolderChange::add(const std::string& name, std::string_view by
     return {};
 }
 
-/// Puts run.json in the place of the one before. Its first rename is the moment at which the new run
-/// takes the place of the old one.
+/// Puts run.json in the place of the one before. Its first rename is the moment at which the new
+/// run takes the place of the old one.
 int SavedFolderChange::replace_manifest(const nlohmann::json& manifest) {
     const std::string text =
         manifest.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -206,13 +207,15 @@ Result<std::vector<fs::path>> SavedFolderChange::commit(nlohmann::json manifest)
                       {"fnv1a", fmt::format("{:016x}", file.checksum)},
                       {"written_as", file.written_as}};
     }
-    if (const int error = replace_manifest(manifest)) return cannot_write(path_ / manifest_name, error);
+    if (const int error = replace_manifest(manifest))
+        return cannot_write(path_ / manifest_name, error);
     const int folder = lock_.folder().number();
     std::vector<fs::path> written;
     bool have_their_names = true;
     for (const auto& [name, file] : files_) {
         // One that cannot take its name is read under the other.
-        const bool has_its_name = ::renameat(folder, file.written_as.c_str(), folder, name.c_str()) == 0;
+        const bool has_its_name =
+            ::renameat(folder, file.written_as.c_str(), folder, name.c_str()) == 0;
         have_their_names = have_their_names && has_its_name;
         list[name].erase("written_as");
         written.push_back(path_ / name);
@@ -244,12 +247,13 @@ Result<nlohmann::json> read_saved_manifest(const fs::path& folder) {
     const fs::path path = folder / manifest_name;
     const auto text = read_plain_file(path, largest_manifest);
     if (!text) {
-        return failure(
-            fmt::format("{} holds no saved run: {}", folder.string(), text.error().message),
-            "--resume takes a folder that --save has written");
+        return failure(fmt::format("{} holds no saved run: {}", folder.string(),
+                                   text.error().message),
+                       "--resume takes a folder that --save has written");
     }
     if (!is_small_json(*text)) {
-        return failure(fmt::format("the saved run in {} is damaged: run.json holds too much", folder.string()));
+        return failure(fmt::format("the saved run in {} is damaged: run.json holds too much",
+                                   folder.string()));
     }
     auto json = nlohmann::json::parse(*text, nullptr, false);
     if (is_manifest(json)) return json;

@@ -2,10 +2,10 @@
 //
 // run.json decides which files are the run: it names each one with its size and checksum. New files
 // are written beside the old ones under temporary names, which the new run.json tells; then that
-// takes the place of the old one, by one rename; and only then do the files take their own names, and
-// run.json forgets the others. A writer that is killed at any moment leaves the old run or the new one,
-// whole, and the next one tidies up. Files that no run.json names are nobody's business here. Runs of earlier versions name
-// no files; theirs are the arrays of their stages.
+// takes the place of the old one, by one rename; and only then do the files take their own names,
+// and run.json forgets the others. A writer that is killed at any moment leaves the old run or the
+// new one, whole, and the next one tidies up. Files that no run.json names are nobody's business
+// here. Runs of earlier versions name no files; theirs are the arrays of their stages.
 #pragma once
 
 #include "core/descriptor.h"

@@ -89,21 +89,21 @@ private:
     const SweepRequest& request_;
     SweepControl& control_;
     std::filesystem::path folder_;
-    SimulationOptions simulation_;    ///< Of every run: one thread, a shared compiler.
+    SimulationOptions simulation_;  ///< Of every run: one thread, a shared compiler.
     std::vector<Run> runs_;
     std::vector<std::optional<SweepResult>> results_;
-    double waiting_runs_ = 0;        ///< How many there were to take.
-    double memory_of_a_run_ = 0;      ///< Bytes; every run checks its own again.
+    double waiting_runs_ = 0;     ///< How many there were to take.
+    double memory_of_a_run_ = 0;  ///< Bytes; every run checks its own again.
     int workers_ = 1;
     SweepReport report_;
     Clock::time_point begun_;
-    bool is_alone_ = false;           ///< No thread was to be had: the caller's does the runs.
+    bool is_alone_ = false;  ///< No thread was to be had: the caller's does the runs.
 
-    std::mutex mutex_;                ///< Guards what follows, and `results_` while runs go on.
+    std::mutex mutex_;  ///< Guards what follows, and `results_` while runs go on.
     std::condition_variable changed_;
     std::size_t next_ = 0;
     std::size_t working_ = 0;
-    double shares_done_ = 0;          ///< Of those runs, each 0 … 1.
+    double shares_done_ = 0;  ///< Of those runs, each 0 … 1.
     std::optional<SweepFault> stopped_by_;
 };
 
@@ -120,9 +120,8 @@ Sweeper::Done Sweeper::plan_run(std::size_t number) {
     }
     run.key = key_of_run(script, request_.picture, request_.tile_side);
     if (number == 0 && script.program->stages.empty()) {
-        return tl::unexpected(SweepFault{{"this script has no stage to run",
-                                          example_of_stage(*script.program)},
-                                         std::nullopt});
+        return tl::unexpected(SweepFault{
+            {"this script has no stage to run", example_of_stage(*script.program)}, std::nullopt});
     }
     if (number == 0) {
         if (auto painter = Painter::create(script, request_.picture); !painter) {
@@ -144,11 +143,11 @@ Sweeper::Done Sweeper::plan() {
     constexpr double most_pixels = 1 << 27;
     const double pixels = static_cast<double>(*count) * request_.tile_side * request_.tile_side;
     if (pixels > most_pixels) {
-        return tl::unexpected(SweepFault{
-            {fmt::format("a sheet of {} tiles of {} × {} pixels is too large", *count,
-                         request_.tile_side, request_.tile_side),
-             "make the tiles smaller with --tile"},
-            std::nullopt});
+        return tl::unexpected(
+            SweepFault{{fmt::format("a sheet of {} tiles of {} × {} pixels is too large", *count,
+                                    request_.tile_side, request_.tile_side),
+                        "make the tiles smaller with --tile"},
+                       std::nullopt});
     }
     for (std::size_t number = 0; number < *count; ++number) {
         if (auto planned = plan_run(number); !planned) return planned;
@@ -197,8 +196,8 @@ Result<void> Sweeper::choose_workers(const std::vector<std::size_t>& waiting) {
     }
     if (memory > 0 && memory_of_a_run_ > 0) {
         // One run that does not fit says so itself.
-        workers_ = std::max(1, std::min<int>(workers_, static_cast<int>(std::min(
-                                                           1e6, memory / memory_of_a_run_))));
+        workers_ = std::max(
+            1, std::min<int>(workers_, static_cast<int>(std::min(1e6, memory / memory_of_a_run_))));
     }
     simulation_ = request_.simulation;
     simulation_.threads = 1;
@@ -367,9 +366,9 @@ Result<void> Sweeper::write_outputs() {
     std::vector<std::string> varied;
     for (const Variation& variation : request_.varied) varied.push_back(text_of(variation));
     const bool has_mask = script_.program && script_.program->domain.mask;
-    auto drawn = write_png(sheet,
-                           draw_sweep(results_, request_.varied, request_.picture, has_mask),
-                           request_.picture.png_depth(), embed_sweep(script_, request_.picture, varied));
+    auto drawn =
+        write_png(sheet, draw_sweep(results_, request_.varied, request_.picture, has_mask),
+                  request_.picture.png_depth(), embed_sweep(script_, request_.picture, varied));
     if (!drawn) return drawn;
     report_.written.push_back(sheet);
     auto written = write_file(table, sweep_table(results_, request_.varied));

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-
 namespace cascade {
 
 namespace {
@@ -42,8 +41,8 @@ ValueRange range_of_all(const std::vector<std::optional<SweepResult>>& results) 
     return all.count > 0 ? automatic_range(all) : ValueRange{};
 }
 
-MapTile tile_of(const std::optional<SweepResult>& result, ValueRange range,
-                const Palette& palette, bool has_mask) {
+MapTile tile_of(const std::optional<SweepResult>& result, ValueRange range, const Palette& palette,
+                bool has_mask) {
     if (!result) return {Image(), "not run"};
     if (result->failed()) return {Image(), "failed"};
     const std::vector<Field>& fields = result->tile.fields;
@@ -60,8 +59,7 @@ Image draw_sweep(const std::vector<std::optional<SweepResult>>& results,
                  bool has_mask) {
     const Palette* palette = find_palette(picture.palette);
     CHECK(palette, "the palette was checked before the first run");
-    const ValueRange range =
-        picture.range ? *picture.range : range_of_all(results);
+    const ValueRange range = picture.range ? *picture.range : range_of_all(results);
     std::vector<MapTile> tiles;
     for (const auto& result : results) tiles.push_back(tile_of(result, range, *palette, has_mask));
     return make_map(tiles, axis_of(varied, 0), upward_axis(varied));

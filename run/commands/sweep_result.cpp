@@ -47,7 +47,8 @@ std::uint64_t add_files(std::uint64_t hash, const Script& script) {
         if (bytes) hash = add_line(hash, *bytes);
     };
     const GrantedFiles files(script.folder, script.overrides.reads);
-    for (const std::string& name : script.program->literals->texts()) add(files.read(name, largest_file));
+    for (const std::string& name : script.program->literals->texts())
+        add(files.read(name, largest_file));
     const auto& model = script.program->domain.model;
     if (!model || model->shape != ModelShape::file) return hash;
     add(script.overrides.model_is_asked_for ? read_linked_file(model->path, largest_file)
@@ -75,8 +76,8 @@ measure::Features features_of(const nlohmann::json& json) {
     std::array<double, measure::feature_count> values{};
     for (std::size_t k = 0; k < values.size(); ++k) {
         const auto& value = json.at(std::string(measure::feature_names()[k]));
-        values[k] = value.is_null() ? std::numeric_limits<double>::quiet_NaN()
-                                    : value.get<double>();
+        values[k] =
+            value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
     }
     return measure::from_array(values);
 }

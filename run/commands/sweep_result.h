@@ -15,17 +15,18 @@
 namespace cascade {
 
 struct SweepResult {
-    std::optional<measure::Features> features;   ///< Empty where the run failed.
-    Canvas tile;                 ///< What the picture shows, made small; no fields where it failed.
-    std::int64_t steps = 0;      ///< Of all stages.
-    std::string remark;          ///< Why it failed, or what it warned of; one line, mostly empty.
+    std::optional<measure::Features> features;  ///< Empty where the run failed.
+    Canvas tile;             ///< What the picture shows, made small; no fields where it failed.
+    std::int64_t steps = 0;  ///< Of all stages.
+    std::string remark;      ///< Why it failed, or what it warned of; one line, mostly empty.
 
     bool failed() const { return !features; }
 };
 
 /// A key of all that a run's result depends on: the words of the script and of all it uses (not
-/// its blanks and comments), the changes from outside, the contents of the files that it reads, what is
-/// shown, the size of the tiles, Cascade's version. 16 hexadecimal digits. The script must be right.
+/// its blanks and comments), the changes from outside, the contents of the files that it reads,
+/// what is shown, the size of the tiles, Cascade's version. 16 hexadecimal digits. The script must
+/// be right.
 std::string key_of_run(const Script& script, const PictureRequest& picture, int tile_side);
 
 /// Writes KEY.npy (planes of the tile below each other) and KEY.json into `folder`; the latter

@@ -109,8 +109,7 @@ Result<Variation> parse_variation(std::string_view text) {
         return tl::unexpected(wrong(text, "the ends of a range are numbers"));
     }
     if (!count || *count < 1 || *count > static_cast<std::int64_t>(most_runs)) {
-        return tl::unexpected(
-            wrong(text, fmt::format("a range has 1 to {} values", most_runs)));
+        return tl::unexpected(wrong(text, fmt::format("a range has 1 to {} values", most_runs)));
     }
     variation.values = spread(*low, *high, *count);
     return variation;
@@ -130,8 +129,8 @@ Result<std::size_t> count_runs(std::span<const Variation> varied) {
             }
         }
         if (const std::string twice = listed_twice(varied[k].values); !twice.empty()) {
-            return failure(fmt::format("'{}' stands twice in the values of '{}'", twice,
-                                       varied[k].name));
+            return failure(
+                fmt::format("'{}' stands twice in the values of '{}'", twice, varied[k].name));
         }
         if (varied[k].values.size() > most_runs / runs) {
             return failure(fmt::format("these are more than {} runs", most_runs),

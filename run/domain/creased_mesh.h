@@ -8,9 +8,9 @@ namespace cascade {
 
 /// What a surface is drawn as, and how it got there from space: (p − middle) × scale.
 struct DrawnMesh {
-    TriangleMesh mesh;      ///< Triangles have the numbers and corners of the surface's.
+    TriangleMesh mesh;  ///< Triangles have the numbers and corners of the surface's.
     Vector3d middle;
-    double scale = 1;       ///< Makes the longest side of its box 1.
+    double scale = 1;  ///< Makes the longest side of its box 1.
 };
 
 /// Normals are averages over the triangles around a point, but not across edges at which these meet

@@ -34,11 +34,11 @@ void describe_mesh(const MadeMesh& made, std::vector<std::string>& lines) {
     lines.push_back(fmt::format("{}, {}, {}", counted(facts.points, "point"),
                                 counted(facts.triangles, "triangle"),
                                 counted(facts.components, "connected component")));
-    lines.push_back(fmt::format("{}, Euler characteristic {}", kind_of(facts),
-                                facts.euler_characteristic));
+    lines.push_back(
+        fmt::format("{}, Euler characteristic {}", kind_of(facts), facts.euler_characteristic));
     const Vector3d size = facts.high - facts.low;
-    lines.push_back(fmt::format("size {:.4g} × {:.4g} × {:.4g}, area {:.4g}", size.x, size.y, size.z,
-                                facts.area));
+    lines.push_back(fmt::format("size {:.4g} × {:.4g} × {:.4g}, area {:.4g}", size.x, size.y,
+                                size.z, facts.area));
     std::string kept;
     for (const PointAttribute& attribute : made.mesh.attributes) {
         kept += (kept.empty() ? "" : ", ") + attribute.name;
@@ -89,9 +89,10 @@ Result<void> describe_cells(const SurfaceMesh& mesh, const CellOptions& options,
     for (std::size_t cell = 0; cell < cells->areas.size(); ++cell) {
         const auto walls = cells->walls_of(cell);
         if (walls.empty()) continue;
-        nearest.push_back(std::min_element(walls.begin(), walls.end(), [](const auto& a, const auto& b) {
-                              return a.distance < b.distance;
-                          })->distance);
+        nearest.push_back(
+            std::min_element(walls.begin(), walls.end(), [](const auto& a, const auto& b) {
+                return a.distance < b.distance;
+            })->distance);
     }
     if (!nearest.empty()) {
         const Spread distances = spread_of(nearest);

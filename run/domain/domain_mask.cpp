@@ -12,7 +12,8 @@ namespace cascade {
 namespace {
 
 /// Bits of the cells around one, whose own value is that of (i, j, k).
-std::uint32_t bits_around(const Plane<float>& inside, std::int64_t i, std::int64_t j, std::int64_t k) {
+std::uint32_t bits_around(const Plane<float>& inside, std::int64_t i, std::int64_t j,
+                          std::int64_t k) {
     const std::int64_t reach = inside.layout().has_halo_slices() ? 1 : 0;
     std::uint32_t bits = 0;
     for (std::int64_t dz = -reach; dz <= reach; ++dz) {

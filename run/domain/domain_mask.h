@@ -10,16 +10,16 @@
 namespace cascade {
 
 struct DomainMask {
-    Mask inside;           ///< 1 in cells of the domain, else 0. Its halo is not filled.
-    /// Words, a bit for each of the 27 cells around and for the cell itself, by the numbers of their
-    /// offsets (lang/lower/pass_planner.h): set where the cell there is inside. Beyond a side is what the
-    /// boundary says: the opposite cell, or the one at the side itself.
+    Mask inside;  ///< 1 in cells of the domain, else 0. Its halo is not filled.
+    /// Words, a bit for each of the 27 cells around and for the cell itself, by the numbers of
+    /// their offsets (lang/lower/pass_planner.h): set where the cell there is inside. Beyond a side
+    /// is what the boundary says: the opposite cell, or the one at the side itself.
     Field neighbourhood;
     std::int64_t cells = 0;  ///< How many are inside.
 };
 
-/// Of a mask's values: a cell is inside where its value is neither 0 nor NaN (nor denormal, which is
-/// 0 everywhere in the language).
+/// Of a mask's values: a cell is inside where its value is neither 0 nor NaN (nor denormal, which
+/// is 0 everywhere in the language).
 DomainMask make_domain_mask(const Field& values, const Grid& grid);
 
 /// The cells that do not move: those that are frozen (nullptr: none) and those outside.

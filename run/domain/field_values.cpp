@@ -38,7 +38,8 @@ Mask to_mask(const Field& field) {
     const FlushDenormals environment;
     field.visit([&](const auto& plane) {
         for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-            for (std::int64_t i = 0; i < layout.width; ++i) mask.row(row)[i] = plane.row(row)[i] != 0;
+            for (std::int64_t i = 0; i < layout.width; ++i)
+                mask.row(row)[i] = plane.row(row)[i] != 0;
         }
     });
     return mask;

@@ -71,7 +71,8 @@ void read_image(Script& script, const Node& node, InputFiles& files) {
     const auto picture = read_picture(script, node);
     if (!picture) return;
     const Field plane = to_field(resized(*picture, grid.width, grid.height), grid);
-    files.add(SlotSource::Kind::image, node.index, plane.converted(script.program->domain.precision));
+    files.add(SlotSource::Kind::image, node.index,
+              plane.converted(script.program->domain.precision));
 }
 
 /// What the model has in its points, or in a picture painted on it.
@@ -86,7 +87,8 @@ void read_of_model(Script& script, const Node& node, SlotSource::Kind kind, cons
         if (!picture) return;
         plane = painted_plane(*picture, model, precision);
     }
-    if (!plane) return script.diagnostics.error(node.span, plane.error().message, plane.error().hint);
+    if (!plane)
+        return script.diagnostics.error(node.span, plane.error().message, plane.error().hint);
     files.add(kind, node.index, *std::move(plane));
 }
 
@@ -107,7 +109,8 @@ Result<InputFiles> read_input_files(Script& script, const ModelCells* model) {
             } else if (kind == SlotSource::Kind::image) {
                 read_image(script, text, files);
             } else {
-                CHECK(model != nullptr, "only scripts on models read what points and textures have");
+                CHECK(model != nullptr,
+                      "only scripts on models read what points and textures have");
                 read_of_model(script, text, kind, *model, files);
             }
         }

@@ -1,5 +1,5 @@
-// What a script names in quotes: the arrays of `field("a.npy")`, the pictures of `image("a.png")`, and on
-// models `attr("name")` and `uvimage("a.png")`.
+// What a script names in quotes: the arrays of `field("a.npy")`, the pictures of `image("a.png")`,
+// and on models `attr("name")` and `uvimage("a.png")`.
 #pragma once
 
 #include "core/plane.h"
@@ -19,7 +19,9 @@ class InputFiles {
 public:
     using Kind = SlotSource::Kind;  ///< One of those of a text.
 
-    void add(Kind kind, std::uint32_t text, Field plane) { planes_[{kind, text}] = std::move(plane); }
+    void add(Kind kind, std::uint32_t text, Field plane) {
+        planes_[{kind, text}] = std::move(plane);
+    }
     const Field& plane(Kind kind, std::uint32_t text) const { return planes_.at({kind, text}); }
 
     /// Calls `look` with the text and the plane of each that is of a kind.
@@ -41,10 +43,10 @@ private:
     std::map<std::pair<Kind, std::uint32_t>, Field> planes_;
 };
 
-/// Reads every file that the mask or a starting value names, relative to the script's folder, and what
-/// starting values take of the points and the texture of a model (null on a grid). A missing file, a wrong
-/// type, a shape other than the grid's, and a name that the model does not know are diagnostics at the text
-/// in the script. Pictures are fitted to the grid.
+/// Reads every file that the mask or a starting value names, relative to the script's folder, and
+/// what starting values take of the points and the texture of a model (null on a grid). A missing
+/// file, a wrong type, a shape other than the grid's, and a name that the model does not know are
+/// diagnostics at the text in the script. Pictures are fitted to the grid.
 Result<InputFiles> read_input_files(Script& script, const ModelCells* model);
 
 }  // namespace cascade

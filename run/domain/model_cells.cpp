@@ -37,10 +37,12 @@ namespace cascade {
 
 namespace {
 
-// Cells that are so much smaller than the mean are taken for no smaller: a step would have to be as short.
+// Cells that are so much smaller than the mean are taken for no smaller: a step would have to be as
+// short.
 constexpr double least_area = 1e-3;
-// Of spread cells few of some thousand are so tight that their links weigh more than this over the mean
-// area: they are taken for larger, lest all others have to take shorter steps. Regular hexagons have 3.46.
+// Of spread cells few of some thousand are so tight that their links weigh more than this over the
+// mean area: they are taken for larger, lest all others have to take shorter steps. Regular
+// hexagons have 3.46.
 constexpr double most_weight = 7.5;
 
 Result<MadeMesh> read_mesh(const ModelSettings& settings, const ModelAccess& access) {
@@ -83,7 +85,9 @@ Result<MadeMesh> make_surface(const ModelSettings& settings, const ModelAccess& 
     switch (settings.shape) {
         case ModelShape::file: return read_mesh(settings, access);
         case ModelShape::sphere: mesh = sphere_mesh(1, edge); break;
-        case ModelShape::torus: mesh = torus_mesh(size(0, 1), size(1, 0.4), edge * size(0, 1)); break;
+        case ModelShape::torus:
+            mesh = torus_mesh(size(0, 1), size(1, 0.4), edge * size(0, 1));
+            break;
         case ModelShape::box: {
             const Vector3d sides{size(0, 1), size(1, 1), size(2, 1)};
             mesh = box_mesh(sides, edge * std::max({sides.x, sides.y, sides.z}));
@@ -106,7 +110,8 @@ std::vector<double> weights_of(const SurfaceCells& cells, ModelLaplacian laplaci
         for (const CellWall& wall : cells.walls_of(cell)) lengths += wall.length;
         for (const CellWall& wall : cells.walls_of(cell)) {
             if (laplacian == ModelLaplacian::turk) {
-                weights.push_back(lengths > 0 ? 4 * wall.length / lengths * unit * unit / mean_area : 0);
+                weights.push_back(lengths > 0 ? 4 * wall.length / lengths * unit * unit / mean_area
+                                              : 0);
             } else {
                 const bool is_sound = wall.distance > 0 && areas[cell] > 0;
                 weights.push_back(is_sound ? wall.length / wall.distance / areas[cell] : 0);
@@ -125,8 +130,8 @@ CellKind kind_of(ModelCellKind kind) {
     CHECK(false, "a kind of cells");
 }
 
-/// Calls `write(row, column, cell, is_cell)` for all places of the rows; those after the last cell, which
-/// fill up the last row, are like it.
+/// Calls `write(row, column, cell, is_cell)` for all places of the rows; those after the last cell,
+/// which fill up the last row, are like it.
 template <typename Write>
 void for_each_place(const ModelCells& model, const Write& write) {
     const std::size_t count = model.order.size();
@@ -143,7 +148,8 @@ template <typename Value>
 Field plane_of_cells(const ModelCells& model, Precision precision, const Value& value) {
     Field field(PlaneLayout(model.grid), precision);
     field.visit([&]<typename Number>(Plane<Number>& cells) {
-        for_each_place(model, [&](std::int64_t row, std::int64_t i, std::size_t cell, bool is_cell) {
+        for_each_place(model, [&](std::int64_t row, std::int64_t i, std::size_t cell,
+                                  bool is_cell) {
             const auto found = value(cell, is_cell);
             if constexpr (std::is_same_v<std::remove_const_t<decltype(found)>, std::uint32_t>) {
                 const WordOf<Number> word = found;
@@ -170,7 +176,8 @@ public:
         model_->repairs = std::move(made->repairs);
         model_->up = settings_.up;
         for (Vector3d& point : model_->mesh.points) point = turned_upright(point, settings_.up);
-        if (auto spread = spread_cells(access.cache); !spread) return tl::unexpected(spread.error());
+        if (auto spread = spread_cells(access.cache); !spread)
+            return tl::unexpected(spread.error());
         if (control_.cancel) return std::shared_ptr<const ModelCells>();
         model_->grid = rows_of_cells(static_cast<std::int64_t>(model_->count()));
         measure();
@@ -192,15 +199,16 @@ private:
         options.seed = program_.domain.seed;
         std::optional<Anisotropy> anisotropy;
         if (settings_.directions) {
-            anisotropy = anisotropy_of(*settings_.directions, settings_.stretch, model_->mesh, team_,
-                                       control_.cancel);
+            anisotropy = anisotropy_of(*settings_.directions, settings_.stretch, model_->mesh,
+                                       team_, control_.cancel);
             if (control_.cancel) return {};
             options.anisotropy = &*anisotropy;
         }
         const double bytes = memory_of_cells(model_->mesh, options);
         if (bytes > static_cast<double>(available_memory())) {
             return failure(fmt::format("making these cells takes {}, more than is free",
-                                       with_unit(bytes, "B")), "fewer cells: --cells");
+                                       with_unit(bytes, "B")),
+                           "fewer cells: --cells");
         }
         report(fmt::format("spreading {} cells", with_commas(static_cast<std::int64_t>(
                                                      count_cells(model_->mesh, options)))));
@@ -212,8 +220,8 @@ private:
         return {};
     }
 
-    /// From a file in the folder, or made and written there. Results are the same either way, so that
-    /// a file which cannot be written is no reason to stop.
+    /// From a file in the folder, or made and written there. Results are the same either way, so
+    /// that a file which cannot be written is no reason to stop.
     Result<SurfaceCells> cells_kept_in(const std::filesystem::path& cache,
                                        const CellOptions& options) {
         const auto path = cache / (key_of(model_->mesh, options).text() + ".cells");
@@ -250,8 +258,8 @@ private:
     }
 
     void widen_tight_cells(std::vector<double>& areas) const {
-        const double mean = std::accumulate(areas.begin(), areas.end(), 0.0) /
-                            static_cast<double>(areas.size());
+        const double mean =
+            std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
         for (std::size_t cell = 0; cell < areas.size(); ++cell) {
             double sum = 0;
             for (const CellWall& wall : model_->cells.walls_of(cell)) sum += wall.weight();
@@ -275,14 +283,16 @@ private:
         }
         list.weights = std::move(weights);
         model_->order = order_for_steps(list);
-        model_->links = Links(list, PlaneLayout(model_->grid), program_.domain.precision, model_->order);
+        model_->links =
+            Links(list, PlaneLayout(model_->grid), program_.domain.precision, model_->order);
     }
 
     /// `value(k)` in cell k, a number or, of words, an unsigned one.
     template <typename Value>
     void put(ModelPlane plane, const Value& value) {
-        model_->planes[static_cast<std::size_t>(plane)] = plane_of_cells(
-            *model_, program_.domain.precision, [&](std::size_t cell, bool) { return value(cell); });
+        model_->planes[static_cast<std::size_t>(plane)] =
+            plane_of_cells(*model_, program_.domain.precision,
+                           [&](std::size_t cell, bool) { return value(cell); });
     }
 
     void make_planes(const std::vector<double>& areas) {
@@ -295,14 +305,16 @@ private:
         const SurfaceCells& cells = model_->cells;
         put(ModelPlane::number, [](std::size_t k) { return static_cast<std::uint32_t>(k); });
         // Sums by area do not see what fills up the last row.
-        model_->planes[static_cast<std::size_t>(ModelPlane::area)] = plane_of_cells(
-            *model_, program_.domain.precision,
-            [&](std::size_t cell, bool is_cell) { return is_cell ? areas[cell] : 0.0; });
+        model_->planes[static_cast<std::size_t>(ModelPlane::area)] =
+            plane_of_cells(*model_, program_.domain.precision, [&](std::size_t cell, bool is_cell) {
+                return is_cell ? areas[cell] : 0.0;
+            });
         const MeshFacts facts = facts_of(mesh);
         const Vector3d size = facts.high - facts.low;
         const double longest = std::max({size.x, size.y, size.z});
         std::vector<Vector3d> places;
-        for (const SurfacePlace& place : cells.places) places.push_back(position_of(mesh, place) - facts.low);
+        for (const SurfacePlace& place : cells.places)
+            places.push_back(position_of(mesh, place) - facts.low);
         const auto part = [](double of, double side) { return side > 0 ? of / side : 0.5; };
         put(ModelPlane::x, [&](std::size_t k) { return part(places[k].x, longest); });
         put(ModelPlane::y, [&](std::size_t k) { return part(places[k].y, longest); });

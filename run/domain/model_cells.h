@@ -21,20 +21,21 @@
 namespace cascade {
 
 struct ModelCells : ModelFacts {
-    /// Turned upright: y points upwards, whatever axis does so in the file. Nothing but what writes files
-    /// of the model, in whose own coordinates they are, has to know.
+    /// Turned upright: y points upwards, whatever axis does so in the file. Nothing but what writes
+    /// files of the model, in whose own coordinates they are, has to know.
     SurfaceMesh mesh;
     Axis up = Axis::y;                 ///< Of the model before it was turned.
     std::vector<std::string> repairs;  ///< What was done to the model, a sentence each.
     SurfaceCells cells;
     /// Cells lie in memory as steps are fastest (surface/cell_order.h): order[k] is the cell at
-    /// column k mod W of row k / W. Only planes and links do; whatever leaves a run, and random numbers,
-    /// have the cells in their own order.
+    /// column k mod W of row k / W. Only planes and links do; whatever leaves a run, and random
+    /// numbers, have the cells in their own order.
     std::vector<std::uint32_t> order;
-    Mask inside;                       ///< 0 in what fills up the last row, else 1.
-    double unit = 1;                   ///< In lengths of the model.
-    std::vector<Field> planes;         ///< By ModelPlane.
-    /// Without weights of gradients until need_gradients() has been called: few scripts ask for them.
+    Mask inside;                ///< 0 in what fills up the last row, else 1.
+    double unit = 1;            ///< In lengths of the model.
+    std::vector<Field> planes;  ///< By ModelPlane.
+    /// Without weights of gradients until need_gradients() has been called: few scripts ask for
+    /// them.
     mutable Links links;
 
     /// Gives the links the weights of gradients, on the first call. From one thread at a time.
@@ -56,19 +57,19 @@ private:
 struct ModelAccess {
     std::filesystem::path folder;  ///< Paths are relative to it.
     ReadAccess reads;
-    bool is_asked_for = false;     ///< On the command line: the file may lie anywhere.
-    std::filesystem::path cache;   ///< Where cells that are spread are kept; empty: nowhere.
+    bool is_asked_for = false;    ///< On the command line: the file may lie anywhere.
+    std::filesystem::path cache;  ///< Where cells that are spread are kept; empty: nowhere.
 };
 
-/// Reads or makes the model, spreads its cells and links them. Fails, in words, on a file that cannot be
-/// used, on more cells than memory and on fewer than pieces; what it returns means nothing if it was cancelled.
-/// The same on any number of threads.
+/// Reads or makes the model, spreads its cells and links them. Fails, in words, on a file that
+/// cannot be used, on more cells than memory and on fewer than pieces; what it returns means
+/// nothing if it was cancelled. The same on any number of threads.
 Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& program,
                                                            const ModelAccess& access, Team& team,
                                                            RunControl& control);
 
-/// Coordinates of scripts, 0 … 1 along the longest side of the model's box and in the same scale along
-/// the others, and those of the model.
+/// Coordinates of scripts, 0 … 1 along the longest side of the model's box and in the same scale
+/// along the others, and those of the model.
 struct ModelBox {
     Vector3d low;
     double longest = 0;  ///< In lengths of the model.

@@ -47,7 +47,8 @@ std::vector<Vector3d> lines_of(const DirectionSettings& settings, const SurfaceM
     };
     switch (settings.kind) {
         case DirectionSettings::Kind::axis: break;
-        case DirectionSettings::Kind::gradient: return gradient_lines(*settings.height, mesh, planes);
+        case DirectionSettings::Kind::gradient:
+            return gradient_lines(*settings.height, mesh, planes);
         case DirectionSettings::Kind::curvature_high: return of_curvature(Principal::high);
         case DirectionSettings::Kind::curvature_low: return of_curvature(Principal::low);
         case DirectionSettings::Kind::keys:

@@ -46,7 +46,8 @@ std::vector<double> key_values(const ModelCells& model, std::span<const double> 
     const double smoothing = numbers.size() % 4 == 1 ? numbers.back() : usual_smoothing;
     std::vector<KeyValue> keys;
     for (std::size_t k = 0; k + 3 < numbers.size(); k += 4) {
-        keys.push_back({box.in_model({numbers[k], numbers[k + 1], numbers[k + 2]}), numbers[k + 3]});
+        keys.push_back(
+            {box.in_model({numbers[k], numbers[k + 1], numbers[k + 2]}), numbers[k + 3]});
     }
     return smoothed(model.cells, nearest_key_values(model.mesh, model.cells, keys, cancel),
                     smoothing * box.longest, team, cancel);
@@ -60,7 +61,8 @@ struct BetweenPixels {
 
     BetweenPixels(double coordinate, std::int64_t count) {
         if (!std::isfinite(coordinate)) coordinate = 0;
-        const double place = (coordinate - std::floor(coordinate)) * static_cast<double>(count) - 0.5;
+        const double place =
+            (coordinate - std::floor(coordinate)) * static_cast<double>(count) - 0.5;
         const auto first = static_cast<std::int64_t>(std::floor(place));
         part = place - std::floor(place);
         before = static_cast<std::size_t>((first + count) % count);
@@ -82,12 +84,14 @@ double lightness_at(const GreyPicture& picture, const std::array<double, 2>& pla
 
 }  // namespace
 
-void SurfaceValues::make(std::span<const Formula* const> formulas, const std::atomic<bool>& cancel) {
+void SurfaceValues::make(std::span<const Formula* const> formulas,
+                         const std::atomic<bool>& cancel) {
     for (const Formula* formula : formulas) {
         for (const Node& node : formula->nodes) {
             if (cancel) return;
             if (node.kind == NodeKind::surface_value && !values_.contains(node.index)) {
-                values_[node.index] = make_value(program_.literals->surface_values()[node.index], cancel);
+                values_[node.index] =
+                    make_value(program_.literals->surface_values()[node.index], cancel);
             }
             if (node.kind != NodeKind::builtin) continue;
             const auto read = lowering::model_plane_of(static_cast<Builtin>(node.index));
@@ -108,10 +112,9 @@ const Field& SurfaceValues::plane(ModelPlane plane) {
 }
 
 Field SurfaceValues::make_value(const SurfaceValue& value, const std::atomic<bool>& cancel) const {
-    const std::vector<double> found =
-        value.function == Function::distance
-            ? distances(model_, value.numbers, cancel)
-            : key_values(model_, value.numbers, team_, cancel);
+    const std::vector<double> found = value.function == Function::distance
+                                          ? distances(model_, value.numbers, cancel)
+                                          : key_values(model_, value.numbers, team_, cancel);
     return field_of_cells(found, model_, program_.domain.precision);
 }
 
@@ -135,23 +138,25 @@ void SurfaceValues::make_curvatures() {
     planes_[ModelPlane::curvature_gauss] = in_cells(gauss, unit * unit);
 }
 
-Result<Field> attribute_plane(const std::string& name, const ModelCells& model, Precision precision) {
+Result<Field> attribute_plane(const std::string& name, const ModelCells& model,
+                              Precision precision) {
     std::vector<std::string> names;
     for (const PointAttribute& attribute : model.mesh.attributes) {
         if (attribute.name == name) {
-            return field_of_cells(values_at(model.mesh, attribute.values, model.cells.places), model,
-                                  precision);
+            return field_of_cells(values_at(model.mesh, attribute.values, model.cells.places),
+                                  model, precision);
         }
         names.push_back(attribute.name);
     }
     const std::string near = nearest_name(name, names);
     return failure(fmt::format("the model's points have no '{}'", name),
-                   !near.empty()  ? fmt::format("did you mean '{}'?", near)
+                   !near.empty()   ? fmt::format("did you mean '{}'?", near)
                    : names.empty() ? std::string("they have places and nothing else")
                                    : fmt::format("they have {}", fmt::join(names, ", ")));
 }
 
-Result<Field> painted_plane(const GreyPicture& picture, const ModelCells& model, Precision precision) {
+Result<Field> painted_plane(const GreyPicture& picture, const ModelCells& model,
+                            Precision precision) {
     if (model.mesh.texture.empty()) {
         return failure("the model has no texture coordinates",
                        "they say where a picture lies on it");

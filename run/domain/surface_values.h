@@ -1,5 +1,5 @@
-// What is known of the cells of a model from places on its surface: distances, values of keys, curvatures,
-// and what its points and its texture have.
+// What is known of the cells of a model from places on its surface: distances, values of keys,
+// curvatures, and what its points and its texture have.
 #pragma once
 
 #include "core/parallel.h"
@@ -17,15 +17,16 @@
 
 namespace cascade {
 
-/// distance(…) where no way leads, in longest sides of the model. Larger than ways are, and small enough
-/// to be reckoned with in binary32.
+/// distance(…) where no way leads, in longest sides of the model. Larger than ways are, and small
+/// enough to be reckoned with in binary32.
 inline constexpr double unreachable_distance = 1000;
 
-/// How far keys(…) spreads each key's value if nothing is said: a standard deviation in longest sides.
+/// How far keys(…) spreads each key's value if nothing is said: a standard deviation in longest
+/// sides.
 inline constexpr double usual_smoothing = 0.1;
 
-/// Planes that are made when they are first read, and kept. Program, model and team must stay; values
-/// may be added to the program. One thread at a time.
+/// Planes that are made when they are first read, and kept. Program, model and team must stay;
+/// values may be added to the program. One thread at a time.
 class SurfaceValues {
 public:
     SurfaceValues(const Program& program, const ModelCells& model, Team& team)
@@ -51,12 +52,14 @@ private:
     std::map<ModelPlane, Field> planes_;
 };
 
-/// attr("name") in the cells, linear between points. Fails, in words, where the points of the model have
-/// nothing of that name.
-Result<Field> attribute_plane(const std::string& name, const ModelCells& model, Precision precision);
+/// attr("name") in the cells, linear between points. Fails, in words, where the points of the model
+/// have nothing of that name.
+Result<Field> attribute_plane(const std::string& name, const ModelCells& model,
+                              Precision precision);
 
-/// uvimage(…) in the cells: linear between the middles of four pixels. Places beyond 0 … 1 repeat the
-/// picture. Fails where the model has no texture coordinates.
-Result<Field> painted_plane(const GreyPicture& picture, const ModelCells& model, Precision precision);
+/// uvimage(…) in the cells: linear between the middles of four pixels. Places beyond 0 … 1 repeat
+/// the picture. Fails where the model has no texture coordinates.
+Result<Field> painted_plane(const GreyPicture& picture, const ModelCells& model,
+                            Precision precision);
 
 }  // namespace cascade

@@ -18,9 +18,8 @@ namespace cascade {
 namespace {
 
 std::string upper(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
-        return static_cast<char>(std::toupper(c));
-    });
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     return text;
 }
 
@@ -32,9 +31,9 @@ std::string c_number(float value) {
 }
 
 std::string stencil_words(Stencil stencil) {
-    const char* neighbours[] = {"", "(E + W)",     "(N + S)",       "((N + S) + E) + W",
-                                "(U + D)", "((E + W) + U) + D", "((N + S) + U) + D",
-                                "((((N + S) + E) + W) + U) + D"};
+    const char* neighbours[] = {
+        "",        "(E + W)",           "(N + S)",           "((N + S) + E) + W",
+        "(U + D)", "((E + W) + U) + D", "((N + S) + U) + D", "((((N + S) + E) + W) + U) + D"};
     return fmt::format("{} - {}c", neighbours[stencil.number()], 2 * stencil.axes());
 }
 
@@ -97,9 +96,9 @@ private:
     }
 
     std::string introduction() const {
-        std::string text = fmt::format(
-            "/* Stage '{}' (system {}) of {}, compiled by Cascade {}.\n",
-            c_comment(stage_.name), c_comment(system_.name), c_comment(script_), version());
+        std::string text = fmt::format("/* Stage '{}' (system {}) of {}, compiled by Cascade {}.\n",
+                                       c_comment(stage_.name), c_comment(system_.name),
+                                       c_comment(script_), version());
         text += filled(R"( *
  *     struct $ s;
  *     void *memory = malloc($$_BYTES);
@@ -123,13 +122,15 @@ private:
         text += table("planes", "PLANE", compiled_.planes);
         text += table("masks", "MASK", compiled_.masks);
         if (!compiled_.sides.empty()) {
-            text += filled(" *   sides[species][$_left ... $_back]  rules at the sides, which may "
-                           "change\n");
+            text += filled(
+                " *   sides[species][$_left ... $_back]  rules at the sides, which may "
+                "change\n");
         }
         text += fmt::format(
             " *   steps  complete steps since the start\n"
             " *\n"
-            " * Rounding. IEEE binary32, to nearest even, no fused multiply-add; denormal numbers are\n"
+            " * Rounding. IEEE binary32, to nearest even, no fused multiply-add; denormal numbers "
+            "are\n"
             " * zero. The Laplacian is {}, in this order.\n"
             " */\n",
             stencil_words(program_.domain.grid.stencil()));
@@ -147,8 +148,9 @@ private:
     }
 
     std::size_t plane_count() const {
-        return 2 * compiled_.species.size() + compiled_.scratch_registers * compiled_.species.size() +
-               compiled_.planes.size() + compiled_.temporaries + compiled_.side_planes;
+        return 2 * compiled_.species.size() +
+               compiled_.scratch_registers * compiled_.species.size() + compiled_.planes.size() +
+               compiled_.temporaries + compiled_.side_planes;
     }
 
     std::string constants() const {
@@ -233,7 +235,8 @@ private:
     std::string prototypes() const {
         std::string text = fmt::format(
             "\n/* Rows [row_begin, row_end) of a pass, in the object file. */\n"
-            "typedef void {}_kernel(const float *const *fields, const unsigned char *const *masks,\n"
+            "typedef void {}_kernel(const float *const *fields, const unsigned char *const "
+            "*masks,\n"
             "    const float *uniforms, float *const *results, int64_t width, int64_t stride,\n"
             "    int64_t row_begin, int64_t row_end, int64_t is_near{});\n",
             compiled_.name, layout_.depth > 1 ? ", int64_t slice_rows, int64_t slice" : "");
@@ -248,15 +251,17 @@ private:
         for (const SideRule& rule : boundary.at) {
             rules.push_back(fmt::format("{{{}, 0, NULL}}", c_side(rule.kind)));
         }
-        text += fmt::format("\n/* The sides of what is no species{}. */\n"
-                            "static const struct {}_side {}_boundary[6] = {{\n    {}\n}};\n",
-                            compiled_.sides.empty() ? ", and of all species" : "", compiled_.name,
-                            compiled_.name, fmt::join(rules, ",\n    "));
+        text += fmt::format(
+            "\n/* The sides of what is no species{}. */\n"
+            "static const struct {}_side {}_boundary[6] = {{\n    {}\n}};\n",
+            compiled_.sides.empty() ? ", and of all species" : "", compiled_.name, compiled_.name,
+            fmt::join(rules, ",\n    "));
         return text;
     }
 
     std::string c_side(SideKind kind) const {
-        return fmt::format("{}_{}", compiled_.name, side_kind_words[static_cast<std::size_t>(kind)]);
+        return fmt::format("{}_{}", compiled_.name,
+                           side_kind_words[static_cast<std::size_t>(kind)]);
     }
 
     std::string initialisation() const {
@@ -269,18 +274,20 @@ static inline void $_init(struct $ *s, void *memory) {
     memset(memory, 0, $$_BYTES);
 )");
         for (const auto& [name, count] : plane_tables()) {
-            text += fmt::format("    for (k = 0; k < {}; ++k) s->{}[k] = {}_plane(&place);\n", count,
-                                name, compiled_.name);
+            text += fmt::format("    for (k = 0; k < {}; ++k) s->{}[k] = {}_plane(&place);\n",
+                                count, name, compiled_.name);
         }
         for (std::size_t k = 0; k < compiled_.masks.size(); ++k) {
-            text += fmt::format("    s->masks[{}] = (unsigned char *)place + {}_ORIGIN;\n"
-                                "    place += {}_PLANE_SIZE;\n",
-                                k, big_, big_);
+            text += fmt::format(
+                "    s->masks[{}] = (unsigned char *)place + {}_ORIGIN;\n"
+                "    place += {}_PLANE_SIZE;\n",
+                k, big_, big_);
         }
         if (compiled_.reduces) {
-            text += fmt::format("    s->rows = (double *)(void *)place;\n"
-                                "    place += {}_ROWS * sizeof(double);\n",
-                                big_);
+            text += fmt::format(
+                "    s->rows = (double *)(void *)place;\n"
+                "    place += {}_ROWS * sizeof(double);\n",
+                big_);
         }
         text += "    (void)place;\n";
         for (std::size_t k = 0; k < compiled_.numbers.size(); ++k) {
@@ -313,9 +320,10 @@ static inline void $_start(struct $ *s) {
         text += compiled_.start;
         text += "    s->steps = 0;\n";
         if (compiled_.speed) {
-            text += fmt::format("    s->base_step = 0;\n    s->base_time = 0;\n"
-                                "    s->length = (double)s->numbers[{}];\n",
-                                *compiled_.speed);
+            text += fmt::format(
+                "    s->base_step = 0;\n    s->base_time = 0;\n"
+                "    s->length = (double)s->numbers[{}];\n",
+                *compiled_.speed);
         }
         return text + fmt::format("    {}_set_control(before);\n}}\n\n", compiled_.name);
     }
@@ -342,10 +350,11 @@ static inline void $_step(struct $ *s) {
         }
         if (needs_time && compiled_.speed) text += filled(c_text::clock);
         if (compiled_.frozen) {
-            text += fmt::format("    if (s->numbers[{}] != 0) {{ /* Everything is frozen. */\n"
-                                "        ++s->steps;\n        {}_set_control(before);\n"
-                                "        return;\n    }}\n",
-                                *compiled_.frozen, compiled_.name);
+            text += fmt::format(
+                "    if (s->numbers[{}] != 0) {{ /* Everything is frozen. */\n"
+                "        ++s->steps;\n        {}_set_control(before);\n"
+                "        return;\n    }}\n",
+                *compiled_.frozen, compiled_.name);
         }
         text += compiled_.step;
         text += fmt::format(R"(    for (k = 0; k < {}; ++k) {{

@@ -8,8 +8,8 @@
 
 namespace cascade {
 
-/// A header, complete by itself, of plain C99: a struct that holds the stage's planes and numbers, and
-/// functions that lay it out in memory, compute the starting values and take steps. Its comment
+/// A header, complete by itself, of plain C99: a struct that holds the stage's planes and numbers,
+/// and functions that lay it out in memory, compute the starting values and take steps. Its comment
 /// documents all tables. `script` is the name of the file it comes from.
 std::string c_header(const Program& program, std::uint32_t stage, const CStage& compiled,
                      const std::string& script);

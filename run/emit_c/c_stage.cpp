@@ -43,7 +43,7 @@ struct PassText {
     std::string kernel;
     std::vector<std::string> fields, masks, uniforms, results;
     std::vector<std::string> before;  ///< Statements before the kernel …
-    std::vector<std::string> after;  ///< … and after it.
+    std::vector<std::string> after;   ///< … and after it.
 };
 
 class Describer {
@@ -78,9 +78,10 @@ private:
         if (source.kind == SlotSource::Kind::item && source.stage != k_ &&
             program_.system_of(source.stage).is_species(source.item) &&
             !program_.stages[source.stage].sides.empty()) {
-            fault_ = fmt::format("stage '{}' reads {} at its neighbours, whose sides are rules of "
-                                 "that stage, which are not compiled with this one",
-                                 stage_.name, tables_.item_path(source.stage, source.item));
+            fault_ = fmt::format(
+                "stage '{}' reads {} at its neighbours, whose sides are rules of "
+                "that stage, which are not compiled with this one",
+                stage_.name, tables_.item_path(source.stage, source.item));
         }
         return request_.name + "_boundary";
     }
@@ -100,7 +101,9 @@ private:
     /// The statements of a pass.
     std::string write(const PassText& pass) const {
         std::string text = "    {\n";
-        const auto line = [&](const std::string& statement) { text += "        " + statement + "\n"; };
+        const auto line = [&](const std::string& statement) {
+            text += "        " + statement + "\n";
+        };
         for (const std::string& statement : pass.before) line(statement);
         const auto array = [&](std::string_view type, std::string_view name,
                                const std::vector<std::string>& values) {
@@ -133,7 +136,8 @@ private:
                 }
             }
         }
-        if (plan.aggregates > 0) text += fmt::format("    float aggregates[{}];\n", plan.aggregates);
+        if (plan.aggregates > 0)
+            text += fmt::format("    float aggregates[{}];\n", plan.aggregates);
         for (const Pass& pass : plan.passes) {
             PassText lines;
             lines.kernel = tables_.kernel(pass.bound.kernel);
@@ -248,8 +252,8 @@ private:
         result_.step_aggregates = problem.aggregates;
         for (std::size_t species = 0; species < system_.species_count(); ++species) {
             if (!problem.species_needs_halo[species]) continue;
-            result_.step += fmt::format(
-                "    {}\n", fill(fmt::format("s->species[{}]", species), species_rules(species)));
+            result_.step += fmt::format("    {}\n", fill(fmt::format("s->species[{}]", species),
+                                                         species_rules(species)));
         }
         for (std::size_t number = 0; number < passes.size(); ++number) {
             result_.step += step_pass(problem, number, *passes[number]);
@@ -292,7 +296,8 @@ private:
             }
             lines.results.push_back(register_text(result.plane));
             if (result.needs_halo && is_read_at_neighbours_later(problem, number, result.plane)) {
-                lines.after.push_back(fill(lines.results.back(), species_rules(result.plane.number)));
+                lines.after.push_back(
+                    fill(lines.results.back(), species_rules(result.plane.number)));
             }
         }
         return write(lines);
@@ -338,7 +343,8 @@ private:
     /// Speed and frozen, which the functions around the statements read.
     void note_settings() {
         if (stage_.uniform[system_.speed_item()]) {
-            result_.speed = tables_.number_place({SlotSource::Kind::item, k_, system_.speed_item()});
+            result_.speed =
+                tables_.number_place({SlotSource::Kind::item, k_, system_.speed_item()});
         }
         const std::uint32_t frozen = system_.frozen_item();
         if (stage_.uniform[frozen] && request_.numbers[k_][frozen] != 0.0F) {

@@ -33,7 +33,8 @@ void add_entry(std::vector<Entry>& table, Entry entry, std::string_view name) {
             return other.identifier == entry.identifier;
         });
     };
-    for (int number = 2; is_taken(); ++number) entry.identifier = fmt::format("{}_{}", wanted, number);
+    for (int number = 2; is_taken(); ++number)
+        entry.identifier = fmt::format("{}_{}", wanted, number);
     table.push_back(std::move(entry));
 }
 

@@ -20,7 +20,7 @@ public:
 
     /// Each is the text of an expression, such as `s->numbers[3]`.
     std::string number(const SlotSource& source);
-    std::string plane(const SlotSource& source);   ///< Of no register of a step but the old values.
+    std::string plane(const SlotSource& source);  ///< Of no register of a step but the old values.
     std::string mask(const SlotSource& source);
     std::string temporary(std::size_t number);
     /// The name of a kernel's function; kernels of the same code share one.

@@ -53,40 +53,44 @@ std::string c_identifier(const std::string& text) {
     return name;
 }
 
-/// The scheme of a step. Steps of one length alone can be compiled. `asked_solver`: the solver is that
-/// of --solver, which lets some choose their steps.
+/// The scheme of a step. Steps of one length alone can be compiled. `asked_solver`: the solver is
+/// that of --solver, which lets some choose their steps.
 Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
                             std::optional<std::uint32_t> stages, bool asked_solver) {
     const Stage& stage = program.stages[k];
     const std::string name(name_of(stage.time.solver));
     if (is_adaptive(stage.time.solver)) {
-        return failure(fmt::format("stage '{}' is solved by {}, which chooses its steps as it runs, "
-                                   "but compiled steps are of one length",
-                                   stage.name, name),
-                       "--solver rk4 takes such steps");
+        return failure(
+            fmt::format("stage '{}' is solved by {}, which chooses its steps as it runs, "
+                        "but compiled steps are of one length",
+                        stage.name, name),
+            "--solver rk4 takes such steps");
     }
     if (is_semi_implicit(stage.time.solver)) {
-        return failure(fmt::format("stage '{}' is solved by {}, which takes waves of the whole grid and no "
-                                   "cells",
-                                   stage.name, name),
-                       "--solver rkl1 --stages 7 compiles long steps");
+        return failure(
+            fmt::format("stage '{}' is solved by {}, which takes waves of the whole grid and no "
+                        "cells",
+                        stage.name, name),
+            "--solver rkl1 --stages 7 compiles long steps");
     }
     if (stage.time.automatic_speed) {
-        return failure(fmt::format("stage '{}' chooses its steps as it runs, but compiled steps are "
-                                   "of one length",
-                                   stage.name),
-                       asked_solver
-                           ? fmt::format("--set {}.solver={} keeps its speed", stage.name, name)
-                           : fmt::format("--set {}.speed=… is that length", stage.name));
+        return failure(
+            fmt::format("stage '{}' chooses its steps as it runs, but compiled steps are "
+                        "of one length",
+                        stage.name),
+            asked_solver ? fmt::format("--set {}.solver={} keeps its speed", stage.name, name)
+                         : fmt::format("--set {}.speed=… is that length", stage.name));
     }
     if (is_stabilised(stage.time.solver) && !stages) {
-        return failure(fmt::format("stage '{}' is solved by {}, which chooses its stages as it runs, "
-                                   "but a compiled step has a number of them",
-                                   stage.name, name),
-                       "--stages N says how many: an odd number");
+        return failure(
+            fmt::format("stage '{}' is solved by {}, which chooses its stages as it runs, "
+                        "but a compiled step has a number of them",
+                        stage.name, name),
+            "--stages N says how many: an odd number");
     }
     if (stages && !is_stabilised(stage.time.solver)) {
-        return failure(fmt::format("--stages: {} has no stages to choose; rkl1 and rkl2 have", name));
+        return failure(
+            fmt::format("--stages: {} has no stages to choose; rkl1 and rkl2 have", name));
     }
     const std::uint32_t speed = program.system_of(k).speed_item();
     if (!stage.uniform[speed] && !takes_speed_by_cell(stage.time.solver)) {
@@ -111,10 +115,11 @@ Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
         for (std::size_t side = 0; side < side_count; ++side) {
             if (!takes_value(sides[side].kind)) continue;
             if (!plan_side(program, sides[side], static_cast<Side>(side), stage).changes) continue;
-            return failure(fmt::format("stage '{}' has a side whose value changes with time, which is "
-                                       "not compiled to an object file",
-                                       program.stages[stage].name),
-                           "'cascade run' compiles it in memory");
+            return failure(
+                fmt::format("stage '{}' has a side whose value changes with time, which is "
+                            "not compiled to an object file",
+                            program.stages[stage].name),
+                "'cascade run' compiles it in memory");
         }
     }
     if (program.domain.mask) {
@@ -137,25 +142,24 @@ Result<CompiledStep> compile_step(Script& script, const CompileRequest& request)
     if (auto good = make_per_cell(program, *stage, request.per_cell); !good) {
         return tl::unexpected(good.error());
     }
-    const auto scheme = fixed_scheme(program, *stage, request.stages,
-                                      script.overrides.solver.has_value());
+    const auto scheme =
+        fixed_scheme(program, *stage, request.stages, script.overrides.solver.has_value());
     if (!scheme) return tl::unexpected(scheme.error());
     const auto files = read_input_files(script, nullptr);
     if (!files) return tl::unexpected(files.error());
     const auto metric = metric_planes(program);
     if (!metric) return tl::unexpected(metric.error());
     const std::string name = c_identifier(
-        request.function_name.empty()
-            ? output_stem(script) + "_" +
-                  program.stages[*stage].name
-            : request.function_name);
-    auto compiled =
-        describe_c_stage({program, *stage, numbers, *files, *metric, *scheme, name});
+        request.function_name.empty() ? output_stem(script) + "_" + program.stages[*stage].name
+                                      : request.function_name);
+    auto compiled = describe_c_stage({program, *stage, numbers, *files, *metric, *scheme, name});
     if (!compiled) return tl::unexpected(compiled.error());
 #if CASCADE_HAS_JIT
     ObjectContent content;
-    for (const CKernel& each : compiled->kernels) content.functions.push_back({each.name, each.kernel});
-    for (CData& each : compiled->data) content.numbers.push_back({each.name, std::move(each.values)});
+    for (const CKernel& each : compiled->kernels)
+        content.functions.push_back({each.name, each.kernel});
+    for (CData& each : compiled->data)
+        content.numbers.push_back({each.name, std::move(each.values)});
     auto object = compile_object(content, program.domain.grid.stencil(), request.target);
     if (!object) return tl::unexpected(object.error());
     const std::string file = script.file.filename().string();

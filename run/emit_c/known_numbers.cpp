@@ -47,7 +47,8 @@ KnownNumbers known_numbers(const Program& program, std::uint32_t last) {
         }
         // In the order in which each can be evaluated, so what an item reads has been looked at.
         for (const std::uint32_t item : stage.order) {
-            if (!reads_unknown(stage.items[item], k, numbers, program)) known[item] = computed[item];
+            if (!reads_unknown(stage.items[item], k, numbers, program))
+                known[item] = computed[item];
         }
     }
     return numbers;

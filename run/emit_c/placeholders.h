@@ -17,7 +17,9 @@ public:
 
     std::vector<StageState>& states() { return states_; }
     /// On a tiny grid.
-    BindingContext context() const { return {states_, files_, 0, grid_, Precision::single, 0, metric_}; }
+    BindingContext context() const {
+        return {states_, files_, 0, grid_, Precision::single, 0, metric_};
+    }
 
 private:
     Grid grid_{1, 1};

@@ -16,8 +16,8 @@ namespace {
 /// A sample that meets the surface at a smaller slant than this is taken for one that meets it so.
 constexpr float least_cosine = 0.1F;
 
-/// The variance of the filter itself along a direction, in cell spacings: s² / 2 times the average of
-/// (d / s)² under its weights, where s is two spacings.
+/// The variance of the filter itself along a direction, in cell spacings: s² / 2 times the average
+/// of (d / s)² under its weights, where s is two spacings.
 constexpr double filter_variance = 2 * (1.0 / 28) / 0.15;
 
 bool is_finite(const Colour& colour) {
@@ -195,8 +195,8 @@ Image CellScene::draw(const PaintedCells& look, DrawOptions options, Team& team)
                     std::copy(light.begin(), light.end(), state);
                 }
                 if (look.heights.empty()) continue;
-                state[3] = static_cast<float>(static_cast<double>(look.heights[cell]) /
-                                              filter_.radius());
+                state[3] =
+                    static_cast<float>(static_cast<double>(look.heights[cell]) / filter_.radius());
             }
         });
     }

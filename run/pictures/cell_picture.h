@@ -17,9 +17,10 @@ public:
     /// Both must outlive it. There is at least one cell. Throws std::bad_alloc.
     CellScene(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team);
 
-    /// Colours are those of the filtered values. Where a sample stands for more than the square of a cell,
-    /// the colours at the cells' places are taken, blurred by diffusion as widely as it asks for. `round_shadows`
-    /// of the options is set, and bumps are shaded but change no outline. The same picture on any number of threads. Throws std::bad_alloc.
+    /// Colours are those of the filtered values. Where a sample stands for more than the square of
+    /// a cell, the colours at the cells' places are taken, blurred by diffusion as widely as it
+    /// asks for. `round_shadows` of the options is set, and bumps are shaded but change no outline.
+    /// The same picture on any number of threads. Throws std::bad_alloc.
     Image draw(const PaintedCells& look, DrawOptions options, Team& team) const;
 
     const CellFilter& filter() const { return filter_; }

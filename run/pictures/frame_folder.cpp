@@ -35,8 +35,8 @@ std::filesystem::path file_name(const std::string& script) {
 }  // namespace
 
 bool is_called_like_a_movie(const std::filesystem::path& path) {
-    constexpr std::array<std::string_view, 9> endings = {".mp4", ".gif", ".webm", ".mov", ".avi",
-                                                         ".mkv", ".apng", ".ogv", ".m4v"};
+    constexpr std::array<std::string_view, 9> endings = {".mp4", ".gif",  ".webm", ".mov", ".avi",
+                                                         ".mkv", ".apng", ".ogv",  ".m4v"};
     std::string ending = path.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
@@ -45,9 +45,10 @@ bool is_called_like_a_movie(const std::filesystem::path& path) {
 
 std::string how_to_make_a_movie(const std::filesystem::path& path) {
     const std::string stem = path.stem().string();
-    return fmt::format("for a movie write --frames {0}, then ffmpeg -framerate 10 -pattern_type glob "
-                       "-i '{0}/*.png' -pix_fmt yuv420p {1}",
-                       stem, path.filename().string());
+    return fmt::format(
+        "for a movie write --frames {0}, then ffmpeg -framerate 10 -pattern_type glob "
+        "-i '{0}/*.png' -pix_fmt yuv420p {1}",
+        stem, path.filename().string());
 }
 
 std::string frame_name(std::size_t number, const std::string& stage, std::int64_t step) {
@@ -65,7 +66,8 @@ Result<std::vector<std::filesystem::path>> earlier_frames(const std::filesystem:
     }
     std::sort(frames.begin(), frames.end());
     if (is_resumed && !frames.empty()) {
-        return failure(fmt::format("the folder '{}' holds frames of an earlier run", folder.string()),
+        return failure(fmt::format("the folder '{}' holds frames of an earlier run",
+                                   folder.string()),
                        "name another one with --frames: those of a run that goes on have their own "
                        "numbers");
     }

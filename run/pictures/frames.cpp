@@ -10,12 +10,12 @@ namespace cascade {
 
 namespace {
 
-std::size_t plane_size(const PlaneLayout& layout) { return static_cast<std::size_t>(layout.size()); }
+std::size_t plane_size(const PlaneLayout& layout) {
+    return static_cast<std::size_t>(layout.size());
+}
 
 /// The whole plane, halo and padding included: one stretch of memory.
-const float* storage(const Field& field) {
-    return field.origin() - field.layout().offset(0, 0);
-}
+const float* storage(const Field& field) { return field.origin() - field.layout().offset(0, 0); }
 float* storage(Field& field) { return field.origin() - field.layout().offset(0, 0); }
 
 }  // namespace
@@ -89,7 +89,9 @@ Result<std::vector<std::filesystem::path>> FrameRecorder::write(const Painter& p
         auto canvas = read_back(frame);
         if (!canvas) return tl::unexpected(canvas.error());
         const auto path = folder_ / frame_name(number, frame.stage, frame.step);
-        if (auto done = write_png(path, painter.image(*canvas, automatic_range(values_)), depth, texts); !done) {
+        if (auto done =
+                write_png(path, painter.image(*canvas, automatic_range(values_)), depth, texts);
+            !done) {
             return tl::unexpected(done.error());
         }
         written.push_back(path);

@@ -40,7 +40,7 @@ private:
         std::string stage;
         std::int64_t step = 0;
         std::size_t planes = 1;
-        bool has_relief = false;   ///< In one more plane.
+        bool has_relief = false;  ///< In one more plane.
     };
     struct CloseFile {
         void operator()(std::FILE* file) const { std::fclose(file); }

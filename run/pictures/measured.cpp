@@ -14,7 +14,8 @@ measure::Samples to_samples(const Field& field, const Grid& grid) {
     samples.values.reserve(static_cast<std::size_t>(grid.cell_count()));
     field.visit([&](const auto& plane) {
         for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
-            samples.values.insert(samples.values.end(), plane.row(row), plane.row(row) + grid.width);
+            samples.values.insert(samples.values.end(), plane.row(row),
+                                  plane.row(row) + grid.width);
         }
     });
     return samples;

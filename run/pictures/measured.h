@@ -10,8 +10,8 @@ namespace cascade {
 
 measure::Samples to_samples(const Field& field, const Grid& grid);
 
-/// The number that a picture shows, in all cells (also of a volume). A colour is no number: then what
-/// the stage shows by default (its `show`, or its last species).
+/// The number that a picture shows, in all cells (also of a volume). A colour is no number: then
+/// what the stage shows by default (its `show`, or its last species).
 Field shown_number(Painter& painter, const Simulation& simulation);
 
 /// Its features.

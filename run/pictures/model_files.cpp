@@ -21,8 +21,8 @@ namespace cascade {
 
 namespace {
 
-// Between points colours are linear: this far apart, in spacings of cells, they follow the filter, which
-// reaches over two.
+// Between points colours are linear: this far apart, in spacings of cells, they follow the filter,
+// which reaches over two.
 constexpr double colour_distance = 0.75;
 constexpr std::size_t most_triangles = std::size_t{1} << 23;
 
@@ -54,9 +54,13 @@ bool ModelFileOptions::is_baked(const std::filesystem::path& path) const {
 ModelFileWriter::ModelFileWriter(const ModelCells& model, const ModelLook& look,
                                  std::vector<Channel> channels, const ModelFileOptions& options,
                                  PngTexts texts)
-    : model_(model), turned_back_(model.up == Axis::y ? SurfaceMesh() : model.mesh_of_file()),
-      mesh_(model.up == Axis::y ? model.mesh : turned_back_), look_(look),
-      channels_(std::move(channels)), options_(options), texts_(std::move(texts)),
+    : model_(model),
+      turned_back_(model.up == Axis::y ? SurfaceMesh() : model.mesh_of_file()),
+      mesh_(model.up == Axis::y ? model.mesh : turned_back_),
+      look_(look),
+      channels_(std::move(channels)),
+      options_(options),
+      texts_(std::move(texts)),
       team_(hardware_threads()) {}
 
 ModelFileWriter::~ModelFileWriter() = default;
@@ -90,8 +94,8 @@ Result<void> ModelFileWriter::write_cells(const std::filesystem::path& path) {
 
 Result<void> ModelFileWriter::write_refined(const std::filesystem::path& path) {
     if (!refined_) {
-        refined_ = std::make_unique<RefinedMesh>(refined(
-            mesh_, colour_distance * cell_spacing(model_.cells), most_triangles));
+        refined_ = std::make_unique<RefinedMesh>(
+            refined(mesh_, colour_distance * cell_spacing(model_.cells), most_triangles));
     }
     const PaintedCells painted = {look_.channels, look_.values, look_.colour, {}};
     return write_model(path, refined_->mesh,
@@ -118,10 +122,10 @@ Result<void> ModelFileWriter::write_retiled(const std::filesystem::path& path) {
     const std::vector<SurfacePlace> of_points = places_of_points(mesh_);
     std::vector<Colour> colours;
     for (std::size_t p = 0; p < points; ++p) {
-        const SurfacePlace& place = p < count ? model_.cells.places[p]
-                                              : of_points[retiled_->kept[p - count].old_point];
-        colours.push_back(look_.colour(
-            std::span(values).subspan(look_.channels * p, look_.channels), place));
+        const SurfacePlace& place =
+            p < count ? model_.cells.places[p] : of_points[retiled_->kept[p - count].old_point];
+        colours.push_back(
+            look_.colour(std::span(values).subspan(look_.channels * p, look_.channels), place));
     }
     std::vector<Channel> channels;
     for (const Channel& channel : channels_) {

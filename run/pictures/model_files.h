@@ -23,8 +23,8 @@ struct Retiled;
 /// What a file of results holds.
 enum class OutputKind { picture, model, cells };
 
-/// By the ending, in upper or lower case: .png; .ply, .obj, .glb, .vtp; .npz, .cells.vtp. Nothing for
-/// other names.
+/// By the ending, in upper or lower case: .png; .ply, .obj, .glb, .vtp; .npz, .cells.vtp. Nothing
+/// for other names.
 std::optional<OutputKind> output_kind(const std::filesystem::path& path);
 
 /// How models are written.
@@ -39,14 +39,14 @@ struct ModelFileOptions {
 /// Writes results of one moment. What it refers to must stay.
 class ModelFileWriter {
 public:
-    /// `channels` are the numbers of each cell that go into files beside colours; `texts` go into maps.
-    /// Throws std::bad_alloc.
+    /// `channels` are the numbers of each cell that go into files beside colours; `texts` go into
+    /// maps. Throws std::bad_alloc.
     ModelFileWriter(const ModelCells& model, const ModelLook& look, std::vector<Channel> channels,
                     const ModelFileOptions& options, PngTexts texts);
     ~ModelFileWriter();
 
-    /// A file of a model or of cells. Returns what was written: of a baked model its maps too. Fails as
-    /// the writers of export/ do.
+    /// A file of a model or of cells. Returns what was written: of a baked model its maps too.
+    /// Fails as the writers of export/ do.
     Result<std::vector<std::filesystem::path>> write(const std::filesystem::path& path);
 
     /// Of all that was baked, a sentence each.
@@ -60,8 +60,8 @@ private:
     const CellFilter& filter();
 
     const ModelCells& model_;
-    SurfaceMesh turned_back_;      ///< Empty where the model was not turned.
-    const SurfaceMesh& mesh_;      ///< In the coordinates of the model's file, as all files are.
+    SurfaceMesh turned_back_;  ///< Empty where the model was not turned.
+    const SurfaceMesh& mesh_;  ///< In the coordinates of the model's file, as all files are.
     const ModelLook& look_;
     std::vector<Channel> channels_;
     ModelFileOptions options_;

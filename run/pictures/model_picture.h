@@ -18,15 +18,16 @@ namespace cascade {
 /// What a canvas shows on the cells of a model: a number each, or red, green and blue.
 struct ModelLook {
     std::size_t channels = 1;
-    std::vector<float> values;   ///< `channels` a cell, cell after cell.
+    std::vector<float> values;  ///< `channels` a cell, cell after cell.
     PlaceColour colour;
     std::vector<float> heights;  ///< One a cell, in lengths of the model; empty: none.
 
     /// `range` and `palette` are those of numbers.
-    ModelLook(const ModelCells& model, const Canvas& canvas, ValueRange range, const Palette& palette);
+    ModelLook(const ModelCells& model, const Canvas& canvas, ValueRange range,
+              const Palette& palette);
 
-    /// Sets the heights: a number stands out by its place in the range times `bump` times the model's
-    /// longest side.
+    /// Sets the heights: a number stands out by its place in the range times `bump` times the
+    /// model's longest side.
     void raise(const ModelCells& model, const Field& number, ValueRange range, float bump);
     /// What is seen of cell k, which lies at `place`.
     Colour colour_of(std::size_t k, const SurfacePlace& place) const {
@@ -46,7 +47,7 @@ public:
 
 private:
     std::shared_ptr<const ModelCells> model_;
-    mutable Team team_;   ///< Of one picture at a time.
+    mutable Team team_;  ///< Of one picture at a time.
     CellScene scene_;
 };
 

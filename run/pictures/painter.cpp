@@ -49,8 +49,7 @@ Result<Painter> Painter::create(Script& script, const PictureRequest& request) {
     if (request.show.empty()) return painter;
 
     const SourceId source = script.sources.add("<--show>", request.show);
-    painter.show_ =
-        parse_expression(source, script.sources, script.tree, script.diagnostics);
+    painter.show_ = parse_expression(source, script.sources, script.tree, script.diagnostics);
     if (painter.show_) {
         check_view(script.tree, *painter.show_, script.final_stage(), script.stage_count() - 1,
                    *script.program, script.sources, script.diagnostics);
@@ -78,8 +77,8 @@ Canvas Painter::values(const Simulation& simulation) {
     const bool asked = show_ || picture_expression(script_->tree);
     const auto formula = formula_for(stage, last_stage);
     if (!formula) fell_back_ = fell_back_ || asked;
-    return {simulation.evaluate(formula ? *formula : simulation.program().stages[stage].show,
-                                stage)};
+    return {
+        simulation.evaluate(formula ? *formula : simulation.program().stages[stage].show, stage)};
 }
 
 Canvas Painter::canvas(const Simulation& simulation) {
@@ -106,9 +105,8 @@ ValueRange Painter::range_of(const Canvas& canvas, std::optional<ValueRange> ran
 
 Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range) const {
     const ValueRange used = range_of(canvas, range);
-    Image image = canvas.is_colour()
-                      ? paint(canvas.fields[0], canvas.fields[1], canvas.fields[2])
-                      : paint(canvas.fields[0], used, *palette_);
+    Image image = canvas.is_colour() ? paint(canvas.fields[0], canvas.fields[1], canvas.fields[2])
+                                     : paint(canvas.fields[0], used, *palette_);
     if (!outside_.empty()) clear_where_nan(image, outside_);
     return image;
 }
@@ -143,9 +141,8 @@ Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) cons
     options.view = request_.view;
     const Boundaries& sides = domain.grid.boundary;
     Team team(hardware_threads());
-    return draw_on_surface(function_of(*domain.surface), flat,
-                           sides.x == Boundary::periodic, sides.y == Boundary::periodic, options,
-                           team);
+    return draw_on_surface(function_of(*domain.surface), flat, sides.x == Boundary::periodic,
+                           sides.y == Boundary::periodic, options, team);
 }
 
 Image draw_sheet(const Simulation& simulation, const PictureRequest& request) {

@@ -12,11 +12,11 @@
 
 namespace cascade {
 
-/// Values to be painted: one field through the palette, or red, green and blue. Pictures are painted
-/// in binary32.
+/// Values to be painted: one field through the palette, or red, green and blue. Pictures are
+/// painted in binary32.
 struct Canvas {
     std::vector<Field> fields;
-    Field relief = {};   ///< Of a colour that has bumps: the number of their heights.
+    Field relief = {};  ///< Of a colour that has bumps: the number of their heights.
     bool is_colour() const { return fields.size() == 3; }
     /// What heights and the range are of; nullptr where there are colours alone.
     const Field* number() const;
@@ -38,8 +38,8 @@ public:
     Canvas values(const Simulation& simulation);
     bool fell_back() const { return fell_back_; }
 
-    /// The canvas as an image, transparent outside of the mask and enlarged; where the domain lies on a surface, drawn on it. `range`
-    /// overrides the automatic one.
+    /// The canvas as an image, transparent outside of the mask and enlarged; where the domain lies
+    /// on a surface, drawn on it. `range` overrides the automatic one.
     Image image(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
     const PictureRequest& request() const { return request_; }
     /// From where pictures are taken from now on.
@@ -58,7 +58,7 @@ private:
     std::optional<ast::Expression> show_;
     const Palette* palette_ = nullptr;
     bool fell_back_ = false;
-    std::shared_ptr<const ModelCells> model_;          ///< Of the last canvas; none on grids.
+    std::shared_ptr<const ModelCells> model_;            ///< Of the last canvas; none on grids.
     mutable std::shared_ptr<const ModelDrawer> drawer_;  ///< Made when a picture is first drawn.
     Field outside_;  ///< Of the last canvas: NaN where there is no domain; empty without a mask.
 };

@@ -55,9 +55,8 @@ std::string describe_clamped(const Canvas& canvas) {
 }
 
 std::string describe_even(const Canvas& canvas) {
-    const bool is_even = std::all_of(canvas.fields.begin(), canvas.fields.end(), [](const Field& field) {
-        return spread_of(field).is_even();
-    });
+    const bool is_even = std::all_of(canvas.fields.begin(), canvas.fields.end(),
+                                     [](const Field& field) { return spread_of(field).is_even(); });
     if (!is_even) return {};
     if (canvas.is_colour()) return is_one_colour;
     if (spread_of(canvas.fields[0]).count == 0) {

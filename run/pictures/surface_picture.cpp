@@ -22,10 +22,10 @@ TriangleMesh lattice(const SurfaceFunction& surface) {
     mesh.positions.reserve((facets + 1) * (facets + 1));
     for (std::uint32_t j = 0; j <= facets; ++j) {
         for (std::uint32_t i = 0; i <= facets; ++i) {
-            const Position p = surface(static_cast<double>(i) / facets,
-                                       static_cast<double>(j) / facets);
-            mesh.positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]),
-                                      static_cast<float>(p[2])});
+            const Position p =
+                surface(static_cast<double>(i) / facets, static_cast<double>(j) / facets);
+            mesh.positions.push_back(
+                {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
         }
     }
     for (std::uint32_t j = 0; j < facets; ++j) {
@@ -64,8 +64,7 @@ std::vector<std::uint32_t> cut_holes(TriangleMesh& mesh, const Image& texture) {
 }
 
 /// Between four texels, of which only those count that are seen; `otherwise` where none is.
-Colour mix_of_seen(const std::array<std::pair<Colour, float>, 4>& texels,
-                   const Colour& otherwise) {
+Colour mix_of_seen(const std::array<std::pair<Colour, float>, 4>& texels, const Colour& otherwise) {
     Colour sum{};
     float weights = 0;
     for (const auto& [colour, weight] : texels) {
@@ -115,7 +114,8 @@ Image draw_on_surface(const SurfaceFunction& surface, const Image& texture, bool
                       bool periodic_y, const DrawOptions& options, Team& team) {
     TriangleMesh mesh = lattice(surface);
     join_normals(mesh, periodic_x, periodic_y);
-    const bool has_holes = std::any_of(texture.pixels.begin(), texture.pixels.end(), is_transparent);
+    const bool has_holes =
+        std::any_of(texture.pixels.begin(), texture.pixels.end(), is_transparent);
     const std::vector<std::uint32_t> numbers =
         has_holes ? cut_holes(mesh, texture) : std::vector<std::uint32_t>();
     const auto colour = [&](const Hit& hit) {
@@ -138,11 +138,10 @@ Image draw_on_surface(const SurfaceFunction& surface, const Image& texture, bool
         const auto mix = [](float a, float b, float part) { return a + (b - a) * part; };
         Colour result{};
         for (std::size_t c = 0; c < 3; ++c) {
-            result[c] = mix(mix(texture.at(x.first, y.first)[c], texture.at(x.second, y.first)[c],
-                                x.part),
-                            mix(texture.at(x.first, y.second)[c],
-                                texture.at(x.second, y.second)[c], x.part),
-                            y.part);
+            result[c] = mix(
+                mix(texture.at(x.first, y.first)[c], texture.at(x.second, y.first)[c], x.part),
+                mix(texture.at(x.first, y.second)[c], texture.at(x.second, y.second)[c], x.part),
+                y.part);
         }
         return result;
     };

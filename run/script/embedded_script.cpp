@@ -119,9 +119,9 @@ Overrides merge(Overrides base, const Overrides& changes) {
     if (changes.cells) base.cells = changes.cells;
     if (changes.model) {
         // A picture knows of its model no more than a name: where it lies now, the user says.
-        const bool is_same_model = base.model &&
-                                   std::filesystem::path(*base.model).filename() ==
-                                       std::filesystem::path(*changes.model).filename();
+        const bool is_same_model =
+            base.model && std::filesystem::path(*base.model).filename() ==
+                              std::filesystem::path(*changes.model).filename();
         base.model = changes.model;
         base.model_is_asked_for = changes.model_is_asked_for;
         base.grid.reset();
@@ -166,8 +166,8 @@ Result<EmbeddedScript> parse_embedded_script(std::string_view bytes, const std::
         return failure(fmt::format("{}: this picture carries no Cascade script", file),
                        "only pictures that 'cascade run' wrote can be run again");
     }
-    auto overrides = overrides_from_json(
-        texts->contains(key_overrides) ? texts->at(key_overrides) : std::string("{}"));
+    auto overrides = overrides_from_json(texts->contains(key_overrides) ? texts->at(key_overrides)
+                                                                        : std::string("{}"));
     if (!overrides) {
         return failure(fmt::format("{}: {}", file, overrides.error().message));
     }

@@ -20,11 +20,12 @@ struct EmbeddedScript {
     std::string name;
     std::string text;
     Overrides overrides;
-    std::string picture_options;  ///< JSON of a PictureRequest.
+    std::string picture_options;      ///< JSON of a PictureRequest.
     std::vector<std::string> varied;  ///< Of a sweep's sheet: texts for parse_variation().
 };
 
-/// Chunks: Software, Cascade name, Cascade script, Cascade overrides, Cascade seed, Cascade picture.
+/// Chunks: Software, Cascade name, Cascade script, Cascade overrides, Cascade seed, Cascade
+/// picture.
 PngTexts embed_script(const Script& script, const PictureRequest& picture);
 
 /// The same for a sheet of a sweep: Cascade sweep lists what was varied.

@@ -1,5 +1,5 @@
-// Statements are written into the tree directly where the option has a form of its own, as --grid 64x32
-// and --mesh horse.ply, and read as an expression elsewhere.
+// Statements are written into the tree directly where the option has a form of its own, as --grid
+// 64x32 and --mesh horse.ply, and read as an expression elsewhere.
 #include "run/script/option_statements.h"
 
 #include "lang/program/models.h"

@@ -19,8 +19,9 @@ bool makes_sense(const PictureRequest& request) {
         return false;
     }
     // A range that runs downwards turns the palette over.
-    if (request.range && (!std::isfinite(request.range->low) || !std::isfinite(request.range->high) ||
-                          request.range->low == request.range->high)) {
+    if (request.range &&
+        (!std::isfinite(request.range->low) || !std::isfinite(request.range->high) ||
+         request.range->low == request.range->high)) {
         return false;
     }
     if (!(std::abs(request.bump) <= 1)) return false;

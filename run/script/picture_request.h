@@ -13,15 +13,15 @@ namespace cascade {
 
 /// Options of `cascade run` that decide a picture's looks. They travel inside the picture.
 struct PictureRequest {
-    std::string show;                  ///< An expression; "" is the picture block or the default.
+    std::string show;  ///< An expression; "" is the picture block or the default.
     std::string palette = "grey";
-    std::optional<ValueRange> range;   ///< Empty: from the values.
-    int scale = 1;                     ///< Pixels per cell.
-    int depth = 8;                     ///< Bits: 8 or 16.
-    bool space_time = false;           ///< 1-D grids: a row of pixels per interval.
-    Slice slice;                       ///< 3-D grids: what a picture shows of them.
-    bool flat = false;                 ///< Of a surface: the texture alone.
-    View view;                         ///< Of a surface: from where it is seen.
+    std::optional<ValueRange> range;  ///< Empty: from the values.
+    int scale = 1;                    ///< Pixels per cell.
+    int depth = 8;                    ///< Bits: 8 or 16.
+    bool space_time = false;          ///< 1-D grids: a row of pixels per interval.
+    Slice slice;                      ///< 3-D grids: what a picture shows of them.
+    bool flat = false;                ///< Of a surface: the texture alone.
+    View view;                        ///< Of a surface: from where it is seen.
     /// Of a model: how far the largest number stands out before the smallest one, in sides of the
     /// model, −1 … 1.
     float bump = 0;

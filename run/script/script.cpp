@@ -156,7 +156,8 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
 Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides) {
     constexpr std::uint64_t largest_picture = std::uint64_t{1} << 30;
     constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
-    // Pictures may be larger than any script. Of a pipe or a device no more is read than a script has.
+    // Pictures may be larger than any script. Of a pipe or a device no more is read than a script
+    // has.
     const bool is_picture = first_bytes(path, signature.size()) == signature;
     auto bytes = read_file(path, is_picture ? largest_picture : largest_script);
     if (!bytes) {

@@ -21,24 +21,24 @@ namespace cascade {
 
 /// Changes that come from outside the script. They travel inside pictures and saved runs.
 struct Overrides {
-    std::vector<std::string> sets;                               ///< "large.ka=1/400", in order.
+    std::vector<std::string> sets;  ///< "large.ka=1/400", in order.
     std::optional<GridSize> grid;
     bool grid_is_one_number = false;  ///< As in --grid 100, which is a line. Travels nowhere.
     std::optional<std::uint32_t> seed;
-    std::optional<std::int64_t> steps;                           ///< A cap for every stage.
-    std::optional<std::string> until_stage;                      ///< The last stage that runs.
+    std::optional<std::int64_t> steps;       ///< A cap for every stage.
+    std::optional<std::string> until_stage;  ///< The last stage that runs.
     /// The files that the script uses, as (path, text), as far as they have been read. A picture
     /// can so be drawn again without them.
     std::vector<std::pair<std::string, std::string>> used;
-    ReadAccess reads;                                            ///< Travels nowhere.
-    std::optional<std::string> solver;                           ///< Of every stage.
+    ReadAccess reads;                   ///< Travels nowhere.
+    std::optional<std::string> solver;  ///< Of every stage.
     std::optional<Precision> precision;
-    bool fast = false;                ///< Steps are computed with fewer roundings.
+    bool fast = false;  ///< Steps are computed with fewer roundings.
     /// The domain becomes this model: the file of one, or the name of a shape.
     std::optional<std::string> model;
-    bool model_is_asked_for = false;  ///< By the user: the file may lie anywhere. Travels nowhere.
-    std::optional<std::string> cells; ///< Of the model: a number, faces or vertices.
-    std::optional<Axis> up;           ///< Of the model: its axis that points upwards.
+    bool model_is_asked_for = false;   ///< By the user: the file may lie anywhere. Travels nowhere.
+    std::optional<std::string> cells;  ///< Of the model: a number, faces or vertices.
+    std::optional<Axis> up;            ///< Of the model: its axis that points upwards.
 
     friend bool operator==(const Overrides&, const Overrides&) = default;
 };
@@ -51,12 +51,13 @@ struct Script {
     Script(const Script&) = delete;  // The tree holds views into this script's own sources.
     Script& operator=(const Script&) = delete;
 
-    /// In messages: as the user typed it, "examples/leopard.cascade", or as a picture or a saved run says.
+    /// In messages: as the user typed it, "examples/leopard.cascade", or as a picture or a saved
+    /// run says.
     std::string name;
     /// What the user named: the script, the picture or the saved run that it was found in.
     std::filesystem::path file;
     std::string text;
-    std::filesystem::path folder;     ///< Paths in the script are relative to it.
+    std::filesystem::path folder;  ///< Paths in the script are relative to it.
     Overrides overrides;
 
     Sources sources;
@@ -81,16 +82,17 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
 /// overrides it was made with (`overrides`' own members win). Fails on unreadable files.
 struct LoadedFile {
     Script script;
-    std::string picture_options;   ///< JSON of the PictureRequest in a PNG; empty for a script.
-    std::vector<std::string> varied = {};   ///< Of a sweep's sheet: its --vary, in order.
+    std::string picture_options;  ///< JSON of the PictureRequest in a PNG; empty for a script.
+    std::vector<std::string> varied = {};  ///< Of a sweep's sheet: its --vary, in order.
 };
 Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides = {});
 
-/// What a script without stages lacks, of its own last system if it has one: "add 'stage spots: mine { }'".
+/// What a script without stages lacks, of its own last system if it has one: "add 'stage spots:
+/// mine { }'".
 std::string example_of_stage(const Program& program);
 
-/// What outputs are called where nothing is said: "leopard" of "examples/leopard.cascade". It comes from
-/// what the user named, never from a name inside of that; "cascade" where there is none.
+/// What outputs are called where nothing is said: "leopard" of "examples/leopard.cascade". It comes
+/// from what the user named, never from a name inside of that; "cascade" where there is none.
 std::string output_stem(const Script& script);
 
 /// A place for messages about an option: the option's own text is the source `<--option>`.

@@ -31,7 +31,8 @@ std::vector<Namesake> namesakes(const fs::path& saved, const std::string& name) 
     const fs::path here = fs::path(portable_path(name));
     const fs::path above = (saved / "..").lexically_normal();
     std::vector<Namesake> found;
-    for (Namesake each : {Namesake{".", here.string(), ""}, Namesake{above, here.filename().string(), ""}}) {
+    for (Namesake each :
+         {Namesake{".", here.string(), ""}, Namesake{above, here.filename().string(), ""}}) {
         if (each.name.empty()) continue;
         auto text = GrantedFiles(each.folder, {}).read(each.name, largest_script);
         if (!text) continue;
@@ -54,9 +55,8 @@ fs::path find_script_folder(const fs::path& saved, const std::string& name,
 std::optional<fs::path> find_edited_script(const fs::path& saved, const std::string& name,
                                            const std::string& text) {
     const std::vector<Namesake> found = namesakes(saved, name);
-    const bool is_unchanged = std::any_of(found.begin(), found.end(), [&](const Namesake& each) {
-        return each.text == text;
-    });
+    const bool is_unchanged = std::any_of(found.begin(), found.end(),
+                                          [&](const Namesake& each) { return each.text == text; });
     if (found.empty() || is_unchanged) return std::nullopt;
     return (found.front().folder / found.front().name).lexically_normal();
 }

@@ -18,7 +18,8 @@ std::string portable_path(const std::string& path);
 std::filesystem::path find_script_folder(const std::filesystem::path& saved,
                                          const std::string& name, const std::string& text);
 
-/// Where one looks for it, is there a file of that name, but none with that text? The first of such.
+/// Where one looks for it, is there a file of that name, but none with that text? The first of
+/// such.
 std::optional<std::filesystem::path> find_edited_script(const std::filesystem::path& saved,
                                                         const std::string& name,
                                                         const std::string& text);

@@ -79,12 +79,11 @@ void UsedFiles::set_folder_of_files(ast::ExprId first, const std::filesystem::pa
     auto& expressions = script_.tree.expressions;
     for (ast::ExprId id = first; id < expressions.size(); ++id) {
         const auto* call = std::get_if<ast::Call>(&expressions[id].node);
-        const bool names_file = call != nullptr && (call->function.text == "field" ||
-                                                    call->function.text == "image");
+        const bool names_file =
+            call != nullptr && (call->function.text == "field" || call->function.text == "image");
         if (!names_file) continue;
         for (std::uint32_t k = 0; k < call->argument_count; ++k) {
-            ast::Expr& argument =
-                expressions[script_.tree.arguments[call->first_argument + k]];
+            ast::Expr& argument = expressions[script_.tree.arguments[call->first_argument + k]];
             auto* text = std::get_if<ast::Text>(&argument.node);
             if (text != nullptr) text->value = (folder / text->value).generic_string();
         }

@@ -41,7 +41,8 @@ StageState restricted(const StageState& fine, const Grid& fine_grid, const Grid&
     coarse.species_of_item = fine.species_of_item;
     const auto all = [&](const std::vector<Field>& fields, std::vector<Field>& into) {
         for (const Field& field : fields) {
-            into.push_back(field.empty() ? Field() : restricted_field(field, fine_grid, coarse_grid));
+            into.push_back(field.empty() ? Field()
+                                         : restricted_field(field, fine_grid, coarse_grid));
         }
     };
     all(fine.fields, coarse.fields);
@@ -52,11 +53,11 @@ StageState restricted(const StageState& fine, const Grid& fine_grid, const Grid&
         rules.spacing = coarse_grid.spacing;
         for (SideRule& rule : rules.at) {
             if (rule.values == nullptr) continue;
-            const auto same = std::find_if(
-                fine.side_values.begin(), fine.side_values.end(),
-                [&](const Field& values) { return values.address() == rule.values; });
-            Field& values = coarse.side_values[static_cast<std::size_t>(
-                same - fine.side_values.begin())];
+            const auto same =
+                std::find_if(fine.side_values.begin(), fine.side_values.end(),
+                             [&](const Field& values) { return values.address() == rule.values; });
+            Field& values =
+                coarse.side_values[static_cast<std::size_t>(same - fine.side_values.begin())];
             fill_halo(values, coarse_grid.boundary);
             rule.values = values.address();
         }
@@ -65,7 +66,8 @@ StageState restricted(const StageState& fine, const Grid& fine_grid, const Grid&
 }
 
 InputFiles restricted(const InputFiles& fine, const Grid& fine_grid, const Grid& coarse_grid) {
-    return fine.mapped([&](const Field& plane) { return restricted_field(plane, fine_grid, coarse_grid); });
+    return fine.mapped(
+        [&](const Field& plane) { return restricted_field(plane, fine_grid, coarse_grid); });
 }
 
 void take_refined(StageState& fine, const Grid& fine_grid, StageState& coarse,
@@ -73,9 +75,8 @@ void take_refined(StageState& fine, const Grid& fine_grid, StageState& coarse,
     for (std::size_t s = 0; s < fine.species.size(); ++s) {
         const SideRules sides =
             coarse.sides.empty() ? SideRules(coarse_grid.boundary) : coarse.sides[s];
-        Field values = coarse.species[s].visit([&](auto& plane) {
-            return Field(refined(plane, coarse_grid, fine_grid, sides));
-        });
+        Field values = coarse.species[s].visit(
+            [&](auto& plane) { return Field(refined(plane, coarse_grid, fine_grid, sides)); });
         if (!fine.frozen.empty()) {
             values.visit([&]<typename Number>(Plane<Number>& plane) {
                 const Plane<Number>& old = fine.species[s].plane<Number>();

@@ -10,8 +10,9 @@
 
 namespace cascade {
 
-/// The same program on a grid whose cells are `times` as wide. The stage takes times² as many steps,
-/// or as long, as on the fine one: patterns need a time that grows with the square of their lengths.
+/// The same program on a grid whose cells are `times` as wide. The stage takes times² as many
+/// steps, or as long, as on the fine one: patterns need a time that grows with the square of their
+/// lengths.
 Program on_coarser_grid(const Program& program, std::uint32_t stage, std::int64_t times);
 
 /// An earlier stage's values on a coarser grid, to be read by starting values.
@@ -20,8 +21,8 @@ StageState restricted(const StageState& fine, const Grid& fine_grid, const Grid&
 /// Files on a coarser grid.
 InputFiles restricted(const InputFiles& fine, const Grid& fine_grid, const Grid& coarse_grid);
 
-/// Takes the species of a stage from the same stage on a grid twice as coarse; cells that are frozen
-/// keep their starting values.
+/// Takes the species of a stage from the same stage on a grid twice as coarse; cells that are
+/// frozen keep their starting values.
 void take_refined(StageState& fine, const Grid& fine_grid, StageState& coarse,
                   const Grid& coarse_grid);
 

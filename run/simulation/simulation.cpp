@@ -63,11 +63,13 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     // How many faces or points a model has is known only when it has been read.
     const auto& model = self.program->domain.model;
     if (!model || model->cells == ModelCellKind::spread) {
-        if (auto fits = self.check_memory(options.memory_limit); !fits) return tl::unexpected(fits.error());
+        if (auto fits = self.check_memory(options.memory_limit); !fits)
+            return tl::unexpected(fits.error());
     }
     if (model) {
         if (auto made = self.make_cells(options); !made) return tl::unexpected(made.error());
-        if (auto fits = self.check_memory(options.memory_limit); !fits) return tl::unexpected(fits.error());
+        if (auto fits = self.check_memory(options.memory_limit); !fits)
+            return tl::unexpected(fits.error());
     }
     auto files = [&] {
         const TimeAccount::Scope spent(self.account, Spent::reading);
@@ -143,8 +145,10 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     StepKernels kernels(stage.name);
     StageTimer timer(*self.program, k, state, self.tools(k, self.compiled(k, kernels, control)));
     if (timer.substeps() > 1 && state.steps == 0 && control.warn) {
-        control.warn(fmt::format("stage '{}': each step is split into {}, so that it is stable in the "
-                                 "smallest cells of the model", stage.name, timer.substeps()));
+        control.warn(
+            fmt::format("stage '{}': each step is split into {}, so that it is stable in the "
+                        "smallest cells of the model",
+                        stage.name, timer.substeps()));
     }
     // Nothing moves where everything is frozen: its steps are complete as they begin.
     if (self.frozen_everywhere(k)) {
@@ -192,13 +196,14 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
         state.time = time;
         self.keep();
     };
-    const StageOutcome outcome = advance(timer.problem(), schedule, state.species, control, progress,
-                                         [&](std::int64_t step, double t, std::span<const Field>) {
-                                             state.steps = step;
-                                             state.t = t;
-                                             if (observe) observe();
-                                             return true;
-                                         });
+    const StageOutcome outcome =
+        advance(timer.problem(), schedule, state.species, control, progress,
+                [&](std::int64_t step, double t, std::span<const Field>) {
+                    state.steps = step;
+                    state.t = t;
+                    if (observe) observe();
+                    return true;
+                });
     self.listener = nullptr;
     self.unsettled.insert_or_assign(k, std::move(kernels));
     self.warn_of_refused(control);
@@ -247,8 +252,7 @@ void Simulation::set_species(std::uint32_t stage, std::vector<Field> species, st
     state.condition_met = condition_met;
 }
 
-void Simulation::set_time(std::uint32_t stage, double t, const TimeState& time,
-                          SteadyWatch watch) {
+void Simulation::set_time(std::uint32_t stage, double t, const TimeState& time, SteadyWatch watch) {
     StageState& state = self_->states[stage];
     state.t = t;
     state.time = time;
@@ -265,7 +269,7 @@ std::vector<Field> Simulation::evaluate(std::span<const Formula* const> formulas
 }
 
 std::vector<double> Simulation::evaluate_numbers(std::span<const Formula* const> formulas,
-                                                std::uint32_t stage) const {
+                                                 std::uint32_t stage) const {
     std::vector<double> numbers;
     for (const Field& field : evaluate(formulas, stage)) numbers.push_back(field.number_at(0, 0));
     return numbers;
@@ -280,7 +284,8 @@ const StageState& Simulation::state(std::uint32_t stage) const { return self_->s
 
 double Simulation::time(std::uint32_t stage) const {
     const StageState& state = self_->states[stage];
-    const bool is_timed = self_->program->stages[stage].uniform[self_->program->system_of(stage).speed_item()];
+    const bool is_timed =
+        self_->program->stages[stage].uniform[self_->program->system_of(stage).speed_item()];
     return is_timed ? state.t : NAN;
 }
 

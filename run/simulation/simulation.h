@@ -34,22 +34,24 @@ std::string describe_backend();
 
 struct SimulationOptions {
     BackendKind backend = BackendKind::jit;
-    int lanes = 0;      ///< Vector width of the JIT; 0 takes the host's.
-    int threads = 0;    ///< 0 takes all the machine has.
+    int lanes = 0;    ///< Vector width of the JIT; 0 takes the host's.
+    int threads = 0;  ///< 0 takes all the machine has.
     /// Takes the steps of several simulations, so that equal kernels are compiled once; none: each
     /// simulation has one of its own.
     std::shared_ptr<TieredBackend> stepper = nullptr;
     /// Hears how the cells of a model come about, and may stop it; none: nobody does.
     RunControl* control = nullptr;
-    TimeAccount* account = nullptr;   ///< Is told where the time goes; none: nobody is.
-    std::filesystem::path cell_cache = {};  ///< A folder in which cells of models are kept; empty: none.
-    /// A folder in which compiled kernels, and what is found about tilings, are kept for later processes;
-    /// empty: none.
+    TimeAccount* account = nullptr;  ///< Is told where the time goes; none: nobody is.
+    std::filesystem::path cell_cache =
+        {};  ///< A folder in which cells of models are kept; empty: none.
+    /// A folder in which compiled kernels, and what is found about tilings, are kept for later
+    /// processes; empty: none.
     std::filesystem::path kernel_cache = {};
-    /// Take steps while code for them is made? Their first ones are interpreted then, unless there are so
-    /// many cells that waiting is quicker. No result depends on it, but how long a step takes does.
+    /// Take steps while code for them is made? Their first ones are interpreted then, unless there
+    /// are so many cells that waiting is quicker. No result depends on it, but how long a step
+    /// takes does.
     bool starts_interpreted = false;
-    std::uint64_t memory_limit = 0;   ///< Bytes that all fields may take; 0: what is free.
+    std::uint64_t memory_limit = 0;  ///< Bytes that all fields may take; 0: what is free.
     /// How steps are put together. No result depends on it.
     PlanOptions planning = {Materialise::when_cheaper, false, true};
     /// How steps go through memory; none: as fits the machine's caches. No result depends on it.
@@ -77,15 +79,14 @@ public:
 
     /// Takes steps until `last_step` are complete. A stage that starts on coarser grids is run on
     /// those before its first step, without being observed. `observe` is called at multiples of
-    /// `every`, or, where that is 0, of the stage's interval; and at tenths of the duration of a stage
-    /// without one. Fails, with stage, species, cell, step and the largest stable speed, on values
-    /// that are not finite.
-    Result<StageEnd> advance_stage(std::uint32_t stage, std::int64_t last_step,
-                                   RunControl& control, const std::function<void()>& observe,
-                                   std::int64_t every = 0);
+    /// `every`, or, where that is 0, of the stage's interval; and at tenths of the duration of a
+    /// stage without one. Fails, with stage, species, cell, step and the largest stable speed, on
+    /// values that are not finite.
+    Result<StageEnd> advance_stage(std::uint32_t stage, std::int64_t last_step, RunControl& control,
+                                   const std::function<void()>& observe, std::int64_t every = 0);
 
-    /// What is to be said of a stage that has ended, in one sentence; empty where all is as one would
-    /// think, and of a stage that has not ended.
+    /// What is to be said of a stage that has ended, in one sentence; empty where all is as one
+    /// would think, and of a stage that has not ended.
     std::string remark_on(std::uint32_t stage) const;
 
     /// Is the pattern there is the stage's own work? Its neighbours act on each other, no chance
@@ -93,18 +94,19 @@ public:
     /// more between cells than when the stage began.
     bool made_its_pattern(std::uint32_t stage) const;
 
-    /// From now on, while steps are taken: where `is_due` says so, which is asked some fifty times a second,
-    /// `keep` is called at a complete step, and the simulation's states are what a run can go on from with
-    /// the same bits. What is done on coarser grids before a stage's first step is not kept.
+    /// From now on, while steps are taken: where `is_due` says so, which is asked some fifty times
+    /// a second, `keep` is called at a complete step, and the simulation's states are what a run
+    /// can go on from with the same bits. What is done on coarser grids before a stage's first step
+    /// is not kept.
     void keep_with(std::function<bool()> is_due, std::function<void()> keep);
 
-    /// Waits for code that is being made for stages that were over before it was there, and says of which
-    /// there is none, so that they were interpreted.
+    /// Waits for code that is being made for stages that were over before it was there, and says of
+    /// which there is none, so that they were interpreted.
     void settle(RunControl& control);
 
     /// Replaces the species of a started stage (resume, the prompt's :load).
-    void set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps,
-                     bool done, bool condition_met = false);
+    void set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps, bool done,
+                     bool condition_met = false);
 
     /// Sets the time of a stage whose species were replaced; without it its steps are taken as of
     /// the stage's speed.
@@ -119,7 +121,7 @@ public:
     /// Formulas that are the same in all cells, such as aggregates over the domain (of others the
     /// first cell's value).
     std::vector<double> evaluate_numbers(std::span<const Formula* const> formulas,
-                                        std::uint32_t stage) const;
+                                         std::uint32_t stage) const;
 
     /// What one step of a started stage costs, as it would be taken now.
     StepWork step_work(std::uint32_t stage);

@@ -5,8 +5,8 @@
 
 namespace cascade {
 
-std::unique_ptr<Simulation> Simulation::Implementation::on_coarser_grid(
-    std::uint32_t k, std::int64_t times) const {
+std::unique_ptr<Simulation> Simulation::Implementation::on_coarser_grid(std::uint32_t k,
+                                                                        std::int64_t times) const {
     std::unique_ptr<Simulation> simulation(new Simulation);
     Implementation& coarse = *simulation->self_;
     coarse.script = script;

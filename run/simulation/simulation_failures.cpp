@@ -5,7 +5,8 @@
 
 namespace cascade {
 
-std::string Simulation::Implementation::place_in_words(std::int64_t column, std::int64_t row) const {
+std::string Simulation::Implementation::place_in_words(std::int64_t column,
+                                                       std::int64_t row) const {
     if (!model) return fmt::format("column {}, row {}", column, row);
     // The places after the last one are like it.
     const auto last = static_cast<std::int64_t>(model->count()) - 1;
@@ -15,11 +16,14 @@ std::string Simulation::Implementation::place_in_words(std::int64_t column, std:
 Failure Simulation::Implementation::explain(const StepTooShort& place, std::uint32_t k) const {
     Failure failure;
     failure.message = fmt::format(
-        "stage '{}' ({}): steps shrink to nothing: at t = {:.6g} one of {:.2g} is too long still, for "
+        "stage '{}' ({}): steps shrink to nothing: at t = {:.6g} one of {:.2g} is too long still, "
+        "for "
         "{} at {}",
         stage(k).name, program->system_of(k).name, place.t, place.step,
-        species_name(program->system_of(k), place.species), place_in_words(place.column, place.row));
-    failure.hint = "something jumps or grows without bound there; a larger tolerance or euler may pass it";
+        species_name(program->system_of(k), place.species),
+        place_in_words(place.column, place.row));
+    failure.hint =
+        "something jumps or grows without bound there; a larger tolerance or euler may pass it";
     return failure;
 }
 
@@ -35,7 +39,8 @@ StepInUse Simulation::Implementation::step_in_use(std::uint32_t k) const {
 
 bool Simulation::Implementation::diffusion_limits(std::uint32_t k) const {
     constexpr double worth_changing = 4;
-    if (stage(k).time.solver == Solver::symplectic || takes_long_steps(stage(k).time.solver)) return false;
+    if (stage(k).time.solver == Solver::symplectic || takes_long_steps(stage(k).time.solver))
+        return false;
     const auto bound = jacobian_bound(*program, k, model.get());
     if (!bound || bound->jumps) return false;
     const Formula* const formulas[] = {&bound->whole, &bound->reaction};
@@ -55,7 +60,8 @@ Failure Simulation::Implementation::explain(const StageOutcome& outcome, std::ui
     report.use = step_in_use(k);
     if (report.found.at_start() || is_semi_implicit(report.use.solver)) return describe(report);
     const std::size_t count = states[k].species.size();
-    // Without a kept copy the values are those that are spoiled, also where two looks are one step apart.
+    // Without a kept copy the values are those that are spoiled, also where two looks are one step
+    // apart.
     const bool keeps = !outcome.last_checked.empty();
     std::vector<Field> last_finite;
     if (keeps) {

@@ -48,14 +48,14 @@ struct Simulation::Implementation {
     bool starts_interpreted = false;
     /// By stage, of those that were over before it was known whether there can be code for all.
     std::map<std::uint32_t, StepKernels> unsettled;
-    bool has_expected = false;  ///< Does the stepper know what later stages need?
-    std::function<bool()> keep_is_due;   ///< As keep_with has it; none: nothing is kept.
+    bool has_expected = false;          ///< Does the stepper know what later stages need?
+    std::function<bool()> keep_is_due;  ///< As keep_with has it; none: nothing is kept.
     std::function<void()> keep;
     std::unique_ptr<Team> team;
     InputFiles files;
     std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
     std::optional<DomainMask> mask;
-    std::shared_ptr<const ModelCells> model;  ///< None on grids.
+    std::shared_ptr<const ModelCells> model;        ///< None on grids.
     std::unique_ptr<SurfaceValues> surface_values;  ///< None on grids.
     /// Values of sides follow the time of their stage whenever they are looked at.
     mutable std::vector<StageState> states;
@@ -74,8 +74,8 @@ struct Simulation::Implementation {
 
     BindingContext context(std::uint32_t stage) const {
         for (StageState& state : states) set_sides_of_now(state);
-        return {states, files, states[stage].steps, grid, precision(), states[stage].t, metric,
-                model.get(), inside(), surface_values.get()};
+        return {states,          files,  states[stage].steps, grid,     precision(),
+                states[stage].t, metric, model.get(),         inside(), surface_values.get()};
     }
 
     void set_sides_of_now(StageState& state) const {
@@ -103,8 +103,8 @@ struct Simulation::Implementation {
 
     // What a run and its stages start with (simulation_start.cpp).
 
-    /// Finds how much memory the run takes, and whether it may: no more than `limit` bytes, where that is
-    /// above 0, and than are free.
+    /// Finds how much memory the run takes, and whether it may: no more than `limit` bytes, where
+    /// that is above 0, and than are free.
     Result<void> check_memory(std::uint64_t limit);
     /// Of a model.
     Result<void> make_cells(const SimulationOptions& options);
@@ -159,7 +159,8 @@ struct Simulation::Implementation {
     void expect_later_stages(std::uint32_t k);
     /// Is it sure that the steps of a stage take longer than making code for them?
     bool is_long(std::uint32_t k) const;
-    /// Are steps interpreted until there is code for them? On many cells that would take longer than to wait.
+    /// Are steps interpreted until there is code for them? On many cells that would take longer
+    /// than to wait.
     bool runs_meanwhile() const {
         return starts_interpreted && grid.cell_count() < cells_worth_compiling;
     }
@@ -183,7 +184,8 @@ struct Simulation::Implementation {
     Failure explain(const StageOutcome& outcome, std::uint32_t k);
     Failure explain(const StepTooShort& place, std::uint32_t k) const;
     StepInUse step_in_use(std::uint32_t k) const;
-    /// Is the limit of the step at the present state one of diffusion, far below that of the reaction?
+    /// Is the limit of the step at the present state one of diffusion, far below that of the
+    /// reaction?
     bool diffusion_limits(std::uint32_t k) const;
 
     // Signs that a result is wrong although its values are finite (simulation_doubts.cpp).
@@ -192,8 +194,8 @@ struct Simulation::Implementation {
     void warn_of_doubts(std::uint32_t k, StageTimer& timer, RunControl& control);
     /// Are there values of which a copy can be had, and steps enough for a few more to cost little?
     bool allows_trial_steps(std::uint32_t k, StageTimer& timer) const;
-    /// Takes `count` steps of a copy; `observe` sees the state before and after each. False where a value
-    /// was spoiled.
+    /// Takes `count` steps of a copy; `observe` sees the state before and after each. False where a
+    /// value was spoiled.
     bool take_trial_steps(std::uint32_t k, StageTimer& timer, std::int64_t count,
                           const Observer& observe);
     /// Values that jump back and forth in a few more steps.
@@ -203,9 +205,11 @@ struct Simulation::Implementation {
     bool is_sure(std::uint32_t k, FlickerReport& report);
     /// Values that shorter steps would lead another way.
     std::optional<AstrayReport> find_astray(std::uint32_t k, StageTimer& timer);
-    /// Changes that single precision cannot add to the values, and that would have become noticeable.
+    /// Changes that single precision cannot add to the values, and that would have become
+    /// noticeable.
     std::optional<LostChangeReport> find_lost_change(std::uint32_t k);
-    /// How fast the rates decay as the state moves along them, in 1 / time; negative where they grow.
+    /// How fast the rates decay as the state moves along them, in 1 / time; negative where they
+    /// grow.
     double decay_along(std::uint32_t k, const std::vector<Field>& rates);
     /// Of the species' starting values.
     StabilityEstimate stability_at_start(std::uint32_t k);

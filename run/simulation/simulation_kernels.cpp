@@ -8,13 +8,15 @@ namespace cascade {
 
 void StepKernels::warn(const Failure& refusal, RunControl& control) {
     if (!control.warn || !said_.insert(refusal.message).second) return;
-    control.warn(fmt::format("stage '{}' is interpreted, which is slow: {}", stage_, refusal.message));
+    control.warn(
+        fmt::format("stage '{}' is interpreted, which is slow: {}", stage_, refusal.message));
 }
 
 Compile Simulation::Implementation::compiled(std::uint32_t k, StepKernels& kernels,
                                              RunControl& control) const {
     using When = TieredBackend::When;
-    return [this, &kernels, &control, when = is_long(k) ? When::now : When::when_used](const CellKernel& kernel) {
+    return [this, &kernels, &control,
+            when = is_long(k) ? When::now : When::when_used](const CellKernel& kernel) {
         kernels.identify(kernel);
         if (runs_meanwhile()) {
             KernelPointer begun = stepper->begin(kernel, grid.stencil(), when);
@@ -30,7 +32,8 @@ Compile Simulation::Implementation::compiled(std::uint32_t k, StepKernels& kerne
 
 void Simulation::Implementation::warn_of_refused(RunControl& control) {
     for (auto& [k, kernels] : unsettled) kernels.warn_of_refused(control);
-    std::erase_if(unsettled, [](const auto& of_stage) { return !of_stage.second.is_provisional(); });
+    std::erase_if(unsettled,
+                  [](const auto& of_stage) { return !of_stage.second.is_provisional(); });
 }
 
 void Simulation::settle(RunControl& control) {

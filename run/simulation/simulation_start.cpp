@@ -28,9 +28,9 @@ std::vector<Formula> written_areas(const Program& program) {
                 area.nodes.push_back(formula->nodes[node.operands[k]]);
                 call.operands[k] = k;
             }
-            const bool is_known = std::all_of(area.nodes.begin(), area.nodes.end(), [](const Node& number) {
-                return number.kind == NodeKind::number;
-            });
+            const bool is_known =
+                std::all_of(area.nodes.begin(), area.nodes.end(),
+                            [](const Node& number) { return number.kind == NodeKind::number; });
             const bool is_new = std::none_of(areas.begin(), areas.end(), [&](const Formula& other) {
                 return other.nodes.back().span == call.span;
             });
@@ -59,12 +59,14 @@ Result<void> Simulation::Implementation::make_cells(const SimulationOptions& opt
     auto made = make_model_cells(*program, access, makers, control);
     if (control.cancel) return failure("stopped while the cells of the model were made");
     if (!made) {
-        script->diagnostics.error(program->domain.model->span, made.error().message, made.error().hint);
+        script->diagnostics.error(program->domain.model->span, made.error().message,
+                                  made.error().hint);
         return failure("the model cannot be used");
     }
     model = std::move(*made);
     if (control.warn) {
-        for (const std::string& repair : model->repairs) control.warn("the model was repaired: " + repair);
+        for (const std::string& repair : model->repairs)
+            control.warn("the model was repaired: " + repair);
     }
     grid = model->grid;
     return {};
@@ -74,7 +76,8 @@ Result<void> Simulation::Implementation::make_surface_values(const SimulationOpt
     if (!model) return {};
     const TimeAccount::Scope spent(account, Spent::cells);
     RunControl nobody;
-    const std::atomic<bool>& cancel = (options.control != nullptr ? *options.control : nobody).cancel;
+    const std::atomic<bool>& cancel =
+        (options.control != nullptr ? *options.control : nobody).cancel;
     surface_values = std::make_unique<SurfaceValues>(*program, *model, *team);
     surface_values->make(formulas_of(*program), cancel);
     if (cancel) return failure("stopped while distances on the model were found");
@@ -156,16 +159,18 @@ Result<void> Simulation::Implementation::find_sides(std::uint32_t k) {
         const auto species = static_cast<std::uint32_t>(found.size());
         SideRules rules;
         rules.spacing = grid.spacing;
-        for (std::size_t side = 0; side < side_count; ++side) rules.at[side].kind = settings[side].kind;
+        for (std::size_t side = 0; side < side_count; ++side)
+            rules.at[side].kind = settings[side].kind;
         for (std::size_t side = 0; side < side_count; ++side) {
             SideRule& rule = rules.at[side];
             if (!rule.has_value()) continue;
             const SidePlans value = plan_side(*program, settings[side], static_cast<Side>(side), k);
             if (is_sheared_at(static_cast<Side>(side), rule.kind)) {
                 return failure(
-                    fmt::format("stage '{}': {} has a flux at the side {}, where the surface is sheared",
-                                stage(k).name, species_name(program->system_of(k), species),
-                                side_names[side]),
+                    fmt::format(
+                        "stage '{}': {} has a flux at the side {}, where the surface is sheared",
+                        stage(k).name, species_name(program->system_of(k), species),
+                        side_names[side]),
                     "a flux needs rows and columns that meet at right angles; fixed(…) does not");
             }
             if (value.changes) {

@@ -167,8 +167,8 @@ void Simulation::Implementation::warn_of_even_pictures(const RunControl& control
     files.each_of(SlotSource::Kind::image, [&](std::uint32_t text, const Field& plane) {
         const FieldMoments levels = moments(plane);
         if (levels.deviation > one_level) return;
-        control.warn(fmt::format("image(\"{}\") is {:.4g} in all cells{}", program->literals->texts()[text],
-                                 levels.mean,
+        control.warn(fmt::format("image(\"{}\") is {:.4g} in all cells{}",
+                                 program->literals->texts()[text], levels.mean,
                                  levels.mean > 1 - one_level
                                      ? ": is it all transparent? What is transparent lies on white"
                                      : ""));

@@ -8,7 +8,8 @@ StepWork Simulation::step_work(std::uint32_t k) {
     CHECK(self.states[k].started, "a stage is started before its steps are counted");
     KnownKernels kernels;
     // Nothing is run, so nothing need be compiled.
-    const Compile note = [&kernels, interpret = self.interpreted(self.grid)](const CellKernel& kernel) {
+    const Compile note = [&kernels,
+                          interpret = self.interpreted(self.grid)](const CellKernel& kernel) {
         KernelPointer made = interpret(kernel);
         kernels.emplace(made.get(), kernel);
         return made;

@@ -25,7 +25,8 @@ std::vector<double> strip_of(const Field& field, Side side) {
 
 ChangingSide bind_side(const SidePlans& plans, std::uint32_t species, Side side,
                        const Compile& compile, const BindingContext& context, Team& team) {
-    const std::vector<Field> step_invariants = run_plan(plans.once, compile, context, context.grid, team);
+    const std::vector<Field> step_invariants =
+        run_plan(plans.once, compile, context, context.grid, team);
     CHECK(plans.each.passes.size() == 1, "a side's value takes one pass");
     const BoundKernel& bound = plans.each.passes[0].bound;
     ChangingSide changing;
@@ -34,8 +35,9 @@ ChangingSide bind_side(const SidePlans& plans, std::uint32_t species, Side side,
     changing.kernel = compile(bound.kernel);
     changing.precision = context.precision;
     for (const SlotSource& source : bound.fields) {
-        const Field& plane = source.kind == SlotSource::Kind::step_invariant ? step_invariants[source.item]
-                                                                      : plane_of(source, context);
+        const Field& plane = source.kind == SlotSource::Kind::step_invariant
+                                 ? step_invariants[source.item]
+                                 : plane_of(source, context);
         changing.strips.push_back(strip_of(plane, side));
     }
     for (const SlotSource& source : bound.uniforms) {
@@ -45,7 +47,9 @@ ChangingSide bind_side(const SidePlans& plans, std::uint32_t species, Side side,
             case SlotSource::Kind::item:
                 value = context.states[source.stage].numbers[source.item];
                 break;
-            case SlotSource::Kind::step_invariant: value = step_invariants[source.item].number_at(0, 0); break;
+            case SlotSource::Kind::step_invariant:
+                value = step_invariants[source.item].number_at(0, 0);
+                break;
             case SlotSource::Kind::time: changing.time_slot = slot; break;
             case SlotSource::Kind::step: changing.step_slot = slot; break;
             default: CHECK(false, "a side's value knows numbers, t and step");

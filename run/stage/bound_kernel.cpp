@@ -111,8 +111,8 @@ private:
             plane.kind = PlaneRef::Kind::species;
             plane.number =
                 static_cast<std::uint32_t>(context_.states[stage_].species_of_item[source.item]);
-            plane.in_register = source.stage == 0 ? register_of(plane.number)
-                                                  : sweep_->inputs[source.stage];
+            plane.in_register =
+                source.stage == 0 ? register_of(plane.number) : sweep_->inputs[source.stage];
         } else {
             plane.cells = plane_of(source, context_).address();
         }
@@ -186,8 +186,12 @@ private:
             case SlotSource::Kind::step_invariant:
                 value = context_.states[source.stage].step_invariant_numbers[source.item];
                 break;
-            case SlotSource::Kind::step: bound.changing.push_back({Kind::step, slot, 0, 0, false}); break;
-            case SlotSource::Kind::draw: bound.changing.push_back({Kind::draw, slot, 0, 0, false}); break;
+            case SlotSource::Kind::step:
+                bound.changing.push_back({Kind::step, slot, 0, 0, false});
+                break;
+            case SlotSource::Kind::draw:
+                bound.changing.push_back({Kind::draw, slot, 0, 0, false});
+                break;
             case SlotSource::Kind::aggregate:
                 bound.changing.push_back({Kind::aggregate, slot, source.item, 0, false});
                 break;
@@ -240,7 +244,7 @@ private:
     const BindingContext& context_;
     const System* system_;  ///< None: no species is a register.
     std::uint32_t stage_;
-    const SweepForm* form_;   ///< Of a sweep; none for a plan that is no part of a scheme.
+    const SweepForm* form_;  ///< Of a sweep; none for a plan that is no part of a scheme.
     const Sweep* sweep_;
     std::vector<double> read_at_;  ///< When rates read each output of the sweep.
     StepProblem problem_;
@@ -286,7 +290,8 @@ std::vector<double> moments_of_outputs(const Scheme& scheme, std::size_t number)
             return std::find(sweep.outputs.begin(), sweep.outputs.end(), output) !=
                    sweep.outputs.end();
         };
-        const bool stays = output == new_register && std::none_of(later.begin(), later.end(), writes);
+        const bool stays =
+            output == new_register && std::none_of(later.begin(), later.end(), writes);
         const auto reader = std::find_if(later.begin(), later.end(), reads);
         moments.push_back(stays || reader == later.end() ? StepProblem::Result::next_step
                                                          : reader->time);
@@ -302,8 +307,8 @@ StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const Bindin
 }
 
 StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
-                        const StepPlan& before, const Compile& compile, const BindingContext& context,
-                        const System& system, std::uint32_t stage) {
+                        const StepPlan& before, const Compile& compile,
+                        const BindingContext& context, const System& system, std::uint32_t stage) {
     std::vector<Binder> binders;
     StepProblem whole;
     whole.grid = context.grid;
@@ -318,8 +323,8 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     std::vector<const Sweep*> sweeps;
     const auto add = [&](const StepPlan& plan, const SweepForm* form, const Sweep* sweep,
                          std::vector<double> read_at) {
-        Binder& binder = binders.emplace_back(plan, context, &system, stage, form, sweep,
-                                              std::move(read_at));
+        Binder& binder =
+            binders.emplace_back(plan, context, &system, stage, form, sweep, std::move(read_at));
         sweeps.push_back(sweep);
         for (std::size_t k = 0; k < whole.species_needs_halo.size(); ++k) {
             if (binder.species_needs_halo()[k]) whole.species_needs_halo[k] = true;

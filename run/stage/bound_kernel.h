@@ -23,13 +23,13 @@ namespace cascade {
 struct BindingContext {
     std::span<const StageState> states;
     const InputFiles& files;
-    std::int64_t steps = 0;   ///< Complete steps of the stage the kernel belongs to.
+    std::int64_t steps = 0;  ///< Complete steps of the stage the kernel belongs to.
     Grid grid;
     Precision precision = Precision::single;
-    double t = 0;             ///< Its time.
-    std::span<const Field> metric = {};  ///< By MetricPlane; empty without a surface.
-    const ModelCells* model = nullptr;   ///< None on grids.
-    const DomainMask* mask = nullptr;    ///< None where all cells belong to the domain.
+    double t = 0;                             ///< Its time.
+    std::span<const Field> metric = {};       ///< By MetricPlane; empty without a surface.
+    const ModelCells* model = nullptr;        ///< None on grids.
+    const DomainMask* mask = nullptr;         ///< None where all cells belong to the domain.
     SurfaceValues* surface_values = nullptr;  ///< Of a model.
 };
 
@@ -39,19 +39,19 @@ const Field& plane_of(const SlotSource& source, const BindingContext& context);
 /// Makes a kernel runnable.
 using Compile = std::function<KernelPointer(const CellKernel&)>;
 
-/// The passes of a plan with all their slots. Species of `stage` are those of register 0 and results
-/// go to register 1, in order; planes that do not change have their halo filled here.
+/// The passes of a plan with all their slots. Species of `stage` are those of register 0 and
+/// results go to register 1, in order; planes that do not change have their halo filled here.
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context,
                       const System& system, std::uint32_t stage);
 
 /// The passes of all sweeps of a scheme; `plans` are those of its forms (plan_sweep). Those of
 /// `before`, which may have none, come first: they write temporaries alone.
 StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
-                        const StepPlan& before, const Compile& compile, const BindingContext& context,
-                        const System& system, std::uint32_t stage);
+                        const StepPlan& before, const Compile& compile,
+                        const BindingContext& context, const System& system, std::uint32_t stage);
 
-/// The passes of a plan that is no part of a stage's steps: no species is a register of it, and results go to
-/// register 1.
+/// The passes of a plan that is no part of a stage's steps: no species is a register of it, and
+/// results go to register 1.
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context);
 
 /// The name of species number `species`.

@@ -44,8 +44,9 @@ void KeptTilings::keep(const std::string& key, const Tiling& tiling) {
 
 std::string text_of(const FoundTiling& found) {
     const Tiling& tiling = found.tiling;
-    return fmt::format("{} {} {} {} {:d} {:d} {:d}", tiling.levels, tiling.outer_layer, tiling.inner_layer,
-                       tiling.inner_bands, tiling.is_near, tiling.along == Tiling::Along::rows, found.is_sure);
+    return fmt::format("{} {} {} {} {:d} {:d} {:d}", tiling.levels, tiling.outer_layer,
+                       tiling.inner_layer, tiling.inner_bands, tiling.is_near,
+                       tiling.along == Tiling::Along::rows, found.is_sure);
 }
 
 std::optional<FoundTiling> found_tiling_of(const std::string& text) {
@@ -63,13 +64,15 @@ std::optional<FoundTiling> found_tiling_of(const std::string& text) {
 StageTilings::StageTilings(KeptTilings& tilings, const StepProblem& problem, std::uint64_t kernels)
     : tilings_(tilings) {
     const Grid& grid = problem.grid;
-    key_ = fmt::format("{}{:016x}, {} passes, {}x{}x{}{}, {} bytes, wraps {:d}{:d}", tilings.machine(),
-                       kernels, problem.passes.size(), grid.width, grid.height, grid.depth,
-                       grid.linked ? " linked" : "", bytes_of_step(problem), wraps(problem, Side::top),
-                       wraps(problem, Side::front));
+    key_ = fmt::format("{}{:016x}, {} passes, {}x{}x{}{}, {} bytes, wraps {:d}{:d}",
+                       tilings.machine(), kernels, problem.passes.size(), grid.width, grid.height,
+                       grid.depth, grid.linked ? " linked" : "", bytes_of_step(problem),
+                       wraps(problem, Side::top), wraps(problem, Side::front));
 }
 
-std::string StageTilings::key(int threads) const { return fmt::format("{}, {} threads", key_, threads); }
+std::string StageTilings::key(int threads) const {
+    return fmt::format("{}, {} threads", key_, threads);
+}
 
 std::optional<Tiling> StageTilings::find(int threads) { return tilings_.find(key(threads)); }
 

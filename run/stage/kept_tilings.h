@@ -1,8 +1,9 @@
-// What runs found out about tilings, kept for later stages of the process and, beside compiled kernels, on
-// disk for later processes.
+// What runs found out about tilings, kept for later stages of the process and, beside compiled
+// kernels, on disk for later processes.
 //
-// A tiling is found again by all that decides how fast it is: this build, the processor, its caches, the
-// kernels of the steps, the grid and the number of threads. No result depends on what is found.
+// A tiling is found again by all that decides how fast it is: this build, the processor, its
+// caches, the kernels of the steps, the grid and the number of threads. No result depends on what
+// is found.
 #pragma once
 
 #include "core/kept_files.h"
@@ -23,8 +24,8 @@ struct FoundTiling {
 
 class KeptTilings {
 public:
-    /// Without a folder, or where `code`, all that decides code besides kernels, is not known and empty,
-    /// nothing is kept on disk.
+    /// Without a folder, or where `code`, all that decides code besides kernels, is not known and
+    /// empty, nothing is kept on disk.
     KeptTilings(const std::filesystem::path& folder, std::string code);
 
     /// What was kept twice in a row, by this process or others.

@@ -13,7 +13,8 @@ std::filesystem::path usual_kernel_cache() {
     const auto in_folder = [](const std::filesystem::path& folder) {
         // The specification: what is relative is to be ignored.
         const std::filesystem::path kernels = folder / "cascade" / "kernels";
-        return folder.is_absolute() && may_keep_files_in(kernels) ? kernels : std::filesystem::path();
+        return folder.is_absolute() && may_keep_files_in(kernels) ? kernels
+                                                                  : std::filesystem::path();
     };
     const char* caches = variable("XDG_CACHE_HOME");
     if (caches && *caches) return in_folder(caches);

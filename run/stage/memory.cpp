@@ -49,7 +49,8 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
     Schedule schedule;
     schedule.judges_all = judges_all_steps(stage);
     const bool keeps = keeps_copy(schedule, species, grid, program.domain.precision);
-    std::uint64_t planes = temporaries + std::uint64_t{scheme.registers - (keeps ? 0 : 1)} * species;
+    std::uint64_t planes =
+        temporaries + std::uint64_t{scheme.registers - (keeps ? 0 : 1)} * species;
     if (!is_semi_implicit(stage.time.solver)) return planes;
     // Factors of diffusion that change are written to planes.
     for (const SpeciesDiffusion& diffusion : diffusion_of(program, k)) {
@@ -60,14 +61,15 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
     return planes;
 }
 
-/// The elements of a plane and of those of the coarser grids that live beside it: of the one that is
-/// run and of the one before it.
+/// The elements of a plane and of those of the coarser grids that live beside it: of the one that
+/// is run and of the one before it.
 std::int64_t plane_size(const Program& program, const Grid& grid) {
     std::int64_t size = PlaneLayout(grid).size(), coarse = 0;
     for (const Stage& stage : program.stages) {
         if (stage.time.coarse == 1) continue;
-        const std::int64_t pair = PlaneLayout(coarser(grid, 2)).size() +
-                                  (stage.time.coarse > 2 ? PlaneLayout(coarser(grid, 4)).size() : 0);
+        const std::int64_t pair =
+            PlaneLayout(coarser(grid, 2)).size() +
+            (stage.time.coarse > 2 ? PlaneLayout(coarser(grid, 4)).size() : 0);
         coarse = std::max(coarse, pair);
     }
     return size + coarse;
@@ -75,10 +77,12 @@ std::int64_t plane_size(const Program& program, const Grid& grid) {
 
 /// Planes that choosing steps and stages takes for a moment: what bounds are computed in, or an
 /// eigenvalue is estimated with (two planes of each species and four vectors in double precision).
-std::uint64_t planes_to_choose(const Program& program, std::uint32_t stage, const ModelFacts* model) {
+std::uint64_t planes_to_choose(const Program& program, std::uint32_t stage,
+                               const ModelFacts* model) {
     if (program.domain.model && model == nullptr) return 0;
     const StageTime& time = program.stages[stage].time;
-    if (!is_stabilised(time.solver) && !(time.automatic_speed && !is_adaptive(time.solver))) return 0;
+    if (!is_stabilised(time.solver) && !(time.automatic_speed && !is_adaptive(time.solver)))
+        return 0;
     const auto bound = jacobian_bound(program, stage, model);
     if (!bound) return std::uint64_t{10} * program.system_of(stage).species_count();
     const Formula* const formulas[] = {&bound->whole, &bound->reaction};
@@ -95,8 +99,8 @@ double memory_of(const Program& program) {
 
 double memory_of(const Program& program, StagePlans& plans, const ModelFacts* model) {
     const Grid& grid = model ? model->grid : program.domain.grid;
-    // Every species, its last look at whether it has settled, and every varying parameter, of all stages:
-    // later stages and pictures may read any of them.
+    // Every species, its last look at whether it has settled, and every varying parameter, of all
+    // stages: later stages and pictures may read any of them.
     std::uint64_t planes = 4;
     for (const Stage& stage : program.stages) {
         const System& system = program.systems[stage.system];

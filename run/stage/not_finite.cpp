@@ -15,11 +15,12 @@ namespace {
 /// What has grown without bound has passed this before it is infinite.
 constexpr double most_that_is_sane = 1e4;
 
-/// The smaller of the limits at both states; empty where neither has one. A state that has grown far
-/// beyond the starting values is spoiled, and looks stiff whatever the reaction is.
+/// The smaller of the limits at both states; empty where neither has one. A state that has grown
+/// far beyond the starting values is spoiled, and looks stiff whatever the reaction is.
 std::optional<double> limit(const NotFiniteReport& report) {
     const auto start = longest_step(report.estimate_at_start, report.use);
-    const bool is_spoiled = report.largest_before.value_or(0) > 100 * std::max(1.0, report.largest_at_start);
+    const bool is_spoiled =
+        report.largest_before.value_or(0) > 100 * std::max(1.0, report.largest_at_start);
     if (is_spoiled) return start;
     const auto before = longest_step(report.estimate_before, report.use);
     if (start && before) return std::min(*start, *before);
@@ -30,7 +31,8 @@ std::optional<double> limit(const NotFiniteReport& report) {
 /// so, or only such steps.
 std::string advice_for_growth(const StepInUse& use) {
     if (is_adaptive(use.solver)) return "the reaction itself grows without bound here";
-    return "either the reaction itself grows without bound here, or steps are too long to follow it; "
+    return "either the reaction itself grows without bound here, or steps are too long to follow "
+           "it; "
            "'solver: rk23' finds out, whose steps are as long as their error allows";
 }
 
@@ -64,22 +66,26 @@ Failure describe(const NotFiniteReport& report) {
         report.found.is_exact()
             ? fmt::format("after step {}", report.found.step)
             : fmt::format("between steps {} and {}", report.found.last_finite, report.found.step);
-    failure.message = fmt::format("stage '{}' ({}): {} is not finite any more at {}, {}", report.stage,
-                                  report.system, report.species, report.place, when);
+    failure.message = fmt::format("stage '{}' ({}): {} is not finite any more at {}, {}",
+                                  report.stage, report.system, report.species, report.place, when);
     const StepInUse& use = report.use;
     if (is_semi_implicit(use.solver)) {
-        failure.hint = fmt::format("{} takes diffusion alone for a step of any length, the reaction not; "
-                                   "try 'speed: {:.2g}'", name_of(use.solver), use.speed / 2);
+        failure.hint = fmt::format(
+            "{} takes diffusion alone for a step of any length, the reaction not; "
+            "try 'speed: {:.2g}'",
+            name_of(use.solver), use.speed / 2);
         return failure;
     }
     const auto largest = limit(report);
     if (largest && is_too_long(use, *largest)) {
         failure.hint = advise(*largest, use);
     } else if (!report.largest_before) {
-        failure.hint = "a smaller grid needs no memory to be spared, so it tells which step it was and why";
+        failure.hint =
+            "a smaller grid needs no memory to be spared, so it tells which step it was and why";
     } else if (*report.largest_before < most_that_is_sane) {
         failure.hint = fmt::format(
-            "no value was above {:.3g} before that step: look for a division by zero, or a logarithm "
+            "no value was above {:.3g} before that step: look for a division by zero, or a "
+            "logarithm "
             "or root of a negative number, in its rate or in a parameter",
             *report.largest_before);
     } else {

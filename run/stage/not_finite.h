@@ -16,7 +16,7 @@ namespace cascade {
 struct NotFiniteReport {
     std::string stage, system, species;
     NotFinite found;
-    std::string place;                     ///< Of the cell, in words.
+    std::string place;  ///< Of the cell, in words.
     StepInUse use;
     // Only of what was kept:
     std::optional<double> largest_before;  ///< Magnitude of any value before that step.

@@ -11,8 +11,8 @@
 
 namespace cascade {
 
-/// Runs a plan again and again. Its planes are made by the first run and used by all: fresh memory would
-/// cost more than the work.
+/// Runs a plan again and again. Its planes are made by the first run and used by all: fresh memory
+/// would cost more than the work.
 class PlanRunner {
 public:
     PlanRunner(StepPlan plan, Compile compile);

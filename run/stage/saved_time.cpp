@@ -21,7 +21,8 @@ bool makes_sense(const Formation& formation) {
            is_length(formation.speed);
 }
 
-/// Stages of a stabilised solver are odd; steps of others on models are split into any number of parts.
+/// Stages of a stabilised solver are odd; steps of others on models are split into any number of
+/// parts.
 bool makes_sense(std::uint32_t stages, Solver solver) {
     if (!is_stabilised(solver)) return stages <= most_substeps;
     return stages <= most_stages && (stages == 0 || stages % 2 == 1);
@@ -37,8 +38,8 @@ bool makes_sense(const SavedTime& saved, Solver solver) {
     const StepControl::State& control = saved.state.control;
     return is_length(saved.t) && is_length(clock.base_time) && is_length(clock.step) &&
            clock.base_step >= 0 && is_length(control.step) && is_length(control.error_before) &&
-           control.error_before > 0 && makes_sense(saved.state.stages, solver) && makes_sense(saved.state) &&
-           (!saved.last_look || is_length(*saved.last_look)) &&
+           control.error_before > 0 && makes_sense(saved.state.stages, solver) &&
+           makes_sense(saved.state) && (!saved.last_look || is_length(*saved.last_look)) &&
            std::all_of(saved.formations.begin(), saved.formations.end(),
                        [](const Formation& formation) { return makes_sense(formation); });
 }

@@ -19,7 +19,8 @@ struct SavedTime {
 
 nlohmann::json to_json(const StageState& state);
 
-/// Of a stage with this solver. Throws what the JSON library throws; empty where a number cannot be meant.
+/// Of a stage with this solver. Throws what the JSON library throws; empty where a number cannot be
+/// meant.
 std::optional<SavedTime> saved_time_from(const nlohmann::json& json, Solver solver);
 
 }  // namespace cascade

@@ -15,10 +15,10 @@ constexpr std::size_t most_moments = 40;
 /// Rows are left out where there are more cells.
 constexpr std::int64_t most_cells = 1 << 15;
 
-/// A pattern is growing where deviation and range of every species have risen from tenth to tenth over
-/// the last three tenths of its age, over the last one by this part at least: going on for as long
-/// again would make it half as strong again, or more. Fronts that fill a plane and patterns that
-/// coarsen keep their range; waves and pulses do not rise in all species for so long.
+/// A pattern is growing where deviation and range of every species have risen from tenth to tenth
+/// over the last three tenths of its age, over the last one by this part at least: going on for as
+/// long again would make it half as strong again, or more. Fronts that fill a plane and patterns
+/// that coarsen keep their range; waves and pulses do not rise in all species for so long.
 constexpr double least_growth = 0.05;
 
 /// A pattern is fading where the deviation of each species is at most this part of the largest
@@ -64,15 +64,18 @@ void StageCourse::look(std::int64_t step, double age, std::span<const Field> spe
     if (moments_.size() >= most_moments) {
         // The first one stays: it is how the stage began.
         std::size_t kept = 1;
-        for (std::size_t k = 2; k < moments_.size(); k += 2) moments_[kept++] = std::move(moments_[k]);
+        for (std::size_t k = 2; k < moments_.size(); k += 2)
+            moments_[kept++] = std::move(moments_[k]);
         moments_.resize(kept);
-        steps_between_ = std::max<std::int64_t>(1, step / static_cast<std::int64_t>(most_moments / 2));
+        steps_between_ =
+            std::max<std::int64_t>(1, step / static_cast<std::int64_t>(most_moments / 2));
     }
     const PlaneLayout& layout = species[0].layout();
     const std::int64_t every_row =
         std::max<std::int64_t>(1, layout.width * layout.row_count() / most_cells);
     Moment moment{step, age, {}, false};
-    for (const Field& field : species) moment.species.push_back(spread_of(field, inside, every_row));
+    for (const Field& field : species)
+        moment.species.push_back(spread_of(field, inside, every_row));
     moment.is_even = are_even(moment.species);
     // Something small may stand between the rows.
     if (moment.is_even && every_row > 1) {
@@ -101,7 +104,8 @@ double StageCourse::greatest_contrast() const {
     double greatest = 0;
     for (std::size_t k = 0; k < last().species.size(); ++k) {
         const double magnitude = largest_seen(k, &Spread::magnitude);
-        if (magnitude > 0) greatest = std::max(greatest, largest_seen(k, &Spread::deviation) / magnitude);
+        if (magnitude > 0)
+            greatest = std::max(greatest, largest_seen(k, &Spread::deviation) / magnitude);
     }
     return greatest;
 }
@@ -109,9 +113,10 @@ double StageCourse::greatest_contrast() const {
 /// The moment nearest to a part of the present age.
 const Moment& StageCourse::at_age(double part) const {
     const double age = part * last().age;
-    return *std::min_element(moments_.begin(), moments_.end(), [&](const Moment& a, const Moment& b) {
-        return std::abs(a.age - age) < std::abs(b.age - age);
-    });
+    return *std::min_element(moments_.begin(), moments_.end(),
+                             [&](const Moment& a, const Moment& b) {
+                                 return std::abs(a.age - age) < std::abs(b.age - age);
+                             });
 }
 
 double StageCourse::growth(std::size_t species) const {

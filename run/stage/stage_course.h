@@ -21,20 +21,21 @@ struct Moment {
 
 /// How the pattern of a stage changes at its end.
 enum class Trend {
-    none,      ///< Neither of the two below.
-    growing,   ///< Its amplitude rises in every species; going on would make it another picture.
-    fading,    ///< A small rest of what has been there still falls.
+    none,     ///< Neither of the two below.
+    growing,  ///< Its amplitude rises in every species; going on would make it another picture.
+    fading,   ///< A small rest of what has been there still falls.
 };
 
-/// Remembers a few moments of a stage, more or less evenly over its steps. Keeps numbers only, so it
-/// costs no planes; the rows looked at have some ten thousand cells at most, so it costs no time.
+/// Remembers a few moments of a stage, more or less evenly over its steps. Keeps numbers only, so
+/// it costs no planes; the rows looked at have some ten thousand cells at most, so it costs no
+/// time.
 class StageCourse {
 public:
     bool empty() const { return moments_.empty(); }
     /// Is it time for another moment?
     bool is_due(std::int64_t step) const;
-    /// Adds a moment, or replaces the last one if that was at the same step. With `inside` the cells
-    /// count where it is not 0.
+    /// Adds a moment, or replaces the last one if that was at the same step. With `inside` the
+    /// cells count where it is not 0.
     void look(std::int64_t step, double age, std::span<const Field> species, const Mask* inside);
 
     const Moment& first() const { return moments_.front(); }
@@ -47,8 +48,8 @@ public:
     double greatest_contrast() const;
 
     Trend trend() const;
-    /// Of a growing pattern: by which part the deviation of a species rose over the last tenth of the
-    /// stage's age.
+    /// Of a growing pattern: by which part the deviation of a species rose over the last tenth of
+    /// the stage's age.
     double growth(std::size_t species) const;
 
 private:

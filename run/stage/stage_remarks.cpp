@@ -15,8 +15,8 @@ namespace {
 
 /// Of more species than these the first are named.
 constexpr std::size_t most_named = 4;
-/// A stage whose cells once differed by this part of a species' largest value had a pattern, and not
-/// just noise to grow one from.
+/// A stage whose cells once differed by this part of a species' largest value had a pattern, and
+/// not just noise to grow one from.
 constexpr double contrast_of_a_pattern = 0.05;
 
 /// "u = 1, v = 0".
@@ -33,14 +33,17 @@ std::string describe_even(const Stage& stage, const System& system, const StageC
     const std::string values = values_of(system, course.last());
     const Moment& since = course.even_since();
     bool is_the_same = true;
-    for (const Spread& spread : course.last().species) is_the_same = is_the_same && spread.squares == 0;
+    for (const Spread& spread : course.last().species)
+        is_the_same = is_the_same && spread.squares == 0;
     bool parameters_are = true;
     for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
         parameters_are = parameters_are && (system.is_species(item) || stage.uniform[item]);
     }
     if (since.step == course.first().step && is_the_same && parameters_are) {
-        return fmt::format("ended even ({}): nothing tells one cell from another; noise or a spot in "
-                           "a starting value would", values);
+        return fmt::format(
+            "ended even ({}): nothing tells one cell from another; noise or a spot in "
+            "a starting value would",
+            values);
     }
     const std::string step = with_commas(since.step);
     if (since.step == course.first().step) {
@@ -49,8 +52,10 @@ std::string describe_even(const Stage& stage, const System& system, const StageC
     if (course.greatest_contrast() >= contrast_of_a_pattern) {
         return fmt::format("died out: it is even since step {} or before ({})", step, values);
     }
-    return fmt::format("ended even ({}): the differences it began with faded, and nothing has grown; "
-                       "it is even since step {} or before", values, step);
+    return fmt::format(
+        "ended even ({}): the differences it began with faded, and nothing has grown; "
+        "it is even since step {} or before",
+        values, step);
 }
 
 /// The part of the cells in which a mask is 1.
@@ -83,10 +88,10 @@ std::string describe_growth(const System& system, const StageCourse& course) {
         fastest = k;
         growth = course.growth(k);
     }
-    return fmt::format("was still growing when it ended: the deviation of {} rose by {:.0f} % in the "
-                       "last tenth, to {:.2g}; with more steps it becomes another picture",
-                       species_name(system, fastest), 100 * growth,
-                       course.last().species[fastest].deviation());
+    return fmt::format(
+        "was still growing when it ended: the deviation of {} rose by {:.0f} % in the "
+        "last tenth, to {:.2g}; with more steps it becomes another picture",
+        species_name(system, fastest), 100 * growth, course.last().species[fastest].deviation());
 }
 
 std::string describe_fading(const System& system, const StageCourse& course) {

@@ -18,24 +18,25 @@ namespace cascade {
 /// Values of one stage's items.
 struct StageState {
     bool started = false;
-    bool done = false;                  ///< All its steps are taken, or it has ended before.
-    bool condition_met = false;         ///< Its `until` has ended it.
-    std::int64_t steps = 0;             ///< Complete steps.
-    double t = 0;                       ///< The time then; 0 where speed varies by cell.
-    TimeState time;                     ///< What steps of other lengths go on from.
-    SteadyWatch watch;                  ///< The last look of `until: steady(…)`.
-    StageCourse course;                 ///< Since it began, or went on from a saved run.
-    std::vector<double> numbers;        ///< Of the run's precision, per item; meaningful where it is uniform.
-    std::vector<Field> fields;          ///< Per item; empty where uniform, and for species.
-    std::vector<Field> species;         ///< In order of the species' items.
-    std::vector<int> species_of_item;   ///< Per item; −1 for parameters.
-    Mask frozen;                        ///< Only where `frozen` varies.
+    bool done = false;           ///< All its steps are taken, or it has ended before.
+    bool condition_met = false;  ///< Its `until` has ended it.
+    std::int64_t steps = 0;      ///< Complete steps.
+    double t = 0;                ///< The time then; 0 where speed varies by cell.
+    TimeState time;              ///< What steps of other lengths go on from.
+    SteadyWatch watch;           ///< The last look of `until: steady(…)`.
+    StageCourse course;          ///< Since it began, or went on from a saved run.
+    std::vector<double>
+        numbers;  ///< Of the run's precision, per item; meaningful where it is uniform.
+    std::vector<Field> fields;         ///< Per item; empty where uniform, and for species.
+    std::vector<Field> species;        ///< In order of the species' items.
+    std::vector<int> species_of_item;  ///< Per item; −1 for parameters.
+    Mask frozen;                       ///< Only where `frozen` varies.
     /// What no step changes, while steps are taken (plan_step_invariants): planes where it varies …
     std::vector<Field> step_invariants;
-    std::vector<double> step_invariant_numbers; ///< … and numbers where it does not.
+    std::vector<double> step_invariant_numbers;         ///< … and numbers where it does not.
     std::vector<Boundaries> step_invariant_boundaries;  ///< How the halo of each plane is filled.
-    std::vector<SideRules> sides;       ///< By species; empty where the boundary holds for all.
-    std::vector<Field> side_values;     ///< What the rules of sides point to.
+    std::vector<SideRules> sides;    ///< By species; empty where the boundary holds for all.
+    std::vector<Field> side_values;  ///< What the rules of sides point to.
     std::vector<ChangingSide> changing_sides;  ///< Those with values that change with time.
 
     /// The plane of an item that varies (a species or a varying parameter).
@@ -48,8 +49,8 @@ struct StageState {
 /// A state with room for all items of a system, without a plane of any.
 StageState empty_state(const System& system);
 
-/// How far a stage has come: "step 300 of 7000", "step 312, t = 4.5 of 30", or "step 312" where only
-/// `until` ends it.
+/// How far a stage has come: "step 300 of 7000", "step 312, t = 4.5 of 30", or "step 312" where
+/// only `until` ends it.
 std::string describe_place(const Stage& stage, const StageState& state);
 
 }  // namespace cascade

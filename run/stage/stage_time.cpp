@@ -23,7 +23,8 @@ constexpr double most_of_duration = 0.05, most_of_duration_without_bound = 0.001
 constexpr double first_part = 0.25;
 /// Steps of so much of Euler's longest, and of the duration, gain nothing from being shorter.
 constexpr double least_part = 0.01, least_of_duration = 1e-6;
-/// Explicit steps are cheap beside the estimate of their error, which is made of one in so many at most,
+/// Explicit steps are cheap beside the estimate of their error, which is made of one in so many at
+/// most,
 constexpr std::int64_t most_stretch = 64, most_stretch_with_jumps = 8;
 /// and so often in the stage's time; more often where bounds or errors change.
 constexpr double stretches_of_duration = 50;
@@ -41,14 +42,14 @@ bool steps_by_item(const Stage& stage) {
 }
 
 bool judges_all_steps(const Stage& stage) {
-    return stage.time.chooses_steps() && (is_adaptive(stage.time.solver) || takes_long_steps(stage.time.solver));
+    return stage.time.chooses_steps() &&
+           (is_adaptive(stage.time.solver) || takes_long_steps(stage.time.solver));
 }
 
 double duration_of(const Stage& stage, const System& system, const StageState& state) {
     if (stage.time.duration) return *stage.time.duration;
     if (!stage.time.duration_in_steps) return std::numeric_limits<double>::infinity();
-    return static_cast<double>(*stage.time.duration_in_steps) *
-           state.numbers[system.speed_item()];
+    return static_cast<double>(*stage.time.duration_in_steps) * state.numbers[system.speed_item()];
 }
 
 StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& state,
@@ -108,13 +109,13 @@ void StageTimer::set_first_step() {
     }
 }
 
-/// Cells of a model have links of different weights, and the largest decide which steps are stable: a
-/// script that is stable on the plane has to be so there. Explicit Euler is stable up to 2 over the largest
-/// eigenvalue.
+/// Cells of a model have links of different weights, and the largest decide which steps are stable:
+/// a script that is stable on the plane has to be so there. Explicit Euler is stable up to 2 over
+/// the largest eigenvalue.
 std::uint32_t StageTimer::substeps(const Program& program, std::uint32_t stage) const {
     constexpr double safety = 0.95;
-    const bool is_split = stage_.time.solver == Solver::euler && !stage_.time.automatic_speed &&
-                          uniform_speed_;
+    const bool is_split =
+        stage_.time.solver == Solver::euler && !stage_.time.automatic_speed && uniform_speed_;
     if (!is_split) return state_.time.stages;
     double decay = 0;
     if (const auto bound = jacobian_bound(program, stage, tools_.model)) {
@@ -136,8 +137,9 @@ const StepProblem& StageTimer::problem_of(std::uint32_t stages, bool is_judged) 
     const auto known = problems_.find(key);
     if (known != problems_.end()) return known->second;
     const bool is_split = stage_.time.solver == Solver::euler && stages > 1;
-    Scheme scheme = is_split ? make_substeps(stages)
-                             : make_scheme(stage_.time.solver, species_, steps_by_item(stage_), stages);
+    Scheme scheme = is_split
+                        ? make_substeps(stages)
+                        : make_scheme(stage_.time.solver, species_, steps_by_item(stage_), stages);
     if (is_judged && scheme.error_register == 0) scheme = with_error_estimate(std::move(scheme));
     return problems_.emplace(key, tools_.bind(scheme)).first->second;
 }
@@ -145,7 +147,8 @@ const StepProblem& StageTimer::problem_of(std::uint32_t stages, bool is_judged) 
 RateBounds StageTimer::bounds() const {
     if (bounds_by_rule_) {
         const std::vector<double> bounds = bounds_by_rule_();
-        if (std::isfinite(bounds[0]) && std::isfinite(bounds[1])) return {bounds[0], bounds[1], jumps_};
+        if (std::isfinite(bounds[0]) && std::isfinite(bounds[1]))
+            return {bounds[0], bounds[1], jumps_};
     }
     const double whole = tools_.estimate();
     // What is explicit may be as fast as all of it: advection is no diffusion.
@@ -196,19 +199,21 @@ StepChoice StageTimer::choose_by_error(std::int64_t step, TimeState& time, bool 
     SafeStep safe = safe_step(solver, time.bounds, wanted);
     if (is_stabilised(solver) && time.stages >= least_stages(solver)) {
         const double same = std::min(stable_step(solver, time.bounds, time.stages), wanted);
-        if (safe.length * time.stages <= worth_other_stages * same * safe.stages) safe = {same, time.stages};
+        if (safe.length * time.stages <= worth_other_stages * same * safe.stages)
+            safe = {same, time.stages};
     }
     time.stages = safe.stages;
     time.least_step = least_of_duration * expected_duration();
-    if (time.bounds.whole > 0) time.least_step = std::min(time.least_step, least_part * 2 / time.bounds.whole);
+    if (time.bounds.whole > 0)
+        time.least_step = std::min(time.least_step, least_part * 2 / time.bounds.whole);
     time.stretch = is_long ? 1 : stretch_after(before, time, rejected, safe.length, by_time);
     time.next_judged = step + time.stretch;
     return {safe.length, &problem_of(time.stages, is_long), &problem_of(time.stages, true)};
 }
 
 /// The number of steps to the next estimate of an error.
-std::int64_t StageTimer::stretch_after(const RateBounds& before, const TimeState& time, bool rejected,
-                                       double length, double longest) const {
+std::int64_t StageTimer::stretch_after(const RateBounds& before, const TimeState& time,
+                                       bool rejected, double length, double longest) const {
     if (rejected || time.bounded_at < 0) return 1;
     const double low = std::min(before.whole, time.bounds.whole);
     const double high = std::max(before.whole, time.bounds.whole);

@@ -28,12 +28,13 @@ struct StageTools {
     std::function<StepProblem(const Scheme&)> bind;
     /// Makes what computes formulas that are the same in all cells, again and again.
     std::function<NumberSource(std::span<const Formula* const>)> numbers;
-    /// The values of a formula that reads constants and `t` alone, at n / Forcing::intervals of a duration.
+    /// The values of a formula that reads constants and `t` alone, at n / Forcing::intervals of a
+    /// duration.
     std::function<std::vector<double>(const Formula&, double duration)> over_time;
     std::function<bool(const Formula&)> is_true;
     /// A bound of the eigenvalues by a power iteration, where there is none by rule.
     std::function<double()> estimate;
-    const Mask* inside = nullptr;  ///< Of a mask or a model: the cells that count.
+    const Mask* inside = nullptr;       ///< Of a mask or a model: the cells that count.
     const ModelFacts* model = nullptr;  ///< Of the model that is the domain; null on grids.
 };
 
@@ -43,7 +44,9 @@ public:
     StageTimer(const Program& program, std::uint32_t stage, StageState& state, StageTools tools);
 
     /// Into so many parts each step is split, so that it is stable on the cells of a model.
-    std::uint32_t substeps() const { return stage_.time.solver == Solver::euler ? state_.time.stages : 0; }
+    std::uint32_t substeps() const {
+        return stage_.time.solver == Solver::euler ? state_.time.stages : 0;
+    }
     /// The passes of the first step.
     const StepProblem& problem();
     /// All of a schedule but its threads. `interval` as in Schedule.
@@ -71,9 +74,9 @@ private:
     StageTools tools_;
     std::uint32_t species_;
     bool uniform_speed_;
-    double speed_;      ///< The item's value; 1 where it varies by cell.
-    double duration_;   ///< Infinite where there is none.
-    Forcing forcing_;   ///< Of steps of chosen length.
+    double speed_;                 ///< The item's value; 1 where it varies by cell.
+    double duration_;              ///< Infinite where there is none.
+    Forcing forcing_;              ///< Of steps of chosen length.
     NumberSource bounds_by_rule_;  ///< Of RateBounds; none where there is no rule.
     bool jumps_ = false;           ///< Do rates jump at thresholds?
     /// By the number of stages, and whether the error of the step is estimated.

@@ -10,9 +10,7 @@ namespace cascade {
 namespace {
 
 /// A speed to try: nine tenths of the limit, two digits.
-double safe_speed(double limit) {
-    return std::stod(fmt::format("{:.2g}", 0.9 * limit));
-}
+double safe_speed(double limit) { return std::stod(fmt::format("{:.2g}", 0.9 * limit)); }
 
 /// `; iterations: N`, for as much time as before.
 std::string iterations_for(double speed, const StepInUse& use) {

@@ -20,11 +20,14 @@ public:
     void add(KernelPointer kernel) { kernels_.push_back(std::move(kernel)); }
 
     /// A kernel belongs to the steps, however it is run.
-    void identify(const CellKernel& kernel) { identity_ = 0x100000001b3 * (identity_ ^ hash(kernel)); }
+    void identify(const CellKernel& kernel) {
+        identity_ = 0x100000001b3 * (identity_ ^ hash(kernel));
+    }
     /// A hash of all of them so far.
     std::uint64_t identity() const { return identity_; }
 
-    /// Says of kernels that could not be compiled, as far as that is known, that they are interpreted.
+    /// Says of kernels that could not be compiled, as far as that is known, that they are
+    /// interpreted.
     void warn_of_refused(RunControl& control) {
         for (const KernelPointer& kernel : kernels_) {
             if (const Failure* const refusal = kernel->refusal()) warn(*refusal, control);

@@ -26,8 +26,9 @@ double links_of(const StepProblem& problem) {
     if (problem.links == nullptr) return 0;
     constexpr std::int64_t slice = PlaneLayout::row_pad;
     const std::int64_t slices = (problem.grid.width + slice - 1) / slice * problem.grid.height;
-    const std::uint32_t* const starts = with_number(
-        problem.precision, [&](auto zero) { return problem.links->table<decltype(zero)>().starts; });
+    const std::uint32_t* const starts = with_number(problem.precision, [&](auto zero) {
+        return problem.links->table<decltype(zero)>().starts;
+    });
     return static_cast<double>(slice * starts[slices]) /
            static_cast<double>(problem.grid.cell_count());
 }
@@ -80,7 +81,7 @@ private:
 
     const StepProblem& problem_;
     const KnownKernels& kernels_;
-    double word_;  ///< Bytes.
+    double word_;            ///< Bytes.
     double link_bytes_ = 0;  ///< Of a cell, of the pass that reads most.
     std::set<PlaneKey> touched_;
     std::set<const std::uint8_t*> masks_;

@@ -1,7 +1,7 @@
 // Where the time of a run goes, for `--timing`.
 //
-// The account is kept by the thread that runs: at each moment it does one thing, and a scope within a
-// scope takes the time over. So the parts add up to everything by construction.
+// The account is kept by the thread that runs: at each moment it does one thing, and a scope within
+// a scope takes the time over. So the parts add up to everything by construction.
 #pragma once
 
 #include "ir/backend.h"
@@ -24,8 +24,8 @@ enum class Spent : std::uint8_t {
     starting,   ///< Starting values, masks, and what no step changes.
     compiling,  ///< From checked formulas to code.
     stepping,
-    drawing,    ///< Pictures, frames, logs, files.
-    rest,       ///< What nobody has claimed.
+    drawing,  ///< Pictures, frames, logs, files.
+    rest,     ///< What nobody has claimed.
 };
 inline constexpr std::size_t spent_count = 7;
 
@@ -38,8 +38,8 @@ public:
         std::array<double, spent_count> seconds{};  ///< By Spent.
         std::int64_t steps = 0;
         std::int64_t cells = 0;
-        int threads = 1;       ///< That took its last steps.
-        Stepping stepping;     ///< How these went through memory.
+        int threads = 1;    ///< That took its last steps.
+        Stepping stepping;  ///< How these went through memory.
     };
 
     /// Begins now, with the rest.

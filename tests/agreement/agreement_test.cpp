@@ -55,7 +55,8 @@ Outcome run_script(const std::string& name, const std::string& text, Overrides o
             outcome.failure = started.error().message;
             break;
         }
-        auto end = (*simulation)->advance_stage(k, script.program->stages[k].iterations, control, {});
+        auto end =
+            (*simulation)->advance_stage(k, script.program->stages[k].iterations, control, {});
         if (!end) outcome.failure = end.error().message + end.error().hint;
         for (const Field& field : (*simulation)->state(k).species) {
             outcome.fields.push_back(field.clone());
@@ -97,8 +98,8 @@ void compare_random_scripts(Precision precision, int scripts) {
     }
     // Most scripts must get through to the end, or little was compared.
     EXPECT_LT(failed, scripts * 7 / 10);
-    std::printf("%s%d of %d scripts ended in values that are not finite\n",
-                counts.report().c_str(), failed, scripts);
+    std::printf("%s%d of %d scripts ended in values that are not finite\n", counts.report().c_str(),
+                failed, scripts);
     EXPECT_EQ(counts.missing(), "");
 }
 
@@ -109,7 +110,8 @@ TEST(Agreement, RandomScriptsInDouble) { compare_random_scripts(Precision::binar
 /// steps and step by step.
 TEST(Agreement, NewRandomScripts) {
     constexpr std::uint64_t scripts = 500;
-    constexpr std::array<Tiling, 4> tilings = {Tiling{}, Tiling{7, 2}, Tiling{3, 1}, Tiling{12, 1, 2, 3}};
+    constexpr std::array<Tiling, 4> tilings = {Tiling{}, Tiling{7, 2}, Tiling{3, 1},
+                                               Tiling{12, 1, 2, 3}};
     Overrides overrides;
     for (std::uint64_t k = 0; k < scripts; ++k) {
         const std::uint64_t seed = testing::new_seed() + k;
@@ -143,14 +145,16 @@ TEST(Agreement, HoweverOperandsComeToNeighbours) {
         const auto compile = [&](const CellKernel& kernel) {
             return *backend->compile(kernel, grid.stencil());
         };
-        const BindingContext context{{&simulation->state(0), 1}, no_files, 3, grid, Precision::single, 0, {},
-                                     simulation->model().get(), simulation->mask()};
+        const BindingContext context{
+            {&simulation->state(0), 1}, no_files,          3, grid, Precision::single, 0, {},
+            simulation->model().get(),  simulation->mask()};
         std::vector<std::vector<Field>> found;
         std::size_t passes = 0;
         for (const Materialise materialise :
              {Materialise::when_cheaper, Materialise::never, Materialise::always}) {
             const StepPlan plan = plan_rates(*script.program, 0, {materialise});
-            passes_differ += materialise == Materialise::always && plan.passes.size() != passes ? 1 : 0;
+            passes_differ +=
+                materialise == Materialise::always && plan.passes.size() != passes ? 1 : 0;
             passes = plan.passes.size();
             found.push_back(run_plan(plan, compile, context, grid, team));
             EXPECT_EQ(same_bits(found[0], found.back()), "") << text;
@@ -175,7 +179,8 @@ TEST(Agreement, HoweverStepsArePlanned) {
         if (::testing::Test::HasFailure()) return;
         const Script script = load_script("random", text, ".");
         for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
-            kept += plan_step_invariants(*script.program, k, options.planning).result_count > 0 ? 1 : 0;
+            kept +=
+                plan_step_invariants(*script.program, k, options.planning).result_count > 0 ? 1 : 0;
         }
     }
     EXPECT_GT(kept, 100u);
@@ -196,11 +201,13 @@ TEST(Agreement, WhateverIsKeptOfFastSteps) {
     }
 }
 
-// Whether x is computed once decides whether the Laplacian reads a plane: sixfold values are rounded.
+// Whether x is computed once decides whether the Laplacian reads a plane: sixfold values are
+// rounded.
 TEST(Agreement, FastLaplaciansInSpaceAreThoseOfPlanes) {
     Overrides overrides;
     overrides.fast = true;
-    const std::string text = R"(domain { grid: 31, 7, 5; boundary: periodic; spacing: 0.75; seed: 606 }
+    const std::string text =
+        R"(domain { grid: 31, 7, 5; boundary: periodic; spacing: 0.75; seed: 606 }
 fn f0(a) = ((dxy((x * 0 + 0))) + (dxz((x * a + pi))))
 system s0 {
   p0: dzz((x * 0 + random(div(grad((x * 1e30 + z))), 7.75)))
@@ -217,31 +224,37 @@ stage g0: s0 { iterations: 5; speed: 0.125
 }
 
 std::filesystem::path small_torus() {
-    const auto path = std::filesystem::path(::testing::TempDir()) / fmt::format("small_torus_{}.obj", getpid());
+    const auto path =
+        std::filesystem::path(::testing::TempDir()) / fmt::format("small_torus_{}.obj", getpid());
     EXPECT_TRUE(write_file(path, test::small_torus_obj()));
     return path;
 }
 
 TEST(Agreement, RandomScriptsOnModels) {
-    static constexpr std::array<const char*, 5> domains = {"cells: 530", "cells: faces", "cells: 37; unit: 0.1",
-                                                           "cells: 1030; laplacian: turk", "cells: vertices"};
+    static constexpr std::array<const char*, 5> domains = {"cells: 530", "cells: faces",
+                                                           "cells: 37; unit: 0.1",
+                                                           "cells: 1030; laplacian: turk",
+                                                           "cells: vertices"};
     Overrides overrides;
     overrides.model = small_torus().string();
     overrides.model_is_asked_for = true;
     int scripts = 0, failed = 0;
     for (std::uint64_t seed = 0; seed < 20000 && scripts < 100; ++seed) {
         std::string text = random_script(seed);
-        text.replace(0, text.find('\n'), fmt::format("domain {{ surface: sphere; {}; seed: {} }}",
-                                                     domains[seed % domains.size()], seed));
+        text.replace(0, text.find('\n'),
+                     fmt::format("domain {{ surface: sphere; {}; seed: {} }}",
+                                 domains[seed % domains.size()], seed));
         overrides.precision = seed % 3 == 0 ? Precision::binary64 : Precision::single;
         // What has no meaning on a model is refused; of the rest those that read neighbours.
         if (!load_script("random", text, ".", overrides).program) continue;
-        const bool reads_neighbours = text.find("lap(") != text.npos || text.find("grad") != text.npos;
+        const bool reads_neighbours =
+            text.find("lap(") != text.npos || text.find("grad") != text.npos;
         if (!reads_neighbours) continue;
         overrides.fast = ++scripts % 4 == 3;
         const Outcome expected = run_script("random", text, overrides, interpreted());
         const int lanes = 4 << (scripts % 3), threads = 1 + scripts % 2;
-        expect_same(expected, run_script("random", text, overrides, compiled(lanes, threads)), text);
+        expect_same(expected, run_script("random", text, overrides, compiled(lanes, threads)),
+                    text);
         failed += expected.failure.empty() ? 0 : 1;
         if (::testing::Test::HasFailure()) break;
     }

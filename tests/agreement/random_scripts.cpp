@@ -39,16 +39,17 @@ public:
         static constexpr std::array<std::string_view, 3> boundaries = {"periodic", "noflux",
                                                                        "periodic, noflux"};
         const bool has_slices = stream_.chance(25);
-        text_ = fmt::format(
-            "domain {{ grid: {}, {}{}; boundary: {}; spacing: {}; seed: {}{} }}\n",
-            2 + stream_.below(37), (has_slices ? 2 : 1) + stream_.below(9),
-            has_slices ? fmt::format(", {}", 2 + stream_.below(5)) : "",
-            has_slices ? boundaries[stream_.below(2)] : stream_.pick<std::string_view>(boundaries),
-            stream_.chance(50) ? "1" : "0.75", stream_.below(1000), mask());
+        text_ = fmt::format("domain {{ grid: {}, {}{}; boundary: {}; spacing: {}; seed: {}{} }}\n",
+                            2 + stream_.below(37), (has_slices ? 2 : 1) + stream_.below(9),
+                            has_slices ? fmt::format(", {}", 2 + stream_.below(5)) : "",
+                            has_slices ? boundaries[stream_.below(2)]
+                                       : stream_.pick<std::string_view>(boundaries),
+                            stream_.chance(50) ? "1" : "0.75", stream_.below(1000), mask());
         write_functions();
         for (int s = 0; s < systems; ++s) write_system(s);
         const int stages = 1 + static_cast<int>(stream_.below(3));
-        for (int k = 0; k < stages; ++k) write_stage(k, stream_.below(static_cast<std::uint64_t>(systems)));
+        for (int k = 0; k < stages; ++k)
+            write_stage(k, stream_.below(static_cast<std::uint64_t>(systems)));
         return text_;
     }
 
@@ -69,8 +70,9 @@ private:
     }
 
     std::string number() {
-        static constexpr std::array<std::string_view, 12> numbers = {
-            "0", "1", "2", "0.5", "1/8", ".25", "3", "1e-3", "12", "7.75", "pi", "1e30"};
+        static constexpr std::array<std::string_view, 12> numbers = {"0",   "1",    "2",  "0.5",
+                                                                     "1/8", ".25",  "3",  "1e-3",
+                                                                     "12",  "7.75", "pi", "1e30"};
         return std::string(stream_.pick<std::string_view>(numbers));
     }
 
@@ -155,8 +157,10 @@ private:
             case 1: return fmt::format("{} * ({})", leaf(place), flux(place, depth - 1));
             case 2: return fmt::format("({}) / (0.75 + {})", flux(place, depth - 1), leaf(place));
             case 3: return fmt::format("-({})", flux(place, depth - 1));
-            case 4: return fmt::format("({}) + ({})", flux(place, depth - 1), flux(place, depth - 1));
-            case 5: return fmt::format("({}) - ({})", flux(place, depth - 1), flux(place, depth - 1));
+            case 4:
+                return fmt::format("({}) + ({})", flux(place, depth - 1), flux(place, depth - 1));
+            case 5:
+                return fmt::format("({}) - ({})", flux(place, depth - 1), flux(place, depth - 1));
             case 6: return fmt::format("vector({}, {})", expression(place, depth - 1), leaf(place));
             case 7:
                 return fmt::format("tensor({}, {}, {}) * ({})", leaf(place), leaf(place),
@@ -167,8 +171,9 @@ private:
 
     bool fits(const FunctionRow& row, Place place) const {
         // In fluxes, and of points that are known.
-        static constexpr std::array<std::string_view, 5> only_elsewhere = {"grad", "vector", "tensor",
-                                                                           "distance", "keys"};
+        static constexpr std::array<std::string_view, 5> only_elsewhere = {"grad", "vector",
+                                                                           "tensor", "distance",
+                                                                           "keys"};
         if (std::find(only_elsewhere.begin(), only_elsewhere.end(), row.spelling) !=
             only_elsewhere.end()) {
             return false;
@@ -240,7 +245,8 @@ private:
         }
         for (int k = 0; k < species; ++k) {
             text_ += fmt::format("  u{}' = {}\n", k, expression(Place::rate, 4));
-            if (stream_.chance(30)) text_ += fmt::format("  u{}' += {}\n", k, expression(Place::rate, 2));
+            if (stream_.chance(30))
+                text_ += fmt::format("  u{}' += {}\n", k, expression(Place::rate, 2));
             // Later rates may read earlier ones; a circle cannot come about.
             readable_.push_back(fmt::format("u{}'", k));
         }
@@ -254,8 +260,8 @@ private:
     /// w[1] to w[n], which neighbours read in a circle.
     void write_family(SystemNames& names) {
         const std::uint32_t members = 1 + stream_.below(3);
-        text_ += fmt::format("  i: 1..{}\n  w[i]: i * ({})\n", members,
-                             expression(Place::value, 2));
+        text_ +=
+            fmt::format("  i: 1..{}\n  w[i]: i * ({})\n", members, expression(Place::value, 2));
         if (stream_.chance(40)) text_ += fmt::format("  w[1]: {}\n", leaf(Place::value));
         for (std::uint32_t member = 1; member <= members; ++member) {
             names.species.push_back(fmt::format("w[{}]", member));
@@ -300,8 +306,9 @@ private:
     /// Of species u0, which every system has.
     void write_sides() {
         static constexpr std::array<std::string_view, 2> all = {"noflux", "periodic"};
-        text_ += fmt::format("  u0.sides: {}\n", stream_.chance(50) ? "fixed(0.5)"
-                                                                    : stream_.pick<std::string_view>(all));
+        text_ +=
+            fmt::format("  u0.sides: {}\n",
+                        stream_.chance(50) ? "fixed(0.5)" : stream_.pick<std::string_view>(all));
         if (!stream_.chance(50)) return;
         // Sides follow no species.
         std::erase_if(readable_, [](const std::string& name) {

@@ -106,12 +106,12 @@ Kernel& kernel() {
 }  // namespace cascade
 
 extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
-    cascade::fuzz::write_seeds(
-        *count, *arguments,
-        {{"cells", 0, cascade::cells().bytes()},
-         {"kernel", 1, cascade::kernel().bytes()},
-         {"mended_cells", cascade::mend_checksum, cascade::cells().bytes()},
-         {"mended_kernel", cascade::mend_checksum + 1, cascade::kernel().bytes()}});
+    cascade::fuzz::write_seeds(*count, *arguments,
+                               {{"cells", 0, cascade::cells().bytes()},
+                                {"kernel", 1, cascade::kernel().bytes()},
+                                {"mended_cells", cascade::mend_checksum, cascade::cells().bytes()},
+                                {"mended_kernel", cascade::mend_checksum + 1,
+                                 cascade::kernel().bytes()}});
     return 0;
 }
 
@@ -119,9 +119,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size == 0) return -1;
     std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
     const bool is_mended = (data[0] & cascade::mend_checksum) != 0;
-    if (data[0] % 2 == 0)
-        cascade::cells().read(std::move(bytes), is_mended);
-    else
-        cascade::kernel().read(std::move(bytes), is_mended);
+    if (data[0] % 2 == 0) cascade::cells().read(std::move(bytes), is_mended);
+    else cascade::kernel().read(std::move(bytes), is_mended);
     return 0;
 }

@@ -41,10 +41,8 @@ void read(char reader, std::string_view bytes) {
             CHECK(has_reason(texts), "a picture that is refused has a message");
             break;
         }
-        case 2:
-            return read_array(bytes, Precision::single);
-        default:
-            return read_array(bytes, Precision::binary64);
+        case 2: return read_array(bytes, Precision::single);
+        default: return read_array(bytes, Precision::binary64);
     }
 }
 

@@ -82,8 +82,7 @@ SavedRun& saved_run() {
 
 void read(char reader, const std::string& text) {
     switch (reader) {
-        case 0:
-            return saved_run().resume(text);
+        case 0: return saved_run().resume(text);
         case 1: {
             const auto overrides = overrides_from_json(text);
             CHECK(has_reason(overrides), "changes that are refused have a message");

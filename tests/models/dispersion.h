@@ -11,7 +11,7 @@ using State = std::vector<double>;
 
 struct ReactionDiffusion {
     std::function<State(const State&)> reaction;
-    State diffusion;   ///< Of each species.
+    State diffusion;  ///< Of each species.
 };
 
 /// A root of the reaction, by Newton's method from a guess.

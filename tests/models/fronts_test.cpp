@@ -66,8 +66,7 @@ TEST(Fronts, Sir) {
                 "infected: 0.1 * (x < 0.05)");
     const double speed = front_speed(model, "infected", 0.01, 0.01, 8000, 16000);
     const double rate = 0.6;
-    const double predicted =
-        std::sqrt(9 * rate) * (2 - 1.5 * std::log(2.0) / (80 * rate));
+    const double predicted = std::sqrt(9 * rate) * (2 - 1.5 * std::log(2.0) / (80 * rate));
     EXPECT_NEAR(speed / predicted, 1, 0.01);
 }
 
@@ -90,8 +89,8 @@ TEST(Fronts, BarkleySpiralTurns) {
         const std::string side = diffusion > 4 ? "192, 192" : "128, 128";
         Model model("barkley", "boundary: noflux; grid: " + side,
                     "speed: 0.01; diffusion: " + std::to_string(diffusion));
-        const auto probe = static_cast<std::size_t>(model.width() * model.width() / 8 +
-                                                    model.width() / 8);
+        const auto probe =
+            static_cast<std::size_t>(model.width() * model.width() / 8 + model.width() / 8);
         std::vector<double> passages;
         double before = model.at("u", probe);
         for (int k = 0; k < 700; ++k) {

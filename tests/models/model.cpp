@@ -88,8 +88,7 @@ double wave_amplitude(const std::vector<double>& row, int mode) {
     double cosine = 0, sine = 0;
     const auto count = static_cast<double>(row.size());
     for (std::size_t i = 0; i < row.size(); ++i) {
-        const double phase =
-            2 * std::numbers::pi * mode * (static_cast<double>(i) + 0.5) / count;
+        const double phase = 2 * std::numbers::pi * mode * (static_cast<double>(i) + 0.5) / count;
         cosine += row[i] * std::cos(phase);
         sine += row[i] * std::sin(phase);
     }

@@ -138,7 +138,8 @@ TEST(Operators, KuramotoSivashinskyStaysBounded) {
 TEST(Operators, PeronaMalikKeepsEdges) {
     Model model("perona_malik", "grid: 64, 64; boundary: noflux",
                 "brightness: (x > 0.5) + random(0, 0.05)");
-    const double before = model.mean("brightness"), noise = model.deviation("brightness - (x > 0.5)");
+    const double before = model.mean("brightness"),
+                 noise = model.deviation("brightness - (x > 0.5)");
     model.step(400);
     EXPECT_NEAR(model.mean("brightness"), before, 1e-5);
     EXPECT_LT(model.deviation("brightness - (x > 0.5)"), 0.5 * noise);

@@ -89,8 +89,8 @@ Row measured_row(const LibraryText& text) {
         for (const Statistics& each : all) {
             scatter += (each[i] - row.middle[i]) * (each[i] - row.middle[i]) / (seeds - 1);
         }
-        const double scale = i == 0 ? std::max(std::abs(row.middle[0]), row.middle[1])
-                                    : std::abs(row.middle[i]);
+        const double scale =
+            i == 0 ? std::max(std::abs(row.middle[0]), row.middle[1]) : std::abs(row.middle[i]);
         row.tolerance[i] = 3 * std::sqrt(scatter) + 0.03 * scale;
         if (i == 0) continue;
         if (std::isnan(row.middle[i])) row.tolerance[i] = 0;
@@ -110,12 +110,12 @@ bool holds(const Row& row, const Statistics& now) {
 /// Measures what is not in the table and what is not as the table has it.
 void rewrite_table() {
     const auto stored = stored_rows();
-    std::string text = "# system  mean ±  deviation ±  wavelength ±  of its first species at the end "
-                       "of its default run\n";
+    std::string text =
+        "# system  mean ±  deviation ±  wavelength ±  of its first species at the end "
+        "of its default run\n";
     for (const LibraryText& each : library_texts()) {
         const auto found = stored.find(std::string(each.system_name()));
-        const bool is_right =
-            found != stored.end() && holds(found->second, statistics_of(each, 1));
+        const bool is_right = found != stored.end() && holds(found->second, statistics_of(each, 1));
         const Row row = is_right ? found->second : measured_row(each);
         text += fmt::format("{:<32}", each.system_name());
         for (std::size_t i = 0; i < 3; ++i) {

@@ -19,10 +19,10 @@ constexpr std::size_t side = 192;
 struct Case {
     std::string system;
     ReactionDiffusion mathematics;
-    State guess;                        ///< Near the flat state.
+    State guess;  ///< Near the flat state.
     std::vector<std::string> species;
     double speed;
-    double tolerance = 0.03;           ///< Of the wavelength; more where many waves grow alike.
+    double tolerance = 0.03;  ///< Of the wavelength; more where many waves grow alike.
 };
 
 std::vector<Case> cases() {
@@ -32,40 +32,52 @@ std::vector<Case> cases() {
               return State{4.5 - 8 * s[0] + s[0] * s[0] * s[1], 7 * s[0] - s[0] * s[0] * s[1]};
           },
           {4, 32}},
-         {4.5, 1.6}, {"u", "v"}, 0.005},
+         {4.5, 1.6},
+         {"u", "v"},
+         0.005},
         {"schnakenberg",
          {[](const State& s) {
               return State{0.1 - s[0] + s[0] * s[0] * s[1], 0.9 - s[0] * s[0] * s[1]};
           },
           {0.6, 24}},
-         {1, 0.9}, {"u", "v"}, 0.01},
+         {1, 0.9},
+         {"u", "v"},
+         0.01},
         {"gierer_meinhardt",
          {[](const State& s) {
               return State{0.02 + s[0] * s[0] / s[1] - s[0], s[0] * s[0] - 1.5 * s[1]};
           },
           {1, 30}},
-         {1.5, 1.5}, {"a", "h"}, 0.006},
+         {1.5, 1.5},
+         {"a", "h"},
+         0.006},
         {"lengyel_epstein",
          {[](const State& s) {
               const double bound = s[0] * s[1] / (1 + s[0] * s[0]);
               return State{12 - s[0] - 4 * bound, 20 * 0.3 * (s[0] - bound)};
           },
           {1, 32}},
-         {2.4, 6.8}, {"u", "v"}, 0.006},
+         {2.4, 6.8},
+         {"u", "v"},
+         0.006},
         {"thomas",
          {[](const State& s) {
               const double used = 13 * s[0] * s[1] / (1 + s[0] + 0.05 * s[0] * s[0]);
               return State{0.5 * (150 - s[0] - used), 0.5 * (1.5 * (100 - s[1]) - used)};
           },
           {1, 40}},
-         {37, 25}, {"u", "v"}, 0.003},
+         {37, 25},
+         {"u", "v"},
+         0.003},
         {"mimura_murray",
          {[](const State& s) {
               return State{((35 + 16 * s[0] - s[0] * s[0]) / 9 - s[1]) * s[0],
                            (s[0] - 1 - 0.4 * s[1]) * s[1]};
           },
           {1.25, 100}},
-         {5, 10}, {"prey", "predator"}, 0.002},
+         {5, 10},
+         {"prey", "predator"},
+         0.002},
         {"barrio_varea",
          {[](const State& s) {
               const double cubic = 0.899 * 2 * s[0] * s[1] * s[1];
@@ -73,27 +85,36 @@ std::vector<Case> cases() {
                            -0.91 * s[1] + cubic + s[0] * (-0.899 + 0.2 * s[1])};
           },
           {0.516 * 3, 3}},
-         {0, 0}, {"u", "v"}, 0.05},
+         {0, 0},
+         {"u", "v"},
+         0.05},
         {"digits",
          {[](const State& s) {
               return State{s[1] - s[2] - s[0] * s[0] * s[0], -1.59 * s[0] - 0.1 * s[1],
                            -1.27 * s[0] - 0.1 * s[2]};
           },
           {0, 2.5, 1}},
-         {0, 0, 0}, {"sox9", "bmp", "wnt"}, 0.05, 0.06},
+         {0, 0, 0},
+         {"sox9", "bmp", "wnt"},
+         0.05,
+         0.06},
         {"insect_eyes",
          {[](const State& s) {
               return State{0.067 * s[0] - 0.08 * s[1] + 0.01 - 0.03 * s[0],
                            0.09 * s[0] - 0.07 * s[1] - 0.08 * s[1]};
           },
           {0.02, 0.45}},
-         {0.8, 0.5}, {"a", "b"}, 0.4},
+         {0.8, 0.5},
+         {"a", "b"},
+         0.4},
         {"maginu",
          {[](const State& s) {
               return State{0.9 * (s[0] - s[0] * s[0] * s[0]) - s[1], 2 * (s[0] - s[1])};
           },
           {1, 10}},
-         {0, 0}, {"a", "b"}, 0.02},
+         {0, 0},
+         {"a", "b"},
+         0.02},
         {"cubic_coupled_brusselators",
          {[](const State& s) {
               const double first = s[0] * s[0] * s[1], second = s[2] * s[2] * s[3];
@@ -103,7 +124,9 @@ std::vector<Case> cases() {
                            3 - 10 * s[2] + second - swap_a, 9 * s[2] - second - swap_b};
           },
           {1.85, 5.66, 50.6, 186}},
-         {3, 3, 3, 3}, {"a", "b", "c", "d"}, 0.001},
+         {3, 3, 3, 3},
+         {"a", "b", "c", "d"},
+         0.001},
     };
 }
 
@@ -165,14 +188,13 @@ TEST(Turing, BrusselatorThreshold) {
         model.step(1250);
         const double late = wave_amplitude(model.values("u"), mode);
         rates.push_back(std::log(late / early) / 5);
-        const ReactionDiffusion mathematics{
-            [&](const State& s) {
-                return State{feed - (decay + 1) * s[0] + s[0] * s[0] * s[1],
-                             decay * s[0] - s[0] * s[0] * s[1]};
-            },
-            {diff_u, diff_v}};
-        const double predicted =
-            growth_rate(mathematics, {feed, decay / feed}, step * step);
+        const ReactionDiffusion mathematics{[&](const State& s) {
+                                                return State{feed - (decay + 1) * s[0] +
+                                                                 s[0] * s[0] * s[1],
+                                                             decay * s[0] - s[0] * s[0] * s[1]};
+                                            },
+                                            {diff_u, diff_v}};
+        const double predicted = growth_rate(mathematics, {feed, decay / feed}, step * step);
         EXPECT_NEAR(rates.back(), predicted, 0.05 * std::abs(predicted)) << part;
     }
     const double crossing = 0.98 + 0.04 * rates[0] / (rates[0] - rates[1]);

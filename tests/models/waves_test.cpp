@@ -74,9 +74,7 @@ TEST(Waves, WaveComesBack) {
 /// V. Volterra 1926: gain prey − death ln prey + bite predator − birth ln predator.
 TEST(Waves, LotkaVolterraKeepsVolterrasQuantity) {
     Model model("lotka_volterra", "grid: 2", "solver: rk4; speed: 0.02; prey: 2; predator: 0.7");
-    const auto quantity = [&] {
-        return model.mean("prey - log(prey) + predator - log(predator)");
-    };
+    const auto quantity = [&] { return model.mean("prey - log(prey) + predator - log(predator)"); };
     const double start = quantity();
     double least = 10, most = 0;
     for (int k = 0; k < 20; ++k) {
@@ -114,21 +112,21 @@ TEST(Waves, ShallowWaterStaysInThePond) {
     EXPECT_NEAR(model.mean("height") / before, 1, 1e-3);
 }
 
-/// With p = u' the linear system of a wave of wave number k is u' = p, inertia · p' = (J − k² D) u − p:
-/// its eigenvalues say whether the waves of the hyperbolic Brusselator grow, and how fast.
+/// With p = u' the linear system of a wave of wave number k is u' = p, inertia · p' = (J − k² D) u
+/// − p: its eigenvalues say whether the waves of the hyperbolic Brusselator grow, and how fast.
 TEST(Waves, HyperbolicBrusselatorGrowsAsTheorySays) {
     constexpr int cells = 64, mode = 3;
     const double step = 2 * std::sin(std::numbers::pi * mode / cells);
     std::vector<double> rates;
     for (const double inertia : {0.35, 0.6}) {
         const auto linear = [&](double square) {
-            return ReactionDiffusion{[=](const State& s) {
-                                         const double u = (1 - 40 * square) * s[0] + 4 * s[1];
-                                         const double v = -2 * s[0] - (4 + 0.5 * square) * s[1];
-                                         return State{s[2], s[3], (u - s[2]) / inertia,
-                                                      (v - s[3]) / inertia};
-                                     },
-                                     {0, 0, 0, 0}};
+            return ReactionDiffusion{
+                [=](const State& s) {
+                    const double u = (1 - 40 * square) * s[0] + 4 * s[1];
+                    const double v = -2 * s[0] - (4 + 0.5 * square) * s[1];
+                    return State{s[2], s[3], (u - s[2]) / inertia, (v - s[3]) / inertia};
+                },
+                {0, 0, 0, 0}};
         };
         const double predicted = growth_rate(linear(step * step), {0, 0, 0, 0}, 0);
         EXPECT_LT(growth_rate(linear(0), {0, 0, 0, 0}, 0), 0) << "without waves it is at rest";

@@ -15,9 +15,9 @@ namespace cascade::models {
 namespace {
 
 std::string button(const std::string& name) {
-    auto text = read_file(std::string(CASCADE_SOURCE_DIR) + "/examples/witkin_kass/" + name +
-                              ".cascade",
-                          1u << 20);
+    auto text =
+        read_file(std::string(CASCADE_SOURCE_DIR) + "/examples/witkin_kass/" + name + ".cascade",
+                  1u << 20);
     EXPECT_TRUE(text) << name;
     return text ? *text : "";
 }
@@ -59,8 +59,8 @@ TEST(WitkinKass, WeaveGoesBothWays) {
     Model model(button("weave"));
     model.finish();
     EXPECT_NEAR(model.mean("max(plus[i] - minus[i] over i) > 0.02"), 0.47, 0.1);
-    const measure::Features along = features_of(model, "plus[1]"), across =
-        features_of(model, "plus[2]");
+    const measure::Features along = features_of(model, "plus[1]"),
+                            across = features_of(model, "plus[2]");
     EXPECT_LT(std::abs(std::remainder(along.angle, 180)), 15);
     EXPECT_NEAR(across.angle, 90, 15);
 }

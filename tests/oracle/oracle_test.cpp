@@ -43,8 +43,7 @@ oracle::State state_of(const TestRun& run, std::uint32_t stage) {
 
 /// The largest difference over the range of the expected values. A field that is nearly flat still
 /// has rounding errors of its own size: a tenth of its largest magnitude counts as its range then.
-double relative_difference(const std::vector<double>& actual,
-                           const std::vector<double>& expected) {
+double relative_difference(const std::vector<double>& actual, const std::vector<double>& expected) {
     double largest = 0, magnitude = 0;
     for (std::size_t cell = 0; cell < expected.size(); ++cell) {
         const double difference = std::abs(actual[cell] - expected[cell]);
@@ -56,17 +55,14 @@ double relative_difference(const std::vector<double>& actual,
 }
 
 /// The oracle computes in binary64: in the other format the program rounds a hundred times.
-double tolerance(Precision precision) {
-    return precision == Precision::single ? 1e-4 : 1e-12;
-}
+double tolerance(Precision precision) { return precision == Precision::single ? 1e-4 : 1e-12; }
 
 /// Starts and finishes a stage, and compares it with what the oracle makes of the same start.
 void compare_stage(TestRun& run, std::uint32_t stage, const std::string& what) {
     run.start(stage);
     ASSERT_TRUE(run.ok()) << what;
     const Grid& grid = run.program().domain.grid;
-    const oracle::Surface surface{run.width(), run.height(),
-                                  grid.boundary == Boundary::periodic};
+    const oracle::Surface surface{run.width(), run.height(), grid.boundary == Boundary::periodic};
     const System& system = run.program().system_of(stage);
     const auto steps = static_cast<int>(run.program().stages[stage].iterations);
     oracle::State expected = state_of(run, stage);
@@ -161,7 +157,8 @@ protected:
     void compare_on(const std::string& grid, const std::string& boundary, Precision precision,
                     const std::string& stage) {
         const std::string domain = "domain { " + grid + "; boundary: " + boundary +
-                                   "; seed: 5; precision: " + std::string(name_of(precision)) + " }\n";
+                                   "; seed: 5; precision: " + std::string(name_of(precision)) +
+                                   " }\n";
         TestRun run("test.cascade", domain + stage, {}, options());
         if (run.ok()) compare_stage(run, 0, domain);
     }
@@ -242,8 +239,8 @@ beta: random(12, random(0, 2)) + random(0, 3)
             };
             const std::size_t cell = j * 9 + i;
             const std::uint32_t one = 0x3f800000;  // The number 1 of the second step.
-            EXPECT_NEAR(kicked[cell],
-                        u("12\nfirst\nkick\n2\n") + u("12\nfirst\nkick\n2\n", one), 1e-6);
+            EXPECT_NEAR(kicked[cell], u("12\nfirst\nkick\n2\n") + u("12\nfirst\nkick\n2\n", one),
+                        1e-6);
             EXPECT_NEAR(beta[cell],
                         12 + 2 * u("12\nstage2\nbeta\n1\n") * u("12\nstage2\nbeta\n2\n") +
                             3 * u("12\nstage2\nbeta\n3\n"),

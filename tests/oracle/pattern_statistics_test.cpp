@@ -23,19 +23,21 @@ Pattern2d drawing(std::size_t width, std::string_view cells) {
 Pattern2d wave(std::size_t size, double kx, double ky) {
     Pattern2d pattern{size, size, {}};
     for (std::size_t cell = 0; cell < size * size; ++cell) {
-        const double phase = (kx * static_cast<double>(cell % size) +
-                              ky * static_cast<double>(cell / size)) / static_cast<double>(size);
+        const double phase =
+            (kx * static_cast<double>(cell % size) + ky * static_cast<double>(cell / size)) /
+            static_cast<double>(size);
         pattern.values.push_back(3 + 2 * std::sin(2 * std::numbers::pi * phase));
     }
     return pattern;
 }
 
 TEST(PatternStatistics, RegionsGoAcrossTheBordersAndNotAcrossCorners) {
-    const Pattern2d pattern = drawing(6, "o....o"
-                                         "..o..."
-                                         "...o.."
-                                         "......"
-                                         "oo..oo");
+    const Pattern2d pattern = drawing(6,
+                                      "o....o"
+                                      "..o..."
+                                      "...o.."
+                                      "......"
+                                      "oo..oo");
     EXPECT_EQ(count_regions(pattern, is_set), 3u);
     EXPECT_EQ(count_regions(pattern, is_set, 2), 1u);
     EXPECT_EQ(count_regions(pattern, is_set, 7), 0u);

@@ -11,10 +11,10 @@
 namespace cascade {
 
 enum class Measure {
-    regions_below,    ///< Connected regions with values below `level`.
-    regions_above,    ///< The same above.
-    bumps,            ///< The same above the middle of the smallest and the largest value.
-    area_below,       ///< Part of the cells.
+    regions_below,  ///< Connected regions with values below `level`.
+    regions_above,  ///< The same above.
+    bumps,          ///< The same above the middle of the smallest and the largest value.
+    area_below,     ///< Part of the cells.
     area_above,
     peak_wavelength,  ///< In cells; `level` means nothing for these.
     mean_wavelength,

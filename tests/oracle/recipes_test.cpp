@@ -21,10 +21,8 @@ double measure(const Pattern2d& pattern, const Look& look) {
     const auto below = [&](double value) { return value < look.level; };
     const auto above = [&](double value) { return value > look.level; };
     switch (look.measure) {
-        case Measure::regions_below:
-            return static_cast<double>(count_regions(pattern, below));
-        case Measure::regions_above:
-            return static_cast<double>(count_regions(pattern, above));
+        case Measure::regions_below: return static_cast<double>(count_regions(pattern, below));
+        case Measure::regions_above: return static_cast<double>(count_regions(pattern, above));
         case Measure::bumps: {
             const auto [low, high] =
                 std::minmax_element(pattern.values.begin(), pattern.values.end());
@@ -99,8 +97,7 @@ TEST(Squirrel, OnALargerGridNeedsLessNoise) {
     overrides.grid = {128, 128};
     overrides.sets = {"stage1.ai=random(1, 0.00001) + (x > 0.9)", "stage1.iterations=8000",
                       "stage2.iterations=1"};
-    TestRun run("squirrel", source_file("examples/squirrel.cascade"), overrides,
-                fastest_backend());
+    TestRun run("squirrel", source_file("examples/squirrel.cascade"), overrides, fastest_backend());
     run.finish_all();
     ASSERT_TRUE(run.ok());
     const Pattern2d stripes{run.width(), run.height(), run.values(0, "b")};

@@ -7,8 +7,7 @@
 
 namespace cascade {
 
-TestRun::TestRun(std::string name, std::string text, Overrides overrides,
-                 SimulationOptions options)
+TestRun::TestRun(std::string name, std::string text, Overrides overrides, SimulationOptions options)
     : is_cut_short_(overrides.steps.has_value()),
       script_(load_script(std::move(name), std::move(text), ".", std::move(overrides))) {
     if (!script_.program) {
@@ -42,8 +41,8 @@ void TestRun::finish(std::uint32_t stage) {
     const std::int64_t last = program().stages[stage].iterations;
     const auto end = simulation_->advance_stage(stage, last, control, [] {});
     check(end ? Result<void>{} : Result<void>(tl::unexpected(end.error())));
-    // Of recipes and systems of the library nothing is to be said, but of what dies out on a plane that is
-    // smaller than its own.
+    // Of recipes and systems of the library nothing is to be said, but of what dies out on a plane
+    // that is smaller than its own.
     const std::string remark = ok() ? simulation_->remark_on(stage) : "";
     if (remark.find("dying out") != std::string::npos) return;
     if (is_cut_short_ && remark.find("still growing") != std::string::npos) return;

@@ -10,8 +10,8 @@
 
 namespace cascade {
 
-/// A script and its simulation. Faults of either, warnings of the run and remarks on its stages fail the
-/// test that made it.
+/// A script and its simulation. Faults of either, warnings of the run and remarks on its stages
+/// fail the test that made it.
 class TestRun {
 public:
     TestRun(std::string name, std::string text, Overrides overrides, SimulationOptions options);

@@ -59,7 +59,8 @@ protected:
         const std::string messages = script.messages(false);
         EXPECT_NE(messages, "");
         ASSERT_TRUE(expected != nullptr && expected->word == "text")
-            << "a text block with the messages is missing:\n" << messages;
+            << "a text block with the messages is missing:\n"
+            << messages;
         if (std::getenv("CASCADE_UPDATE") != nullptr) {
             updates_.push_back({*expected, messages});
         } else {
@@ -204,14 +205,17 @@ std::string_view word_of(Domains domains) {
 }
 
 std::string_view word_of(SettingValue value) {
-    constexpr std::array<std::string_view, 8> words{
-        "count", "number", "numbers", "expression", "expressions", "word", "words", "text"};
+    constexpr std::array<std::string_view, 8> words{"count",      "number",      "numbers",
+                                                    "expression", "expressions", "word",
+                                                    "words",      "text"};
     return words[static_cast<std::size_t>(value)];
 }
 
 TEST(NamesPage, HasARowForEverySetting) {
     auto rows = table_rows(read_text(spec_folder / "names.md"));
-    std::erase_if(rows, [](const auto& row) { return row.size() < 6 || !setting_named(row[0].substr(1, row[0].size() - 2)); });
+    std::erase_if(rows, [](const auto& row) {
+        return row.size() < 6 || !setting_named(row[0].substr(1, row[0].size() - 2));
+    });
     ASSERT_EQ(rows.size(), setting_count);
     for (std::size_t k = 0; k < setting_count; ++k) {
         const SettingInfo& setting = info(static_cast<Setting>(k));

@@ -82,7 +82,8 @@ HostileInputs::HostileInputs(const CellKernel& kernel, const Grid& grid, std::ui
     RandomStream stream(seed);
     with_number(precision_, [&](auto zero) { fill<decltype(zero)>(kernel, stream); });
     if (!grid.linked) return;
-    const auto in_last_row = static_cast<std::int64_t>(stream.below(static_cast<std::uint64_t>(grid.width)));
+    const auto in_last_row =
+        static_cast<std::int64_t>(stream.below(static_cast<std::uint64_t>(grid.width)));
     const auto cells = static_cast<std::size_t>(grid.cell_count() - in_last_row);
     links_ = Links(random_links(cells, seed, 2), PlaneLayout(grid), precision_);
 }
@@ -107,8 +108,7 @@ std::vector<Field> HostileInputs::run(const Kernel& kernel) const {
 }
 
 std::vector<Field> HostileInputs::run(const Kernel& kernel, RowRange rows) const {
-    return with_number(precision_,
-                       [&](auto zero) { return run_as<decltype(zero)>(kernel, rows); });
+    return with_number(precision_, [&](auto zero) { return run_as<decltype(zero)>(kernel, rows); });
 }
 
 template <typename Number>

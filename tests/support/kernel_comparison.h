@@ -14,8 +14,8 @@ namespace cascade::testing {
 
 /// Arguments for a kernel on a grid, made from a seed: ordinary numbers, and among them NaN,
 /// infinities, zeros of both signs, denormals and huge numbers. Halos of fields are filled; memory
-/// that kernels have no business with holds NaN. Inputs of even seeds are said to be near. A linked grid gets random
-/// links, in which its last row may be filled up.
+/// that kernels have no business with holds NaN. Inputs of even seeds are said to be near. A linked
+/// grid gets random links, in which its last row may be filled up.
 class HostileInputs {
 public:
     HostileInputs(const CellKernel& kernel, const Grid& grid, std::uint64_t seed);
@@ -49,8 +49,8 @@ std::vector<Field> run_kernel(Backend& backend, const CellKernel& kernel, const 
 std::string same_bits(const std::vector<Field>& a, const std::vector<Field>& b);
 
 /// Empty if a run wrote only what backend.h allows: the cells of `rows`, and after the last cell
-/// of these up to the next multiple of row_pad. Else the first place that was touched. Only for planes
-/// made by HostileInputs::run.
+/// of these up to the next multiple of row_pad. Else the first place that was touched. Only for
+/// planes made by HostileInputs::run.
 std::string stray_writes(const std::vector<Field>& results, RowRange rows);
 
 /// Linked cells in 1 … max_height rows of 1 … max_width.

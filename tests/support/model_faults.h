@@ -19,7 +19,8 @@ inline const char* fault_of_soup(const PolygonSoup& soup) {
         return "some corners have a place in the texture and some have not";
     }
     for (const PointAttribute& attribute : soup.attributes) {
-        if (attribute.values.size() != soup.points.size()) return "an attribute is not of all points";
+        if (attribute.values.size() != soup.points.size())
+            return "an attribute is not of all points";
     }
     return nullptr;
 }

@@ -112,7 +112,8 @@ private:
                             false);
             case Op::link_flow: {
                 if (!options_.links) return keep(trouble(), true);
-                const std::uint32_t factor = builder_.field_slot(fmt::format("f{}", stream_.below(3)));
+                const std::uint32_t factor =
+                    builder_.field_slot(fmt::format("f{}", stream_.below(3)));
                 const std::uint32_t of = builder_.field_slot(fmt::format("f{}", which));
                 return keep(builder_.link_flow({factor, of}), false);
             }
@@ -169,9 +170,9 @@ private:
             case 4: return keep(builder_.hyperbolic_tangent(a), false);
             case 5: return keep(builder_.power(a, b), false);
             case 6:
-                return keep(builder_.power(a, builder_.number(
-                                                  static_cast<float>(stream_.below(9)) - 4.0f)),
-                            false);
+                return keep(
+                    builder_.power(a, builder_.number(static_cast<float>(stream_.below(9)) - 4.0f)),
+                    false);
             case 7: return keep(builder_.random_symmetric(exact_operand(), stream_.next()), true);
             case 8: return keep(builder_.minimum(a, b), false);
             case 9: return keep(builder_.maximum(a, b), false);

@@ -11,13 +11,13 @@
 namespace cascade::testing {
 
 struct RandomKernelOptions {
-    int operations = 40;         ///< About how many instructions are asked for.
+    int operations = 40;  ///< About how many instructions are asked for.
     int results = 4;
     Precision precision = Precision::single;
-    bool laplacians = true;      ///< And neighbours.
-    bool links = false;          ///< For linked cells: sums over links, and no neighbours.
+    bool laplacians = true;  ///< And neighbours.
+    bool links = false;      ///< For linked cells: sums over links, and no neighbours.
     bool multiply_adds = has_multiply_add();
-    int composed_percent = 5;    ///< Share of elementary functions, clamps, random numbers.
+    int composed_percent = 5;  ///< Share of elementary functions, clamps, random numbers.
 };
 
 /// A valid kernel of random operations on random values, some of them constants that are likely to

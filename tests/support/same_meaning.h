@@ -36,7 +36,8 @@ inline std::string fault_of_formatting(const std::string& text) {
     if (!first) return "it cannot be read:\n" + text;
     if (tree_of(*first) != tree_of(text)) return "it means something else:\n" + *first;
     const auto second = formatted(*first);
-    if (second != first) return "a second run changes it:\n" + *first + "---\n" + second.value_or("");
+    if (second != first)
+        return "a second run changes it:\n" + *first + "---\n" + second.value_or("");
     return "";
 }
 

@@ -36,7 +36,8 @@ std::string base64_of(std::string_view data) {
 /// Places and indices of one triangle: 42 bytes.
 std::string triangle_data() {
     std::string data;
-    for (const float number : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) data += bytes_of(number);
+    for (const float number : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F})
+        data += bytes_of(number);
     for (std::uint16_t corner = 0; corner < 3; ++corner) data += bytes_of(corner);
     return data;
 }
@@ -45,8 +46,10 @@ std::string gltf_with_buffer(std::string_view indices_accessor, std::string_view
     return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
            R"("nodes":[{"scale":[2,2,2],"children":[1]},{"translation":[1,0,0],"mesh":0}],)"
            R"("meshes":[{"primitives":[{)" +
-           std::string(indices_accessor) + R"("attributes":{"POSITION":0}}]}],)"
-           R"("buffers":[{"byteLength":42)" + std::string(buffer) +
+           std::string(indices_accessor) +
+           R"("attributes":{"POSITION":0}}]}],)"
+           R"("buffers":[{"byteLength":42)" +
+           std::string(buffer) +
            R"(}],"bufferViews":[{"buffer":0,"byteLength":36},)"
            R"({"buffer":0,"byteOffset":36,"byteLength":6}],"accessors":[)"
            R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},)"
@@ -80,9 +83,10 @@ end_header
 std::string binary_ply(bool big) {
     std::string file = "ply\nformat binary_";
     file += big ? "big" : "little";
-    file += "_endian 1.0\nelement vertex 3\nproperty float x\nproperty double y\nproperty ushort z\n"
-            "element face 1\nproperty list uint8 uint16 vertex_index\n"
-            "property list uint8 float texcoord\nend_header\n";
+    file +=
+        "_endian 1.0\nelement vertex 3\nproperty float x\nproperty double y\nproperty ushort z\n"
+        "element face 1\nproperty list uint8 uint16 vertex_index\n"
+        "property list uint8 float texcoord\nend_header\n";
     for (const float k : {0.F, 1.F, 2.F}) {
         file += bytes_of(k, big) + bytes_of(0.1 * k * k, big) +
                 bytes_of(static_cast<std::uint16_t>(k), big);
@@ -125,8 +129,12 @@ constexpr std::string_view text_stl =
 
 std::string bytes_of(float value, bool big_endian) { return bytes_in_order(value, big_endian); }
 std::string bytes_of(double value, bool big_endian) { return bytes_in_order(value, big_endian); }
-std::string bytes_of(std::uint16_t value, bool big_endian) { return bytes_in_order(value, big_endian); }
-std::string bytes_of(std::uint32_t value, bool big_endian) { return bytes_in_order(value, big_endian); }
+std::string bytes_of(std::uint16_t value, bool big_endian) {
+    return bytes_in_order(value, big_endian);
+}
+std::string bytes_of(std::uint32_t value, bool big_endian) {
+    return bytes_in_order(value, big_endian);
+}
 
 std::string gltf_text(std::string_view indices_accessor) {
     return gltf_with_buffer(indices_accessor, R"(,"uri":"data:application/octet-stream;base64,)" +
@@ -161,8 +169,10 @@ std::string small_torus_obj() {
     std::string text;
     for (int i = 0; i < 16; ++i) {
         for (int j = 0; j < 8; ++j) {
-            const double a = i * std::numbers::pi / 8, b = j * std::numbers::pi / 4, r = 1 + 0.4 * std::cos(b);
-            text += fmt::format("v {} {} {}\n", r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b));
+            const double a = i * std::numbers::pi / 8, b = j * std::numbers::pi / 4,
+                         r = 1 + 0.4 * std::cos(b);
+            text +=
+                fmt::format("v {} {} {}\n", r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b));
         }
     }
     for (int i = 0; i < 16; ++i) {

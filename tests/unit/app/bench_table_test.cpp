@@ -36,7 +36,8 @@ StageBench stage_at(double share_of_memory) {
 
 TEST(BenchTable, SaysWhatBounds) {
     EXPECT_EQ(bound_sentence(stage_at(0.8)), "planes, memory: 8.00 GB/s of 10.0 GB/s, 80 %");
-    EXPECT_THAT(bound_sentence(stage_at(0.2)), HasSubstr("no limit is near; the nearest is planes, memory"));
+    EXPECT_THAT(bound_sentence(stage_at(0.2)),
+                HasSubstr("no limit is near; the nearest is planes, memory"));
     EXPECT_THAT(bound_sentence(stage_at(2)),
                 HasSubstr("planes, memory: 200 %, since part of it stays nearer"));
     EXPECT_THAT(bound_sentence(stage_at(2)), HasSubstr("nearest is arithmetic"));
@@ -75,7 +76,9 @@ TEST(BenchTable, HasAllNumbers) {
 }
 
 TEST(BenchTable, RowsHaveTheColumnsOfTheirHeader) {
-    const auto columns = [](const std::string& row) { return std::count(row.begin(), row.end(), ','); };
+    const auto columns = [](const std::string& row) {
+        return std::count(row.begin(), row.end(), ',');
+    };
     EXPECT_EQ(columns(bench_csv_row("a,b.cascade", stage_at(1))), columns(bench_csv_header()));
     StageBench nothing;
     nothing.nothing = "it takes no step";

@@ -29,11 +29,24 @@ Leave left(const std::vector<std::string>& arguments) {
 }
 
 TEST(Options, sweep_takes_everything) {
-    const Options options = parsed(
-        {"sweep", "a.cascade", "--vary", "gs.feed=0..1:3", "--vary", "seed=1,2", "-o", "all",
-         "--tile", "64", "--fields", "--force", "--show", "v", "--palette", "viridis", "--range",
-         "0,1", "--depth", "16", "--threads", "3", "--lanes", "4", "--backend", "interp", "-q",
-         "--set", "ka=1", "--grid", "32x16", "--limit-time", "1.5h", "--limit-memory", "1.5GiB"});
+    const Options options = parsed({"sweep",     "a.cascade",
+                                    "--vary",    "gs.feed=0..1:3",
+                                    "--vary",    "seed=1,2",
+                                    "-o",        "all",
+                                    "--tile",    "64",
+                                    "--fields",  "--force",
+                                    "--show",    "v",
+                                    "--palette", "viridis",
+                                    "--range",   "0,1",
+                                    "--depth",   "16",
+                                    "--threads", "3",
+                                    "--lanes",   "4",
+                                    "--backend", "interp",
+                                    "-q",        "--set",
+                                    "ka=1",      "--grid",
+                                    "32x16",     "--limit-time",
+                                    "1.5h",      "--limit-memory",
+                                    "1.5GiB"});
     EXPECT_EQ(options.command, Command::sweep);
     EXPECT_THAT(options.scripts, ElementsAre("a.cascade"));
     ASSERT_EQ(options.sweep.varied.size(), 2U);
@@ -48,14 +61,15 @@ TEST(Options, sweep_takes_everything) {
     EXPECT_EQ(options.run.simulation.memory_limit, 1610612736U);
     EXPECT_EQ(options.limit_seconds, 5400);
     EXPECT_THAT(options.overrides.sets, ElementsAre("ka=1"));
-    EXPECT_THAT(left({"sweep", "a.cascade", "--vary", "a=0..1"}).text, HasSubstr("how many values"));
+    EXPECT_THAT(left({"sweep", "a.cascade", "--vary", "a=0..1"}).text,
+                HasSubstr("how many values"));
     EXPECT_THAT(left({"sweep", "a.cascade", "--vary", "a=1", "--scale", "2"}).text,
                 HasSubstr("there is no option --scale"));
 }
 
 TEST(Options, run_takes_logs_and_limits) {
-    const Options options = parsed({"run", "a.cascade", "--log", "mean(u over domain)", "--log", "t",
-                                    "--log-every", "25", "--log-file", "t.csv", "--features",
+    const Options options = parsed({"run", "a.cascade", "--log", "mean(u over domain)", "--log",
+                                    "t", "--log-every", "25", "--log-file", "t.csv", "--features",
                                     "--limit-time", "90", "--limit-memory", "500MB"});
     EXPECT_THAT(options.run.log.expressions, ElementsAre("mean(u over domain)", "t"));
     EXPECT_EQ(options.run.log.every, 25);
@@ -76,10 +90,10 @@ TEST(Options, run_takes_logs_and_limits) {
 }
 
 TEST(Options, run_takes_what_models_have) {
-    const Options options =
-        parsed({"run", "a.cascade", "--mesh", "sphere", "--cells", "500", "-o", "a.png", "-o", "b.PLY",
-                "--output", "c.cells.vtp", "--retile", "--bake", "256", "--bump", "-0.02", "--up", "z",
-                "--turntable", "12", "--cache", "kept"});
+    const Options options = parsed(
+        {"run",   "a.cascade", "--mesh",   "sphere",      "--cells",  "500",     "-o",  "a.png",
+         "-o",    "b.PLY",     "--output", "c.cells.vtp", "--retile", "--bake",  "256", "--bump",
+         "-0.02", "--up",      "z",        "--turntable", "12",       "--cache", "kept"});
     EXPECT_THAT(options.run.outputs, ElementsAre("a.png", "b.PLY", "c.cells.vtp"));
     EXPECT_TRUE(options.run.model_files.retile);
     EXPECT_EQ(options.run.model_files.bake, 256);
@@ -91,13 +105,16 @@ TEST(Options, run_takes_what_models_have) {
 }
 
 TEST(Options, run_takes_everything) {
-    const Options options = parsed(
-        {"run",        "a.cascade",  "-o",        "out.png",   "--grid",  "32x16",     "--seed",
-         "7",          "--set",      "ka=1/80",   "--set",     "s.b=2",   "--steps",   "100",
-         "--until-stage", "large",   "--show",    "b - a",     "--palette", "viridis", "--range",
-         "-1,2.5",     "--scale",    "4",         "--depth",   "16",      "--threads", "3",
-         "--lanes",    "8",          "--backend", "interp",    "--save",  "kept",      "--frames",
-         "film",       "--sheet",    "all.png",   "--stop-at", "s:50",    "--quiet"});
+    const Options options =
+        parsed({"run",       "a.cascade", "-o",      "out.png",   "--grid",
+                "32x16",     "--seed",    "7",       "--set",     "ka=1/80",
+                "--set",     "s.b=2",     "--steps", "100",       "--until-stage",
+                "large",     "--show",    "b - a",   "--palette", "viridis",
+                "--range",   "-1,2.5",    "--scale", "4",         "--depth",
+                "16",        "--threads", "3",       "--lanes",   "8",
+                "--backend", "interp",    "--save",  "kept",      "--frames",
+                "film",      "--sheet",   "all.png", "--stop-at", "s:50",
+                "--quiet"});
     EXPECT_EQ(options.command, Command::run);
     EXPECT_THAT(options.scripts, ElementsAre("a.cascade"));
     EXPECT_THAT(options.run.outputs, ElementsAre("out.png"));
@@ -141,7 +158,8 @@ TEST(Options, standard_input_is_a_script) {
 }
 
 TEST(Options, a_tiling_is_forced_where_nobody_sees_it) {
-    EXPECT_EQ(parsed({"run", "a.cascade", "--tiling", "4,2"}).run.simulation.tiling, (Tiling{4, 2}));
+    EXPECT_EQ(parsed({"run", "a.cascade", "--tiling", "4,2"}).run.simulation.tiling,
+              (Tiling{4, 2}));
     EXPECT_FALSE(parsed({"run", "a.cascade"}).run.simulation.tiling);
 }
 
@@ -155,8 +173,7 @@ TEST(Options, what_was_not_given_leaves_a_stored_picture_alone) {
     PictureRequest stored;
     stored.palette = "magma";
     stored.scale = 3;
-    const PictureRequest request =
-        apply(parsed({"run", "a.png", "--scale", "5"}).picture, stored);
+    const PictureRequest request = apply(parsed({"run", "a.png", "--scale", "5"}).picture, stored);
     EXPECT_EQ(request.palette, "magma");
     EXPECT_EQ(request.scale, 5);
 }
@@ -169,9 +186,8 @@ TEST(Options, check_takes_many_scripts) {
 }
 
 TEST(Options, compile) {
-    const Options options =
-        parsed({"compile", "a.cascade", "--stage", "2", "--per-cell", "beta,ka", "--target",
-                "x86-64-v3", "-o", "step.o", "--header", "step.h"});
+    const Options options = parsed({"compile", "a.cascade", "--stage", "2", "--per-cell", "beta,ka",
+                                    "--target", "x86-64-v3", "-o", "step.o", "--header", "step.h"});
     EXPECT_EQ(options.command, Command::compile);
     EXPECT_EQ(options.compile.stage, "2");
     EXPECT_THAT(options.compile.per_cell, ElementsAre("beta", "ka"));
@@ -223,7 +239,9 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{}, "Usage: cascade COMMAND"},
         WrongUse{{"rnu", "a.cascade"}, "no command 'rnu'; did you mean 'cascade run'?"},
         WrongUse{{"a.cascade"}, "no command 'a.cascade'; did you mean 'cascade run a.cascade'?"},
-        WrongUse{{"fly"}, "the commands are run, sweep, check, bench, compile, systems, new, fmt, mesh, repl"},
+        WrongUse{
+            {"fly"},
+            "the commands are run, sweep, check, bench, compile, systems, new, fmt, mesh, repl"},
         WrongUse{{"run"}, "cascade run: a script is missing"},
         WrongUse{{"check"}, "cascade check: a script is missing"},
         WrongUse{{"run", "a", "--pallete", "tan"}, "no option --pallete; did you mean --palette?"},
@@ -233,7 +251,8 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{"run", "a", "-o", "b.mp4"}, "(for a movie write --frames b, then ffmpeg "},
         WrongUse{{"run", "a", "-o"}, "--output needs a value"},
         WrongUse{{"run", "a", "--gird", "3"}, "there is no option --gird; did you mean --grid?"},
-        WrongUse{{"run", "a", "--grid", "4y4"}, "--grid: '4y4' is not a grid (write columns x rows"},
+        WrongUse{{"run", "a", "--grid", "4y4"},
+                 "--grid: '4y4' is not a grid (write columns x rows"},
         WrongUse{{"run", "a", "--grid", "-4x4"}, "is not a grid"},
         WrongUse{{"run", "a", "--seed", "-1"}, "whole number from 0 to 4294967295"},
         WrongUse{{"run", "a", "--seed", "4294967296"}, "whole number from 0 to 4294967295"},

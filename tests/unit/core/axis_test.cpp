@@ -9,7 +9,8 @@ namespace cascade {
 namespace {
 
 TEST(Axis, HasANameAndIsFoundByIt) {
-    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) EXPECT_EQ(axis_of_name(name_of(axis)), axis);
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z})
+        EXPECT_EQ(axis_of_name(name_of(axis)), axis);
     for (const char* wrong : {"", "w", "X", "xy", "-z"}) EXPECT_FALSE(axis_of_name(wrong)) << wrong;
 }
 
@@ -28,7 +29,8 @@ TEST(Axis, TheTurnBringsUpToYAndIsNoMirror) {
     EXPECT_EQ(turned_upright(Vector3d{0, 0, 1}, Axis::z), (Vector3d{0, 1, 0}));
     const Vector3d a{1, 2, 3}, b{-4, 0.5, 7};
     for (const Axis up : {Axis::x, Axis::y, Axis::z}) {
-        EXPECT_EQ(cross(turned_upright(a, up), turned_upright(b, up)), turned_upright(cross(a, b), up))
+        EXPECT_EQ(cross(turned_upright(a, up), turned_upright(b, up)),
+                  turned_upright(cross(a, b), up))
             << name_of(up);
     }
 }

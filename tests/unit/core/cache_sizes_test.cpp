@@ -15,7 +15,8 @@ namespace {
 class CacheFolder {
 public:
     CacheFolder()
-        : path_(std::filesystem::path(::testing::TempDir()) / ("caches_" + std::to_string(getpid()))) {
+        : path_(std::filesystem::path(::testing::TempDir()) /
+                ("caches_" + std::to_string(getpid()))) {
         std::filesystem::create_directories(path_);
     }
     ~CacheFolder() { std::filesystem::remove_all(path_); }

@@ -88,10 +88,14 @@ TEST_F(Files, APlainFileIsNoLinkNoPipeAndNoDevice) {
     EXPECT_FALSE(read_plain_file(folder_ / "plain", 3));
     fs::create_symlink("plain", folder_ / "link");
     ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
-    for (const fs::path& path : {folder_ / "link", folder_ / "pipe", fs::path("/dev/zero"), folder_}) {
+    for (const fs::path& path :
+         {folder_ / "link", folder_ / "pipe", fs::path("/dev/zero"), folder_}) {
         EXPECT_FALSE(read_plain_file(path, 10)) << path;
     }
-    EXPECT_NE(read_plain_file(folder_ / "pipe", 10).error().message.find("a pipe or a device and no file"), std::string::npos);
+    EXPECT_NE(read_plain_file(folder_ / "pipe", 10)
+                  .error()
+                  .message.find("a pipe or a device and no file"),
+              std::string::npos);
 }
 
 TEST_F(Files, AWriteReplacesAndKeepsPermissions) {
@@ -157,8 +161,9 @@ TEST_F(Files, AFailedWriteLeavesTheOldFileAndNothingElse) {
 
 TEST_F(Files, WhereNoFileCanBe) {
     std::ofstream(folder_ / "file") << "x";
-    for (const fs::path& path : {folder_ / "no-folder" / "a.png", folder_ / "file" / "a.png",
-                                 folder_, folder_ / std::string(300, 'n'), fs::path("/proc/a.png")}) {
+    for (const fs::path& path :
+         {folder_ / "no-folder" / "a.png", folder_ / "file" / "a.png", folder_,
+          folder_ / std::string(300, 'n'), fs::path("/proc/a.png")}) {
         EXPECT_FALSE(check_writable(path)) << path;
         EXPECT_FALSE(write_file(path, "x")) << path;
     }

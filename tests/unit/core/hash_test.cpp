@@ -16,9 +16,7 @@ TEST(Fnv1a, KnownValues) {
     EXPECT_EQ(fnv1a("\xff"), 0xaf64724c8602eb6eULL) << "bytes are unsigned";
 }
 
-TEST(Fnv1a, SeedChains) {
-    EXPECT_EQ(fnv1a("bar", fnv1a("foo")), fnv1a("foobar"));
-}
+TEST(Fnv1a, SeedChains) { EXPECT_EQ(fnv1a("bar", fnv1a("foo")), fnv1a("foobar")); }
 
 TEST(Pcg4d, KnownValues) {
     using Words = std::array<std::uint32_t, 4>;

@@ -54,8 +54,8 @@ TEST(Team, NobodyPassesABarrierEarly) {
         Team team(size);
         // Each thread adds the values its neighbours had before the barrier; a thread that runs
         // ahead or lags behind changes the sums.
-        std::vector<std::vector<std::uint64_t>> values(2, std::vector<std::uint64_t>(
-                                                              static_cast<std::size_t>(size), 1));
+        std::vector<std::vector<std::uint64_t>> values(
+            2, std::vector<std::uint64_t>(static_cast<std::size_t>(size), 1));
         constexpr int rounds = 2000;
         team.run([&](int index) {
             const auto n = static_cast<std::size_t>(index), all = static_cast<std::size_t>(size);

@@ -72,8 +72,8 @@ protected:
         for (const Boundary x : either) {
             for (const Boundary y : either) {
                 for (const Boundary z : either) {
-                    all.push_back({GetParam().width, GetParam().height, {x, y, z},
-                                   GetParam().depth});
+                    all.push_back(
+                        {GetParam().width, GetParam().height, {x, y, z}, GetParam().depth});
                 }
             }
         }
@@ -124,14 +124,14 @@ float expected_beyond(const Field& cells, const Grid& grid, const SideRules& sid
         const SideRule& rule = sides.at[2 * axis + (at[axis] < 0 ? 0 : 1)];
         std::array<std::int64_t, 3> inside = at;
         const bool is_periodic = rule.kind == SideKind::periodic;
-        inside[axis] = beyond(is_periodic ? Boundary::periodic : Boundary::no_flux, at[axis],
-                              counts[axis]);
+        inside[axis] =
+            beyond(is_periodic ? Boundary::periodic : Boundary::no_flux, at[axis], counts[axis]);
         const float cell = expected_beyond(cells, grid, sides, values, inside);
         const float value = rule.values ? values.at(inside[0], inside[1], inside[2])
                                         : static_cast<float>(rule.value);
         if (rule.kind == SideKind::fixed) return 2 * value - cell;
         return rule.kind == SideKind::flux ? cell + static_cast<float>(sides.spacing) * value
-                                            : cell;
+                                           : cell;
     }
     return cells.at(at[0], at[1], at[2]);
 }
@@ -147,7 +147,8 @@ TEST_P(Halo, SidesWithValues) {
         int digits = mixture;
         for (std::size_t side = 0; side < side_count; ++side, digits /= 3) {
             sides.at[side] = {kinds[digits % 3], static_cast<float>(side) + 0.25f, nullptr};
-            if ((mixture + static_cast<int>(side)) % 2 == 0) sides.at[side].values = values.origin();
+            if ((mixture + static_cast<int>(side)) % 2 == 0)
+                sides.at[side].values = values.origin();
         }
         if (mixture % 3 == 1) sides.at[0].kind = sides.at[1].kind = SideKind::periodic;
         Field field = numbered(grid);

@@ -27,9 +27,9 @@ Plane<Number> slope_on(const Grid& grid) {
                 const auto centre = [&](std::int64_t cell, std::int64_t cells) {
                     return cells == 1 ? 0 : (static_cast<double>(cell) + 0.5) * grid.spacing;
                 };
-                plane.at(i, j, k) = static_cast<Number>(1 + 2 * centre(i, grid.width) +
-                                                        3 * centre(j, grid.height) -
-                                                        centre(k, grid.depth));
+                plane.at(i, j, k) =
+                    static_cast<Number>(1 + 2 * centre(i, grid.width) + 3 * centre(j, grid.height) -
+                                        centre(k, grid.depth));
             }
         }
     }
@@ -77,7 +77,7 @@ TEST(Resample, PeriodicSidesAreNeighboursAndMeansAreKept) {
     Plane<float> coarse{PlaneLayout(half)};
     for (std::int64_t i = 0; i < 4; ++i) coarse.at(i, 0) = static_cast<float>(i * i);
     const Plane<float> found = refined(coarse, half, fine, half.boundary);
-    EXPECT_FLOAT_EQ(found.at(0, 0), 9.0f / 4);              // 0 and, beyond the side, 9.
+    EXPECT_FLOAT_EQ(found.at(0, 0), 9.0f / 4);  // 0 and, beyond the side, 9.
     EXPECT_FLOAT_EQ(found.at(7, 1), 9 - 9.0f / 4);
     double sum = 0;
     for (std::int64_t i = 0; i < 8; ++i) sum += found.at(i, 0);
@@ -93,7 +93,8 @@ TEST(Resample, ValuesHeldAtASideAreSeen) {
     sides.at[0] = {SideKind::fixed, 0, nullptr};
     sides.at[1] = {SideKind::fixed, 8, nullptr};
     const Plane<float> found = refined(coarse, half, fine, sides);
-    for (std::int64_t i = 0; i < 8; ++i) EXPECT_FLOAT_EQ(found.at(i, 0), static_cast<float>(i) + 0.5f);
+    for (std::int64_t i = 0; i < 8; ++i)
+        EXPECT_FLOAT_EQ(found.at(i, 0), static_cast<float>(i) + 0.5f);
 }
 
 }  // namespace

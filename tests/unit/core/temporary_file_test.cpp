@@ -149,10 +149,8 @@ TEST_F(TemporaryFiles, APipeIsWrittenAsFastAsItIsRead) {
     std::vector<char> piece(65536);
     while (read.size() < bytes.size()) {
         const ssize_t got = ::read(reader.number(), piece.data(), piece.size());
-        if (got > 0)
-            read.append(piece.data(), static_cast<std::size_t>(got));
-        else
-            std::this_thread::yield();
+        if (got > 0) read.append(piece.data(), static_cast<std::size_t>(got));
+        else std::this_thread::yield();
     }
     writer.join();
     EXPECT_EQ(read, bytes);

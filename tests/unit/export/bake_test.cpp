@@ -21,11 +21,11 @@
 namespace cascade {
 namespace {
 
+using test::flat_square;
+using test::never;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using test::flat_square;
-using test::never;
 
 /// A value in each cell by where it is.
 template <typename Function>
@@ -72,8 +72,9 @@ TEST(TextureLayout, EverySampleOfASquareHasOneTriangle) {
         EXPECT_NEAR(layout.covered_area(), 1, 1e-6);
         for (std::int64_t row = 0; row < 16; ++row) {
             for (std::int64_t column = 0; column < 24; ++column) {
-                const SurfacePlace place = layout.place_at(
-                    owners[static_cast<std::size_t>(row * 24 + column)], column, row);
+                const SurfacePlace place =
+                    layout.place_at(owners[static_cast<std::size_t>(row * 24 + column)], column,
+                                    row);
                 const Vector3d p = position_of(mesh, place);
                 EXPECT_NEAR(p.x, (static_cast<double>(column) + 0.5) / 24, 1e-6);
                 EXPECT_NEAR(p.y, 1 - (static_cast<double>(row) + 0.5) / 16, 1e-6);
@@ -156,7 +157,8 @@ TEST(Bake, TexelsOfASquareAreWhatThePlacesSay) {
             const Colour& texel = result.colour.at(x, y);
             const auto light = [](double place) {
                 return (light_of(static_cast<float>(place - 0.25 / 16)) +
-                        light_of(static_cast<float>(place + 0.25 / 16))) / 2;
+                        light_of(static_cast<float>(place + 0.25 / 16))) /
+                       2;
             };
             EXPECT_NEAR(light_of(texel[0]), light((static_cast<double>(x) + 0.5) / 16), 1e-5F);
             EXPECT_NEAR(light_of(texel[1]), light(1 - (static_cast<double>(y) + 0.5) / 16), 1e-5F);
@@ -227,7 +229,8 @@ TEST(Bake, TheMeanColourIsThatOfTheCells) {
         areas += sphere.cells.areas[k];
     }
     EXPECT_NEAR(sum / weights, cells / areas, 0.002);
-    EXPECT_NEAR(result.covered, 1 - 1.0 / 24, 0.002);  // Beside each triangle at a pole it is empty.
+    EXPECT_NEAR(result.covered, 1 - 1.0 / 24,
+                0.002);  // Beside each triangle at a pole it is empty.
 }
 
 TEST(Bake, TheSameOnAnyNumberOfThreads) {
@@ -281,7 +284,7 @@ TEST(Bake, LevelGroundIsLevelAndNaNIsTakenFromAround) {
     for (const Colour& texel : level.normals.pixels) EXPECT_THAT(texel, ElementsAre(0.5F, 0.5F, 1));
     for (std::size_t k = 0; k < 40; ++k) {
         values[k * 10] = k % 2 == 0 ? std::numeric_limits<float>::quiet_NaN()
-                                                : std::numeric_limits<float>::infinity();
+                                    : std::numeric_limits<float>::infinity();
     }
     const Bake holes = baked(mesh, cells, look, size_of_texture(32, 32));
     for (const Colour& texel : holes.normals.pixels) EXPECT_NEAR(texel[2], 1, 1e-6F);
@@ -291,11 +294,11 @@ TEST(Bake, LevelGroundIsLevelAndNaNIsTakenFromAround) {
     }
     EXPECT_NEAR(holes.heights.low, 1e6F / 3, 1);
     EXPECT_EQ(holes.colour.at(0, 0).size(), 3u);
-    std::fill(values.begin(), values.end(),
-              std::numeric_limits<float>::quiet_NaN());
+    std::fill(values.begin(), values.end(), std::numeric_limits<float>::quiet_NaN());
     const Bake nothing = baked(mesh, cells, look, size_of_texture(8, 8));
     EXPECT_EQ(nothing.heights.high, 0);
-    for (const Colour& texel : nothing.normals.pixels) EXPECT_THAT(texel, ElementsAre(0.5F, 0.5F, 1));
+    for (const Colour& texel : nothing.normals.pixels)
+        EXPECT_THAT(texel, ElementsAre(0.5F, 0.5F, 1));
     for (const Colour& texel : nothing.colour.pixels) EXPECT_THAT(texel, ElementsAre(1, 0, 1));
 }
 
@@ -322,8 +325,9 @@ TEST(Bake, SaysHowMuchOverlaps) {
     const PaintedCells look = painted(values);
     const Bake result = baked(mesh, cells, look, size_of_texture(32, 32));
     EXPECT_NEAR(result.overlapping, 0.5, 1e-9);
-    EXPECT_THAT(result.warnings, ElementsAre("50.0 % of the model lies over other parts of it in the "
-                                             "texture and shows their pattern"));
+    EXPECT_THAT(result.warnings,
+                ElementsAre("50.0 % of the model lies over other parts of it in the "
+                            "texture and shows their pattern"));
 }
 
 TEST(Bake, RefusesWhatCannotBePainted) {
@@ -351,7 +355,15 @@ TEST(Bake, RefusesWhatCannotBePainted) {
 }
 
 TEST(Bake, AnyTextureCoordinatesAndValuesMakeFilesOrAFault) {
-    const float odd[] = {0, 1, 0.5F, -0.0F, 1e-40F, 300, -7.25F, 1e30F, 3e38F,
+    const float odd[] = {0,
+                         1,
+                         0.5F,
+                         -0.0F,
+                         1e-40F,
+                         300,
+                         -7.25F,
+                         1e30F,
+                         3e38F,
                          std::numeric_limits<float>::quiet_NaN(),
                          -std::numeric_limits<float>::infinity()};
     std::size_t painted_ones = 0;

@@ -44,8 +44,8 @@ public:
     static bool has_numpy() { return !python().empty(); }
     bool runs(const std::string& script) const {
         std::ofstream(folder_ / "script.py") << script;
-        return std::system(("cd '" + folder_.string() + "' && " + python() + " script.py").c_str()) ==
-               0;
+        return std::system(
+                   ("cd '" + folder_.string() + "' && " + python() + " script.py").c_str()) == 0;
     }
 
 private:
@@ -64,8 +64,8 @@ TEST(CellWriter, NumPyReadsTheArchive) {
     if (!PythonFolder::has_numpy()) GTEST_SKIP() << "there is no NumPy";
     const CellsOfSquare square;
     const PythonFolder folder;
-    ASSERT_TRUE(write_cells(folder / "cells.npz", square.mesh, square.cells, square.results())
-                    .has_value());
+    ASSERT_TRUE(
+        write_cells(folder / "cells.npz", square.mesh, square.cells, square.results()).has_value());
     EXPECT_TRUE(folder.runs(R"(
 import numpy, zipfile
 assert zipfile.ZipFile("cells.npz").testzip() is None
@@ -94,8 +94,8 @@ TEST(CellWriter, XmlSaysWhereArraysAre) {
     if (!PythonFolder::has_numpy()) GTEST_SKIP() << "there is no NumPy";
     const CellsOfSquare square;
     const PythonFolder folder;
-    ASSERT_TRUE(write_cells(folder / "cells.vtp", square.mesh, square.cells, square.results())
-                    .has_value());
+    ASSERT_TRUE(
+        write_cells(folder / "cells.vtp", square.mesh, square.cells, square.results()).has_value());
     const Channel points[] = {{"a<b", std::vector<float>(square.mesh.points.size(), 3)}};
     ASSERT_TRUE(write_model(folder / "model.vtp", square.mesh, {{}, points}).has_value());
     EXPECT_TRUE(folder.runs(R"(
@@ -164,9 +164,10 @@ TEST(CellWriter, FilesAreTheSameOnAnyNumberOfThreads) {
         Team team(threads);
         const SurfaceCells cells = test::cells_of(mesh, 200, threads);
         const CellFilter filter(mesh, cells, team);
-        std::vector<Channel> channels{{"u", std::vector<float>(cells.areas.begin(),
-                                                               cells.areas.end())}};
-        const PaintedCells look{1, channels[0].values,
+        std::vector<Channel> channels{
+            {"u", std::vector<float>(cells.areas.begin(), cells.areas.end())}};
+        const PaintedCells look{1,
+                                channels[0].values,
                                 [](std::span<const float> values, const SurfacePlace&) -> Colour {
                                     return {10 * values[0], 0.5F, 0};
                                 },
@@ -177,8 +178,8 @@ TEST(CellWriter, FilesAreTheSameOnAnyNumberOfThreads) {
         GlbLook glb;
         glb.colours = colours;
         const std::vector<std::string> files = {
-            encode_ply(mesh, {colours, points}), encode_obj(mesh, {colours, points}),
-            encode_vtp(mesh, {colours, points}), *encode_glb(mesh, glb),
+            encode_ply(mesh, {colours, points}),      encode_obj(mesh, {colours, points}),
+            encode_vtp(mesh, {colours, points}),      *encode_glb(mesh, glb),
             *encode_npz(mesh, cells, {{}, channels}), encode_vtp(mesh, cells, {{}, channels})};
         if (first.empty()) first = files;
         for (std::size_t k = 0; k < files.size(); ++k) EXPECT_TRUE(files[k] == first[k]) << k;
@@ -189,12 +190,14 @@ TEST(PaintedCells, PointsHaveTheColourOfTheFilteredValues) {
     const CellsOfSquare square;
     Team team(2);
     const CellFilter filter(square.mesh, square.cells, team);
-    const PaintedCells look{1, square.channels[0].values,
+    const PaintedCells look{1,
+                            square.channels[0].values,
                             [](std::span<const float> values, const SurfacePlace&) -> Colour {
                                 return {values[0], 0.5F, 1 - values[0]};
                             },
                             {}};
-    const std::vector<Colour> colours = colours_at(places_of_points(square.mesh), filter, look, team);
+    const std::vector<Colour> colours =
+        colours_at(places_of_points(square.mesh), filter, look, team);
     const std::vector<Channel> values =
         values_at(places_of_points(square.mesh), filter, square.channels, team);
     for (std::size_t p = 0; p < colours.size(); ++p) {

@@ -18,11 +18,11 @@
 namespace cascade {
 namespace {
 
-using ::testing::HasSubstr;
 using test::flat_square;
 using test::place_colours;
 using test::sphere_with_texture;
 using test::x_channel;
+using ::testing::HasSubstr;
 
 SurfaceMesh read_back(const Result<PolygonSoup>& soup) {
     EXPECT_TRUE(soup.has_value()) << soup.error().message;
@@ -60,7 +60,8 @@ const PointAttribute& attribute(const SurfaceMesh& mesh, const std::string& name
 TEST(ModelWriter, PlyIsReadBackExactly) {
     const SurfaceMesh mesh = sphere_with_texture(12);
     const std::vector<Colour> colours = place_colours(mesh);
-    const Channel channels[] = {x_channel(mesh), {"a b", x_channel(mesh).values},
+    const Channel channels[] = {x_channel(mesh),
+                                {"a b", x_channel(mesh).values},
                                 {"u", x_channel(mesh).values}};
     const SurfaceMesh read = read_back(read_ply(encode_ply(mesh, {colours, channels})));
     expect_same(read, mesh, 0);
@@ -137,7 +138,8 @@ TEST(ModelWriter, GlbKeepsPlacesFarFromTheOriginApart) {
 
 TEST(ModelWriter, GlbOfABoundaryIsSeenFromBothSides) {
     EXPECT_TRUE(json_of(*encode_glb(flat_square(2), {}))["materials"][0].contains("doubleSided"));
-    EXPECT_FALSE(json_of(*encode_glb(sphere_with_texture(6), {}))["materials"][0].contains("doubleSided"));
+    EXPECT_FALSE(
+        json_of(*encode_glb(sphere_with_texture(6), {}))["materials"][0].contains("doubleSided"));
 }
 
 TEST(ModelWriter, GlbRefusesWhatBinary32DoesNotHold) {
@@ -155,7 +157,8 @@ TEST(ModelWriter, WhatIsNoNumberHasAMeaning) {
     const SurfaceMesh mesh = flat_square(1);
     const float nan = -std::numeric_limits<float>::quiet_NaN();
     const float infinite = std::numeric_limits<float>::infinity();
-    const std::vector<Colour> colours = {{nan, 0, 0}, {infinite, -infinite, 2}, {0, 0, 0}, {1, 1, 1}};
+    const std::vector<Colour> colours = {
+        {nan, 0, 0}, {infinite, -infinite, 2}, {0, 0, 0}, {1, 1, 1}};
     const Channel channels[] = {{"c", {nan, infinite, 0, 1}}};
     const SurfaceMesh read = read_back(read_ply(encode_ply(mesh, {colours, channels})));
     std::uint32_t bits = 0;
@@ -192,7 +195,8 @@ TEST(ModelWriter, WritesByTheEnding) {
     EXPECT_TRUE(is_model_ending("x.Vtp"));
     const Result<void> refused = write_model(folder / "a.stl", mesh, {});
     ASSERT_FALSE(refused.has_value());
-    EXPECT_THAT(refused.error().message, HasSubstr("a model's name ends in .ply, .obj, .glb or .vtp"));
+    EXPECT_THAT(refused.error().message,
+                HasSubstr("a model's name ends in .ply, .obj, .glb or .vtp"));
     EXPECT_FALSE(std::filesystem::exists(folder / "a.stl"));
     std::filesystem::remove_all(folder);
 }

@@ -56,9 +56,9 @@ constexpr Function functions[] = {exp_function,  log_function,  sin_function,  c
 
 std::vector<double> values_of(const Function& function, const std::vector<double>& x,
                               Form form = Form::strict) {
-    return apply_to_all(
-        [&](KernelBuilder& builder, ValueId a, ValueId) { return (builder.*function.expand)(a); },
-        x, x, form);
+    return apply_to_all([&](KernelBuilder& builder, ValueId a,
+                            ValueId) { return (builder.*function.expand)(a); },
+                        x, x, form);
 }
 
 double value_of(const Function& function, double x) { return values_of(function, {x})[0]; }
@@ -170,8 +170,8 @@ TEST(Binary64, FunctionsAtTheirEnds) {
     EXPECT_EQ(value_of(acos_function, 1), 0);
     EXPECT_EQ(value_of(acos_function, -1), 0x1.921fb54442d18p+1);
     EXPECT_TRUE(std::isnan(value_of(asin_function, 1 + 0x1p-52)));
-    for (const Function& function : {sin_function, tan_function, asin_function, sinh_function,
-                                     tanh_function, cbrt_function}) {
+    for (const Function& function :
+         {sin_function, tan_function, asin_function, sinh_function, tanh_function, cbrt_function}) {
         EXPECT_TRUE(std::signbit(value_of(function, -0.0))) << function.name;
         EXPECT_EQ(value_of(function, -0x1p-1030), 0) << function.name;
     }
@@ -209,8 +209,8 @@ void expect_accurate(const char* name, ValueId (KernelBuilder::*expand)(ValueId,
     double worst = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {
         const double x = flushed(arguments.x[k]), y = flushed(arguments.y[k]);
-        const double error = error_in_ulp(
-            values[k], exact(static_cast<long double>(x), static_cast<long double>(y)));
+        const double error = error_in_ulp(values[k], exact(static_cast<long double>(x),
+                                                           static_cast<long double>(y)));
         ASSERT_LE(error, largest_error)
             << name << "(" << x << ", " << y << ") = " << values[k] << ", " << name_of(form);
         worst = std::max(worst, error);
@@ -239,16 +239,15 @@ TEST(Binary64, FunctionsOfTwoNumbers) {
         expect_accurate("pow", &KernelBuilder::power, power, 1.5, each);
     }
     const auto positive = [](auto& stream) { return std::exp2(4 * fine_number(stream)); };
-    expect_accurate("pow", &KernelBuilder::power, power, 1.5, pairs(4, positive, [](auto& stream) {
-                        return 5 * fine_number(stream);
-                    }));
-    // Results near both ends of the range.
-    expect_accurate("pow", &KernelBuilder::power, power, 1.5, pairs(5, positive, [](auto& stream) {
-                        return 250 * fine_number(stream);
-                    }));
     expect_accurate("pow", &KernelBuilder::power, power, 1.5,
-                    pairs(6, [](auto& stream) { return 1 + 0x1p-20 * fine_number(stream); },
-                          [](auto& stream) { return 0x1p29 * fine_number(stream); }));
+                    pairs(4, positive, [](auto& stream) { return 5 * fine_number(stream); }));
+    // Results near both ends of the range.
+    expect_accurate("pow", &KernelBuilder::power, power, 1.5,
+                    pairs(5, positive, [](auto& stream) { return 250 * fine_number(stream); }));
+    expect_accurate("pow", &KernelBuilder::power, power, 1.5,
+                    pairs(
+                        6, [](auto& stream) { return 1 + 0x1p-20 * fine_number(stream); },
+                        [](auto& stream) { return 0x1p29 * fine_number(stream); }));
 }
 
 TEST(Binary64, ModulusIsExactOrRoundedOnce) {
@@ -259,19 +258,21 @@ TEST(Binary64, ModulusIsExactOrRoundedOnce) {
     };
     const auto large = [](auto& stream) { return std::ldexp(fine_number(stream), 40); };
     const auto about_one = [](auto& stream) { return 1 + fine_number(stream) / 2; };
-    for (const Pairs& each : {pairs(1, fine_number, about_one), pairs(2, large, about_one),
-                              pairs(3, large, [](auto& stream) { return 1.0 + stream.below(99); })}) {
+    for (const Pairs& each :
+         {pairs(1, fine_number, about_one), pairs(2, large, about_one),
+          pairs(3, large, [](auto& stream) { return 1.0 + stream.below(99); })}) {
         expect_accurate("mod", &KernelBuilder::modulus, rest, 0.5001, each);
     }
 }
 
 TEST(Binary64, RoundingIsThatOfC) {
     testing::RandomStream stream(9);
-    std::vector<double> x = {0.5, -0.5, 1.5, 2.5, -0.0, 0x1p51 + 0.5, 0x1p52 + 1, infinity, -infinity};
+    std::vector<double> x = {0.5,          -0.5,       1.5,      2.5,      -0.0,
+                             0x1p51 + 0.5, 0x1p52 + 1, infinity, -infinity};
     for (int k = 0; k < 100000; ++k) x.push_back(std::ldexp(fine_number(stream), k % 60));
     const auto apply = [&](ValueId (KernelBuilder::*expand)(ValueId)) {
-        return apply_to_all([&](KernelBuilder& builder, ValueId a,
-                                ValueId) { return (builder.*expand)(a); }, x, x);
+        return apply_to_all(
+            [&](KernelBuilder& builder, ValueId a, ValueId) { return (builder.*expand)(a); }, x, x);
     };
     const std::vector<double> nearest = apply(&KernelBuilder::round_to_even);
     const std::vector<double> below = apply(&KernelBuilder::round_down);

@@ -39,7 +39,8 @@ TEST(Print, Neighbours) {
     KernelBuilder builder;
     builder.field_slot("other");
     builder.result("r", builder.neighbour(builder.field_slot("a"), 1, -1, 0));
-    EXPECT_EQ(print(std::move(builder).finish()), "%0 = neighbour a at (1, -1, 0)\nresult r = %0\n");
+    EXPECT_EQ(print(std::move(builder).finish()),
+              "%0 = neighbour a at (1, -1, 0)\nresult r = %0\n");
 }
 
 TEST(Verify, Neighbours) {

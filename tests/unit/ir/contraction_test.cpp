@@ -130,8 +130,10 @@ TEST(Contraction, DividesByWhatIsTheSameInAllCellsOnce) {
               }),
               "%0 = field a\n%1 = field b\n%2 = uniform d\n%3 = constant 0x3f800000  # 1\n"
               "%4 = divide %3, %2\n%5 = multiply_add %4, %0, %1\nresult r = %5\n");
-    EXPECT_TRUE(stays([](const Names& n) { return n.builder.divide(n.number("d"), n.field("a")); }));
-    EXPECT_TRUE(stays([](const Names& n) { return n.builder.divide(n.number("d"), n.number("e")); }));
+    EXPECT_TRUE(
+        stays([](const Names& n) { return n.builder.divide(n.number("d"), n.field("a")); }));
+    EXPECT_TRUE(
+        stays([](const Names& n) { return n.builder.divide(n.number("d"), n.number("e")); }));
 }
 
 TEST(Contraction, KeepsSlotsNamesAndPrecision) {

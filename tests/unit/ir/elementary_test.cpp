@@ -53,19 +53,15 @@ constexpr Function functions[] = {exp_function,  log_function,  sin_function,  c
 
 std::vector<float> values_of(const Function& function, const std::vector<float>& x,
                              Form form = Form::strict) {
-    return apply_to_all(
-        [&](KernelBuilder& builder, ValueId a, ValueId) { return (builder.*function.expand)(a); },
-        x, x, form);
+    return apply_to_all([&](KernelBuilder& builder, ValueId a,
+                            ValueId) { return (builder.*function.expand)(a); },
+                        x, x, form);
 }
 
-float value_of(const Function& function, float x) {
-    return values_of(function, {x})[0];
-}
+float value_of(const Function& function, float x) { return values_of(function, {x})[0]; }
 
 /// Denormal arguments count as zeros.
-double flushed(float x) {
-    return std::fabs(x) < 0x1p-126f ? std::copysign(0.0, x) : x;
-}
+double flushed(float x) { return std::fabs(x) < 0x1p-126f ? std::copysign(0.0, x) : x; }
 
 void expect_accurate(const Function& function, const std::vector<float>& x, Form form) {
     const std::vector<float> values = values_of(function, x, form);
@@ -170,8 +166,8 @@ TEST(Elementary, LogarithmAtItsEnds) {
 }
 
 TEST(Elementary, OddFunctionsKeepTheSignOfZero) {
-    for (const Function& function : {sin_function, tanh_function, tan_function, asin_function,
-                                     sinh_function, cbrt_function}) {
+    for (const Function& function :
+         {sin_function, tanh_function, tan_function, asin_function, sinh_function, cbrt_function}) {
         EXPECT_EQ(to_bits(value_of(function, 0.0f)), 0u) << function.name;
         EXPECT_EQ(to_bits(value_of(function, -0.0f)), 0x80000000u) << function.name;
         EXPECT_EQ(to_bits(value_of(function, to_number(0x80000001))), 0x80000000u) << function.name;

@@ -61,12 +61,11 @@ private:
             switch (instruction.op) {
                 case Op::constant: return slot;
                 case Op::field: return to_bits(arguments.fields[slot][at]);
-                case Op::laplacian:
-                    return laplacian(arguments.fields[slot] + at, layout);
+                case Op::laplacian: return laplacian(arguments.fields[slot] + at, layout);
                 case Op::neighbour: {
                     const Neighbour beside = Neighbour::of(slot);
-                    return to_bits(arguments.fields[beside.slot]
-                                                   [at + step(layout, beside.dx, beside.dy, beside.dz)]);
+                    return to_bits(arguments.fields[beside.slot][at + step(layout, beside.dx,
+                                                                           beside.dy, beside.dz)]);
                 }
                 case Op::mask: return testing::truth(arguments.masks[slot][at] != 0);
                 case Op::uniform: return to_bits(arguments.uniforms[slot]);
@@ -99,7 +98,8 @@ private:
             const auto count = static_cast<float>(neighbours.size());
             if (count < 6) {  // One rounding: the multiple is exact in double precision.
                 return testing::write_number(testing::read_number(sum) -
-                                             double{count} * testing::read_number(to_bits(cell[0])));
+                                             double{count} *
+                                                 testing::read_number(to_bits(cell[0])));
             }
             return oracle(Op::subtract, sum,
                           oracle(Op::multiply, to_bits(count), to_bits(cell[0]), 0), 0);
@@ -121,9 +121,10 @@ TEST(Interpreter, RandomKernelsAgainstCellByCell) {
         const Grid grid = testing::random_grid(seed, seed % 20 == 0 ? 600 : 67, 5, 3);
         const auto expected = testing::run_kernel(reference, kernel, grid, seed);
         const auto actual = testing::run_kernel(*interpreter, kernel, grid, seed);
-        ASSERT_EQ(testing::same_bits(expected, actual), "")
-            << "seed " << seed << "\n" << print(kernel);
-        ASSERT_EQ(testing::stray_writes(actual, {0, PlaneLayout(grid).row_count()}), "") << "seed " << seed;
+        ASSERT_EQ(testing::same_bits(expected, actual), "") << "seed " << seed << "\n"
+                                                            << print(kernel);
+        ASSERT_EQ(testing::stray_writes(actual, {0, PlaneLayout(grid).row_count()}), "")
+            << "seed " << seed;
     }
     EXPECT_EQ(counts.missing(), "") << counts.report();
 }
@@ -142,8 +143,8 @@ TEST(Interpreter, ComputesTheRowsItIsGiven) {
         for (std::size_t k = 0; k < part.size(); ++k) {
             for (std::int64_t j = rows.begin; j < rows.end; ++j) {
                 for (std::int64_t i = 0; i < grid.width; ++i) {
-                    ASSERT_TRUE(testing::same_word(to_bits(part[k].at(i, j)),
-                                                   to_bits(whole[k].at(i, j))));
+                    ASSERT_TRUE(
+                        testing::same_word(to_bits(part[k].at(i, j)), to_bits(whole[k].at(i, j))));
                 }
             }
         }
@@ -163,7 +164,10 @@ std::vector<Field> run_on(const CellKernel& kernel, Field& field, const Grid& gr
     const float uniforms[] = {2.5f};
     const FlushDenormals environment;
     const KernelPointer compiled = *make_interpreter()->compile(kernel, grid.stencil());
-    compiled->run({fields, {}, std::span(uniforms).first(kernel.uniform_names.size()), targets,
+    compiled->run({fields,
+                   {},
+                   std::span(uniforms).first(kernel.uniform_names.size()),
+                   targets,
                    field.layout()},
                   {0, field.layout().row_count()});
     return results;
@@ -194,7 +198,8 @@ TEST(Laplacian, HasTheOrderOfTheSpecification) {
     EXPECT_EQ(value(1, 1, 1, 1), -8);
 }
 
-// 4c is not rounded by itself: it may be larger than the largest number as long as what remains is not.
+// 4c is not rounded by itself: it may be larger than the largest number as long as what remains is
+// not.
 TEST(Laplacian, OfHugeNumbersOverflowsAtItsEndOnly) {
     KernelBuilder builder;
     builder.result("r", builder.laplacian(builder.field_slot("a")));
@@ -245,7 +250,9 @@ TEST(Laplacian, OfAVolumeHasTheOrderOfTheSpecification) {
     testing::RandomStream stream(1);
     int reversed_is_different = 0;
     for (int k = 0; k < 100; ++k) {
-        const auto value = [&] { return stream.symmetric() * static_cast<float>(1 + stream.below(99)); };
+        const auto value = [&] {
+            return stream.symmetric() * static_cast<float>(1 + stream.below(99));
+        };
         const float n = value(), s = value(), e = value(), w = value(), u = value(), d = value();
         const float c = value();
         field.at(1, 0, 1) = n;
@@ -377,14 +384,11 @@ TEST(Interpreter, FoldingIsRunning) {
         running.result("r", expand(running, first, second));
         none.at(0, 0) = a;
         const std::vector<Field> results = run_on(std::move(running).finish(), none, grid);
-        ASSERT_TRUE(testing::same_word(folding[folded].slot(), to_bits(results[0].at(0, 0))))
-            << a;
+        ASSERT_TRUE(testing::same_word(folding[folded].slot(), to_bits(results[0].at(0, 0)))) << a;
     }
 }
 
-TEST(Evaluate, IsNotForSources) {
-    EXPECT_DEATH(evaluate(Op::cell_row, 0, 0, 0), "source");
-}
+TEST(Evaluate, IsNotForSources) { EXPECT_DEATH(evaluate(Op::cell_row, 0, 0, 0), "source"); }
 
 }  // namespace
 }  // namespace cascade

@@ -11,8 +11,8 @@ namespace {
 CellKernel diffusion(bool plane, Precision precision = Precision::single) {
     KernelBuilder builder(precision);
     const std::uint32_t a = builder.field_slot("a");
-    const ValueId d = plane ? builder.field(builder.field_slot("d"))
-                            : builder.uniform(builder.uniform_slot("d"));
+    const ValueId d =
+        plane ? builder.field(builder.field_slot("d")) : builder.uniform(builder.uniform_slot("d"));
     builder.result("a", builder.add(builder.field(a), builder.multiply(d, builder.laplacian(a))));
     return std::move(builder).finish();
 }
@@ -29,7 +29,8 @@ TEST(KernelCost, DiffusionOnAPlane) {
 
 TEST(KernelCost, AMultiplyAddIsOneOperationWithItsSign) {
     KernelBuilder builder;
-    const ValueId a = builder.field(builder.field_slot("a")), b = builder.field(builder.field_slot("b"));
+    const ValueId a = builder.field(builder.field_slot("a")),
+                  b = builder.field(builder.field_slot("b"));
     const ValueId sign = builder.apply(Op::negate, b);
     const ValueId sum = builder.apply(Op::multiply_add, a, sign, b);
     builder.result("r", sum);
@@ -105,7 +106,8 @@ TEST(KernelCost, DivisionsAndRootsAreToldApart) {
     KernelBuilder builder;
     const ValueId a = builder.field(builder.field_slot("a"));
     const ValueId b = builder.field(builder.field_slot("b"));
-    builder.result("r", builder.divide(a, builder.apply(Op::square_root, builder.apply(Op::negate, b))));
+    builder.result("r",
+                   builder.divide(a, builder.apply(Op::square_root, builder.apply(Op::negate, b))));
     const KernelCost cost = cost_of(std::move(builder).finish(), Stencil::plane, 0);
     EXPECT_EQ(cost.operations, 3);
     EXPECT_EQ(cost.divisions, 2);

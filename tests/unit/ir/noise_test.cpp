@@ -1,5 +1,5 @@
-// Smooth noise and lattices of seeds: the formulas that the specification writes down, computed here
-// in double precision, and what must hold for all of them.
+// Smooth noise and lattices of seeds: the formulas that the specification writes down, computed
+// here in double precision, and what must hold for all of them.
 #include "core/hash.h"
 #include "tests/unit/ir/space_fields.h"
 
@@ -27,8 +27,8 @@ Field noise(const Grid& grid, float scale, int octaves, std::uint64_t key = some
 /// spec/random.md, "The hash of a lattice point".
 std::uint32_t point_hash(std::int64_t i, std::int64_t j, std::uint32_t draw, std::uint64_t key,
                          std::uint32_t stream) {
-    const auto keys = pcg4d({static_cast<std::uint32_t>(key),
-                             static_cast<std::uint32_t>(key >> 32), stream, 0});
+    const auto keys =
+        pcg4d({static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32), stream, 0});
     std::uint32_t h = static_cast<std::uint32_t>(i) * 0x9e3779b1u +
                       static_cast<std::uint32_t>(j) * 0x85ebca6bu + draw * 0x27d4eb2fu + keys[0];
     h ^= h >> 16;
@@ -54,9 +54,10 @@ double octave(double x, double y, double side_x, double side_y, std::int64_t cou
     double sum = 0;
     for (int corner = 0; corner < 4; ++corner) {
         const std::int64_t di = corner % 2, dj = corner / 2;
-        const std::uint32_t hash = point_hash(wrapped(i + di, count_x), wrapped(j + dj, count_y),
-                                              draw, some_key, stream);
-        const double away_x = u - static_cast<double>(i + di), away_y = v - static_cast<double>(j + dj);
+        const std::uint32_t hash =
+            point_hash(wrapped(i + di, count_x), wrapped(j + dj, count_y), draw, some_key, stream);
+        const double away_x = u - static_cast<double>(i + di),
+                     away_y = v - static_cast<double>(j + dj);
         const auto weight = [](double a) {
             const double t = std::fabs(a);
             return 1 - t * t * t * (t * (t * 6 - 15) + 10);
@@ -74,12 +75,14 @@ TEST(Noise, IsTheFormulaOfTheSpecification) {
     const Field open = noise(closed, 0.11f, 1);
     for (std::int64_t j = 0; j < grid.height; ++j) {
         for (std::int64_t i = 0; i < grid.width; ++i) {
-            const double x = (static_cast<double>(i) + 0.5) / 96, y = (static_cast<double>(j) + 0.5) / 96;
+            const double x = (static_cast<double>(i) + 0.5) / 96,
+                         y = (static_cast<double>(j) + 0.5) / 96;
             const double first = octave(x, y, 1.0 / 9, 0.625 / 6, 9, 6, 7, 0);
             const double second = octave(x, y, 1.0 / 18, 0.625 / 11, 18, 11, 7, 1);
             ASSERT_NEAR(field.at(i, j), (first + 0.5 * second) / 1.5, 2e-5) << i << ", " << j;
             const double side = 0.11f;
-            ASSERT_NEAR(open.at(i, j), octave(x, y, side, side, 0, 0, 0, 0), 2e-5) << i << ", " << j;
+            ASSERT_NEAR(open.at(i, j), octave(x, y, side, side, 0, 0, 0, 0), 2e-5)
+                << i << ", " << j;
         }
     }
 }
@@ -87,8 +90,8 @@ TEST(Noise, IsTheFormulaOfTheSpecification) {
 TEST(Noise, HasNoMeanAndStaysInItsRange) {
     double sum = 0, squares = 0;
     for (std::uint64_t key = 1; key <= 20; ++key) {
-        const auto moments = moments_of(cells_of(noise({128, 128, Boundary::periodic}, 0.0625f, 1,
-                                                       key * 0x9e3779b97f4a7c15ULL)));
+        const auto moments = moments_of(cells_of(
+            noise({128, 128, Boundary::periodic}, 0.0625f, 1, key * 0x9e3779b97f4a7c15ULL)));
         EXPECT_GT(moments.least, -1);
         EXPECT_LT(moments.most, 1);
         sum += moments.mean;
@@ -114,9 +117,9 @@ TEST(Noise, IsSmoothAcrossPeriodicSides) {
         double inside = 0, across = 0;
         for (std::int64_t j = 0; j < grid.height; ++j) {
             for (std::int64_t i = 0; i < grid.width; ++i) {
-                const double step = std::max(
-                    std::fabs(field.at((i + 1) % grid.width, j) - field.at(i, j)),
-                    std::fabs(field.at(i, (j + 1) % grid.height) - field.at(i, j)));
+                const double step =
+                    std::max(std::fabs(field.at((i + 1) % grid.width, j) - field.at(i, j)),
+                             std::fabs(field.at(i, (j + 1) % grid.height) - field.at(i, j)));
                 const bool at_side = i + 1 == grid.width || j + 1 == grid.height;
                 double& largest = at_side ? across : inside;
                 largest = std::max(largest, step);
@@ -197,7 +200,8 @@ TEST(Seeds, CoverTheAreaOfTheirDiscs) {
     // 10 by 5 seeds, twice as many in a diamond lattice, on an area of ½. Jitter moves no disc onto
     // another.
     for (const float jitter : {0.0f, 0.01f, 0.025f}) {
-        EXPECT_NEAR(covered(seeds(grid, LatticeKind::square, 0.1f, 0.02f, jitter)), 100 * disc, 0.002);
+        EXPECT_NEAR(covered(seeds(grid, LatticeKind::square, 0.1f, 0.02f, jitter)), 100 * disc,
+                    0.002);
     }
     EXPECT_NEAR(covered(seeds(grid, LatticeKind::diamond, 0.1f, 0.02f, 0.005f)), 200 * disc, 0.004);
 }
@@ -209,7 +213,8 @@ TEST(Seeds, LieWhereTheSpecificationPutsThem) {
     std::size_t wrong = 0, inside_count = 0;
     for (std::int64_t j = 0; j < grid.height; ++j) {
         for (std::int64_t i = 0; i < grid.width; ++i) {
-            const double x = (static_cast<double>(i) + 0.5) / 300, y = (static_cast<double>(j) + 0.5) / 300;
+            const double x = (static_cast<double>(i) + 0.5) / 300,
+                         y = (static_cast<double>(j) + 0.5) / 300;
             bool inside = false;
             for (int seed = 0; seed < 2 * 12 * 6; ++seed) {
                 const int part = seed % 2, a = seed / 2 % 12 - 1, b = seed / 24 - 1;

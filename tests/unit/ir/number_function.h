@@ -20,7 +20,8 @@ enum class Form { strict, contracted };
 
 /// Those that this processor has.
 inline std::vector<Form> forms() {
-    return has_multiply_add() ? std::vector{Form::strict, Form::contracted} : std::vector{Form::strict};
+    return has_multiply_add() ? std::vector{Form::strict, Form::contracted}
+                              : std::vector{Form::strict};
 }
 
 inline const char* name_of(Form form) { return form == Form::strict ? "strict" : "contracted"; }

@@ -34,8 +34,8 @@ inline std::uint32_t write_number(double value) {
     return to_bits(static_cast<float>(enlarged * 0x1p-200));
 }
 
-/// x · y + z of three binary32 numbers, whose last bit says whether digits are missing after it (rounding to
-/// odd): rounded to fewer digits it is then right.
+/// x · y + z of three binary32 numbers, whose last bit says whether digits are missing after it
+/// (rounding to odd): rounded to fewer digits it is then right.
 inline double multiply_add(double x, double y, double z) {
     const double product = x * y;  // Exact.
     const double sum = product + z;

@@ -163,8 +163,7 @@ TEST(Operations, LoopsAreWhatTheTableSays) {
                 Words words{row.word(0, scalars, i), row.word(1, scalars, i),
                             row.word(2, scalars, i)};
                 if (is_shift(op)) words.b = shift;
-                ASSERT_TRUE(
-                    same_word(to_bits(out.at(i, 0)), oracle(op, words.a, words.b, words.c)))
+                ASSERT_TRUE(same_word(to_bits(out.at(i, 0)), oracle(op, words.a, words.b, words.c)))
                     << say(op, words) << ", scalar operands " << scalars;
             }
         }

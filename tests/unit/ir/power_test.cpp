@@ -15,19 +15,16 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr double largest_error = 1.2;  // In ulp: as stated in ir/elementary.cpp.
 
-float flushed(float x) {
-    return std::fabs(x) < 0x1p-126f ? std::copysign(0.0f, x) : x;
-}
+float flushed(float x) { return std::fabs(x) < 0x1p-126f ? std::copysign(0.0f, x) : x; }
 
 std::vector<float> powers(const std::vector<float>& x, const std::vector<float>& y,
                           Form form = Form::strict) {
-    return apply_to_all(
-        [](KernelBuilder& builder, ValueId a, ValueId b) { return builder.power(a, b); }, x, y, form);
+    return apply_to_all([](KernelBuilder& builder, ValueId a,
+                           ValueId b) { return builder.power(a, b); },
+                        x, y, form);
 }
 
-float power(float x, float y) {
-    return powers({x}, {y})[0];
-}
+float power(float x, float y) { return powers({x}, {y})[0]; }
 
 void expect_accurate(const std::vector<float>& x, const std::vector<float>& y, Form form) {
     const std::vector<float> values = powers(x, y, form);

@@ -54,12 +54,12 @@ TEST(RandomNumbers, HaveMoreDigitsInBinary64) {
         for (std::int64_t j = 0; j < grid.height; ++j) {
             for (std::int64_t i = 0; i < grid.width; ++i) {
                 const std::uint32_t step = to_bits(static_cast<float>(draw));
-                const auto hash = pcg4d({static_cast<std::uint32_t>(i),
-                                         static_cast<std::uint32_t>(j), step ^ 0x01234567u,
-                                         0x89abcdefu});
+                const auto hash =
+                    pcg4d({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
+                           step ^ 0x01234567u, 0x89abcdefu});
                 const std::uint64_t digits = std::uint64_t{hash[0]} << 20 | hash[1] >> 12;
-                const auto exact = static_cast<double>(
-                    (static_cast<long double>(digits) + 0.5L) * 0x1p-51L - 1);
+                const auto exact =
+                    static_cast<double>((static_cast<long double>(digits) + 0.5L) * 0x1p-51L - 1);
                 ASSERT_EQ(plane.at(i, j), exact) << i << ", " << j;
                 ASSERT_NEAR(plane.at(i, j), rough.at(i, j), 0x1p-23);
                 // Where log(a) is nearly 0 single has few digits of it.
@@ -74,8 +74,9 @@ void expect_new_numbers_late() {
     const Grid grid{64, 1, Boundary::periodic};
     std::set<std::vector<double>> seen;
     int drawn = 0;
-    for (const std::int64_t first : {std::int64_t{0}, std::int64_t{1} << 23, (std::int64_t{1} << 24) - 50,
-                                     std::int64_t{1} << 27, std::int64_t{1'000'000'000}}) {
+    for (const std::int64_t first :
+         {std::int64_t{0}, std::int64_t{1} << 23, (std::int64_t{1} << 24) - 50,
+          std::int64_t{1} << 27, std::int64_t{1'000'000'000}}) {
         for (std::int64_t step = first; step < first + 100; ++step) {
             const Plane<Number> plane = random_plane<Number>(grid, some_key, step);
             std::vector<double> row(plane.row(0), plane.row(0) + grid.width);
@@ -98,8 +99,10 @@ TEST(RandomNumbers, NoTwoStepsAreDrawnByTheSameWord) {
     for (std::int64_t step = 0; step < 1 << 20; ++step) words.push_back(draw_of_step(step));
     for (int bit = 20; bit < 31; ++bit) {
         const std::int64_t power = std::int64_t{1} << bit;
-        for (std::int64_t step = power; step < power + 5000; ++step) words.push_back(draw_of_step(step));
-        for (std::int64_t step = 2 * power - 5000; step < 2 * power; ++step) words.push_back(draw_of_step(step));
+        for (std::int64_t step = power; step < power + 5000; ++step)
+            words.push_back(draw_of_step(step));
+        for (std::int64_t step = 2 * power - 5000; step < 2 * power; ++step)
+            words.push_back(draw_of_step(step));
     }
     std::sort(words.begin(), words.end());
     EXPECT_EQ(std::adjacent_find(words.begin(), words.end()), words.end());
@@ -113,8 +116,9 @@ TEST(RandomNumbers, AreTheHashOfCellDrawAndKey) {
             for (std::int64_t i = 0; i < grid.width; ++i) {
                 const auto column = static_cast<std::uint32_t>(i);
                 const auto row = static_cast<std::uint32_t>(j);
-                const std::uint32_t word = draw < 1 << 24 ? to_bits(static_cast<float>(draw))
-                                                          : 0x80000000u + static_cast<std::uint32_t>(draw);
+                const std::uint32_t word = draw < 1 << 24
+                                               ? to_bits(static_cast<float>(draw))
+                                               : 0x80000000u + static_cast<std::uint32_t>(draw);
                 const auto hash = pcg4d({column, row, word ^ 0x01234567u, 0x89abcdefu});
                 const double exact = ((hash[0] >> 9) + 0.5) / 4194304.0 - 1.0;
                 ASSERT_EQ(static_cast<double>(field.at(i, j)), exact) << i << ", " << j;

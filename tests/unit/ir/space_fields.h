@@ -67,8 +67,8 @@ inline Moments moments_of(const std::vector<double>& cells) {
         moments.most = std::max(moments.most, value);
     }
     for (const double value : cells) {
-        moments.variance += (value - moments.mean) * (value - moments.mean) /
-                            static_cast<double>(cells.size());
+        moments.variance +=
+            (value - moments.mean) * (value - moments.mean) / static_cast<double>(cells.size());
     }
     return moments;
 }

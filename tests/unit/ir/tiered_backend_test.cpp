@@ -93,7 +93,8 @@ private:
 
 class TieredBackendTest : public ::testing::Test {
 protected:
-    TieredBackendTest() : backend_(std::make_unique<TieredBackend>(std::make_unique<SlowBackend>(shop_))) {}
+    TieredBackendTest()
+        : backend_(std::make_unique<TieredBackend>(std::make_unique<SlowBackend>(shop_))) {}
     ~TieredBackendTest() override { shop_->allow(1000); }
 
     static CellKernel kernel() {

@@ -59,9 +59,8 @@ void expect_accurate(const Function& function, const std::vector<float>& a,
         if (error > worst) at = k;
         worst = std::max(worst, error);
     }
-    EXPECT_LE(worst, function.largest_error)
-        << function.name << "(" << a[at] << ", " << b[at] << ") = " << values[at] << ", "
-        << name_of(form);
+    EXPECT_LE(worst, function.largest_error) << function.name << "(" << a[at] << ", " << b[at]
+                                             << ") = " << values[at] << ", " << name_of(form);
 }
 
 void expect_accurate(const Function& function, const std::vector<float>& a,
@@ -154,9 +153,9 @@ TEST(TwoNumbers, ModulusHasTheSignOfTheDivisor) {
 }
 
 float smooth(float low, float high, float x) {
-    return apply_to_all([&](KernelBuilder& builder, ValueId a, ValueId b) {
-        return builder.smooth_step(a, b, builder.number(x));
-    }, std::vector{low}, std::vector{high})[0];
+    return apply_to_all([&](KernelBuilder& builder, ValueId a,
+                            ValueId b) { return builder.smooth_step(a, b, builder.number(x)); },
+                        std::vector{low}, std::vector{high})[0];
 }
 
 TEST(TwoNumbers, SmoothStepRisesBetweenItsEnds) {
@@ -190,8 +189,9 @@ TEST(WholeNumbers, AreThoseOfC) {
         {"round", &KernelBuilder::round_to_even, [](double a) { return std::nearbyint(a); }},
         {"floor", &KernelBuilder::round_down, [](double a) { return std::floor(a); }},
         {"ceil", &KernelBuilder::round_up, [](double a) { return std::ceil(a); }},
-        {"sign", &KernelBuilder::sign_of,
-         [](double a) { return a > 0 ? 1.0 : a < 0 ? -1.0 : a; }}};
+        {"sign", &KernelBuilder::sign_of, [](double a) { return a > 0   ? 1.0
+                                                                : a < 0 ? -1.0
+                                                                        : a; }}};
     for (const Case& one : cases) {
         const std::vector<float> values = apply_to_all(
             [&](KernelBuilder& builder, ValueId a, ValueId) { return (builder.*one.expand)(a); }, x,

@@ -39,7 +39,7 @@ std::string difference(Backend& jit, const CellKernel& kernel, const Grid& grid,
     return same_bits(run_kernel(*interpreter, kernel, grid, seed), results);
 }
 
-std::string describe(const Grid& grid) { 
+std::string describe(const Grid& grid) {
     return fmt::format("{} × {} × {}", grid.width, grid.height, grid.depth);
 }
 
@@ -65,9 +65,11 @@ void compare_random_kernels(Precision precision, std::uint64_t count, bool links
         const Grid grid = links ? random_linked_grid(seed, 67, 5) : random_grid(seed, 67, 5, 3);
         SCOPED_TRACE(fmt::format("seed {}, grid {}", seed, describe(grid)));
         ASSERT_EQ(difference(*backends.plain[seed % 3], kernel, grid, seed), "")
-            << "without optimisation\n" << print(kernel);
+            << "without optimisation\n"
+            << print(kernel);
         ASSERT_EQ(difference(*backends.optimised[(seed / 3) % 3], kernel, grid, seed), "")
-            << "optimised\n" << print(kernel);
+            << "optimised\n"
+            << print(kernel);
     }
     if (first_seed != 1) return;
     EXPECT_EQ(hit.missing(links), "") << "operations that were never tried";
@@ -192,11 +194,11 @@ CellKernel kernel_of_place() {
     const auto times = [&](ValueId count, std::uint32_t factor) {
         return builder.apply(Op::bits_multiply, count, builder.word(factor));
     };
-    const ValueId place = builder.apply(
-        Op::bits_to_number,
-        builder.apply(Op::bits_add, times(builder.cell_slice(), 100000),
-                      builder.apply(Op::bits_add, times(builder.cell_row(), 1000),
-                                    builder.cell_column())));
+    const ValueId place =
+        builder.apply(Op::bits_to_number,
+                      builder.apply(Op::bits_add, times(builder.cell_slice(), 100000),
+                                    builder.apply(Op::bits_add, times(builder.cell_row(), 1000),
+                                                  builder.cell_column())));
     ValueId corners = builder.number(0);
     for (int corner = 0; corner < 8; ++corner) {
         const auto offset = [&](int bit) { return (corner & bit) != 0 ? 1 : -1; };
@@ -235,7 +237,8 @@ TEST(JitAgreement, WidePlanes) {
         for (const auto& backend : backends.optimised) {
             const Grid grid{width, 3, Boundary::periodic};
             for (const std::uint64_t seed : {3u, 4u}) {  // Far and near.
-                ASSERT_EQ(difference(*backend, kernel_of_place(), grid, seed), "") << describe(grid);
+                ASSERT_EQ(difference(*backend, kernel_of_place(), grid, seed), "")
+                    << describe(grid);
                 ASSERT_EQ(difference(*backend, random_kernel(5), grid, seed), "") << describe(grid);
             }
         }
@@ -369,8 +372,8 @@ TEST(JitAgreement, MultiplyAddsFlush) {
 TEST(JitAgreement, ChoicesAreComparedInFrontOfTheLoops) {
     for (const bool in_row : {false, true}) {
         KernelBuilder builder;
-        const ValueId number = in_row ? builder.cell_row()
-                                      : builder.uniform(builder.uniform_slot("p"));
+        const ValueId number =
+            in_row ? builder.cell_row() : builder.uniform(builder.uniform_slot("p"));
         const ValueId differs = builder.apply(Op::not_equal, builder.word(1), number);
         const ValueId sum = builder.apply(Op::bits_add, differs, builder.word(0x00400000));
         const ValueId choice = builder.select(number, differs, builder.number(0));

@@ -90,13 +90,12 @@ TEST_F(CacheTest, WhatWasKeptIsWhatRuns) {
     // An image of another kernel under this one's key: its results show where the code came from.
     const CellKernel kernel = some_kernel(1);
     run_kernel(*jit_with(folder_), kernel, grid, 1);
-    const std::string key =
-        environment_key(2) + kernel_key(kernel, {Stencil::plane, 0});
+    const std::string key = environment_key(2) + kernel_key(kernel, {Stencil::plane, 0});
     EXPECT_FALSE(CodeCache(folder_).find(key)) << "lanes are part of the key";
     std::optional<CodeImage> found;
     for (const int lanes : {4, 8, 16}) {
-        const auto image =
-            CodeCache(folder_).find(environment_key(2) + kernel_key(kernel, {Stencil::plane, lanes}));
+        const auto image = CodeCache(folder_).find(environment_key(2) +
+                                                   kernel_key(kernel, {Stencil::plane, lanes}));
         EXPECT_FALSE(found && image);
         if (image) found = image;
     }
@@ -224,7 +223,8 @@ TEST_F(CacheTest, FoldersThatCannotBeMadeAreNoCache) {
     const auto expected = run_kernel(*jit_with(""), kernel, grid, 4);
     write(outside_ / "file", "no folder");
     EXPECT_EQ(same_bits(expected, run_kernel(*jit_with(outside_ / "file"), kernel, grid, 4)), "");
-    EXPECT_EQ(same_bits(expected, run_kernel(*jit_with(outside_ / "file/x/y"), kernel, grid, 4)), "");
+    EXPECT_EQ(same_bits(expected, run_kernel(*jit_with(outside_ / "file/x/y"), kernel, grid, 4)),
+              "");
     EXPECT_EQ(same_bits(expected, run_kernel(*jit_with("/proc/no/such"), kernel, grid, 4)), "");
 }
 
@@ -263,13 +263,15 @@ TEST_F(CacheTest, NothingIsRemovedButWhatWasKeptHere) {
     fs::create_directories(folder_);
     fs::permissions(folder_, fs::perms::owner_all);
     const std::string digits(32, 'a');
-    const std::vector<std::string> others = {"notes.new", "app.conf.new", "my.kernel", digits + ".kernel",
-                                             digits + ".new", "1-2-3.tmp"};
+    const std::vector<std::string> others = {"notes.new",        "app.conf.new",  "my.kernel",
+                                             digits + ".kernel", digits + ".new", "1-2-3.tmp"};
     for (const std::string& name : others) {
         write(folder_ / name, std::string(20000, 'x'));
-        fs::last_write_time(folder_ / name, fs::file_time_type::clock::now() - std::chrono::hours(2));
+        fs::last_write_time(folder_ / name,
+                            fs::file_time_type::clock::now() - std::chrono::hours(2));
     }
-    for (int k = 0; k < 20; ++k) CodeCache(folder_, 5000).keep(std::to_string(k), {std::string(1000, 'x'), 0});
+    for (int k = 0; k < 20; ++k)
+        CodeCache(folder_, 5000).keep(std::to_string(k), {std::string(1000, 'x'), 0});
     for (const std::string& name : others) EXPECT_TRUE(fs::exists(folder_ / name)) << name;
     EXPECT_LT(files().size(), others.size() + 20);
 }

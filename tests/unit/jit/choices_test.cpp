@@ -95,7 +95,8 @@ TEST(JitChoices, AgreeWithTheInterpreter) {
         Backend& jit = *backends[seed % backends.size()];
         const auto expected = run_kernel(*interpreter, kernel, grid, seed);
         ASSERT_EQ(same_bits(expected, run_kernel(jit, kernel, grid, seed)), "")
-            << "seed " << seed << "\n" << print(kernel);
+            << "seed " << seed << "\n"
+            << print(kernel);
     }
 }
 

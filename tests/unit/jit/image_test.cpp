@@ -51,7 +51,8 @@ TEST(CodeImage, DamagedObjectsAreReadWithinTheirBytes) {
         const auto random = pcg4d({k, 7, 8, 9});
         std::string damaged = object;
         // Headers and tables are at the ends, code between them.
-        const std::size_t place = random[3] % 2 ? random[0] % 64 : damaged.size() - 1 - random[0] % 700;
+        const std::size_t place =
+            random[3] % 2 ? random[0] % 64 : damaged.size() - 1 - random[0] % 700;
         damaged[place] = static_cast<char>(random[1]);
         const auto image = link_image(damaged, kernel_function_name);
         refused += !image;
@@ -80,7 +81,8 @@ TEST(CodeGenerator, OrcLoadsTheSameObjects) {
 }
 
 TEST(Processor, VectorsAreThoseThatLlvmKnows) {
-    EXPECT_THAT(describe_jit(), ::testing::HasSubstr(std::to_string(host_lanes()) + " cells a vector"));
+    EXPECT_THAT(describe_jit(),
+                ::testing::HasSubstr(std::to_string(host_lanes()) + " cells a vector"));
     EXPECT_EQ(host_identity(), host_identity());
 }
 

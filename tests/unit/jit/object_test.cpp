@@ -56,8 +56,8 @@ Symbols symbols_of(std::span<const std::uint8_t> bytes) {
         const Elf64_Shdr names = section(table.sh_link);
         for (std::size_t at = sizeof(Elf64_Sym); at < table.sh_size; at += sizeof(Elf64_Sym)) {
             const auto symbol = read_at<Elf64_Sym>(bytes, table.sh_offset + at);
-            const char* name = reinterpret_cast<const char*>(bytes.data()) + names.sh_offset +
-                               symbol.st_name;
+            const char* name =
+                reinterpret_cast<const char*>(bytes.data()) + names.sh_offset + symbol.st_name;
             const bool is_function = ELF64_ST_TYPE(symbol.st_info) == STT_FUNC;
             if (is_function && ELF64_ST_BIND(symbol.st_info) == STB_GLOBAL) {
                 symbols.defined_functions.emplace_back(name);
@@ -137,7 +137,8 @@ std::vector<std::string> targets_of_this_machine() {
     return targets;
 }
 
-// The processors' instructions differ, the bits do not; and what a processor has no instruction for is refused.
+// The processors' instructions differ, the bits do not; and what a processor has no instruction for
+// is refused.
 TEST(JitObject, AllTargetsComputeTheSameBits) {
     const auto session = NativeSession::make();
     ASSERT_TRUE(session);

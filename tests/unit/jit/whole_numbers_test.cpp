@@ -1,5 +1,6 @@
-// Scaling by powers of two and rounding to whole numbers, for all exponents: the interpreter, instructions
-// of the processor and the sequences that stand in for them give the bits of the C library.
+// Scaling by powers of two and rounding to whole numbers, for all exponents: the interpreter,
+// instructions of the processor and the sequences that stand in for them give the bits of the C
+// library.
 #include "jit/jit.h"
 #include "tests/unit/ir/number_function.h"
 
@@ -16,8 +17,8 @@ namespace {
 constexpr double largest_exponent(float) { return 252; }
 constexpr double largest_exponent(double) { return 2044; }
 
-/// Numbers of every `stride`th exponent, beginning with denormal ones and ending with infinities and
-/// NaN: of both signs, powers of two, their neighbours and others.
+/// Numbers of every `stride`th exponent, beginning with denormal ones and ending with infinities
+/// and NaN: of both signs, powers of two, their neighbours and others.
 template <typename Number>
 std::vector<Number> numbers(std::uint64_t stride) {
     constexpr WordFormat format = format_of(precision_of<Number>);
@@ -41,7 +42,8 @@ std::vector<Number> numbers(std::uint64_t stride) {
 template <typename Number>
 Number flushed(long double x) {
     const auto number = static_cast<Number>(x);
-    return std::fabs(x) < std::numeric_limits<Number>::min() ? std::copysign(Number{0}, number) : number;
+    return std::fabs(x) < std::numeric_limits<Number>::min() ? std::copysign(Number{0}, number)
+                                                             : number;
 }
 
 template <typename Number>

@@ -61,9 +61,8 @@ TEST(CheckFaults, NamesOfThePreviousStage) {
         "stage small: turing_spots {\n"
         "  beta: betta\n"
         "}\n");
-    EXPECT_THAT(checked->faults(),
-                ElementsAre("3:9: 'betta' is not a parameter of turing_spots | "
-                            "did you mean 'beta'?"));
+    EXPECT_THAT(checked->faults(), ElementsAre("3:9: 'betta' is not a parameter of turing_spots | "
+                                               "did you mean 'beta'?"));
     const Diagnostic fault = checked->diagnostics.sorted().at(0);
     ASSERT_EQ(fault.notes.size(), 1u);
     EXPECT_EQ(fault.notes[0].message,
@@ -82,13 +81,12 @@ TEST(CheckFaults, NamesOfOtherStages) {
     const std::string text =
         "stage one: turing_spots { a: two.b }\n"
         "stage two: turing_spots { a: two.b; b: on.b; beta: one.betta }\n";
-    EXPECT_THAT(faults(text),
-                ElementsAre("1:30: stage 'two' runs after this one | "
-                            "a stage can read earlier stages only",
-                            "2:30: 'two' is this stage itself | write [b]",
-                            "2:40: there is no stage 'on' | did you mean 'one'?",
-                            "2:56: 'betta' is not a parameter of turing_spots | "
-                            "did you mean 'beta'?"));
+    EXPECT_THAT(faults(text), ElementsAre("1:30: stage 'two' runs after this one | "
+                                          "a stage can read earlier stages only",
+                                          "2:30: 'two' is this stage itself | write [b]",
+                                          "2:40: there is no stage 'on' | did you mean 'one'?",
+                                          "2:56: 'betta' is not a parameter of turing_spots | "
+                                          "did you mean 'beta'?"));
     EXPECT_THAT(system_faults("d = one.b; a' += d"),
                 ElementsAre("2:5: a system cannot read a stage | "
                             "a system does not know what ran before it"));
@@ -146,8 +144,7 @@ TEST(CheckFaults, ArgumentsAndTypes) {
                 ElementsAre("2:5: white cannot stand here | "
                             "it belongs in rates and definitions of a system"));
     EXPECT_THAT(stage_faults("ka: mod(1, 0)"), ElementsAre("2:12: division by zero"));
-    EXPECT_THAT(stage_faults("ka: mod(1, 2 - cos(0) * 2)"),
-                ElementsAre("2:12: division by zero"));
+    EXPECT_THAT(stage_faults("ka: mod(1, 2 - cos(0) * 2)"), ElementsAre("2:12: division by zero"));
     EXPECT_THAT(stage_faults("iterations: step"),
                 ElementsAre("2:13: iterations must be one number | "
                             "only numbers, operators and functions of them can stand here"));
@@ -163,7 +160,8 @@ TEST(CheckFaults, ArgumentsAndTypes) {
     EXPECT_THAT(system_faults("a' += field(\"a.npy\")"),
                 ElementsAre("2:7: field cannot stand here | it belongs in values (name: …)"));
     EXPECT_THAT(stage_faults("ka: integral(1)"),
-                ElementsAre("2:5: there is no function 'integral' | write 'sum(u over domain)', on a plane times the size of a cell"));
+                ElementsAre("2:5: there is no function 'integral' | write 'sum(u over domain)', on "
+                            "a plane times the size of a cell"));
 }
 
 TEST(CheckFaults, TimeBelongsInSteps) {
@@ -171,9 +169,8 @@ TEST(CheckFaults, TimeBelongsInSteps) {
                 ElementsAre("2:5: 't' has no value when a stage starts | "
                             "it can be read in rates, definitions and pictures"));
     EXPECT_THAT(system_faults("a' += t + step"), IsEmpty());
-    EXPECT_THAT(stage_faults("ka: a'"),
-                ElementsAre("2:5: the rate a' cannot be read here | "
-                            "rates can be read in rates and definitions"));
+    EXPECT_THAT(stage_faults("ka: a'"), ElementsAre("2:5: the rate a' cannot be read here | "
+                                                    "rates can be read in rates and definitions"));
 }
 
 TEST(CheckFaults, Cycles) {
@@ -218,8 +215,7 @@ TEST(CheckFaults, Twice) {
 }
 
 TEST(CheckFaults, Declarations) {
-    EXPECT_THAT(system_faults("x: 3"),
-                ElementsAre("2:1: 'x' is built in and cannot be declared"));
+    EXPECT_THAT(system_faults("x: 3"), ElementsAre("2:1: 'x' is built in and cannot be declared"));
     EXPECT_THAT(system_faults("speed = 3"),
                 ElementsAre("2:1: 'speed' is a setting and no definition | write speed: …"));
     EXPECT_THAT(system_faults("duration = 3"),
@@ -273,8 +269,7 @@ TEST(CheckFaults, Numbers) {
     EXPECT_THAT(stage_faults("speed: 0"), ElementsAre("2:8: speed must be above 0"));
     EXPECT_THAT(stage_faults("speed: 1 - 3"), ElementsAre("2:8: speed must be above 0"));
     EXPECT_THAT(stage_faults("interval: 0"), ElementsAre("2:11: interval must be at least 1"));
-    EXPECT_THAT(stage_faults("iterations: -1"),
-                ElementsAre("2:13: iterations must be at least 0"));
+    EXPECT_THAT(stage_faults("iterations: -1"), ElementsAre("2:13: iterations must be at least 0"));
     EXPECT_THAT(stage_faults("iterations: 5/2"),
                 ElementsAre("2:13: iterations must be a whole number"));
     EXPECT_THAT(stage_faults("iterations: 1e9 + 1"),
@@ -312,16 +307,19 @@ TEST(CheckFaults, Models) {
                 ElementsAre("1:16: a mesh is the name of a file in quotes | "
                             "mesh: \"horse.ply\""));
     EXPECT_THAT(faults("domain { mesh: \"horse.ply\"; grid: 20, 20 }"),
-                ElementsAre("1:29: a model has no grid | its cells are spread over it: cells: 20000, or --cells 20000"));
+                ElementsAre("1:29: a model has no grid | its cells are spread over it: cells: "
+                            "20000, or --cells 20000"));
     EXPECT_THAT(faults("domain { mesh: \"horse.ply\"; surface: sphere }"),
                 ElementsAre("1:29: a domain has a mesh or a surface, not both"));
     EXPECT_THAT(faults("domain { surface: torus(1) }"),
-                ElementsAre("1:19: torus takes its two radii in brackets | surface: torus(1, 0.4)"));
+                ElementsAre(
+                    "1:19: torus takes its two radii in brackets | surface: torus(1, 0.4)"));
     EXPECT_THAT(faults("domain { surface: torus(0.4, 1) }"),
                 ElementsAre("1:19: the tube of a torus is thinner than its ring | "
                             "surface: torus(1, 0.4)"));
     EXPECT_THAT(faults("domain { surface: sphere; cells: 2.5 }"),
-                ElementsAre("1:34: cells must be a whole number from 1 to 268435456 | cells: 20000, or --cells 20000"));
+                ElementsAre("1:34: cells must be a whole number from 1 to 268435456 | cells: "
+                            "20000, or --cells 20000"));
     EXPECT_THAT(faults("domain { surface: sphere; cells: edges }"),
                 ElementsAre("1:34: cells are a number, faces or vertices"));
     EXPECT_THAT(faults("domain { surface: sphere; laplacian: cotan }"),

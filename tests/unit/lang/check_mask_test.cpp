@@ -18,9 +18,9 @@ std::vector<std::string> faults(const std::string& domain) {
 }
 
 TEST(CheckMask, WhatAMaskIsMadeOf) {
-    for (const char* mask : {"disc(0.5, 0.5, 0.4)", "x^2 + sy > z and sz < 1", "noise(0.2, 3) > 0",
-                             "random(0, 1)", "image(\"leaf.png\") > 0.5", "field(\"m.npy\")",
-                             "not lattice(0.2, 0.05)", "1"}) {
+    for (const char* mask :
+         {"disc(0.5, 0.5, 0.4)", "x^2 + sy > z and sz < 1", "noise(0.2, 3) > 0", "random(0, 1)",
+          "image(\"leaf.png\") > 0.5", "field(\"m.npy\")", "not lattice(0.2, 0.05)", "1"}) {
         const auto checked = check_text(std::string("domain { mask: ") + mask + " }" + stage);
         ASSERT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
         EXPECT_TRUE(checked->program->domain.mask);
@@ -36,9 +36,11 @@ TEST(CheckMask, FunctionsOfOnesOwn) {
 }
 
 TEST(CheckMask, ItIsPrintedWithTheProgram) {
-    const auto checked = check_text(std::string("domain { mask: x < 0.5 or disc(1, 1, 0.2) }") + stage);
+    const auto checked =
+        check_text(std::string("domain { mask: x < 0.5 or disc(1, 1, 0.2) }") + stage);
     ASSERT_TRUE(checked->program);
-    EXPECT_THAT(print_program(*checked->program), HasSubstr("\n  mask: x < 0.5 or disc(1, 1, 0.2)\n"));
+    EXPECT_THAT(print_program(*checked->program),
+                HasSubstr("\n  mask: x < 0.5 or disc(1, 1, 0.2)\n"));
 }
 
 TEST(CheckMask, WrongForms) {
@@ -69,11 +71,15 @@ TEST(CheckMask, WrongForms) {
 TEST(CheckMask, SpeciesArePeriodicAsTheBoundaryIs) {
     const std::string rest = "stage only: heat { }\n";
     EXPECT_THAT(check_text("system heat { u: 0; u' = lap(u); u.left: noflux; u.right: fixed(1) }\n"
-                           "domain { mask: x > 0.5 }\n" + rest)->faults(),
+                           "domain { mask: x > 0.5 }\n" +
+                           rest)
+                    ->faults(),
                 ElementsAre("1:34: in a domain with a mask left is periodic for all species or for "
                             "none | the domain's boundary says which: boundary: periodic, noflux"));
     EXPECT_THAT(check_text("system heat { u: 0; u' = lap(u); u.left: flux(2); u.right: fixed(1) }\n"
-                           "domain { mask: x > 0.5; boundary: noflux, periodic }\n" + rest)->faults(),
+                           "domain { mask: x > 0.5; boundary: noflux, periodic }\n" +
+                           rest)
+                    ->faults(),
                 ElementsAre());
 }
 

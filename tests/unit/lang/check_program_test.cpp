@@ -116,8 +116,8 @@ TEST(CheckProgram, OrderOfDefinitionsAndRates) {
 }
 
 TEST(CheckProgram, RatesSuperpose) {
-    const auto checked = check_text(
-        "system s { a: 1; a' += 2 * a; a' = a - 3; a' += lap(a) }\nstage one: s {}\n");
+    const auto checked =
+        check_text("system s { a: 1; a' += 2 * a; a' = a - 3; a' += lap(a) }\nstage one: s {}\n");
     ASSERT_TRUE(checked->program);
     EXPECT_THAT(print_program(*checked->program), HasSubstr("a' = a - 3 + 2 * a + lap(a)\n"));
 }
@@ -188,9 +188,9 @@ TEST(CheckProgram, Overrides) {
 
 TEST(CheckProgram, OverridesOfASystem) {
     // A stage of the name comes first; a system of the name means all its stages.
-    const auto checked = check_text(
-        "stage one: turing_spots { ka: 1 }\nstage stripes: turing_spots { ka: 2 }\n",
-        {"turing_spots.ka=3", "stripes.beta=4"});
+    const auto checked =
+        check_text("stage one: turing_spots { ka: 1 }\nstage stripes: turing_spots { ka: 2 }\n",
+                   {"turing_spots.ka=3", "stripes.beta=4"});
     ASSERT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
     const std::string text = print_program(*checked->program);
     EXPECT_THAT(text, Not(HasSubstr("ka: 1  #")));
@@ -217,17 +217,17 @@ TEST(CheckProgram, Views) {
     const auto view = [&](const std::string& text, std::uint32_t stage, std::uint32_t last) {
         Diagnostics diagnostics;
         const SourceId id = checked->sources.add("<show>", text);
-        const auto expression =
-            parse_expression(id, checked->sources, checked->tree, diagnostics);
+        const auto expression = parse_expression(id, checked->sources, checked->tree, diagnostics);
         std::string kinds;
         if (!expression) return std::string("unreadable");
-        const auto formula = check_view(checked->tree, *expression, stage, last,
-                                        *checked->program, checked->sources, diagnostics);
+        const auto formula = check_view(checked->tree, *expression, stage, last, *checked->program,
+                                        checked->sources, diagnostics);
         if (!formula) return diagnostics.sorted().at(0).message;
         for (const Node& node : formula->nodes) {
-            kinds += node.kind == NodeKind::own       ? fmt::format("own{} ", node.index)
-                     : node.kind == NodeKind::earlier ? fmt::format("{}:{} ", node.stage, node.index)
-                                                      : "other ";
+            kinds += node.kind == NodeKind::own ? fmt::format("own{} ", node.index)
+                     : node.kind == NodeKind::earlier
+                         ? fmt::format("{}:{} ", node.stage, node.index)
+                         : "other ";
         }
         return kinds;
     };
@@ -244,7 +244,8 @@ TEST(CheckProgram, KnownNames) {
     const auto checked = check_text("stage large: turing_spots {}\n");
     ASSERT_TRUE(checked->program);
     const std::vector<std::string> names = known_names(*checked->program);
-    for (const char* name : {"large", "turing_spots", "beta", "iterations", "tanh", "stage", "sx"}) {
+    for (const char* name :
+         {"large", "turing_spots", "beta", "iterations", "tanh", "stage", "sx"}) {
         EXPECT_THAT(names, Contains(name));
     }
     EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));

@@ -22,7 +22,8 @@ std::vector<std::string> faults(const std::string& domain) {
 TEST(CheckSurface, APositionIsThreeFormulas) {
     const auto checked = check_text(
         std::string("domain {\n  grid: 32, 16\n  surface: cos(2*pi*sx), sin(2*pi*sx), 3 * sy\n"
-                    "  metric: 0\n  unit: 1/20\n}") + stage);
+                    "  metric: 0\n  unit: 1/20\n}") +
+        stage);
     ASSERT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
     const auto& surface = checked->program->domain.surface;
     ASSERT_TRUE(surface);
@@ -68,8 +69,9 @@ TEST(CheckSurface, WrongForms) {
 
 TEST(CheckSurface, OperatorsOfTheGridAreRefused) {
     const auto rate = [](const std::string& formula, const std::string& domain) {
-        return check_text("domain { surface: sx, sy, 0; " + domain + " }\nsystem s { u: 0; u' = " +
-                          formula + " }\nstage a: s { }\n")->faults();
+        return check_text("domain { surface: sx, sy, 0; " + domain +
+                          " }\nsystem s { u: 0; u' = " + formula + " }\nstage a: s { }\n")
+            ->faults();
     };
     const char* hint =
         " | second derivatives by name have no meaning on a surface; lap and div have";

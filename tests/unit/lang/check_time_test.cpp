@@ -16,7 +16,9 @@ constexpr const char* decay = "system decay { u: 1; k: 2; u' = lap(u) - k * u }\
 std::unique_ptr<Checked> stage(const std::string& statements) {
     return check_text(std::string(decay) + "stage s: decay { " + statements + " }\n");
 }
-std::vector<std::string> faults(const std::string& statements) { return stage(statements)->faults(); }
+std::vector<std::string> faults(const std::string& statements) {
+    return stage(statements)->faults();
+}
 
 StageTime time_of(const std::string& statements) {
     const auto checked = stage(statements);
@@ -92,7 +94,8 @@ TEST(CheckTime, AStageGoesBeforeItsSystem) {
 }
 
 TEST(CheckTime, WhatReplacesAnEndReplacesBoth) {
-    const auto derived = check_text("system ticks: turing_spots { duration: 9 }\nstage s: ticks { }\n");
+    const auto derived =
+        check_text("system ticks: turing_spots { duration: 9 }\nstage s: ticks { }\n");
     ASSERT_THAT(derived->faults(), IsEmpty());
     EXPECT_EQ(derived->program->stages[0].time.duration, 9);
     const auto outside =
@@ -121,15 +124,17 @@ TEST(CheckTime, WrongSolvers) {
 }
 
 TEST(CheckTime, WrongNumbers) {
-    EXPECT_THAT(faults("tolerance: 0"),
-                ElementsAre("2:29: tolerance must be from 1e-07 to 0.1"));
-    EXPECT_THAT(faults("duration: -1"), ElementsAre("2:28: duration must be from 0 to 1000000000000"));
+    EXPECT_THAT(faults("tolerance: 0"), ElementsAre("2:29: tolerance must be from 1e-07 to 0.1"));
+    EXPECT_THAT(faults("duration: -1"),
+                ElementsAre("2:28: duration must be from 0 to 1000000000000"));
     EXPECT_THAT(faults("duration: 1; iterations: 3"),
-                ElementsAre("2:31: a stage ends by its iterations or by its duration, not by both | "
-                            "leave one of them out"));
+                ElementsAre(
+                    "2:31: a stage ends by its iterations or by its duration, not by both | "
+                    "leave one of them out"));
     EXPECT_THAT(faults("iterations: 3; duration: 1"),
-                ElementsAre("2:33: a stage ends by its iterations or by its duration, not by both | "
-                            "leave one of them out"));
+                ElementsAre(
+                    "2:33: a stage ends by its iterations or by its duration, not by both | "
+                    "leave one of them out"));
     EXPECT_THAT(faults("check: 0"), ElementsAre("2:25: check must be at least 1"));
     EXPECT_THAT(faults("check: 2.5"), ElementsAre("2:25: check must be a whole number"));
     EXPECT_THAT(faults("tolerance: k").size(), 1u);
@@ -146,8 +151,7 @@ TEST(CheckTime, WrongConditions) {
     EXPECT_THAT(faults("until: steady(1, 2)"),
                 ElementsAre("2:25: steady takes one value: the change that counts as none | "
                             "as in steady(0.01)"));
-    EXPECT_THAT(faults("until: steady(0)"),
-                ElementsAre("2:32: steady must be from 1e-06 to 0.9"));
+    EXPECT_THAT(faults("until: steady(0)"), ElementsAre("2:32: steady must be from 1e-06 to 0.9"));
 }
 
 TEST(CheckTime, CoarseStarts) {
@@ -156,14 +160,17 @@ TEST(CheckTime, CoarseStarts) {
     EXPECT_EQ(time_of("start: coarse(2 * 8)").coarse, 16);
     for (const char* wrong : {"1", "3", "128", "0.5", "-2"}) {
         EXPECT_THAT(faults(std::string("start: coarse(") + wrong + ")"),
-                    ElementsAre("2:32: coarse takes 2, 4, 8, … 64 | each grid has cells half as wide "
-                                "as the one before it"));
+                    ElementsAre(
+                        "2:32: coarse takes 2, 4, 8, … 64 | each grid has cells half as wide "
+                        "as the one before it"));
     }
     EXPECT_THAT(faults("start: coarse()"),
-                ElementsAre("2:25: coarse takes one value: how many times as wide cells are | as in "
-                            "start: coarse(4)"));
-    EXPECT_THAT(faults("start: t"), ElementsAre("2:25: a stage starts as its values say, or on coarser "
-                                                "grids first | as in start: coarse(4)"));
+                ElementsAre(
+                    "2:25: coarse takes one value: how many times as wide cells are | as in "
+                    "start: coarse(4)"));
+    EXPECT_THAT(faults("start: t"),
+                ElementsAre("2:25: a stage starts as its values say, or on coarser "
+                            "grids first | as in start: coarse(4)"));
 }
 
 TEST(CheckTime, SettingsThatDoNotGoTogether) {

@@ -56,14 +56,18 @@ TEST(FunctionFaults, Definitions) {
 
 TEST(FunctionFaults, Calls) {
     const auto fault_in_rate = [](const std::string& rate) {
-        return faults_of("fn f(a, b) = a + b * random(0, 1)\nfn ink(v) = rgb(v, 0, 0)\n"
-                         "fn one() = 1\nfn now() = t\n"
-                         "system s { u: 1; p: 1; u' = " + rate + " + p; p >= 0*p }");
+        return faults_of(
+            "fn f(a, b) = a + b * random(0, 1)\nfn ink(v) = rgb(v, 0, 0)\n"
+            "fn one() = 1\nfn now() = t\n"
+            "system s { u: 1; p: 1; u' = " +
+            rate + " + p; p >= 0*p }");
     };
-    EXPECT_EQ(fault_in_rate("f(1)").at(0), "5:29: f takes 2 values, not 1 | it is defined as f(a, b)");
+    EXPECT_EQ(fault_in_rate("f(1)").at(0),
+              "5:29: f takes 2 values, not 1 | it is defined as f(a, b)");
     EXPECT_EQ(fault_in_rate("one(1)").at(0),
               "5:29: one takes 0 values, not 1 | it is defined as one()");
-    EXPECT_EQ(fault_in_rate("f(1, q)").at(0), "5:34: 'q' is not a parameter of s | add q: 0.1, for example");
+    EXPECT_EQ(fault_in_rate("f(1, q)").at(0),
+              "5:34: 'q' is not a parameter of s | add q: 0.1, for example");
     EXPECT_EQ(fault_in_rate("g(1)").at(0), "5:29: there is no function 'g'");
     EXPECT_EQ(fault_in_rate("ink(1)").at(0),
               "2:13: rgb cannot stand here | colours belong in pictures");
@@ -87,7 +91,8 @@ TEST(FamilyFaults, Indices) {
         {"i: 1..1e30", "1:18: an index runs over whole numbers from 0 on"},
         {"i: 0.5..2", "1:15: an index runs over whole numbers from 0 on"},
         {"i: -1..2", "1:15: an index runs over whole numbers from 0 on"},
-        {"i: 1..p; p: 2; v: 1; v' = p", "1:18: the end of an index must be one number | "
+        {"i: 1..p; p: 2; v: 1; v' = p",
+         "1:18: the end of an index must be one number | "
          "only numbers, operators and functions of them can stand here"},
         {"i: 1..x", "1:18: the end of an index must be one number, but 'x' is varying by cell"},
         {"i: 1..2; i: 1..3", "1:21: 'i' is given a value twice"},
@@ -111,12 +116,14 @@ TEST(FamilyFaults, Members) {
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"v' += u[4]", "2:7: 'u[4]' is no member of its family" + members},
         {"v' += u[1.5]", "2:9: an index is a whole number, not 1.5"},
-        {"v' += u[p]", "2:9: an index must be one number | "
+        {"v' += u[p]",
+         "2:9: an index must be one number | "
          "only numbers, operators and functions of them can stand here"},
         {"v' += u[x]", "2:9: an index must be one number, but 'x' is varying by cell"},
         {"v' += u[1/0]", "2:11: division by zero"},
         {"v' += u", "2:7: 'u' is a family | write u[1], or u[i] where i has a value"},
-        {"v' += i", "2:7: the index 'i' has no value here | "
+        {"v' += i",
+         "2:7: the index 'i' has no value here | "
          "it has one in statements of u[i] and in sum(… over i)"},
         {"v' += p[1]", "2:7: 'p' is no family | write p without an index"},
         {"v' += w[1]", "2:7: 'w[1]' is not a parameter of s | did you mean 'u[1]'?"},
@@ -129,7 +136,8 @@ TEST(FamilyFaults, Members) {
          "2:7: abs cannot be taken over the domain | mean, sum, min and max can"},
         {"v' += product(v over domain)",
          "2:7: product cannot be taken over the domain | mean, sum, min and max can"},
-        {"v' += sum(v)", "2:7: sum is taken over something | "
+        {"v' += sum(v)",
+         "2:7: sum is taken over something | "
          "write sum(e over i) or sum(e over domain)"},
         {"w[j]: 1", "2:3: 'j' is not an index of s | it has i"},
         {"w[1.5]: 1", "2:3: the number of a member is whole"},
@@ -151,8 +159,10 @@ TEST(FamilyFaults, Members) {
 
 TEST(FamilyFaults, Stages) {
     const auto faults_with = [](const std::string& statement) {
-        return faults_of("system s { i: 1..2; u[i]: 1; p: 1; u[i]' = p }\nstage z: s { }\n"
-                         "stage a: s { " + statement + " }");
+        return faults_of(
+            "system s { i: 1..2; u[i]: 1; p: 1; u[i]' = p }\nstage z: s { }\n"
+            "stage a: s { " +
+            statement + " }");
     };
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"u: 1", "3:14: 'u' is a family | write u[1], or u[i] where i has a value"},
@@ -164,10 +174,12 @@ TEST(FamilyFaults, Stages) {
         {"p: u", "3:17: 'u' is a family | write u[1], or u[i] where i has a value"},
         {"p: [u]", "3:18: 'u' is a family | write u[1], or u[i] where i has a value"},
         {"p: z.u", "3:19: 'u' is a family | write u[1], or u[i] where i has a value"},
-        {"p: u[i]", "3:19: the index 'i' has no value here | "
+        {"p: u[i]",
+         "3:19: the index 'i' has no value here | "
          "it has one in statements of u[i] and in sum(… over i)"},
         {"p: z.u[3]", "3:17: 'u[3]' is no member of its family | there are u[1] to u[2]"},
-        {"i: 1..2", "3:14: a stage holds values only (name: …) | "
+        {"i: 1..2",
+         "3:14: a stage holds values only (name: …) | "
          "rates, definitions and bounds belong in a system"},
         {"p: 1 in 0 .. 2", "3:19: the range of a parameter stands in its system"},
     };
@@ -213,7 +225,8 @@ TEST(RangeFaults, AreTold) {
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"p: 1 in 2 .. 0", "2:6: a range goes from a lower to a higher number"},
         {"p: 1 in 2 .. 2", "2:6: a range goes from a lower to a higher number"},
-        {"p: 1 in 0 .. u", "2:14: the end of a range must be one number | "
+        {"p: 1 in 0 .. u",
+         "2:14: the end of a range must be one number | "
          "only numbers, operators and functions of them can stand here"},
         {"p: 1 in 0 .. 20 step 0",
          "2:6: the step of a range is above 0 and no longer than the range"},
@@ -221,8 +234,7 @@ TEST(RangeFaults, AreTold) {
          "2:6: the step of a range is above 0 and no longer than the range"},
         {"p: 21 in 0 .. 20", "2:4: warning: p is 21, outside of its range 0 .. 20"},
         {"p: 1 in 0 .. 2", "3:17: warning: p is 9, outside of its range 0 .. 2"},
-        {"p: 1; v: 1 in 0 .. 2; v' = 0",
-         "2:12: a range belongs to a parameter | 'v' is a species"},
+        {"p: 1; v: 1 in 0 .. 2; v' = 0", "2:12: a range belongs to a parameter | 'v' is a species"},
     };
     for (const auto& [statement, fault] : cases) {
         EXPECT_THAT(faults_with(statement), ElementsAre(fault)) << statement;
@@ -235,8 +247,9 @@ TEST(Expansion, IsBounded) {
     for (int i = 1; i < 60; ++i) {
         doubling += fmt::format("fn f{}(x) = f{}(x) + f{}(x)\n", i, i - 1, i - 1);
     }
-    const std::string large = "this expression is too large when its functions and families are "
-                              "written out | a script may grow to 1000000 parts";
+    const std::string large =
+        "this expression is too large when its functions and families are "
+        "written out | a script may grow to 1000000 parts";
     EXPECT_THAT(faults_of(doubling + "system s { u: f59(1); u' = f59(2) }"),
                 ElementsAre("61:15: " + large));
     EXPECT_THAT(faults_of("system s { i: 1..1000; u: 1\n"
@@ -252,10 +265,12 @@ TEST(Expansion, IsBounded) {
     for (int i = 1; i < 20'000; ++i) chain += fmt::format("fn f{}(x) = f{}(x) + 1\n", i, i - 1);
     EXPECT_THAT(faults_of(chain + "system s { u: f19999(1); u' = 1 }"), IsEmpty());
     std::string bases = "system b0 { u: 1; u' = 1 }\n";
-    for (int i = 1; i < 1000; ++i) bases += fmt::format("system b{}: b{} {{ u: {} }}\n", i, i - 1, i);
+    for (int i = 1; i < 1000; ++i)
+        bases += fmt::format("system b{}: b{} {{ u: {} }}\n", i, i - 1, i);
     EXPECT_THAT(faults_of(bases), IsEmpty());
     std::string long_chain = "system b0 { u: 1; u' = 1 }\n";
-    for (int i = 1; i < 3000; ++i) long_chain += fmt::format("system b{}: b{} {{ u' += 1 }}\n", i, i - 1);
+    for (int i = 1; i < 3000; ++i)
+        long_chain += fmt::format("system b{}: b{} {{ u' += 1 }}\n", i, i - 1);
     EXPECT_THAT(faults_of(long_chain),
                 ElementsAre("1414:15: the systems of this script are too large together"));
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));

@@ -38,11 +38,14 @@ const std::string run_s = "stage a: s { iterations: 3 }\n";
 TEST(Functions, AreWrittenOut) {
     expect_same_program(
         "fn bump(r, w) = exp(-(r/w)^2)\nfn twice(v) = 2 * bump(v, width())\nfn width() = 3\n"
-        "system s { u: twice(x) + bump(y, 1/2); u' = twice(u + 1) }\n" + run_s,
+        "system s { u: twice(x) + bump(y, 1/2); u' = twice(u + 1) }\n" +
+            run_s,
         "system s { u: 2 * exp(-(x/3)^2) + exp(-(y/(1/2))^2)\n"
-        "u' = 2 * exp(-((u + 1)/3)^2) }\n" + run_s);
+        "u' = 2 * exp(-((u + 1)/3)^2) }\n" +
+            run_s);
     // Parameters hide built-in values; a function's name and a quantity's are separate.
-    expect_same_program("fn f(x, t) = x + t * y\nsystem s { f: 1; u: f(4, 5); u' = f(u, f) }\n" + run_s,
+    expect_same_program("fn f(x, t) = x + t * y\nsystem s { f: 1; u: f(4, 5); u' = f(u, f) }\n" +
+                            run_s,
                         "system s { f: 1; u: 4 + 5 * y; u' = u + f * y }\n" + run_s);
     // In pictures, bounds, settings and numbers too.
     expect_same_program(
@@ -52,16 +55,19 @@ TEST(Functions, AreWrittenOut) {
         "system s { u: 1; u' = 1; u >= p / 2; p: 1; speed: 1 / 2; iterations: 4 }\n"
         "stage a: s { }\ndomain { grid: 8, 8 }\npicture { color: palette(u, 0, 1, \"grey\") }");
     // Texts are arguments like others.
-    expect_same_program("fn seen(v, name) = palette(v, 0, 1, name)\n"
-                        "system s { u: 1; u' = 1; show: seen(u, \"grey\") }\n" + run_s,
-                        "system s { u: 1; u' = 1; show: palette(u, 0, 1, \"grey\") }\n" + run_s);
+    expect_same_program(
+        "fn seen(v, name) = palette(v, 0, 1, name)\n"
+        "system s { u: 1; u' = 1; show: seen(u, \"grey\") }\n" +
+            run_s,
+        "system s { u: 1; u' = 1; show: palette(u, 0, 1, \"grey\") }\n" + run_s);
 }
 
 TEST(Functions, AnArgumentIsComputedOnce) {
     const auto checked = check_text(
         "fn square(a) = a * a\nfn first(a, b) = a\nsystem s {\n"
         "u: square(random(0, 1)); v: random(0, 1) * random(0, 1); w: first(2, random(0, 1))\n"
-        "u' = v + w; v' = 1 }\n" + run_s);
+        "u' = v + w; v' = 1 }\n" +
+        run_s);
     ASSERT_THAT(checked->faults(), IsEmpty());
     const System& system = system_named(*checked, "s");
     const auto draws = [&](std::size_t item) {
@@ -85,7 +91,8 @@ TEST(Families, AreWrittenOut) {
         " total = sum(u[i] over i); d[j] = k[j] * u[mod(j, 3) + 1]\n"
         " u[i]' = lap(u[i]) - total + sum(d[j] over j)\n u[3]' += product(u[i] over i)\n"
         " u[i]' += min(u[i] over i) + max(d[j]*i over j)\n"
-        " u[i] >= 0; u[1] <= 9\n}\n" + run_s,
+        " u[i] >= 0; u[1] <= 9\n}\n" +
+            run_s,
         "system s {\n"
         " u[1]: 1\n u[2]: 7\n u[3]: 3\n k[1]: 1/(1+1); k[2]: 1/(2+1)\n"
         " total = u[1] + u[2] + u[3]; d[1] = k[1] * u[2]; d[2] = k[2] * u[3]\n"
@@ -96,27 +103,31 @@ TEST(Families, AreWrittenOut) {
         " u[3]' = lap(u[3]) - total + (d[1] + d[2])\n"
         " u[3]' += u[1] * u[2] * u[3]\n"
         " u[3]' += min(min(u[1], u[2]), u[3]) + max(d[1]*3, d[2]*3)\n"
-        " u[1] >= 0; u[2] >= 0; u[3] >= 0; u[1] <= 9\n}\n" + run_s);
+        " u[1] >= 0; u[2] >= 0; u[3] >= 0; u[1] <= 9\n}\n" +
+            run_s);
     // A member's rate; a mean; an index within an index; indices from 0.
     expect_same_program(
         "system s { i: 0..1; u[i]: 1; w[i]: 1; u[i]' = w[1 - i]; w[i]' = 2 * u[i]'\n"
-        "speed: 0.5; w[0]' += mean(mean(u[i] over i) * i over i) }\n" + run_s,
+        "speed: 0.5; w[0]' += mean(mean(u[i] over i) * i over i) }\n" +
+            run_s,
         "system s { u[0]: 1; u[1]: 1; w[0]: 1; w[1]: 1; u[0]' = w[1]; u[1]' = w[0]\n"
         "w[0]' = 2 * u[0]'; w[1]' = 2 * u[1]'; speed: 0.5\n"
-        "w[0]' += ((u[0] + u[1])/2 * 0 + (u[0] + u[1])/2 * 1) / 2 }\n" + run_s);
+        "w[0]' += ((u[0] + u[1])/2 * 0 + (u[0] + u[1])/2 * 1) / 2 }\n" +
+            run_s);
 }
 
 TEST(Families, InStagesAndPictures) {
-    const std::string system =
-        "system s { i: 1..2; u[i]: 0; p[i]: 1; u[i]' = p[i] }\n";
+    const std::string system = "system s { i: 1..2; u[i]: 0; p[i]: 1; u[i]' = p[i] }\n";
     expect_same_program(
-        system + "stage a: s { p[i]: i; p[2]: 5 }\n"
-        "stage b: s { u[i]: u[i] + [p[i]] + a.p[3 - i]; p[i]: mean(u[i] over i) * i }\n"
-        "picture { color: palette(sum(u[i] over i) + a.u[1], 0, 1, \"tan\") }",
-        system + "stage a: s { p[1]: 1; p[2]: 5 }\n"
-        "stage b: s { u[1]: u[1] + [p[1]] + a.p[2]; u[2]: u[2] + [p[2]] + a.p[1]\n"
-        "p[1]: (u[1] + u[2]) / 2 * 1; p[2]: (u[1] + u[2]) / 2 * 2 }\n"
-        "picture { color: palette(u[1] + u[2] + a.u[1], 0, 1, \"tan\") }");
+        system +
+            "stage a: s { p[i]: i; p[2]: 5 }\n"
+            "stage b: s { u[i]: u[i] + [p[i]] + a.p[3 - i]; p[i]: mean(u[i] over i) * i }\n"
+            "picture { color: palette(sum(u[i] over i) + a.u[1], 0, 1, \"tan\") }",
+        system +
+            "stage a: s { p[1]: 1; p[2]: 5 }\n"
+            "stage b: s { u[1]: u[1] + [p[1]] + a.p[2]; u[2]: u[2] + [p[2]] + a.p[1]\n"
+            "p[1]: (u[1] + u[2]) / 2 * 1; p[2]: (u[1] + u[2]) / 2 * 2 }\n"
+            "picture { color: palette(u[1] + u[2] + a.u[1], 0, 1, \"tan\") }");
     const auto changed = check_text(system + run_s, {"p[i]=4", "a.p[2]=3*2"});
     ASSERT_THAT(changed->faults(), IsEmpty());
     EXPECT_EQ(only_number(changed->program->stages[0].items[2]), 4);
@@ -128,25 +139,31 @@ TEST(Derivation, ReplacesAndAdds) {
         "system base { a: 1; b: 2; p: 3; d = p * a; a' = d; a' += 1; b' = d; b' += 2\n"
         "a >= 0; a >= -1; a <= 5; speed: 0.5; iterations: 7 }\n"
         "system s: base { b' += lap(b); p: 4; a' = -d; q: 9; d = p + q; a >= 2; iterations: 8\n"
-        "a' += 3 }\n" + run_s,
+        "a' += 3 }\n" +
+            run_s,
         "system s { a: 1; b: 2; p: 4; d = p + q; a' = -d; a' += 3; b' = d; b' += 2\n"
-        "b' += lap(b); a <= 5; a >= 2; speed: 0.5; iterations: 8; q: 9 }\n" + run_s);
+        "b' += lap(b); a <= 5; a >= 2; speed: 0.5; iterations: 8; q: 9 }\n" +
+            run_s);
     // From a derived system, written before it; a definition for a parameter; a new species.
     expect_same_program(
         "system s: middle { p = 2 * a; c: 1; c' = a }\nsystem middle: base { p: 5 }\n"
-        "system base { a: 1; p: 3; a' = p }\n" + run_s,
+        "system base { a: 1; p: 3; a' = p }\n" +
+            run_s,
         "system s { a: 1; p = 2 * a; a' = p; c: 1; c' = a }\n" + run_s);
 }
 
 TEST(Derivation, OfFamilies) {
-    const std::string base = "system base { i: 1..2; u[i]: i; u[2]: 5; u[i]' = u[3 - i]\n"
-                             "u[i]' += 1; p[i]: 1; u[1]' += p[1] + p[2] }\n";
+    const std::string base =
+        "system base { i: 1..2; u[i]: i; u[2]: 5; u[i]' = u[3 - i]\n"
+        "u[i]' += 1; p[i]: 1; u[1]' += p[1] + p[2] }\n";
     expect_same_program(base + "system s: base { u[i]: 3; p[2]: 4; u[2]' = p[2] }\n" + run_s,
                         "system s { u[1]: 3; u[2]: 3; u[1]' = u[2]; u[1]' += 1; p[1]: 1; p[2]: 4\n"
-                        "u[1]' += p[1] + p[2]; u[2]' = p[2] }\n" + run_s);
+                        "u[1]' += p[1] + p[2]; u[2]' = p[2] }\n" +
+                            run_s);
     expect_same_program(base + "system s: base { i: 1..3; u[i]' = i * p[i] }\n" + run_s,
                         "system s { u[1]: 1; u[2]: 5; u[3]: 3; u[1]' = 1 * p[1]; u[2]' = 2 * p[2]\n"
-                        "u[3]' = 3 * p[3]; p[1]: 1; p[2]: 1; p[3]: 1 }\n" + run_s);
+                        "u[3]' = 3 * p[3]; p[1]: 1; p[2]: 1; p[3]: 1 }\n" +
+                            run_s);
 }
 
 TEST(Derivation, OfSystemsOfTheLibrary) {

@@ -14,8 +14,8 @@ namespace {
 
 /// A stage on a small grid; u goes from 0.2 to 1.4 over its columns, v from 2 to 0.5.
 std::unique_ptr<Checked> rates_of(const std::string& statements) {
-    auto checked = check_text("system s {\n u: 0.2 + 1.2 * sx\n v: 2 - 1.5 * sx\n k: 3\n" + statements +
-                              "\n}\nstage one: s { }\ndomain { grid: 16, 4 }\n");
+    auto checked = check_text("system s {\n u: 0.2 + 1.2 * sx\n v: 2 - 1.5 * sx\n k: 3\n" +
+                              statements + "\n}\nstage one: s { }\ndomain { grid: 16, 4 }\n");
     EXPECT_TRUE(checked->program) << statements << checked->faults().front();
     return checked;
 }
@@ -52,14 +52,38 @@ void expect_derivatives(const std::string& rate) {
 }
 
 TEST(Derivative, AgreesWithDifferences) {
-    for (const char* rate :
-         {"3", "u", "-u * v", "u^2 * v - k * u", "(u + v) / (1 + u * v)", "u^3", "u^-2", "u^1.5",
-          "u^v", "2^u", "exp(-u) * v", "log(u) + sqrt(v)", "sin(u) * cos(v)", "tan(0.5 * u)",
-          "tanh(u - v)", "asin(0.5 * u) + acos(0.3 * v)", "atan(u * v)", "atan2(u, v)",
-          "sinh(u) - cosh(v)", "cbrt(u) * hypot(u, v)", "abs(u - 5) * abs(v)", "min(u, 5) + max(v, 9)",
-          "clamp(u, 0, 3) * clamp(v, 3, 4)", "mix(u, v, 0.25)", "mix(1, 2, u)",
-          "smoothstep(0, 3, u)", "if(k > 2, u * v, 7)", "pow(u, 2)", "mod(u, 50) + floor(v * 0.1)",
-          "u * random(1, 0)", "x * u + y * v", "k^2 * u / (k + u^2)"}) {
+    for (const char* rate : {"3",
+                             "u",
+                             "-u * v",
+                             "u^2 * v - k * u",
+                             "(u + v) / (1 + u * v)",
+                             "u^3",
+                             "u^-2",
+                             "u^1.5",
+                             "u^v",
+                             "2^u",
+                             "exp(-u) * v",
+                             "log(u) + sqrt(v)",
+                             "sin(u) * cos(v)",
+                             "tan(0.5 * u)",
+                             "tanh(u - v)",
+                             "asin(0.5 * u) + acos(0.3 * v)",
+                             "atan(u * v)",
+                             "atan2(u, v)",
+                             "sinh(u) - cosh(v)",
+                             "cbrt(u) * hypot(u, v)",
+                             "abs(u - 5) * abs(v)",
+                             "min(u, 5) + max(v, 9)",
+                             "clamp(u, 0, 3) * clamp(v, 3, 4)",
+                             "mix(u, v, 0.25)",
+                             "mix(1, 2, u)",
+                             "smoothstep(0, 3, u)",
+                             "if(k > 2, u * v, 7)",
+                             "pow(u, 2)",
+                             "mod(u, 50) + floor(v * 0.1)",
+                             "u * random(1, 0)",
+                             "x * u + y * v",
+                             "k^2 * u / (k + u^2)"}) {
         expect_derivatives(rate);
     }
 }
@@ -91,7 +115,8 @@ std::pair<double, double> bound_at_start(const Checked& checked) {
 
 TEST(JacobianBound, IsTheSpectrumOfDiffusion) {
     // On a plane the eigenvalues of lap reach −8.
-    const auto [whole, reaction] = bound_at_start(*rates_of(" u' = 0.25 * lap(u)\n v' = k * lap(v)\n"));
+    const auto [whole, reaction] =
+        bound_at_start(*rates_of(" u' = 0.25 * lap(u)\n v' = k * lap(v)\n"));
     EXPECT_DOUBLE_EQ(whole, 24);
     EXPECT_DOUBLE_EQ(reaction, 0);
 }
@@ -121,8 +146,8 @@ TEST(JacobianBound, GoesThroughFluxesAndTensors) {
         *rates_of(" u' = diffuse(u, 2, 1, 0.3) - u\n v' = div(tensor(2, 1, 0.3) * grad(v))\n"));
     EXPECT_NEAR(whole, 4 * (4 + 1) + 1, 1e-4);
     EXPECT_DOUBLE_EQ(reaction, 1);
-    const auto [of_fluxes, of_upwind] = bound_at_start(
-        *rates_of(" u' = div(k * grad(u))\n v' = -advect(2, 1, v)\n"));
+    const auto [of_fluxes, of_upwind] =
+        bound_at_start(*rates_of(" u' = div(k * grad(u))\n v' = -advect(2, 1, v)\n"));
     EXPECT_DOUBLE_EQ(of_fluxes, 24);
     EXPECT_DOUBLE_EQ(of_upwind, 3);
 }
@@ -141,7 +166,8 @@ TEST(JacobianBound, KnowsOfThresholds) {
 
 TEST(JacobianBound, IsThatOfTuringsSpots) {
     // Row of a: |ka b| + |ka a| + 8 diff_a; of b: |ka (a − 1)| + |ka b| + 8 diff_b, at a = b = 4.
-    const auto checked = check_text("stage one: turing_spots { beta: 12 }\ndomain { grid: 16, 16 }");
+    const auto checked =
+        check_text("stage one: turing_spots { beta: 12 }\ndomain { grid: 16, 16 }");
     const auto [whole, reaction] = bound_at_start(*checked);
     EXPECT_NEAR(whole, 8.0 / 80 + 1, 1e-6);
     EXPECT_NEAR(reaction, 8.0 / 80, 1e-6);

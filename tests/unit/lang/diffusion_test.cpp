@@ -14,8 +14,9 @@ namespace {
 
 /// The factors of u that are not 0, as "place: largest value".
 std::vector<std::string> factors_of(const std::string& rate) {
-    const auto checked = check_text("system s {\n u: 0.25 + 0.5 * sx\n v: 3\n k: 2\n h: 1 + sy\n u' = " + rate +
-                                    "\n v' = 0.5 * lap(v)\n}\nstage one: s { }\ndomain { grid: 2, 2 }\n");
+    const auto checked =
+        check_text("system s {\n u: 0.25 + 0.5 * sx\n v: 3\n k: 2\n h: 1 + sy\n u' = " + rate +
+                   "\n v' = 0.5 * lap(v)\n}\nstage one: s { }\ndomain { grid: 2, 2 }\n");
     EXPECT_TRUE(checked->program) << rate << checked->faults().front();
     const Program& program = *checked->program;
     ScriptRun run(program);

@@ -22,8 +22,8 @@ std::string equations(const std::string& text, const std::string& system, Notati
 
 /// The right side of `q = …`.
 std::string unicode(const std::string& expression) {
-    const std::string text = equations("system s { q = " + expression + " }", "s",
-                                       Notation::unicode);
+    const std::string text =
+        equations("system s { q = " + expression + " }", "s", Notation::unicode);
     const std::string before = "  where    q = ";
     EXPECT_TRUE(text.starts_with(before)) << text;
     return text.substr(before.size(), text.size() - before.size() - 1);
@@ -35,11 +35,12 @@ std::string tex(const std::string& expression) {
 }
 
 TEST(Equations, WriteASystemAsAPaperDoes) {
-    const std::string script = "system s {\n  u: 1\n  v: 0.25\n  feed: 0.037\n  diff_u: 0.16\n"
-                               "  iterations: 5\n  rate = u * v^2\n"
-                               "  u' = diff_u * lap(u) - rate + feed * (1 - u)\n"
-                               "  v' = lap(v)\n  v' += rate\n  v' += -feed * v\n  v' += -u\n"
-                               "  v >= 0\n  u <= 1\n}";
+    const std::string script =
+        "system s {\n  u: 1\n  v: 0.25\n  feed: 0.037\n  diff_u: 0.16\n"
+        "  iterations: 5\n  rate = u * v^2\n"
+        "  u' = diff_u * lap(u) - rate + feed * (1 - u)\n"
+        "  v' = lap(v)\n  v' += rate\n  v' += -feed * v\n  v' += -u\n"
+        "  v >= 0\n  u <= 1\n}";
     EXPECT_EQ(equations(script, "s", Notation::unicode),
               "  ∂u/∂t = diffᵤ ∇²u − rate + feed (1 − u)\n"
               "  ∂v/∂t = ∇²v + rate − feed v − u\n"
@@ -144,7 +145,8 @@ TEST(Equations, KnowTheFunctions) {
     EXPECT_EQ(unicode("u' + random(0, 1e-3)"), "∂u/∂t + random(0, 10⁻³)");
     EXPECT_EQ(unicode("floor(2.5e10 * x)"), "⌊2.5·10¹⁰ x⌋");
     EXPECT_EQ(tex("tanh(a / b)"), "\\tanh\\left(\\frac{a}{b}\\right)");
-    EXPECT_EQ(tex("min(a, my_own(b))"), "\\min\\left(a, \\operatorname{my\\_own}\\left(b\\right)\\right)");
+    EXPECT_EQ(tex("min(a, my_own(b))"),
+              "\\min\\left(a, \\operatorname{my\\_own}\\left(b\\right)\\right)");
     EXPECT_EQ(tex("if(a, b, c)"),
               "\\begin{cases}b & \\text{if } a \\\\ c & \\text{otherwise}\\end{cases}");
 }
@@ -185,8 +187,8 @@ TEST(Equations, LongSumsGoOnInLinesBelow) {
         else rest += (rest.empty() ? "" : " ") + more;
     }
     EXPECT_EQ(tex(script), line + " \\notag \\\\\n  &\\quad {} " + rest);
-    EXPECT_EQ(tex("(" + script + ") / q"), "\\frac{1}{q} \\Bigl( " + line +
-                                               " \\notag \\\\\n  &\\quad {} " + rest + " \\Bigr)");
+    EXPECT_EQ(tex("(" + script + ") / q"),
+              "\\frac{1}{q} \\Bigl( " + line + " \\notag \\\\\n  &\\quad {} " + rest + " \\Bigr)");
     // What stands in brackets or fractions is not torn.
     EXPECT_EQ(tex("2 * (" + script + ")").find("notag"), std::string::npos);
     EXPECT_EQ(tex("1 / (" + script + ")").find("notag"), std::string::npos);

@@ -23,7 +23,9 @@ std::string once(const std::string& text) {
     return second == first ? *first : *first + "\n--- changed again:\n" + second.value_or("");
 }
 
-std::string in_system(const std::string& statement) { return "system s {\n  " + statement + "\n}\n"; }
+std::string in_system(const std::string& statement) {
+    return "system s {\n  " + statement + "\n}\n";
+}
 std::string statement(const std::string& text) {
     const std::string result = once(in_system(text));
     const std::string before = "system s {\n  ", after = "\n}\n";
@@ -64,8 +66,7 @@ TEST(FormatScript, IndentsBlocksByTwoAndKeepsOneBlankLine) {
     EXPECT_EQ(once("system_name:s\n  a:1\n\n\n  system_name:  s ; a: 2"),
               "system_name: s\na: 1\n\nsystem_name: s; a: 2\n");
     EXPECT_EQ(once("domain {}\ndomain{ }\ndomain {\n}"), "domain { }\ndomain { }\ndomain {\n}\n");
-    EXPECT_EQ(once("system s { a: 1 } stage t:s{a:2}"),
-              "system s { a: 1 }\nstage t: s { a: 2 }\n");
+    EXPECT_EQ(once("system s { a: 1 } stage t:s{a:2}"), "system s { a: 1 }\nstage t: s { a: 2 }\n");
 }
 
 TEST(FormatScript, ReadsEveryLineEndAndTheByteOrderMark) {
@@ -93,8 +94,9 @@ TEST(FormatScript, SplitsWhatDoesNotFitALine) {
 }
 
 TEST(FormatScript, KeepsCommentsWhereTheyAre) {
-    EXPECT_EQ(once("# top  \n\n\n# second\nsystem s { # behind\n    # own\na: 1# short\n\n# last\n}"),
-              "# top\n\n# second\nsystem s {  # behind\n  # own\n  a: 1  # short\n\n  # last\n}\n");
+    EXPECT_EQ(
+        once("# top  \n\n\n# second\nsystem s { # behind\n    # own\na: 1# short\n\n# last\n}"),
+        "# top\n\n# second\nsystem s {  # behind\n  # own\n  a: 1  # short\n\n  # last\n}\n");
     EXPECT_EQ(once("system s # name\n{\na: 1\n} # end\n#after"),
               "system s  # name\n{\n  a: 1\n}  # end\n#after\n");
     EXPECT_EQ(statement("a: min(1, # one\n# between\n2)"),
@@ -113,8 +115,9 @@ TEST(FormatScript, LeavesCommentsInTheirColumn) {
 }
 
 TEST(FormatScript, KeepsEquationsLinedUp) {
-    const std::string equations = "a' = ka * (16 - a*b)       + diff_a * lap(a)\n"
-                                  "  b' = ka * (a*b - b - beta) + diff_b * lap(b)";
+    const std::string equations =
+        "a' = ka * (16 - a*b)       + diff_a * lap(a)\n"
+        "  b' = ka * (a*b - b - beta) + diff_b * lap(b)";
     EXPECT_EQ(statement(equations), equations);
     EXPECT_EQ(statement("a' = ka*(16 -a*b)        + lap(a)\n  b' = ka*(a*b - b - beta) + lap(b)"),
               "a' = ka*(16 - a*b)       + lap(a)\n  b' = ka*(a*b - b - beta) + lap(b)");
@@ -160,8 +163,8 @@ TEST(FormatScript, RefusesWhatIsMadeOfSeparators) {
 }
 
 TEST(FormatScript, TakesLargeScriptsInItsStride) {
-    std::string deep = "system s { a: " + std::string(100000, '(') + "1" +
-                       std::string(100000, ')') + " }";
+    std::string deep =
+        "system s { a: " + std::string(100000, '(') + "1" + std::string(100000, ')') + " }";
     EXPECT_EQ(formatted(deep), "system s {\n  " + deep.substr(11, deep.size() - 13) + "\n}\n");
     std::string nested = "system s { a: 1";
     for (int k = 0; k < 20000; ++k) nested += " + (\n2 - g(3,\n4";

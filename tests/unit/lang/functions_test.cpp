@@ -43,7 +43,8 @@ TEST(Functions, ThatJumpHaveNoSlope) {
             const bool is_edge = function == Function::smoothstep && n < 2;
             EXPECT_EQ(slope.has_value(), !is_edge) << spelling(function) << n;
             if (!slope) continue;
-            EXPECT_EQ(builder.is_number(*slope, 0), jumps_by(function, n)) << spelling(function) << n;
+            EXPECT_EQ(builder.is_number(*slope, 0), jumps_by(function, n))
+                << spelling(function) << n;
         }
     });
 }

@@ -98,30 +98,21 @@ TEST(Hints, MendWhatTheyStandAt) {
 /// How a word stands in a script, and how its advice does.
 std::string_view frame_of(WordPlace place) {
     switch (place) {
-        case WordPlace::stage:
-            return "stage";
-        case WordPlace::picture:
-            return "picture";
+        case WordPlace::stage: return "stage";
+        case WordPlace::picture: return "picture";
         case WordPlace::function:
-        case WordPlace::value:
-            return "rate";
-        default:
-            return "domain";
+        case WordPlace::value: return "rate";
+        default: return "domain";
     }
 }
 
 std::string used(WordPlace place, std::string_view word) {
     switch (place) {
-        case WordPlace::boundary:
-            return fmt::format("boundary: {}", word);
-        case WordPlace::side:
-            return fmt::format("sides: {}", word);
-        case WordPlace::function:
-            return fmt::format("{}(u)", word);
-        case WordPlace::value:
-            return std::string(word);
-        default:
-            return fmt::format("{}: 1", word);
+        case WordPlace::boundary: return fmt::format("boundary: {}", word);
+        case WordPlace::side: return fmt::format("sides: {}", word);
+        case WordPlace::function: return fmt::format("{}(u)", word);
+        case WordPlace::value: return std::string(word);
+        default: return fmt::format("{}: 1", word);
     }
 }
 

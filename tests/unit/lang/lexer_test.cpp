@@ -29,14 +29,10 @@ Lexed lex_text(const std::string& text) {
         const bool is_word = token.kind == TokenKind::name || token.kind == TokenKind::number ||
                              token.kind == TokenKind::text;
         if (!result.tokens.empty()) result.tokens += " ";
-        if (token.kind == TokenKind::newline)
-            result.tokens += "NL";
-        else if (token.kind == TokenKind::garbage)
-            result.tokens += "GARBAGE";
-        else if (is_word)
-            result.tokens += sources.text(token.span);
-        else
-            result.tokens += spelling(token.kind);
+        if (token.kind == TokenKind::newline) result.tokens += "NL";
+        else if (token.kind == TokenKind::garbage) result.tokens += "GARBAGE";
+        else if (is_word) result.tokens += sources.text(token.span);
+        else result.tokens += spelling(token.kind);
     }
     result.faults = list_faults(diagnostics, sources);
     return result;

@@ -131,7 +131,8 @@ TEST(Lower, ShapesAreThoseOfGeometry) {
     EXPECT_EQ(count("ring(0.5, 0.25, 0.7, 0.15, 0.1)"), count("ring(0.5, 0.25, 0.15, 0.1)"));
     EXPECT_EQ(count("box(0.5, 0.25, 9, 0.2, 0.1, 0.01)"), 8u * 4u);
     EXPECT_EQ(Values("domain { grid: 40, 20; boundary: noflux }\n", "box(0, 0.5, 0.2, 0.1)")
-                  .count_ones(40, 20), 4u * 2u);
+                  .count_ones(40, 20),
+              4u * 2u);
     const double dx = 0.4125 - 0.5, dy = 0.0875 - 0.4 + 0.5;
     EXPECT_NEAR(Values(grid, "gauss(0.5, 0.4, 0.1)").at(16, 3),
                 std::exp(-(dx * dx + dy * dy) / 0.02), 1e-6);
@@ -174,7 +175,8 @@ TEST(Lower, WhiteNoiseDoesNotDependOnTheStep) {
     for (const std::string speed : {"1", "0.25", "0.01"}) {
         const auto checked = check_text(
             "domain { grid: 64, 64 }\nsystem s { u: 0; k: 3; u' = white(k) }\n"
-            "stage one: s { speed: " + speed + "; iterations: 1 }\n");
+            "stage one: s { speed: " +
+            speed + "; iterations: 1 }\n");
         ASSERT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
         ScriptRun run(*checked->program);
         run.start(0);
@@ -244,9 +246,10 @@ TEST(Lower, RandomNumbersDependOnTheirPlaceInTheScriptOnly) {
 }
 
 TEST(Lower, NoiseInRatesIsNewInEveryStep) {
-    const auto checked = check_text(
-        small_grid + "system s { u: 0; v: 0; noise = random(0, 1); u' = noise; v' = noise }\n"
-                     "stage one: s {}\n");
+    const auto checked =
+        check_text(small_grid +
+                   "system s { u: 0; v: 0; noise = random(0, 1); u' = noise; v' = noise }\n"
+                   "stage one: s {}\n");
     ASSERT_TRUE(checked->program);
     ScriptRun run(*checked->program);
     run.start(0);
@@ -300,10 +303,10 @@ TEST(Lower, TimeAndStep) {
 }
 
 TEST(Lower, RatesReadRates) {
-    const auto checked = check_text(
-        small_grid +
-        "system s { u: 1; v: 2; u' = 2 * v' + d; d = w'; v' = 3; w: 0; w' = v' + 1 }\n"
-        "stage one: s {}\n");
+    const auto checked =
+        check_text(small_grid +
+                   "system s { u: 1; v: 2; u' = 2 * v' + d; d = w'; v' = 3; w: 0; w' = v' + 1 }\n"
+                   "stage one: s {}\n");
     ASSERT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
     ScriptRun run(*checked->program);
     run.start(0);
@@ -315,12 +318,12 @@ TEST(Lower, RatesReadRates) {
 }
 
 TEST(Lower, StagesReadEarlierStages) {
-    const auto checked = check_text(
-        small_grid +
-        "system s { u: 0; p: 0; u' = 1 + 0 * p }\n"
-        "stage one: s { u: x; p: 7 }\n"
-        "stage two: s { frozen: u > 1.3; u: if([frozen], u, [p]); p: p + 1 }\n"
-        "stage three: s { u: one.u + two.frozen; p: frozen }\n");
+    const auto checked =
+        check_text(small_grid +
+                   "system s { u: 0; p: 0; u' = 1 + 0 * p }\n"
+                   "stage one: s { u: x; p: 7 }\n"
+                   "stage two: s { frozen: u > 1.3; u: if([frozen], u, [p]); p: p + 1 }\n"
+                   "stage three: s { u: one.u + two.frozen; p: frozen }\n");
     ASSERT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
     ScriptRun run(*checked->program);
     run.start(0);
@@ -341,8 +344,9 @@ TEST(Lower, StagesReadEarlierStages) {
 
 TEST(Lower, Files) {
     const auto checked = check_text(
-        small_grid + "system s { u: 0; u' = 1 }\n"
-                     "stage one: s { u: 2 * field(\"a.npy\") + field(\"b.npy\") - field(\"a.npy\") }");
+        small_grid +
+        "system s { u: 0; u' = 1 }\n"
+        "stage one: s { u: 2 * field(\"a.npy\") + field(\"b.npy\") - field(\"a.npy\") }");
     ASSERT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
     EXPECT_EQ(only_pass(plan_start(*checked->program, 0)).fields.size(), 2u);
     ScriptRun run(*checked->program);
@@ -358,8 +362,10 @@ TEST(Lower, Files) {
 
 TEST(Lower, Colours) {
     const auto colour_of = [](const std::string& formula) {
-        const auto checked = check_text(small_grid + "system s { u: sx; v: 0; u' = 1; v' = 1 }\n"
-                                                     "stage one: s { show: " + formula + " }\n");
+        const auto checked = check_text(small_grid +
+                                        "system s { u: sx; v: 0; u' = 1; v' = 1 }\n"
+                                        "stage one: s { show: " +
+                                        formula + " }\n");
         EXPECT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
         ScriptRun run(*checked->program);
         run.start(0);
@@ -379,10 +385,10 @@ TEST(Lower, Colours) {
 
 TEST(Lower, PalettesAreThoseOfTheTable) {
     for (const Palette& palette : palettes()) {
-        const auto checked = check_text(
-            fmt::format("domain {{ grid: 97 }}\nsystem s {{ u: 4 * sx - 1; u' = 1 }}\n"
-                        "stage one: s {{ show: palette(u, 0, 2, \"{}\") }}\n",
-                        palette.name));
+        const auto checked =
+            check_text(fmt::format("domain {{ grid: 97 }}\nsystem s {{ u: 4 * sx - 1; u' = 1 }}\n"
+                                   "stage one: s {{ show: palette(u, 0, 2, \"{}\") }}\n",
+                                   palette.name));
         ASSERT_TRUE(checked->program);
         ScriptRun run(*checked->program);
         run.start(0);
@@ -407,7 +413,8 @@ TEST(Lower, UniformParametersAreSlotsAndNeverConstants) {
     EXPECT_THAT(step.kernel.field_names, ElementsAre("a", "b", "beta"));
     EXPECT_TRUE(step.kernel.reads_neighbours(0));
     EXPECT_FALSE(step.kernel.reads_neighbours(2));
-    const BoundKernel view = only_pass(plan_view(*checked->program, checked->program->stages[0].show, 0));
+    const BoundKernel view =
+        only_pass(plan_view(*checked->program, checked->program->stages[0].show, 0));
     EXPECT_THAT(view.kernel.field_names, ElementsAre("b"));
 }
 

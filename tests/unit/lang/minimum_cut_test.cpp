@@ -55,7 +55,8 @@ TEST(MinimumCut, IsTheCheapestOfAllChoices) {
         MinimumCut cut;
         for (std::size_t part = 0; part < parts; ++part) {
             EXPECT_EQ(cut.add(network.reading[part], network.operations[part],
-                              network.operands[part]), part);
+                              network.operands[part]),
+                      part);
         }
         for (std::uint32_t part = 0; part < parts; ++part) {
             if (network.wanted[part]) cut.want(part);

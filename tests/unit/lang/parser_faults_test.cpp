@@ -131,8 +131,7 @@ TEST(ExpressionFaults, FormsOfOtherLanguages) {
         {"b = 4", "2:6 '=' inside an expression | write '==' to compare"},
         {"a ** 2", "2:6 '**' is not an operator of the language | write '^' for a power"},
         {"a && b", "2:6 '&&' is not an operator of the language | write 'and'"},
-        {"a % 2",
-         "2:6 '%' is not an operator of the language | write mod(a, b) for a % b"},
+        {"a % 2", "2:6 '%' is not an operator of the language | write mod(a, b) for a % b"},
         {"+3", "2:4 numbers have no sign '+' | leave it out"},
         {"f(1, +3)", "2:9 numbers have no sign '+' | leave it out"},
         {"a + not b", "2:8 'not' cannot stand directly after '+' | put it in brackets: (not …)"},
@@ -250,9 +249,9 @@ TEST(BlockFaults, ClassicStages) {
 }
 
 TEST(BlockFaults, StatementsOutsideOfStages) {
-    EXPECT_THAT(
-        faults_of("a: 1\nb: 2\nsystem_name: s\nc: 3\n"),
-        ElementsAre("1:1 'a' belongs to no stage | a stage begins with 'system_name: SYSTEM'"));
+    EXPECT_THAT(faults_of("a: 1\nb: 2\nsystem_name: s\nc: 3\n"),
+                ElementsAre(
+                    "1:1 'a' belongs to no stage | a stage begins with 'system_name: SYSTEM'"));
     EXPECT_THAT(faults_of("sistem_name: s\nb: 2\n"),
                 ElementsAre("1:1 'sistem_name' belongs to no stage | did you mean 'system_name'?"));
     EXPECT_THAT(

@@ -262,9 +262,9 @@ TEST(LargeScripts, DepthAndLengthAreNoProblem) {
                 ElementsAre("2:100003 this '(' is never closed | "
                             "a ')' is missing before the statement ends",
                             last));
-    EXPECT_THAT(
-        faults_of_large(repeat("[", deep) + "p" + repeat("]", deep)),
-        ElementsAre("2:4 '[ ]' holds one name of this stage | ( ) groups an expression", last));
+    EXPECT_THAT(faults_of_large(repeat("[", deep) + "p" + repeat("]", deep)),
+                ElementsAre("2:4 '[ ]' holds one name of this stage | ( ) groups an expression",
+                            last));
 }
 
 TEST(LargeScripts, DeepTreesCanBePrinted) {

@@ -17,7 +17,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 /// The plan of a step of a system of these statements.
-StepPlan step_of(const std::string& statements, PlanOptions options = {Materialise::when_cheaper, true}) {
+StepPlan step_of(const std::string& statements,
+                 PlanOptions options = {Materialise::when_cheaper, true}) {
     const auto checked = check_text("system s {\n" + statements + "\n}\nstage only: s {}\n");
     EXPECT_TRUE(checked->program) << statements;
     if (!checked->program) return {};
@@ -47,7 +48,8 @@ TEST(Plan, EveryLayerOfOperatorsTakesAPass) {
 }
 
 TEST(Plan, PartsOfOneLayerShareAPass) {
-    const StepPlan plan = step_of("u: x; v: y; u' = lap(lap(u) + v); v' = lap(lap(v)) + lap(lap(u) + v)");
+    const StepPlan plan =
+        step_of("u: x; v: y; u' = lap(lap(u) + v); v' = lap(lap(v)) + lap(lap(u) + v)");
     ASSERT_EQ(plan.passes.size(), 2u);
     EXPECT_EQ(plan.temporaries, 2u) << "equal parts are one part";
     EXPECT_EQ(plan.passes[0].targets.size(), 2u);
@@ -112,27 +114,36 @@ TEST(Plan, WhatNoStepChangesIsKept) {
     // A parameter lies in a plane; one operation more is not worth another.
     EXPECT_EQ(step_invariants("u: x; k: x * y; u' = 2 * k * u"), 0u);
     EXPECT_EQ(step_invariants("u: x; k: x * y; u' = exp(k) * u"), 1u);
-    EXPECT_EQ(step_invariants("u: x; u' = exp(u) * sin(t) + random(0, 1)"), 0u) << "all of it changes";
+    EXPECT_EQ(step_invariants("u: x; u' = exp(u) * sin(t) + random(0, 1)"), 0u)
+        << "all of it changes";
     EXPECT_EQ(step_invariants("u: x; k: 2; u' = exp(k) * u"), 0u) << "one number for all cells";
     EXPECT_EQ(step_invariants("u: x; k: x * y; u' = lap(k) * u"), 1u);
-    EXPECT_EQ(step_invariants("u: x; u' = div((1 + x * y) * grad(u))"), 1u) << "needed at five cells";
+    EXPECT_EQ(step_invariants("u: x; u' = div((1 + x * y) * grad(u))"), 1u)
+        << "needed at five cells";
     EXPECT_EQ(step_invariants("u: x; u' = (1 + x * y) * u"), 0u) << "needed at one";
     EXPECT_EQ(step_invariants("u: x; k: x * y; u' = u * mean(k^2 over domain)"), 1u);
     EXPECT_EQ(step_of("u: x; k: x * y; u' = u * mean(k^2 over domain)",
-                      {Materialise::when_cheaper, false, true}).passes.size(), 1u);
-    EXPECT_EQ(step_of("u: x; k: x; u' = exp(k) * u").step_invariants, 0u) << "only where it is asked for";
+                      {Materialise::when_cheaper, false, true})
+                  .passes.size(),
+              1u);
+    EXPECT_EQ(step_of("u: x; k: x; u' = exp(k) * u").step_invariants, 0u)
+        << "only where it is asked for";
 }
 
 // Of four entries of two tensors that share a direction, the direction's sine and cosine are kept.
 TEST(Plan, FewestOperationsAndPlanesTogether) {
     EXPECT_EQ(step_invariants("u: x; k: x * y; u' = diffuse(u, 1, 2, k)"), 2u);
     EXPECT_EQ(step_invariants("u: x; v: y; k: x * y\n"
-                      "u' = diffuse(u, 1, 2, k); v' = diffuse(v, 3, 1, k)"), 2u);
+                              "u' = diffuse(u, 1, 2, k); v' = diffuse(v, 3, 1, k)"),
+              2u);
     EXPECT_EQ(step_invariants("u: x; k: x * y; u' = exp(exp(k)) * u"), 1u);
     EXPECT_EQ(step_invariants("u: x; k: x * y; u' = exp(exp(k)) * u + exp(k)"), 2u);
-    EXPECT_EQ(step_invariants("u: x; k: x * y; a = exp(k); u' = (a + 1) * u + (a - 1) * (a + 2) * u^2"), 1u);
-    EXPECT_THAT(step_of("u: x; k: x * y; u' = exp(k) * u", {Materialise::when_cheaper, true, true}).words,
-                HasSubstr("exp(k) is computed once and kept in a plane"));
+    EXPECT_EQ(step_invariants(
+                  "u: x; k: x * y; a = exp(k); u' = (a + 1) * u + (a - 1) * (a + 2) * u^2"),
+              1u);
+    EXPECT_THAT(
+        step_of("u: x; k: x * y; u' = exp(k) * u", {Materialise::when_cheaper, true, true}).words,
+        HasSubstr("exp(k) is computed once and kept in a plane"));
 }
 
 // What does not cost more than reading is computed, and a network of any size is cut quickly.
@@ -202,11 +213,9 @@ TEST(PlanFaults, AreExplained) {
                 ElementsAre("3:19: advect of a number is 0 everywhere" + takes));
     EXPECT_THAT(faults("grad(u)"),
                 ElementsAre("3:6: a vector is no number | div(…) makes a number of it"));
-    EXPECT_THAT(faults("u + grad(u)"),
-                ElementsAre("3:6: a number and a vector cannot be added"));
-    EXPECT_THAT(faults("div(u)"),
-                ElementsAre("3:10: div takes a vector | "
-                            "such as grad(e), d * grad(e) or vector(ex, ey)"));
+    EXPECT_THAT(faults("u + grad(u)"), ElementsAre("3:6: a number and a vector cannot be added"));
+    EXPECT_THAT(faults("div(u)"), ElementsAre("3:10: div takes a vector | "
+                                              "such as grad(e), d * grad(e) or vector(ex, ey)"));
     EXPECT_THAT(faults("div(grad(u) * grad(u))"),
                 ElementsAre("3:10: a vector cannot be multiplied by a vector | "
                             "a number or a tensor can multiply a vector"));

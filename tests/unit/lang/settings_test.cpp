@@ -36,7 +36,8 @@ std::string set_in(SettingBlock block, std::string_view word) {
 
 std::vector<std::string> hints_about(const std::string& script) {
     std::vector<std::string> hints;
-    for (const Diagnostic& each : check_text(script)->diagnostics.sorted()) hints.push_back(each.hint);
+    for (const Diagnostic& each : check_text(script)->diagnostics.sorted())
+        hints.push_back(each.hint);
     return hints;
 }
 
@@ -92,15 +93,17 @@ TEST(Settings, TakeTheirWords) {
             EXPECT_EQ(fault.find("directions are axis"), std::string::npos) << fault;
         }
     }
-    for (const Setting setting : {Setting::cells, Setting::laplacian, Setting::up, Setting::precision}) {
+    for (const Setting setting :
+         {Setting::cells, Setting::laplacian, Setting::up, Setting::precision}) {
         for (const std::string& word : words_taken_by(setting)) {
             EXPECT_THAT(faults_of(info(setting).word, word), ::testing::IsEmpty()) << word;
         }
     }
     for (const std::string& word : words_taken_by(Setting::surface)) {
-        const auto checked = check_text(fmt::format("domain {{ surface: {} }}\n"
-                                                    "system s {{ u: 1; u' = 0 }}\nstage a: s {{ }}\n",
-                                                    word));
+        const auto checked =
+            check_text(fmt::format("domain {{ surface: {} }}\n"
+                                   "system s {{ u: 1; u' = 0 }}\nstage a: s {{ }}\n",
+                                   word));
         for (const std::string& fault : checked->faults()) {
             EXPECT_EQ(fault.find("a surface is three expressions"), std::string::npos) << fault;
         }

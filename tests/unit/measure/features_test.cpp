@@ -35,8 +35,9 @@ Samples sampled(std::size_t width, std::size_t height, std::size_t depth,
 /// Plane waves of `a` waves across and `b` down.
 Samples stripes(std::size_t width, std::size_t height, double a, double b) {
     return sampled(width, height, 1, [=](double x, double y, double) {
-        return 3 + std::cos(2 * pi * (a * x / static_cast<double>(width) +
-                                      b * y / static_cast<double>(height)));
+        return 3 +
+               std::cos(2 * pi *
+                        (a * x / static_cast<double>(width) + b * y / static_cast<double>(height)));
     });
 }
 
@@ -91,9 +92,8 @@ TEST(Features, LinesAndBoxes) {
     EXPECT_NEAR(of_line.wavelength, 12, 1e-9);
     EXPECT_EQ(of_line.spots, 10);
     EXPECT_TRUE(std::isnan(of_line.angle));
-    const Samples box = sampled(16, 12, 24, [](double, double, double z) {
-        return std::sin(2 * pi * z / 6);
-    });
+    const Samples box =
+        sampled(16, 12, 24, [](double, double, double z) { return std::sin(2 * pi * z / 6); });
     EXPECT_NEAR(measure(box).wavelength, 6, 1e-9);
     EXPECT_EQ(measure(box).spots, 4);
 }
@@ -135,8 +135,8 @@ TEST(Features, AnEvenFieldHasNoPattern) {
     const Features found = measure(sampled(32, 32, 1, [](double x, double, double) {
         return 7 + 1e-6 * x;  // Rounding.
     }));
-    for (const double absent : {found.wavelength, found.spots, found.holes, found.area,
-                                found.angle, found.anisotropy}) {
+    for (const double absent :
+         {found.wavelength, found.spots, found.holes, found.area, found.angle, found.anisotropy}) {
         EXPECT_TRUE(std::isnan(absent));
     }
     EXPECT_NEAR(found.mean, 7 + 16e-6, 1e-9);

@@ -23,13 +23,13 @@ Samples sampled(const std::function<double(double x, double y)>& f) {
 double wave(double x, double length) { return std::cos(2 * std::numbers::pi * x / length); }
 
 TEST(Resolution, ShortWavesAreToldInCells) {
-    EXPECT_NEAR(unresolved_wavelength(sampled([](double x, double) { return wave(x, 3); })), 3, 1e-9);
-    EXPECT_NEAR(unresolved_wavelength(sampled([](double, double y) { return 5 + wave(y, 2.5); })), 2.5,
+    EXPECT_NEAR(unresolved_wavelength(sampled([](double x, double) { return wave(x, 3); })), 3,
                 1e-9);
+    EXPECT_NEAR(unresolved_wavelength(sampled([](double, double y) { return 5 + wave(y, 2.5); })),
+                2.5, 1e-9);
     // √(1/4.8² + 1/5²) across the diagonal.
-    EXPECT_NEAR(unresolved_wavelength(sampled([](double x, double y) {
-                    return wave(x, 4.8) * wave(y, 5);
-                })),
+    EXPECT_NEAR(unresolved_wavelength(
+                    sampled([](double x, double y) { return wave(x, 4.8) * wave(y, 5); })),
                 1 / std::hypot(1 / 4.8, 1 / 5.0), 1e-9);
 }
 
@@ -64,9 +64,9 @@ TEST(Resolution, ThePartOfShortWavesIsMeasured) {
                     return static_cast<double>(state >> 8) / (1 << 24);
                 })),
                 1 - std::numbers::pi / 16, 0.03);
-    EXPECT_NEAR(
-        unresolved_part(sampled([](double x, double y) { return wave(x, 3) + wave(y, 20); })), 0.5,
-        1e-6);
+    EXPECT_NEAR(unresolved_part(
+                    sampled([](double x, double y) { return wave(x, 3) + wave(y, 20); })),
+                0.5, 1e-6);
     EXPECT_EQ(unresolved_part(sampled([](double x, double) { return wave(x, 24); })), 0);
     EXPECT_EQ(unresolved_part(sampled([](double, double) { return 7.0; })), 0);
 }

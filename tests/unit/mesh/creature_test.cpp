@@ -40,7 +40,9 @@ TEST(Creature, IsNowhereThin) {
 }
 
 TEST(Creature, StandsOnFourLegsAndLooksAlongZ) {
-    const auto is_inside = [](double x, double y, double z) { return creature_function({x, y, z}) > 0; };
+    const auto is_inside = [](double x, double y, double z) {
+        return creature_function({x, y, z}) > 0;
+    };
     // At half the height of the legs a slice has four parts, none in the middle.
     for (const double z : {0.28, -0.41}) {
         EXPECT_TRUE(is_inside(0.137, 0.2, z));

@@ -35,9 +35,7 @@ void expect_round_trip(const SurfaceMesh& mesh) {
 }
 
 /// Two triangles over the same three points, back to back.
-SurfaceMesh pillow() {
-    return mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 0, 2}});
-}
+SurfaceMesh pillow() { return mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 0, 2}}); }
 
 /// A closed surface cut open along the edge from 0 to 1, so that a hole of two edges is between
 /// them.
@@ -152,9 +150,7 @@ void edit(HalfEdges& mesh, std::uint32_t seed, int edits) {
             case 0:
                 if (mesh.is_flip_ok(e)) mesh.flip(e);
                 break;
-            case 1:
-                mesh.split(e, mesh.calc_edge_midpoint(e));
-                break;
+            case 1: mesh.split(e, mesh.calc_edge_midpoint(e)); break;
             case 2:
                 if (!mesh.is_boundary(h)) {
                     const FaceHandle f = mesh.face_handle(h);

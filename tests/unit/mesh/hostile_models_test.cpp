@@ -57,15 +57,17 @@ std::string bytes_called(std::string_view name) {
 /// Bits turned, ends cut off, parts doubled and numbers exchanged for hostile ones.
 std::string mutated(std::string bytes, RandomStream& random) {
     constexpr std::array<std::string_view, 12> numbers = {
-        "0", "-1", "4294967295", "4294967296", "18446744073709551616", "1e400", "-1e-400", "nan",
-        "inf", "2147483648", "0.5", "99999999999999999999999"};
+        "0",   "-1",  "4294967295", "4294967296", "18446744073709551616",   "1e400", "-1e-400",
+        "nan", "inf", "2147483648", "0.5",        "99999999999999999999999"};
     const std::uint32_t changes = 1 + random.below(4);
     for (std::uint32_t k = 0; k < changes && !bytes.empty(); ++k) {
         const std::size_t at = random.below(bytes.size());
         switch (random.below(5)) {
             case 0: bytes[at] = static_cast<char>(bytes[at] ^ 1 << random.below(8)); break;
             case 1: bytes.resize(at); break;
-            case 2: bytes.insert(at, bytes.substr(random.below(bytes.size()), random.below(40))); break;
+            case 2:
+                bytes.insert(at, bytes.substr(random.below(bytes.size()), random.below(40)));
+                break;
             case 3: bytes.erase(at, 1 + random.below(8)); break;
             default: {
                 const std::size_t digit = bytes.find_first_of("0123456789", at);
@@ -109,12 +111,13 @@ TEST(HostileModels, EveryPrefixIsReadOrRefused) {
         }
     }
     // A cut is seen where the format can know.
-    for (const std::string_view name : {"PLY text", "PLY little-endian", "OFF", "STL text", "STL binary",
-                                        "glTF", "GLB"}) {
+    for (const std::string_view name :
+         {"PLY text", "PLY little-endian", "OFF", "STL text", "STL binary", "glTF", "GLB"}) {
         const std::string bytes = bytes_called(name);
         for (const SmallModel& model : test::small_models()) {
             if (model.name != name) continue;
-            EXPECT_NE(outcome_of_bytes(bytes.substr(0, bytes.size() - 8), model.ending), "") << name;
+            EXPECT_NE(outcome_of_bytes(bytes.substr(0, bytes.size() - 8), model.ending), "")
+                << name;
         }
     }
 }
@@ -136,20 +139,23 @@ TEST(HostileModels, GarbageOfEveryFormat) {
 }
 
 TEST(HostileModels, CountsThatLie) {
-    EXPECT_THAT(outcome_of_bytes(replaced(bytes_called("PLY text"), "face 2", "face 2000000000"), "ply"),
+    EXPECT_THAT(outcome_of_bytes(replaced(bytes_called("PLY text"), "face 2", "face 2000000000"),
+                                 "ply"),
                 HasSubstr("too short for 2000000000 elements 'face'"));
-    EXPECT_THAT(outcome_of_bytes(replaced(bytes_called("PLY text"), "3 0 2 1", "4000000 0 2 1"), "ply"),
+    EXPECT_THAT(outcome_of_bytes(replaced(bytes_called("PLY text"), "3 0 2 1", "4000000 0 2 1"),
+                                 "ply"),
                 HasSubstr("breaks off"));
     EXPECT_THAT(outcome_of_bytes(replaced(bytes_called("OFF"), "4 4 6", "4 4000000 6"), "off"),
                 HasSubstr("too short for 4 points and 4000000 faces"));
-    EXPECT_THAT(outcome_of_bytes(replaced(bytes_called("OFF"), "3 0 2 1", "4000000000 0 2 1"), "off"),
+    EXPECT_THAT(outcome_of_bytes(replaced(bytes_called("OFF"), "3 0 2 1", "4000000000 0 2 1"),
+                                 "off"),
                 HasSubstr("line 8 of the OFF file is not a face"));
     std::string stl = bytes_called("STL binary");
     stl.replace(80, 4, bytes_of(std::uint32_t{4000000000}));
     EXPECT_EQ(outcome_of_bytes(stl, "stl"),
               "the STL file is 184 bytes long, but its 4000000000 triangles take 200000000084");
-    EXPECT_THAT(outcome_of_bytes(replaced(test::gltf_text(), R"("byteLength":42)", R"("byteLength":0)"),
-                                 "gltf"),
+    EXPECT_THAT(outcome_of_bytes(
+                    replaced(test::gltf_text(), R"("byteLength":42)", R"("byteLength":0)"), "gltf"),
                 HasSubstr("no glTF file that can be read"));
     std::string glb = bytes_called("GLB");
     glb.replace(8, 4, bytes_of(std::uint32_t{4000000000}));
@@ -157,28 +163,36 @@ TEST(HostileModels, CountsThatLie) {
 }
 
 TEST(HostileModels, NumbersThatAreNoPlaces) {
-    EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("PLY text"), "1 0 0 0 1 0", "nan 0 0 0 1 0"), "ply"),
+    EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("PLY text"), "1 0 0 0 1 0", "nan 0 0 0 1 0"),
+                               "ply"),
               "point 1 of the model, counted from 0, has the place (nan, 0, 0)");
-    EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("PLY text"), "1 0 0 0 1 0", "1 0 1e999 0 1 0"), "ply"),
+    EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("PLY text"), "1 0 0 0 1 0", "1 0 1e999 0 1 0"),
+                               "ply"),
               "point 1 of the model, counted from 0, has the place (1, 0, inf)");
-    EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("PLY text"), "1 0 0 0 1 0", "1 0 1e-999 0 1 0"), "ply"), "");
+    EXPECT_EQ(outcome_of_bytes(
+                  replaced(bytes_called("PLY text"), "1 0 0 0 1 0", "1 0 1e-999 0 1 0"), "ply"),
+              "");
     EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("OBJ"), "v 1 0 0", "v NaN 0 0"), "obj"),
               "point 1 of the model, counted from 0, has the place (nan, 0, 0)");
     EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("OBJ"), "v 1 0 0", "v one 0 0"), "obj"),
               "line 3 of the OBJ file is not the place of a point");
-    EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("STL text"), "vertex 1 0 0", "vertex 1 0"), "stl"),
+    EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("STL text"), "vertex 1 0 0", "vertex 1 0"),
+                               "stl"),
               "line 5 of the STL file is not a corner of a triangle");
-    EXPECT_EQ(outcome_of_bytes(replaced(bytes_called("STL text"), "vertex 1 0 0", "vertex -inf 0 0"), "stl"),
+    EXPECT_EQ(outcome_of_bytes(
+                  replaced(bytes_called("STL text"), "vertex 1 0 0", "vertex -inf 0 0"), "stl"),
               "point 1 of the model, counted from 0, has the place (-inf, 0, 0)");
     std::string stl = bytes_called("STL binary");
     stl.replace(96, 4, bytes_of(std::numeric_limits<float>::quiet_NaN()));
-    EXPECT_EQ(outcome_of_bytes(stl, "stl"), "point 0 of the model, counted from 0, has the place (nan, 0, 0)");
+    EXPECT_EQ(outcome_of_bytes(stl, "stl"),
+              "point 0 of the model, counted from 0, has the place (nan, 0, 0)");
 }
 
 TEST(HostileModels, CornersThatAreNoPoints) {
     for (const std::string_view corner : {"5", "-5", "0", "x", "99999999999999999999", "1.5"}) {
         const std::string outcome = outcome_of_bytes(
-            replaced(bytes_called("OBJ"), "f 1/1 2/2 4/3", "f " + std::string(corner) + " 2/2 4/3"), "obj");
+            replaced(bytes_called("OBJ"), "f 1/1 2/2 4/3", "f " + std::string(corner) + " 2/2 4/3"),
+            "obj");
         EXPECT_THAT(outcome, HasSubstr("of the OBJ file")) << corner;
     }
     EXPECT_THAT(outcome_of_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/2 3/1\n", "obj"),
@@ -191,7 +205,8 @@ TEST(HostileModels, CornersThatAreNoPoints) {
 
 TEST(HostileModels, OneTriangleAndNone) {
     EXPECT_EQ(outcome_of_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "obj"), "");
-    EXPECT_EQ(outcome_of_bytes("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "obj"), "the model's faces have no area");
+    EXPECT_EQ(outcome_of_bytes("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "obj"),
+              "the model's faces have no area");
     EXPECT_EQ(outcome_of_bytes("v 0 0 0\n", "obj"), "the model's faces have no area");
     EXPECT_EQ(outcome_of_bytes(std::string(80, 'x') + bytes_of(std::uint32_t{0}), "stl"),
               "the model's faces have no area");
@@ -201,8 +216,10 @@ TEST(HostileModels, ModelsOfAllSizes) {
     for (const double size : {1e-30, 1e-9, 1e9, 1e30}) {
         std::string text;
         for (const Vector3d p : {Vector3d{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
-            text += "v " + std::to_string(p.x) + "e" + std::to_string(static_cast<int>(std::log10(size))) + " " +
-                    std::to_string(p.y * size * 1e60) + "e-60 " + std::to_string(p.z * size * 1e60) + "e-60\n";
+            text += "v " + std::to_string(p.x) + "e" +
+                    std::to_string(static_cast<int>(std::log10(size))) + " " +
+                    std::to_string(p.y * size * 1e60) + "e-60 " +
+                    std::to_string(p.z * size * 1e60) + "e-60\n";
         }
         auto soup = read_obj(text + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
         ASSERT_TRUE(soup);
@@ -226,7 +243,8 @@ TEST(HostileModels, NestingAndCopiesWithoutEnd) {
     for (int k = 1; k <= 40; ++k) {
         nodes += R"({"children":[)" + std::to_string(k) + "," + std::to_string(k) + "]},";
     }
-    EXPECT_EQ(outcome_of_bytes(replaced(test::gltf_text(), R"("nodes":[{"scale":[2,2,2],"children":[1]},{)",
+    EXPECT_EQ(outcome_of_bytes(replaced(test::gltf_text(),
+                                        R"("nodes":[{"scale":[2,2,2],"children":[1]},{)",
                                         nodes + "{"),
                                "gltf"),
               "the nodes of the glTF file are no tree");
@@ -234,7 +252,8 @@ TEST(HostileModels, NestingAndCopiesWithoutEnd) {
 
 TEST(HostileModels, StripsAndFans) {
     for (const std::string_view mode : {R"("mode":5,)", R"("mode":6,)"}) {
-        const auto soup = read_gltf(test::gltf_text(std::string(R"("indices":1,)") + std::string(mode)));
+        const auto soup =
+            read_gltf(test::gltf_text(std::string(R"("indices":1,)") + std::string(mode)));
         ASSERT_TRUE(soup);
         EXPECT_THAT(soup->polygon(0), ElementsAre(0, 1, 2));
     }
@@ -247,30 +266,35 @@ TEST(HostileModels, LinesThatGoOn) {
 }
 
 TEST(HostileModels, PlyElementsTwiceAndUnevenTexture) {
-    EXPECT_EQ(outcome_of_bytes("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
-                               "property float z\nproperty float a\nelement vertex 1\nproperty float x\n"
-                               "end_header\n0 0 0 1\n2\n",
-                               "ply"),
+    EXPECT_EQ(outcome_of_bytes(
+                  "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                  "property float z\nproperty float a\nelement vertex 1\nproperty float x\n"
+                  "end_header\n0 0 0 1\n2\n",
+                  "ply"),
               "the PLY file has several elements 'vertex'");
     // As many places as corners altogether, but not face by face.
-    const auto soup = read_ply("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-                               "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
-                               "property list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
-                               "3 0 1 2 8 0 0 1 0 0 1 1 1\n3 0 1 3 4 0 0 1 0\n");
+    const auto soup = read_ply(
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+        "property list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+        "3 0 1 2 8 0 0 1 0 0 1 1 1\n3 0 1 3 4 0 0 1 0\n");
     ASSERT_TRUE(soup) << soup.error().message;
     EXPECT_TRUE(soup->texture.empty());
 }
 
 TEST(HostileModels, WhatIsNoFile) {
-    const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "hostile_models";
+    const std::filesystem::path folder =
+        std::filesystem::path(::testing::TempDir()) / "hostile_models";
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder / "folder.obj");
     EXPECT_THAT(outcome_of_file(folder / "missing.obj"), HasSubstr("No such file"));
     EXPECT_THAT(outcome_of_file(folder / "folder.obj"), HasSubstr("Is a directory"));
     ASSERT_EQ(::mkfifo((folder / "pipe.obj").c_str(), 0600), 0);
-    EXPECT_THAT(outcome_of_file(folder / "pipe.obj"), HasSubstr("is a pipe or a device and no file"));
+    EXPECT_THAT(outcome_of_file(folder / "pipe.obj"),
+                HasSubstr("is a pipe or a device and no file"));
     std::filesystem::create_symlink("/dev/zero", folder / "zero.stl");
-    EXPECT_THAT(outcome_of_file(folder / "zero.stl"), HasSubstr("is a pipe or a device and no file"));
+    EXPECT_THAT(outcome_of_file(folder / "zero.stl"),
+                HasSubstr("is a pipe or a device and no file"));
     std::ofstream(folder / "empty.stl").close();
     EXPECT_THAT(outcome_of_file(folder / "empty.stl"), HasSubstr("no STL file that can be read"));
     // A buffer in a file of its own that is a pipe, a folder, missing, or the right one.
@@ -284,14 +308,16 @@ TEST(HostileModels, WhatIsNoFile) {
         std::ofstream(folder / "buffer.gltf") << file.replace(begin, end - begin, name);
         EXPECT_THAT(outcome_of_file(folder / "buffer.gltf"), HasSubstr(wanted)) << name;
     }
-    std::ofstream(folder / "triangle.bin") << std::string(36, '\0') << std::string("\0\0\1\0\2\0", 6);
+    std::ofstream(folder / "triangle.bin")
+        << std::string(36, '\0') << std::string("\0\0\1\0\2\0", 6);
     std::string file = text;
     std::ofstream(folder / "buffer.gltf") << file.replace(begin, end - begin, "triangle.bin");
     EXPECT_EQ(outcome_of_file(folder / "buffer.gltf"), "");
 }
 
 TEST(HostileModels, BuffersLieBelowTheModelsFolder) {
-    const std::filesystem::path root = std::filesystem::path(::testing::TempDir()) / "foreign_buffers";
+    const std::filesystem::path root =
+        std::filesystem::path(::testing::TempDir()) / "foreign_buffers";
     std::filesystem::remove_all(root);
     std::filesystem::create_directories(root / "models");
     const std::string triangle = std::string(36, '\0') + std::string("\0\0\1\0\2\0", 6);

@@ -135,8 +135,9 @@ TEST(ImplicitSurface, EdgesOfAFunctionAreBluntedAndClosed) {
 TEST(ImplicitSurface, RandomWavesAlwaysClose) {
     // Far too fine for the lattice: all cases of tetrahedra occur, corners at 0 included.
     const auto waves = [](Vector3d p) {
-        const double f = std::round(3 * (std::sin(23 * p.x + 3 * p.y) * std::sin(19 * p.y - 5 * p.z) +
-                                         std::sin(29 * p.z + 7 * p.x)));
+        const double f =
+            std::round(3 * (std::sin(23 * p.x + 3 * p.y) * std::sin(19 * p.y - 5 * p.z) +
+                            std::sin(29 * p.z + 7 * p.x)));
         const double wall = 0.9 - std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         return std::min(f, wall);
     };
@@ -187,7 +188,8 @@ TEST(ImplicitSurface, WhatCannotBeDoneIsSaid) {
                 HasSubstr("the function of the surface is inf at (0, 0, 0)"));
     EXPECT_THAT(fault(ball, {{-1, -1, -1}, {1, 1, 1}, 1e-4}), HasSubstr("1.6e+13 points"));
     EXPECT_THAT(fault(ball, {{-1, -1, -1}, {1, 1, -1}, 0.1}), HasSubstr("holds no surface"));
-    EXPECT_THAT(fault(ball, {{-1, -1, -1}, {1, 1, 1}, std::nan("")}), HasSubstr("holds no surface"));
+    EXPECT_THAT(fault(ball, {{-1, -1, -1}, {1, 1, 1}, std::nan("")}),
+                HasSubstr("holds no surface"));
     EXPECT_THAT(fault(ball, {{-1, -1, -1}, {1, std::numeric_limits<double>::infinity(), 1}, 1}),
                 HasSubstr("holds no surface"));
 }

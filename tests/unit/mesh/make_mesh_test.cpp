@@ -70,8 +70,8 @@ TEST(MakeMesh, BoundariesArePiecesOfRim) {
     EXPECT_EQ(one.boundary_edges, 6u);
     EXPECT_EQ(one.euler_characteristic, 1);
 
-    const PolygonSoup tube = soup_of(cube().points,
-                                     {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
+    const PolygonSoup tube =
+        soup_of(cube().points, {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
     const MeshFacts two = facts_of(made(tube).mesh);
     EXPECT_EQ(two.boundaries, 2u);
     EXPECT_EQ(two.euler_characteristic, 0);
@@ -107,7 +107,8 @@ TEST(MakeMesh, TwoCubesAtAPointShareNoPoint) {
     EXPECT_EQ(facts_of(parted.mesh).components, 2u);
     EXPECT_EQ(facts_of(parted.mesh).euler_characteristic, 4);
     EXPECT_THAT(parted.repairs,
-                testing::Contains("1 point was doubled where the faces around it are not connected by edges"));
+                testing::Contains(
+                    "1 point was doubled where the faces around it are not connected by edges"));
 }
 
 TEST(MakeMesh, AFinEndsWhereItMeetsTheSurface) {
@@ -130,7 +131,8 @@ TEST(MakeMesh, FacesAreTurnedToAgree) {
     EXPECT_DOUBLE_EQ(volume_of(agreed.mesh), 1);
 
     PolygonSoup inside_out = cube();
-    for (std::size_t p = 0; p < 6; ++p) std::swap(inside_out.corners[4 * p], inside_out.corners[4 * p + 2]);
+    for (std::size_t p = 0; p < 6; ++p)
+        std::swap(inside_out.corners[4 * p], inside_out.corners[4 * p + 2]);
     const MadeMesh turned = made(inside_out);
     EXPECT_THAT(turned.repairs, ElementsAre("1 component was turned inside out"));
     EXPECT_DOUBLE_EQ(volume_of(turned.mesh), 1);
@@ -143,13 +145,12 @@ TEST(MakeMesh, AMoebiusStripIsCutOnce) {
         const double angle = 2 * std::numbers::pi * k / n;
         for (const double side : {-0.5, 0.5}) {
             const double out = 3 + side * std::cos(angle / 2);
-            strip.points.push_back({out * std::cos(angle), out * std::sin(angle),
-                                    side * std::sin(angle / 2)});
+            strip.points.push_back(
+                {out * std::cos(angle), out * std::sin(angle), side * std::sin(angle / 2)});
         }
         const std::uint32_t a = 2 * k, b = 2 * k + 1;
         const bool last = k + 1 == n;
-        strip.corners.insert(strip.corners.end(),
-                             {a, last ? 1 : a + 2, last ? 0 : b + 2, b});
+        strip.corners.insert(strip.corners.end(), {a, last ? 1 : a + 2, last ? 0 : b + 2, b});
         strip.ends.push_back(strip.corners.size());
     }
     const MadeMesh cut = made(strip);
@@ -157,7 +158,8 @@ TEST(MakeMesh, AMoebiusStripIsCutOnce) {
     EXPECT_EQ(facts.components, 1u);
     EXPECT_EQ(facts.boundaries, 1u);
     EXPECT_EQ(facts.euler_characteristic, 1);
-    EXPECT_THAT(cut.repairs, testing::Contains("the surface had one side only and was cut along 1 edge"));
+    EXPECT_THAT(cut.repairs,
+                testing::Contains("the surface had one side only and was cut along 1 edge"));
 }
 
 TEST(MakeMesh, WhatIsThereTwiceOrHasNoAreaIsLeftOut) {
@@ -166,34 +168,47 @@ TEST(MakeMesh, WhatIsThereTwiceOrHasNoAreaIsLeftOut) {
                          {{0, 1, 2}, {0, 0, 1}, {1, 2}}));
     const MadeMesh clean = made(soup);
     EXPECT_EQ(facts_of(clean.mesh).triangles, 12u);
-    EXPECT_THAT(clean.repairs,
-                ElementsAre("1 point that no face uses was left out",
-                            "3 points were joined with others in the same place",
-                            "2 faces of fewer than three different corners left out",
-                            "1 face that was there twice was left out"));
+    EXPECT_THAT(clean.repairs, ElementsAre("1 point that no face uses was left out",
+                                           "3 points were joined with others in the same place",
+                                           "2 faces of fewer than three different corners left out",
+                                           "1 face that was there twice was left out"));
 }
 
 TEST(MakeMesh, AFlatTriangleIsMerged) {
     // A square whose lower edge has a point in its middle on one side only.
-    const MadeMesh merged = made(soup_of({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 0, 0}, {1, -2, 0}},
-                                         {{0, 1, 2, 3}, {0, 4, 1}, {4, 0, 5}, {1, 4, 5}}));
-    EXPECT_THAT(merged.repairs, testing::Contains("1 triangle without area merged with neighbours"));
-    for (std::size_t t = 0; t < merged.mesh.triangles.size(); ++t) EXPECT_GT(merged.mesh.area(t), 0.1);
+    const MadeMesh merged =
+        made(soup_of({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 0, 0}, {1, -2, 0}},
+                     {{0, 1, 2, 3}, {0, 4, 1}, {4, 0, 5}, {1, 4, 5}}));
+    EXPECT_THAT(merged.repairs,
+                testing::Contains("1 triangle without area merged with neighbours"));
+    for (std::size_t t = 0; t < merged.mesh.triangles.size(); ++t)
+        EXPECT_GT(merged.mesh.area(t), 0.1);
     EXPECT_DOUBLE_EQ(facts_of(merged.mesh).area, 6);
     EXPECT_EQ(facts_of(merged.mesh).euler_characteristic, 1);
 }
 
 TEST(MakeMesh, PolygonsOfAnyShapeKeepTheirArea) {
     // A comb with three teeth: no fan from any corner would do.
-    const MadeMesh comb = made(soup_of({{0, 0, 0}, {5, 0, 0}, {5, 3, 0}, {4, 3, 0}, {4, 1, 0}, {3, 1, 0}, {3, 3, 0},
-                                        {2, 3, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}},
+    const MadeMesh comb = made(soup_of({{0, 0, 0},
+                                        {5, 0, 0},
+                                        {5, 3, 0},
+                                        {4, 3, 0},
+                                        {4, 1, 0},
+                                        {3, 1, 0},
+                                        {3, 3, 0},
+                                        {2, 3, 0},
+                                        {2, 1, 0},
+                                        {1, 1, 0},
+                                        {1, 3, 0},
+                                        {0, 3, 0}},
                                        {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}}));
     EXPECT_EQ(facts_of(comb.mesh).triangles, 10u);
     EXPECT_NEAR(facts_of(comb.mesh).area, 11, 1e-12);
     for (std::size_t t = 0; t < 10; ++t) EXPECT_GT(comb.mesh.double_area_normal(t).z, 0);
 
     // A quadrilateral with a dent has one diagonal inside.
-    const MadeMesh dart = made(soup_of({{0, 0, 0}, {2, -1, 0}, {1, 0, 0}, {2, 1, 0}}, {{0, 1, 2, 3}}));
+    const MadeMesh dart =
+        made(soup_of({{0, 0, 0}, {2, -1, 0}, {1, 0, 0}, {2, 1, 0}}, {{0, 1, 2, 3}}));
     EXPECT_NEAR(facts_of(dart.mesh).area, 1, 1e-12);
 }
 

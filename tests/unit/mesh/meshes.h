@@ -44,14 +44,15 @@ inline SurfaceMesh sphere(int n) {
     return make_mesh(std::move(soup))->mesh;
 }
 
-/// A sheet of columns × rows squares, corner (u, v) of 0..1² at `place(u, v)`. Each square is cut along
-/// one diagonal. Where two of its sides are in one place they are joined.
+/// A sheet of columns × rows squares, corner (u, v) of 0..1² at `place(u, v)`. Each square is cut
+/// along one diagonal. Where two of its sides are in one place they are joined.
 inline SurfaceMesh sheet(int columns, int rows,
                          const std::function<Vector3d(double, double)>& place) {
     PolygonSoup soup;
     for (int j = 0; j <= rows; ++j) {
         for (int i = 0; i <= columns; ++i) {
-            soup.points.push_back(place(static_cast<double>(i) / columns, static_cast<double>(j) / rows));
+            soup.points.push_back(
+                place(static_cast<double>(i) / columns, static_cast<double>(j) / rows));
         }
     }
     const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (columns + 1) + i); };

@@ -71,16 +71,18 @@ TEST(ModelFile, PlyFilesOfBothByteOrders) {
     for (const bool big : {false, true}) {
         std::string file = "ply\nformat ";
         file += big ? "binary_big_endian" : "binary_little_endian";
-        file += " 1.0\nelement vertex 3\nproperty float x\nproperty double y\nproperty short z\n"
-                "property float s\nproperty float t\n"
-                "element face 1\nproperty list uint8 uint16 vertex_index\nend_header\n";
+        file +=
+            " 1.0\nelement vertex 3\nproperty float x\nproperty double y\nproperty short z\n"
+            "property float s\nproperty float t\n"
+            "element face 1\nproperty list uint8 uint16 vertex_index\nend_header\n";
         for (int k = 0; k < 3; ++k) {
             file += bytes_of(static_cast<float>(k), big) + bytes_of(0.1 * k, big) +
-                    bytes_of(static_cast<std::uint16_t>(-k), big) + bytes_of(0.25F * static_cast<float>(k), big) +
-                    bytes_of(0.5F, big);
+                    bytes_of(static_cast<std::uint16_t>(-k), big) +
+                    bytes_of(0.25F * static_cast<float>(k), big) + bytes_of(0.5F, big);
         }
         file += '\3';
-        for (const std::uint16_t corner : std::initializer_list<std::uint16_t>{0, 2, 1}) file += bytes_of(corner, big);
+        for (const std::uint16_t corner : std::initializer_list<std::uint16_t>{0, 2, 1})
+            file += bytes_of(corner, big);
         const auto soup = read_ply(file);
         ASSERT_TRUE(soup) << fault_of(soup);
         EXPECT_EQ(soup->points[2], (Vector3d{2, 0.2, -2}));
@@ -105,7 +107,8 @@ TEST(ModelFile, BrokenPlyFiles) {
     EXPECT_EQ(fault_with("end_header", ""), "line 20 of the PLY file's head is not understood");
     EXPECT_THAT(fault_with("vertex 5", "vertex 4000000000"), HasSubstr("too short for 4000000000"));
     EXPECT_THAT(fault_with("vertex 5", "vertex 18446744073709551615"), HasSubstr("too short"));
-    EXPECT_EQ(fault_with("9 4 0 1 2 3", "9 4 0 1 2 7"), "a face names point 7, but there are only 5");
+    EXPECT_EQ(fault_with("9 4 0 1 2 3", "9 4 0 1 2 7"),
+              "a face names point 7, but there are only 5");
     EXPECT_THAT(fault_with("9 4 0 1 2 3", "9 4 0 1 2 -3"), HasSubstr("no number of a point"));
     EXPECT_THAT(fault_with("9 4 0", "9 4000000000 0"), HasSubstr("breaks off"));
     EXPECT_THAT(fault_with("1 0 0 0 2", "1 0 zero 0 2"), HasSubstr("'vertex' 1"));
@@ -113,10 +116,11 @@ TEST(ModelFile, BrokenPlyFiles) {
 }
 
 TEST(ModelFile, AnObjFile) {
-    const auto soup = read_obj("mtllib /dev/zero\n"
-                                       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
-                                       "vt 0.5 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
-                                       "g square\nf 1/1 2/2 3/3 4/4\nf -4/1 -3/2 -1/4\n");
+    const auto soup = read_obj(
+        "mtllib /dev/zero\n"
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+        "vt 0.5 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+        "g square\nf 1/1 2/2 3/3 4/4\nf -4/1 -3/2 -1/4\n");
     ASSERT_TRUE(soup) << fault_of(soup);
     EXPECT_EQ(soup->points.size(), 4u);
     ASSERT_EQ(soup->polygon_count(), 2u);
@@ -131,8 +135,9 @@ TEST(ModelFile, AnObjFile) {
 }
 
 TEST(ModelFile, AnOffFileAndAnStlFile) {
-    const auto off = read_off("COFF\n# a square\n4 2 0\n0 0 0 255 0 0\n1 0 0 0 0 0\n1 1 0 0 0 0\n\n"
-                              "0 1 0 0 51 0\n3 0 1 2\n3 0 2 3 1 0 0\n");
+    const auto off = read_off(
+        "COFF\n# a square\n4 2 0\n0 0 0 255 0 0\n1 0 0 0 0 0\n1 1 0 0 0 0\n\n"
+        "0 1 0 0 51 0\n3 0 1 2\n3 0 2 3 1 0 0\n");
     ASSERT_TRUE(off) << fault_of(off);
     EXPECT_EQ(off->points.size(), 4u);
     EXPECT_THAT(off->polygon(1), ElementsAre(0, 2, 3));
@@ -146,8 +151,9 @@ TEST(ModelFile, AnOffFileAndAnStlFile) {
     EXPECT_THAT(fault_of(read_off("OFF\n4000000000 1 0\n0 0 0\n")), HasSubstr("too short for"));
     EXPECT_EQ(fault_of(read_off("solid")), "this is no OFF file of text");
 
-    const auto stl = read_stl("solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
-                                      "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n");
+    const auto stl = read_stl(
+        "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+        "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n");
     ASSERT_TRUE(stl) << fault_of(stl);
     EXPECT_EQ(stl->polygon_count(), 1u);
 }

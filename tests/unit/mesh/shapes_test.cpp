@@ -22,7 +22,8 @@ SurfaceMesh shape(Result<SurfaceMesh> made) {
     return *std::move(made);
 }
 
-/// Is the texture everywhere seen the right way round, in the square but for what lies beyond a seam?
+/// Is the texture everywhere seen the right way round, in the square but for what lies beyond a
+/// seam?
 void expect_texture_unfolds(const SurfaceMesh& mesh, float beyond) {
     for (const auto& [a, b, c] : mesh.texture) {
         EXPECT_GT((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]), 0);
@@ -106,8 +107,7 @@ TEST(Shapes, ABoxHasSharpEdges) {
     // To one scale: a triangle's share of the texture is its share of the area.
     for (std::size_t t = 0; t < box.triangles.size(); ++t) {
         const auto& [a, b, c] = box.texture[t];
-        const double area =
-            0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+        const double area = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
         EXPECT_NEAR(area * 64 / box.area(t), 1, 1e-4);
     }
     EXPECT_EQ(shape(box_mesh({1, 1, 1}, 7)).triangles.size(), 12u);

@@ -21,9 +21,10 @@ std::string png(std::uint32_t width, const std::vector<std::string>& rows, char 
                 const std::vector<Chunk>& before = {}) {
     std::string raw;
     for (const std::string& row : rows) raw += std::string(1, '\0') + row;
-    std::vector<Chunk> chunks{{"IHDR", test::big_endian(width) +
-                                           test::big_endian(static_cast<std::uint32_t>(rows.size())) +
-                                           depth + type + std::string(3, '\0')}};
+    std::vector<Chunk> chunks{
+        {"IHDR", test::big_endian(width) +
+                     test::big_endian(static_cast<std::uint32_t>(rows.size())) + depth + type +
+                     std::string(3, '\0')}};
     chunks.insert(chunks.end(), before.begin(), before.end());
     chunks.push_back({"IDAT", test::deflated(raw)});
     chunks.push_back({"IEND", ""});
@@ -84,7 +85,8 @@ TEST(GreyPicture, WhatIsWrittenIsRead) {
         image.pixels[static_cast<std::size_t>(k)] = {grey, grey, grey};
     }
     const auto values = values_of(*encode_png(image, PngDepth::sixteen, {}));
-    for (std::size_t k = 0; k < 15; ++k) EXPECT_NEAR(values[k], static_cast<float>(k) / 14.0F, 1e-5);
+    for (std::size_t k = 0; k < 15; ++k)
+        EXPECT_NEAR(values[k], static_cast<float>(k) / 14.0F, 1e-5);
 }
 
 TEST(GreyPicture, DamageIsTold) {

@@ -72,8 +72,10 @@ TEST(Map, LinesAreBandsAndAllMayBeEmpty) {
     const Image map = make_map(lines, {"", {""}}, {"a", {"1", "2"}});
     EXPECT_EQ(place_of(map, red).count, 128 * 24);
     const std::vector<MapTile> nothing = {{Image(), "not finite"}, {Image(), ""}};
-    const Image empty = make_map(nothing, {"a very long name of a parameter, longer than its tiles "
-                                           "are wide, but not a reason to fail", {"1", "2"}},
+    const Image empty = make_map(nothing,
+                                 {"a very long name of a parameter, longer than its tiles "
+                                  "are wide, but not a reason to fail",
+                                  {"1", "2"}},
                                  {"", {""}});
     EXPECT_GT(empty.width, 2 * 128);
 }

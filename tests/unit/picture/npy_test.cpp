@@ -57,8 +57,8 @@ TEST(ParseNpy, AFileAsNumpyWritesIt) {
     std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }";
     header.resize(0x75, ' ');
     header += '\n';
-    const std::string elements(
-        "\0\0\0\0\0\0\0\x3f\0\0\x80\x3f\0\0\xc0\x3f\0\0\0\x40\0\0\x20\x40", 24);
+    const std::string elements("\0\0\0\0\0\0\0\x3f\0\0\x80\x3f\0\0\xc0\x3f\0\0\0\x40\0\0\x20\x40",
+                               24);
     const Result<NpyArray> array =
         parse_npy(std::string("\x93NUMPY\x01\x00\x76\x00", 10) + header + elements);
     ASSERT_TRUE(array) << array.error().message;
@@ -136,8 +136,8 @@ TEST(ParseNpy, OtherFilesAndVersions) {
 }
 
 TEST(ParseNpy, FortranOrder) {
-    const Result<NpyArray> array = parse_npy(
-        npy("{'descr': '<f4', 'fortran_order': True, 'shape': (1, 2), }", two_floats));
+    const Result<NpyArray> array =
+        parse_npy(npy("{'descr': '<f4', 'fortran_order': True, 'shape': (1, 2), }", two_floats));
     ASSERT_FALSE(array);
     EXPECT_EQ(array.error().message, "its array is in Fortran order");
     EXPECT_THAT(array.error().hint, HasSubstr("ascontiguousarray"));
@@ -164,7 +164,8 @@ TEST(ParseNpy, TypesThatAreNoNumbers) {
     EXPECT_EQ(fault("f4"), "its elements are of type 'f4', which cannot be read");
     EXPECT_EQ(fault("\x1b[31m"), "its elements are of type '?[31m', which cannot be read");
     EXPECT_EQ(fault_of(npy("{'descr': [('a', '<f4'), ('b]', '<f4', (2,))], 'fortran_order': False,"
-                           " 'shape': (1,), }", two_floats)),
+                           " 'shape': (1,), }",
+                           two_floats)),
               "its elements are records, not numbers");
 }
 
@@ -251,13 +252,13 @@ TEST(EncodeNpy, EveryValueKeepsItsBitsAndEveryNanIsOne) {
     field.at(5, 0) = 0.1F;
     const std::string file = encode_npy(field);
     EXPECT_EQ(file.substr(file.size() - 24),
-              bytes_of<std::uint32_t>({0x80000000U, 0x80000001U, 0x7f800000U, 0x7fc00000U,
-                                       0x7fc00000U, 0x3dcccccdU}));
+              bytes_of<std::uint32_t>(
+                  {0x80000000U, 0x80000001U, 0x7f800000U, 0x7fc00000U, 0x7fc00000U, 0x3dcccccdU}));
 }
 
 TEST(NpyFile, WrittenAndReadAgain) {
-    const std::filesystem::path folder =
-        std::filesystem::path(::testing::TempDir()) / ("cascade_npy_test_" + std::to_string(getpid()));
+    const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) /
+                                         ("cascade_npy_test_" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
     const std::filesystem::path path = folder / "large.b.npy";
     ASSERT_TRUE(write_npy(path, three_by_two()));

@@ -32,7 +32,8 @@ void expect_grey(const Colour& colour, float value) {
 }
 
 TEST(ValueRange, SmallestAndLargestFiniteValue) {
-    const ValueRange range = automatic_range(spread_of(row_of({3, nan, -2, infinity, 5, -infinity})));
+    const ValueRange range =
+        automatic_range(spread_of(row_of({3, nan, -2, infinity, 5, -infinity})));
     EXPECT_EQ(range.low, -2);
     EXPECT_EQ(range.high, 5);
 }

@@ -77,9 +77,9 @@ inline std::string deflated(const std::string& bytes) {
 inline std::string inflated(const std::string& bytes, std::size_t size) {
     uLongf out_size = static_cast<uLongf>(size);
     std::string out(size, '\0');
-    const int status = uncompress(reinterpret_cast<Bytef*>(out.data()), &out_size,
-                                  reinterpret_cast<const Bytef*>(bytes.data()),
-                                  static_cast<uLong>(bytes.size()));
+    const int status =
+        uncompress(reinterpret_cast<Bytef*>(out.data()), &out_size,
+                   reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()));
     return status == Z_OK && out_size == size ? out : std::string();
 }
 
@@ -155,7 +155,8 @@ inline DecodedPng decode(std::string_view file) {
         if (chunk.name == "IDAT") data += chunk.data;
     }
     const std::size_t sample_size = png.depth == 16 ? 2 : 1;
-    const std::size_t channels = (png.colour_type % 4 == 2 ? 3u : 1u) + (png.colour_type >= 4 ? 1u : 0u);
+    const std::size_t channels =
+        (png.colour_type % 4 == 2 ? 3u : 1u) + (png.colour_type >= 4 ? 1u : 0u);
     const std::size_t pixel_size = sample_size * channels;
     const std::size_t row_size = png.width * pixel_size;
     const std::string raw = inflated(data, (row_size + 1) * png.height);

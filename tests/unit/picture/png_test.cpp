@@ -199,7 +199,9 @@ TEST(PngTexts, AllThreeKindsOnBothSidesOfThePicture) {
     const std::string nul(1, '\0');
     const std::string file = test::assemble(test::tiny_png(
         {{"tEXt", "Title" + nul + "caf\xe9"},
-         {"zTXt", "Comment" + nul + nul + test::deflated("\xfc" "ber")}},
+         {"zTXt", "Comment" + nul + nul +
+                      test::deflated("\xfc"
+                                     "ber")}},
         {{"iTXt", "Script" + nul + "\1" + nul + "en" + nul + nul + test::deflated("Größe: 4")},
          {"tEXt", "Title" + nul + "second"}}));
     const Result<PngTexts> texts = parse_png_texts(file);
@@ -281,7 +283,8 @@ class PngFile : public ::testing::Test {
 protected:
     void SetUp() override {
         const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-        folder_ = std::filesystem::path(::testing::TempDir()) / ("cascade_png_" + name + "_" + std::to_string(getpid()));
+        folder_ = std::filesystem::path(::testing::TempDir()) /
+                  ("cascade_png_" + name + "_" + std::to_string(getpid()));
         std::filesystem::remove_all(folder_);
         std::filesystem::create_directories(folder_);
     }

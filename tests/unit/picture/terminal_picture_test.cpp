@@ -50,8 +50,7 @@ TEST(HalfBlocks, TransparentPixelsLeaveTheGround) {
     image.at(0, 0) = image.at(0, 1) = transparent;
     image.at(2, 0) = transparent;
     image.at(3, 1) = transparent;
-    EXPECT_EQ(half_blocks(image, 80),
-              " \x1b[38;2;0;0;0m\x1b[48;2;0;0;0m▀\x1b[49m▄▀\x1b[0m\n");
+    EXPECT_EQ(half_blocks(image, 80), " \x1b[38;2;0;0;0m\x1b[48;2;0;0;0m▀\x1b[49m▄▀\x1b[0m\n");
 }
 
 TEST(HalfBlocks, AveragesAreOfWhatIsSeen) {

@@ -47,7 +47,8 @@ TEST(Slice, AcrossEachAxis) {
     EXPECT_THAT(cells(across_y), ElementsAre(20, 21, 120, 121, 220, 221, 320, 321));
     const Field across_x = cut(volume, {Axis::x, 0});
     EXPECT_EQ(across_x.layout(), PlaneLayout(Grid{4, 3}));
-    EXPECT_THAT(cells(across_x), ElementsAre(0, 100, 200, 300, 10, 110, 210, 310, 20, 120, 220, 320));
+    EXPECT_THAT(cells(across_x),
+                ElementsAre(0, 100, 200, 300, 10, 110, 210, 310, 20, 120, 220, 320));
 }
 
 TEST(Slice, PlacesAreCells) {

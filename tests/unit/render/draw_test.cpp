@@ -36,7 +36,8 @@ TriangleMesh sphere(float radius) {
         const float around = 2 * std::numbers::pi_v<float> * u;
         const float down = std::numbers::pi_v<float> * v;
         return Vector3{std::sin(down) * std::cos(around), std::sin(down) * std::sin(around),
-                       std::cos(down)} * radius;
+                       std::cos(down)} *
+               radius;
     });
 }
 
@@ -77,8 +78,8 @@ TEST(Draw, ASphereIsADiscThatFillsThePicture) {
         const double diameter = 120 / 1.12;
         EXPECT_NEAR(static_cast<double>(bottom - top + 1), diameter, 3) << radius;
         EXPECT_NEAR(static_cast<double>(right - left + 1), diameter, 3) << radius;
-        EXPECT_NEAR(static_cast<double>(count),
-                    std::numbers::pi / 4 * diameter * diameter, 0.04 * diameter * diameter);
+        EXPECT_NEAR(static_cast<double>(count), std::numbers::pi / 4 * diameter * diameter,
+                    0.04 * diameter * diameter);
         EXPECT_NEAR(static_cast<double>(left + right) / 2, 79.5, 1.5);
     }
 }
@@ -90,8 +91,9 @@ TEST(Draw, TheSunStandsBehindTheLeftShoulder) {
 
 TEST(Draw, ColoursAreThoseOfTheTriangleThatIsSeen) {
     // A wall whose left half, seen from the front, is blue.
-    const TriangleMesh wall =
-        sheet(2, 1, [](float u, float v) { return Vector3{u - 0.5F, 0, 0.75F * (0.5F - v)}; });
+    const TriangleMesh wall = sheet(2, 1, [](float u, float v) {
+        return Vector3{u - 0.5F, 0, 0.75F * (0.5F - v)};
+    });
     DrawOptions options = small_picture();
     options.view.azimuth = 0;
     options.view.elevation = 0;
@@ -105,8 +107,9 @@ TEST(Draw, ColoursAreThoseOfTheTriangleThatIsSeen) {
 
 TEST(Draw, BarycentricPlacesInterpolate) {
     // The colour is the height along the wall: it grows evenly from left to right.
-    const TriangleMesh wall =
-        sheet(1, 1, [](float u, float v) { return Vector3{u, 0, 0.75F * (1 - v)}; });
+    const TriangleMesh wall = sheet(1, 1, [](float u, float v) {
+        return Vector3{u, 0, 0.75F * (1 - v)};
+    });
     DrawOptions options = small_picture();
     options.view = {0, 0, {0, 0, 1}};
     const auto across = [&](const Hit& hit) {
@@ -178,14 +181,17 @@ TEST(Draw, ATiltTurnsTheLightAndFlipsOnTheBack) {
         DrawOptions options = small_picture();
         options.view = {azimuth, 0, {0, 0, 1}};
         Team team(1);
-        const Image image = draw(wall, RayCaster(wall), [&](const Sight&) {
-            return Look{{0.5F, 0.5F, 0.5F}, tilt};
-        }, options, team);
+        const Image image = draw(
+            wall, RayCaster(wall),
+            [&](const Sight&) {
+                return Look{{0.5F, 0.5F, 0.5F}, tilt};
+            },
+            options, team);
         return image.at(80, 60)[0];
     };
     const float plain = brightness(0, {});
-    // The outside is that of y. From there the sun stands on the side of x; from the other side it stands on
-    // that of −x, to which the back leans where the outside leans to x.
+    // The outside is that of y. From there the sun stands on the side of x; from the other side it
+    // stands on that of −x, to which the back leans where the outside leans to x.
     for (const float azimuth : {180.0F, 0.0F}) {
         EXPECT_GT(brightness(azimuth, {0.5F, 0, 0}), plain + 0.02F);
         EXPECT_LT(brightness(azimuth, {-0.5F, 0, 0}), plain - 0.05F);
@@ -193,19 +199,23 @@ TEST(Draw, ATiltTurnsTheLightAndFlipsOnTheBack) {
 }
 
 TEST(Draw, ASightKnowsHowWideASampleIs) {
-    const TriangleMesh wall =
-        sheet(1, 1, [](float u, float v) { return Vector3{u - 0.5F, 0, 0.75F * (0.5F - v)}; });
+    const TriangleMesh wall = sheet(1, 1, [](float u, float v) {
+        return Vector3{u - 0.5F, 0, 0.75F * (0.5F - v)};
+    });
     DrawOptions options = small_picture();
     options.view = {0, 0, {0, 0, 1}};
     for (const int samples : {1, 3}) {
         options.samples = samples;
         float least = 1, most = 0;
         Team team(1);
-        draw(wall, RayCaster(wall), [&](const Sight& sight) {
-            least = std::min(least, sight.width);
-            most = std::max(most, sight.width);
-            return Look{};
-        }, options, team);
+        draw(
+            wall, RayCaster(wall),
+            [&](const Sight& sight) {
+                least = std::min(least, sight.width);
+                most = std::max(most, sight.width);
+                return Look{};
+            },
+            options, team);
         // The wall is 160 / 1.12 pixels wide.
         EXPECT_NEAR(least, 1.12F / 160 / static_cast<float>(samples), 1e-4F);
         EXPECT_LT(most, least * 1.1F);

@@ -1,5 +1,5 @@
-// Steps of chosen length are accurate: rates that become stiff within a stage, by time, by growth or at a
-// threshold, are met by steps that are short enough.
+// Steps of chosen length are accurate: rates that become stiff within a stage, by time, by growth
+// or at a threshold, are met by steps that are short enough.
 #include "ran_text.h"
 #include "resumed_run.h"
 
@@ -17,8 +17,9 @@ namespace {
 
 /// Rates with the settings of a stage to its duration.
 std::string script_of(const std::string& rates, double duration, const std::string& settings) {
-    return fmt::format("system s {{ {} }}\ndomain {{ grid: 16, 8 }}\nstage a: s {{ duration: {}; {} }}", rates,
-                       duration, settings);
+    return fmt::format(
+        "system s {{ {} }}\ndomain {{ grid: 16, 8 }}\nstage a: s {{ duration: {}; {} }}", rates,
+        duration, settings);
 }
 
 struct Case {
@@ -30,27 +31,37 @@ struct Case {
 
 constexpr Case cases[] = {
     {"stiff by time",
-     "u: 0.3; u' = 300 * smoothstep(4, 5, t) * (0.5 + 0.3 * sx - u) + 0.001 * lap(u); u >= 0; u <= 1", 6, 1e-6},
+     "u: 0.3; u' = 300 * smoothstep(4, 5, t) * (0.5 + 0.3 * sx - u) + 0.001 * lap(u); u >= 0; u <= "
+     "1",
+     6, 1e-6},
     {"stiff by growth",
-     "u: 0.002 + 0.001 * random(0, 1); u' = 50 * u^2 * (1 - u) + 0.01 * lap(u); u >= 0; u <= 1", 12, 1e-6},
+     "u: 0.002 + 0.001 * random(0, 1); u' = 50 * u^2 * (1 - u) + 0.01 * lap(u); u >= 0; u <= 1", 12,
+     1e-6},
     {"stiff beyond a threshold",
-     "u: 0.3; v: 0; v' = 1; u' = if(v > 5, 500 * (0.8 - u), 0.01 * (0.3 - u)) + 0.001 * lap(u); u >= 0; u <= 1",
+     "u: 0.3; v: 0; v' = 1; u' = if(v > 5, 500 * (0.8 - u), 0.01 * (0.3 - u)) + 0.001 * lap(u); u "
+     ">= 0; u <= 1",
      6, 1e-5},
-    {"a pulse in time", "u: 0; u' = exp(-((t - 50) / 0.05)^2) * 20 - 0.001 * u + 0.001 * lap(u)", 100, 1e-6},
+    {"a pulse in time", "u: 0; u' = exp(-((t - 50) / 0.05)^2) * 20 - 0.001 * u + 0.001 * lap(u)",
+     100, 1e-6},
     {"a pole beside the solution",
-     "eps: 0.002; q: 0.002; f: 1.4; u: 0.1; v: 0.1; u' = (u * (1 - u) - f * v * (u - q) / (u + q)) / eps + lap(u)\n"
+     "eps: 0.002; q: 0.002; f: 1.4; u: 0.1; v: 0.1; u' = (u * (1 - u) - f * v * (u - q) / (u + q)) "
+     "/ eps + lap(u)\n"
      "v' = u - v + 0.6 * lap(v)",
      0.2, 1e-6},
     {"relaxation oscillations",
-     "u: 0.5 + 0.3 * sx; v: 0.1; u' = 50 * (u - u^3 / 3 - v) + 0.1 * lap(u); v' = u + 0.7 - 0.8 * v", 7, 1e-6},
+     "u: 0.5 + 0.3 * sx; v: 0.1; u' = 50 * (u - u^3 / 3 - v) + 0.1 * lap(u); v' = u + 0.7 - 0.8 * "
+     "v",
+     7, 1e-6},
 };
 
 /// The largest difference of the species' means and deviations, relative to their size.
 double difference(const Ran& a, const Ran& b) {
     double largest = 0;
     for (std::size_t k = 0; k < a.state().species.size(); ++k) {
-        const FieldMoments apart = moments_of_difference(a.state().species[k], b.state().species[k]);
-        largest = std::max(largest, apart.root_mean_square / moments(b.state().species[k]).root_mean_square);
+        const FieldMoments apart =
+            moments_of_difference(a.state().species[k], b.state().species[k]);
+        largest = std::max(largest,
+                           apart.root_mean_square / moments(b.state().species[k]).root_mean_square);
     }
     return largest;
 }
@@ -59,8 +70,9 @@ class AutomaticSteps : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(AutomaticSteps, AgreeWithATightAdaptiveSolver) {
     for (const Case& each : cases) {
-        const Ran exact = run_text(script_of(
-            each.rates, each.duration, fmt::format("solver: rk45; tolerance: {}", each.reference_tolerance)));
+        const Ran exact = run_text(
+            script_of(each.rates, each.duration,
+                      fmt::format("solver: rk45; tolerance: {}", each.reference_tolerance)));
         const Ran ran = run_text(script_of(each.rates, each.duration,
                                            fmt::format("solver: {}; speed: auto", GetParam())));
         EXPECT_EQ(exact.failure, "") << each.name;
@@ -71,8 +83,8 @@ TEST_P(AutomaticSteps, AgreeWithATightAdaptiveSolver) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, AutomaticSteps,
-                         ::testing::Values("euler", "symplectic", "rk2", "rk4", "rkl1", "rkl2", "imex", "imex2",
-                                           "gauss"),
+                         ::testing::Values("euler", "symplectic", "rk2", "rk4", "rkl1", "rkl2",
+                                           "imex", "imex2", "gauss"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(ChosenSteps, AreNoLongerThanTheLargest) {
@@ -89,27 +101,32 @@ TEST(ChosenSteps, AreNoLongerThanTheLargest) {
 
 /// Where nothing moves there is no error, and steps become as long as they may.
 TEST(ChosenSteps, AreAsLongAsTheyMayWhereNothingMoves) {
-    const Ran ran = run_text(script_of("u: 1; u' = 0.1 * lap(u) + 0 * u", 1000, "solver: rkl1; speed: auto"));
+    const Ran ran =
+        run_text(script_of("u: 1; u' = 0.1 * lap(u) + 0 * u", 1000, "solver: rkl1; speed: auto"));
     EXPECT_EQ(ran.failure, "");
     EXPECT_LT(ran.state().steps, 40);
 }
 
-/// A value that leaves a bound a little later must not depend on the method: invariants hold in every stage.
+/// A value that leaves a bound a little later must not depend on the method: invariants hold in
+/// every stage.
 TEST(Invariants, GiveAllSolversTheSolutionOfEuler) {
-    const std::string rates = "a: 4; b: 4; beta: random(12, 0.1)\n a' = 0.0125 * (16 - a * b) + 0.125 * lap(a)\n"
-                              "b' = 0.0125 * (a * b - b - beta) + 0.03125 * lap(b)\n b >= 0";
+    const std::string rates =
+        "a: 4; b: 4; beta: random(12, 0.1)\n a' = 0.0125 * (16 - a * b) + 0.125 * lap(a)\n"
+        "b' = 0.0125 * (a * b - b - beta) + 0.03125 * lap(b)\n b >= 0";
     const auto run = [&](const std::string& settings) {
-        return run_text("system s { " + rates + " }\ndomain { grid: 32, 32 }\nstage one: s { " + settings + " }",
+        return run_text("system s { " + rates + " }\ndomain { grid: 32, 32 }\nstage one: s { " +
+                            settings + " }",
                         {has_jit() ? BackendKind::jit : BackendKind::interpreter, 0, 1});
     };
     const Ran euler = run("speed: 0.25; iterations: 24000");
     const double mean = moments(euler.state().species[1]).mean;
     EXPECT_EQ(euler.failure, "");
-    for (const char* settings : {"solver: rk2; speed: 1; iterations: 6000", "solver: rk4; speed: 1; iterations: 6000",
-                                 "solver: rk4; speed: 2; iterations: 3000", "solver: rk23; duration: 6000",
-                                 "solver: rkl1; speed: 4; iterations: 1500", "solver: rkl2; speed: 4; iterations: 1500",
-                                 "solver: rkl2; speed: auto; duration: 6000",
-                                 "solver: imex2; speed: auto; duration: 6000"}) {
+    for (const char* settings :
+         {"solver: rk2; speed: 1; iterations: 6000", "solver: rk4; speed: 1; iterations: 6000",
+          "solver: rk4; speed: 2; iterations: 3000", "solver: rk23; duration: 6000",
+          "solver: rkl1; speed: 4; iterations: 1500", "solver: rkl2; speed: 4; iterations: 1500",
+          "solver: rkl2; speed: auto; duration: 6000",
+          "solver: imex2; speed: auto; duration: 6000"}) {
         const Ran ran = run(settings);
         EXPECT_EQ(ran.failure, "") << settings;
         EXPECT_NEAR(moments(ran.state().species[1]).mean / mean, 1, 0.002) << settings;
@@ -118,7 +135,8 @@ TEST(Invariants, GiveAllSolversTheSolutionOfEuler) {
 
 TEST(Invariants, AStageOfNoLengthEndsAtOnce) {
     for (const char* solver : {"euler", "rk4", "rk23", "rkl1", "rkl2", "imex", "imex2", "gauss"}) {
-        const Ran ran = run_text(script_of("u: sx; u' = lap(u)", 0, fmt::format("solver: {}; speed: auto", solver)));
+        const Ran ran = run_text(
+            script_of("u: sx; u' = lap(u)", 0, fmt::format("solver: {}; speed: auto", solver)));
         EXPECT_EQ(ran.failure, "") << solver;
         EXPECT_EQ(ran.state().steps, 0) << solver;
         EXPECT_TRUE(ran.state().done) << solver;
@@ -130,8 +148,8 @@ class ChosenStepsRun : public ResumedRunTest {};
 /// Also within a stretch of steps between two estimates of an error.
 TEST_F(ChosenStepsRun, ResumeWithTheSameBits) {
     for (const char* solver : {"euler", "rk4", "rkl1", "imex2"}) {
-        const std::string text = script_of(cases[1].rates, 9,
-                                           fmt::format("solver: {}; speed: auto", solver));
+        const std::string text =
+            script_of(cases[1].rates, 9, fmt::format("solver: {}; speed: auto", solver));
         run_whole(text);
         for (const std::int64_t step : {1, 2, 37, 100, 131}) {
             run_in_two_parts(text, "a", step);

@@ -74,7 +74,8 @@ TEST_F(BenchTest, AllStagesAreMeasured) {
     request.has_limits = false;
     RunControl control;
     std::vector<StageBench> stages;
-    const auto done = bench(script, request, control, [&](const StageBench& stage) { stages.push_back(stage); });
+    const auto done =
+        bench(script, request, control, [&](const StageBench& stage) { stages.push_back(stage); });
     ASSERT_TRUE(done) << done.error().message;
     ASSERT_EQ(stages.size(), 2u);
     EXPECT_EQ(stages[0].stage, "large");
@@ -90,7 +91,8 @@ TEST_F(BenchTest, AllStagesAreMeasured) {
     }
     stages.clear();
     request.stage = "2";
-    ASSERT_TRUE(bench(script, request, control, [&](const StageBench& stage) { stages.push_back(stage); }));
+    ASSERT_TRUE(
+        bench(script, request, control, [&](const StageBench& stage) { stages.push_back(stage); }));
     ASSERT_EQ(stages.size(), 1u);
     EXPECT_EQ(stages[0].stage, "small");
     request.stage = "3";
@@ -162,7 +164,8 @@ TEST(Bounds, TilesShareTheBytesOfMemoryAndAreFedByACache) {
     EXPECT_NEAR(bounds[2].share(), 0.2, 1e-12);
     EXPECT_EQ(bounds[3].name, "planes, memory");
     EXPECT_NEAR(bounds[3].share(), 0.8 / 16, 1e-12);
-    // 1e9 bytes a second from memory for half a byte, 4e9 from the cache for 8, 4e9 operations for 10.
+    // 1e9 bytes a second from memory for half a byte, 4e9 from the cache for 8, 4e9 operations
+    // for 10.
     EXPECT_NEAR(attainable(bench)->cell_steps_per_second, 4e8, 1);
     bench.work.bytes = 80;
     EXPECT_NEAR(attainable(bench)->cell_steps_per_second, 5e7, 1);

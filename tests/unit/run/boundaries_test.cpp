@@ -1,5 +1,5 @@
-// Sides against calculus: manufactured solutions for every kind of side and of operator, values that
-// change with time under every solver, sides of surfaces, and the same bits whichever way.
+// Sides against calculus: manufactured solutions for every kind of side and of operator, values
+// that change with time under every solver, sides of surfaces, and the same bits whichever way.
 #include "run/simulation/simulation.h"
 
 #include "run/script/script.h"
@@ -29,7 +29,8 @@ struct Ran {
     const std::vector<Field>& species() const { return simulation->state(0).species; }
 };
 
-Ran run(const std::string& text, const SimulationOptions& options = {BackendKind::interpreter, 0, 1},
+Ran run(const std::string& text,
+        const SimulationOptions& options = {BackendKind::interpreter, 0, 1},
         std::vector<std::string> sets = {}) {
     Ran ran;
     Overrides overrides;
@@ -44,8 +45,8 @@ Ran run(const std::string& text, const SimulationOptions& options = {BackendKind
             ran.failure = started.error().message;
             return ran;
         }
-        const auto end = ran.simulation->advance_stage(
-            k, ran.script.program->stages[k].iterations, control, {});
+        const auto end =
+            ran.simulation->advance_stage(k, ran.script.program->stages[k].iterations, control, {});
         if (!end) ran.failure = end.error().message;
     }
     return ran;
@@ -118,20 +119,22 @@ constexpr OperatorCase operators[] = {
 };
 
 double error_of(const Solution& solution, const OperatorCase& each, int n) {
-    const char* angle = std::string(each.name) == "diffuse" ? "c = cos(0.6 + x); s = sin(0.6 + x)\n" : "";
-    const Ran ran = run(fmt::format(
-        "system made {{ {}{}u' = w_t + {} - ({})\n {} }}\n"
-        "domain {{ grid: {}, {}; spacing: 1 / {}; boundary: noflux }}\n"
-        "stage only: made {{ duration: 0.25; solver: rk4; speed: 0.08 / {} }}\n",
-        solution.definitions, angle, each.applied, each.exact, solution.sides, n, n, n, n * n));
+    const char* angle =
+        std::string(each.name) == "diffuse" ? "c = cos(0.6 + x); s = sin(0.6 + x)\n" : "";
+    const Ran ran =
+        run(fmt::format("system made {{ {}{}u' = w_t + {} - ({})\n {} }}\n"
+                        "domain {{ grid: {}, {}; spacing: 1 / {}; boundary: noflux }}\n"
+                        "stage only: made {{ duration: 0.25; solver: rk4; speed: 0.08 / {} }}\n",
+                        solution.definitions, angle, each.applied, each.exact, solution.sides, n, n,
+                        n, n * n));
     if (!ran.simulation) return NAN;
     EXPECT_EQ(ran.failure, "");
     return largest_error(ran.species()[0],
                          [&](double x, double y) { return solution.value(x, y, 0.25); });
 }
 
-/// Corners of sides with values, which mixed derivatives read, are known to first order, and so is a
-/// coefficient beyond a side: it is mirrored (spec/domain.md).
+/// Corners of sides with values, which mixed derivatives read, are known to first order, and so is
+/// a coefficient beyond a side: it is mirrored (spec/domain.md).
 double expected_order(const Solution& solution, const OperatorCase& each) {
     const std::string where = fmt::format("{} at {}", each.name, solution.name);
     return where == "diffuse at fixed" || where == "div at flux" ? 1 : each.order;
@@ -154,12 +157,12 @@ TEST(Boundaries, EveryOperatorAtEveryKindOfSide) {
 
 /// u = x g(t), a line at every moment: exact in space, so that what is left is the solver's error.
 double error_in_time(const std::string& solver, double step, const std::string& right) {
-    const Ran ran = run(fmt::format(
-        "system line {{ u: x; u' = 0.5 * lap(u) + x * 2 * cos(2 * t)\n"
-        "  u.left: fixed(0); u.right: {} }}\n"
-        "domain {{ grid: 8; boundary: noflux }}\n"
-        "stage only: line {{ duration: 4.8; solver: {}; speed: {} }}\n",
-        right, solver, step));
+    const Ran ran =
+        run(fmt::format("system line {{ u: x; u' = 0.5 * lap(u) + x * 2 * cos(2 * t)\n"
+                        "  u.left: fixed(0); u.right: {} }}\n"
+                        "domain {{ grid: 8; boundary: noflux }}\n"
+                        "stage only: line {{ duration: 4.8; solver: {}; speed: {} }}\n",
+                        right, solver, step));
     if (!ran.simulation) return NAN;
     return largest_error(ran.species()[0],
                          [](double x, double) { return x * (1 + std::sin(9.6)); });
@@ -170,8 +173,12 @@ TEST(Boundaries, ValuesAreThoseOfTheMomentInEverySweep) {
         const char* solver;
         double step, order;
     };
-    for (const Case& each : {Case{"euler", 0.2, 1}, {"symplectic", 0.2, 1}, {"rk2", 0.2, 2},
-                             {"rk4", 0.6, 4}, {"rkl1", 0.2, 1}, {"rkl2", 0.1, 2}}) {
+    for (const Case& each : {Case{"euler", 0.2, 1},
+                             {"symplectic", 0.2, 1},
+                             {"rk2", 0.2, 2},
+                             {"rk4", 0.6, 4},
+                             {"rkl1", 0.2, 1},
+                             {"rkl2", 0.1, 2}}) {
         for (const char* right : {"fixed(1 + sin(2 * t))", "flux((1 + sin(2 * t)) / 8)"}) {
             const double coarse = error_in_time(each.solver, each.step, right);
             const double fine = error_in_time(each.solver, each.step / 2, right);
@@ -186,10 +193,11 @@ TEST(Boundaries, ValuesAreThoseOfTheMomentInEverySweep) {
 
 // What the message about sides that read a species tells to write.
 TEST(Boundaries, ASourceBesideASideIsAFluxThatFollowsASpecies) {
-    const Ran ran = run(
-        "system rod { u: 1; k: 2; u' = lap(u); u' += 1/(1/32) * (-k*u) * (sx > 1 - 1/32); u.right: noflux }\n"
-        "domain { grid: 32; spacing: 1/32; boundary: noflux; precision: double }\n"
-        "stage only: rod { speed: 1/4096; iterations: 2048 }\n");
+    const Ran ran =
+        run("system rod { u: 1; k: 2; u' = lap(u); u' += 1/(1/32) * (-k*u) * (sx > 1 - 1/32); "
+            "u.right: noflux }\n"
+            "domain { grid: 32; spacing: 1/32; boundary: noflux; precision: double }\n"
+            "stage only: rod { speed: 1/4096; iterations: 2048 }\n");
     // The same by hand: beyond the right side stands c + h · (−k c).
     std::vector<double> u(34, 1), next(34);
     for (int step = 0; step < 2048; ++step) {
@@ -200,13 +208,15 @@ TEST(Boundaries, ASourceBesideASideIsAFluxThatFollowsASpecies) {
         }
         u.swap(next);
     }
-    for (int i = 0; i < 32; ++i) EXPECT_NEAR(ran.species()[0].number_at(i, 0), u[i + 1], 1e-12) << i;
+    for (int i = 0; i < 32; ++i)
+        EXPECT_NEAR(ran.species()[0].number_at(i, 0), u[i + 1], 1e-12) << i;
 }
 
 TEST(Boundaries, StepCountsCompleteSteps) {
     // Beside the right side: u' = u.right − u, with ghosts 2 step − u and u on the left.
-    const Ran ran = run("system s { u: 0; u' = 0.5 * lap(u); u.right: fixed(step) }\n"
-                        "domain { grid: 2; boundary: noflux }\nstage only: s { iterations: 2 }\n");
+    const Ran ran =
+        run("system s { u: 0; u' = 0.5 * lap(u); u.right: fixed(step) }\n"
+            "domain { grid: 2; boundary: noflux }\nstage only: s { iterations: 2 }\n");
     // Step 1 sees 0 at the face, step 2 sees 1: u1 = 0 + (0 + 2 · 1 − 0 − 0) / 2.
     EXPECT_EQ(ran.species()[0].at(1, 0), 1.0F);
     EXPECT_EQ(ran.species()[0].at(0, 0), 0.0F);
@@ -216,7 +226,8 @@ TEST(Boundaries, StepCountsCompleteSteps) {
 std::string volume(const std::string& and_time, const std::string& solver) {
     return fmt::format(
         "system s {{ begin: sin(7 * x) * y + z; u: begin; v: x * y\n"
-        "  u' = 0.05 * lap(u) + 0.02 * dxy(u) - 0.01 * dyz(u * v); v' = 0.1 * lap(v) + dxz(u) / 50\n"
+        "  u' = 0.05 * lap(u) + 0.02 * dxy(u) - 0.01 * dyz(u * v); v' = 0.1 * lap(v) + dxz(u) / "
+        "50\n"
         "  u.left: fixed(sin(9 * y) * z{0}); u.right: flux(y - z{0}); u.top: flux(sin(x * 8){0})\n"
         "  u.bottom: fixed(x * z{0}); u.front: fixed(x - y{0}); u.back: flux(x * y / 2{0})\n"
         "  v.front: noflux; v.back: fixed(0.25{0}); v.left: fixed(begin{0}); v.right: noflux }}\n"
@@ -266,16 +277,19 @@ TEST(BeyondSides, FunctionsAreMadeOfWhatStandsThere) {
     const auto after_a_step = [](const std::string& rate, const PlanOptions& planning) {
         SimulationOptions options{BackendKind::interpreter, 0, 1};
         options.planning = planning;
-        const Ran ran = run("system s { u: 1 + x; u' = " + rate + "\n u.sides: fixed(3) }\n"
-                            "domain { grid: 4; boundary: noflux }\n"
-                            "stage only: s { iterations: 1; speed: 1 }\n", options);
+        const Ran ran = run("system s { u: 1 + x; u' = " + rate +
+                                "\n u.sides: fixed(3) }\n"
+                                "domain { grid: 4; boundary: noflux }\n"
+                                "stage only: s { iterations: 1; speed: 1 }\n",
+                            options);
         return ran.species()[0].at(0, 0);
     };
     const double u0 = 1.125, u1 = 1.375, ghost = 2 * 3 - u0;
-    for (const Materialise materialise : {Materialise::always, Materialise::never, Materialise::when_cheaper}) {
+    for (const Materialise materialise :
+         {Materialise::always, Materialise::never, Materialise::when_cheaper}) {
         const PlanOptions planning{materialise, false, true};
-        EXPECT_NEAR(after_a_step("lap(u^2)", planning),
-                    u0 + ghost * ghost + u1 * u1 - 2 * u0 * u0, 1e-4);
+        EXPECT_NEAR(after_a_step("lap(u^2)", planning), u0 + ghost * ghost + u1 * u1 - 2 * u0 * u0,
+                    1e-4);
         EXPECT_NEAR(after_a_step("lap(exp(u)) + 0 * mean(exp(u) over domain)", planning),
                     u0 + std::exp(ghost) + std::exp(u1) - 2 * std::exp(u0), 1e-4);
         // The operator inside is mirrored, the rest is not.
@@ -287,7 +301,8 @@ TEST(BeyondSides, FunctionsAreMadeOfWhatStandsThere) {
 
 TEST(BeyondSides, OperatorsAreLinearThere) {
     const auto field = [](const std::string& rates) {
-        return run("system s { c: sin(5 * x) * y; " + rates + "\n"
+        return run("system s { c: sin(5 * x) * y; " + rates +
+                   "\n"
                    "  c.left: fixed(0.5); c.right: flux(y); c.top: noflux; c.bottom: fixed(x) }\n"
                    "domain { grid: 12, 9; boundary: noflux }\n"
                    "stage only: s { iterations: 40; speed: 0.02 }\n");
@@ -308,17 +323,18 @@ TEST(BeyondSides, OperatorsAreLinearThere) {
 }
 
 TEST(SidesFromOutside, HaveTheLastWord) {
-    const std::string text = "system heat { i: 1..2; u[i]: 0; u[i]' = lap(u[i])\n"
-                             "  u[i].left: fixed(i); u[2].right: fixed(6) }\n"
-                             "domain { grid: 8; boundary: noflux }\n"
-                             "stage warm: heat { iterations: 3000; speed: 0.4; u[1].right: fixed(1) }\n";
+    const std::string text =
+        "system heat { i: 1..2; u[i]: 0; u[i]' = lap(u[i])\n"
+        "  u[i].left: fixed(i); u[2].right: fixed(6) }\n"
+        "domain { grid: 8; boundary: noflux }\n"
+        "stage warm: heat { iterations: 3000; speed: 0.4; u[1].right: fixed(1) }\n";
     const auto ends = [&](std::vector<std::string> sets) {
         const Ran ran = run(text, {BackendKind::interpreter, 0, 1}, std::move(sets));
         const auto& u = ran.species();
         return std::vector<double>{u[0].at(0, 0), u[0].at(7, 0), u[1].at(0, 0), u[1].at(7, 0)};
     };
-    using ::testing::ElementsAre;
     using ::testing::DoubleNear;
+    using ::testing::ElementsAre;
     const auto near = [](double value) { return DoubleNear(value, 1e-3); };
     EXPECT_THAT(ends({}), ElementsAre(near(1), near(1), near(2.25), near(5.75)));
     EXPECT_THAT(ends({"u[2].right=fixed(2)"}), ElementsAre(near(1), near(1), near(2), near(2)));
@@ -326,10 +342,11 @@ TEST(SidesFromOutside, HaveTheLastWord) {
                 ElementsAre(near(3), near(3), near(4), near(4)));
     EXPECT_THAT(ends({"heat.u[1].left=flux(0)", "u[i].right=fixed(5)", "u[2].right=fixed(7)"}),
                 ElementsAre(near(5), near(5), near(2 + 5.0 / 16), near(7 - 5.0 / 16)));
-    const Ran plain = run("system heat { u: 0; left: 3; u' = lap(u) + 0 * left }\n"
-                          "domain { grid: 8; boundary: noflux }\n"
-                          "stage s: heat { iterations: 3000; speed: 0.4 }\n",
-                          {BackendKind::interpreter, 0, 1}, {"u.left=fixed(4)", "s.left=2"});
+    const Ran plain =
+        run("system heat { u: 0; left: 3; u' = lap(u) + 0 * left }\n"
+            "domain { grid: 8; boundary: noflux }\n"
+            "stage s: heat { iterations: 3000; speed: 0.4 }\n",
+            {BackendKind::interpreter, 0, 1}, {"u.left=fixed(4)", "s.left=2"});
     EXPECT_NEAR(plain.species()[0].at(7, 0), 4, 1e-3);
     EXPECT_EQ(plain.simulation->state(0).numbers[1], 2.0F);
 }
@@ -338,8 +355,9 @@ TEST(SidesFromOutside, SlipsAreAnswered) {
     const auto messages = [](const std::string& set) {
         Overrides overrides;
         overrides.sets = {set};
-        return load_script("test", "system heat { u: 0; k: 1; u' = k * lap(u) }\n"
-                                   "domain { grid: 8; boundary: noflux }\nstage s: heat { }\n",
+        return load_script("test",
+                           "system heat { u: 0; k: 1; u' = k * lap(u) }\n"
+                           "domain { grid: 8; boundary: noflux }\nstage s: heat { }\n",
                            ".", overrides)
             .messages(false);
     };
@@ -364,20 +382,23 @@ TEST(SidesOfSurfaces, FluxesAreDerivativesOnTheSurface) {
             "system heat {{ u: sy^2 + sy; u' = lap(u); u.top: flux(-1); u.bottom: fixed(2) }}\n"
             "domain {{ grid: 4, {}; boundary: periodic, noflux; unit: 1\n"
             "  surface: cos(2 * pi * sx), sin(2 * pi * sx), sy^2 + sy }}\n"
-            "stage only: heat {{ iterations: {}; speed: 0.4 / {} }}\n", n, 30 * n * n, n * n));
+            "stage only: heat {{ iterations: {}; speed: 0.4 / {} }}\n",
+            n, 30 * n * n, n * n));
         ASSERT_TRUE(ran.simulation);
         EXPECT_EQ(ran.failure, "");
-        errors.push_back(largest_error(ran.species()[0],
-                                       [](double, double sy) { return sy * sy + sy; }));
+        errors.push_back(
+            largest_error(ran.species()[0], [](double, double sy) { return sy * sy + sy; }));
     }
     EXPECT_LT(errors[2], 2e-3);
-    EXPECT_GT(std::log2(errors[1] / errors[2]), 1.6) << errors[0] << " " << errors[1] << " " << errors[2];
+    EXPECT_GT(std::log2(errors[1] / errors[2]), 1.6)
+        << errors[0] << " " << errors[1] << " " << errors[2];
 }
 
 TEST(SidesOfSurfaces, FluxesOfShearedOnesAreRefused) {
-    const Ran ran = run("system heat { u: 0; u' = lap(u); u.top: flux(1) }\n"
-                        "domain { grid: 8, 8; boundary: noflux; surface: sx + sy, sy, 0 * sx }\n"
-                        "stage only: heat { iterations: 1 }\n");
+    const Ran ran =
+        run("system heat { u: 0; u' = lap(u); u.top: flux(1) }\n"
+            "domain { grid: 8, 8; boundary: noflux; surface: sx + sy, sy, 0 * sx }\n"
+            "stage only: heat { iterations: 1 }\n");
     EXPECT_EQ(ran.failure,
               "stage 'only': u has a flux at the side top, where the surface is sheared");
 }

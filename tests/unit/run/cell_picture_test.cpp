@@ -67,8 +67,8 @@ double mean_light(const Image& image) {
 TEST(CellPicture, ASphereIsLitFromTheLeft) {
     Scene sphere_scene(sphere(8), 500);
     const std::vector<float> values(500, 0.5F);
-    const Image image = sphere_scene.scene.draw({1, values, grey, {}}, small_picture(100),
-                                                sphere_scene.team);
+    const Image image =
+        sphere_scene.scene.draw({1, values, grey, {}}, small_picture(100), sphere_scene.team);
     EXPECT_GT(image.at(35, 30)[0], image.at(70, 70)[0] + 0.1F);
     EXPECT_GT(image.at(1, 1)[0], 0.999F);
 }
@@ -102,8 +102,8 @@ TEST(CellPicture, BumpsAreLitFromTheLeftToo) {
     Scene flat(square(), 3000);
     // A ridge along y in the middle, seen from above.
     const std::vector<float> values(3000, 0.5F);
-    const std::vector<float> heights = flat.values(
-        [](Vector3d p) { return 0.05 * std::exp(-100 * (p.x - 0.5) * (p.x - 0.5)); });
+    const std::vector<float> heights =
+        flat.values([](Vector3d p) { return 0.05 * std::exp(-100 * (p.x - 0.5) * (p.x - 0.5)); });
     DrawOptions options = small_picture(100);
     options.view = {0, 89, {0, 0, 1}};
     const Image plain = flat.scene.draw({1, values, grey, {}}, options, flat.team);
@@ -122,7 +122,8 @@ TEST(CellPicture, BumpsAreLitFromTheLeftToo) {
 TEST(CellPicture, FarViewsKeepTheirLight) {
     Scene ball(sphere(20), 20'000);
     // Stripes three cells wide, most of them black.
-    const std::vector<float> values = ball.values([](Vector3d p) { return std::sin(60 * p.z) - 0.5; });
+    const std::vector<float> values =
+        ball.values([](Vector3d p) { return std::sin(60 * p.z) - 0.5; });
     const PaintedCells look = {1, values, black_or_white, {}};
     const double near = mean_light(ball.scene.draw(look, small_picture(256), ball.team));
     for (const std::int64_t side : {64, 24, 8}) {
@@ -156,7 +157,8 @@ TEST(CellPicture, NumbersThatAreNoneAreMagenta) {
     std::vector<float> values(300, NAN);
     const std::vector<float> heights(300, INFINITY);
     for (const std::int64_t side : {8, 40}) {
-        const Image image = ball.scene.draw({1, values, grey, heights}, small_picture(side), ball.team);
+        const Image image =
+            ball.scene.draw({1, values, grey, heights}, small_picture(side), ball.team);
         const Colour& pixel = image.at(side / 2, side / 2);
         EXPECT_GT(pixel[0], pixel[1] + 0.2F);
         EXPECT_GT(pixel[2], pixel[1] + 0.2F);
@@ -183,7 +185,8 @@ TEST(CellPicture, ThreadsDoNotMatter) {
     for (const int threads : {1, 2}) {
         Scene ball(sphere(10), 2000, threads);
         const std::vector<float> values = ball.values([](Vector3d p) { return std::sin(9 * p.x); });
-        const std::vector<float> heights = ball.values([](Vector3d p) { return 0.1 * std::cos(8 * p.z); });
+        const std::vector<float> heights =
+            ball.values([](Vector3d p) { return 0.1 * std::cos(8 * p.z); });
         DrawOptions options = small_picture(20);
         options.ground = true;
         images.push_back(ball.scene.draw({1, values, black_or_white, heights}, options, ball.team));

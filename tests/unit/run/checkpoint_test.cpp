@@ -75,9 +75,7 @@ protected:
     }
 };
 
-TEST_F(CheckpointTest, StagesOneAfterTheOther) {
-    expect_no_bit_to_change(two_stages);
-}
+TEST_F(CheckpointTest, StagesOneAfterTheOther) { expect_no_bit_to_change(two_stages); }
 
 TEST_F(CheckpointTest, StepsThatAreChosen) {
     expect_no_bit_to_change(

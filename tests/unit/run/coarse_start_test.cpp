@@ -1,5 +1,5 @@
-// Stages that start on coarser grids: as good a pattern as of a fine run, what each grid starts with,
-// and where a run may be stopped.
+// Stages that start on coarser grids: as good a pattern as of a fine run, what each grid starts
+// with, and where a run may be stopped.
 #include "resumed_run.h"
 
 #include "measure/spectrum.h"
@@ -23,7 +23,8 @@ struct Ran {
     std::vector<std::string> reported;
 };
 
-Ran run_text(const std::string& text, SimulationOptions options = {BackendKind::interpreter, 0, 1}) {
+Ran run_text(const std::string& text,
+             SimulationOptions options = {BackendKind::interpreter, 0, 1}) {
     Ran ran;
     ran.script = load_script("test", text, ".", {});
     EXPECT_TRUE(ran.script.program) << ran.script.messages(false);
@@ -34,7 +35,8 @@ Ran run_text(const std::string& text, SimulationOptions options = {BackendKind::
     RunControl control;
     control.report = [&](const Progress& progress) {
         if (progress.stage_done) {
-            ran.reported.push_back(fmt::format("{}: {}", progress.stage + progress.note, progress.step));
+            ran.reported.push_back(
+                fmt::format("{}: {}", progress.stage + progress.note, progress.step));
         }
     };
     for (std::uint32_t k = 0; k < ran.script.stage_count() && ran.failure.empty(); ++k) {
@@ -49,7 +51,8 @@ Ran run_text(const std::string& text, SimulationOptions options = {BackendKind::
 double wavelength(const Field& field) {
     const PlaneLayout& layout = field.layout();
     measure::Samples samples;
-    samples.cells = {static_cast<std::size_t>(layout.width), static_cast<std::size_t>(layout.height), 1};
+    samples.cells = {static_cast<std::size_t>(layout.width),
+                     static_cast<std::size_t>(layout.height), 1};
     for (std::int64_t j = 0; j < layout.height; ++j) {
         for (std::int64_t i = 0; i < layout.width; ++i) {
             samples.values.push_back(static_cast<double>(field.at(i, j)));
@@ -63,7 +66,8 @@ TEST(CoarseStart, GrowsAsGoodAPattern) {
     options.threads = 1;
     if (!has_jit()) options.backend = BackendKind::interpreter;
     const auto spots = [&](const std::string& settings) {
-        return run_text("stage s: turing_spots { ka: 0.05/16; " + settings + " }\ndomain { grid: 96, 96 }",
+        return run_text("stage s: turing_spots { ka: 0.05/16; " + settings +
+                            " }\ndomain { grid: 96, 96 }",
                         options);
     };
     const Ran fine = spots("iterations: 28000");
@@ -103,11 +107,13 @@ TEST(CoarseStart, ReadsEarlierStagesAndKeepsFrozenCells) {
         "system still { u: x; k: 1; u' = k * 0 }\n"
         "system grow { u: 0; base: 0; u' = base }\n"
         "stage first: still { iterations: 1 }\n"
-        "stage second: grow { start: coarse(2); iterations: 2; frozen: x > 0.7; base: first.u; u: 5 * x }\n"
+        "stage second: grow { start: coarse(2); iterations: 2; frozen: x > 0.7; base: first.u; u: "
+        "5 * x }\n"
         "domain { grid: 16, 8 }");
     const Field& u = ran.simulation->state(1).species[0];
     const auto x = [](std::int64_t i) { return (static_cast<float>(i) + 0.5f) / 16; };
-    // Eight steps on the coarse grid and two here, of what is linear in x but for the periodic sides.
+    // Eight steps on the coarse grid and two here, of what is linear in x but for the periodic
+    // sides.
     EXPECT_NEAR(u.at(6, 3), 5 * x(6) + 10 * x(6), 1e-5);
     EXPECT_EQ(u.at(14, 3), 5 * x(14));
 }
@@ -126,8 +132,9 @@ TEST(CoarseStart, SameBitsOnEveryBackendAndThread) {
 }
 
 TEST(CoarseStart, ABlowUpSaysOnWhichGrid) {
-    const Ran ran = run_text("system burst { u: 1; u' = u^2 }\nstage s: burst { start: coarse(2); iterations: 300 }\n"
-                             "domain { grid: 8, 8 }");
+    const Ran ran = run_text(
+        "system burst { u: 1; u' = u^2 }\nstage s: burst { start: coarse(2); iterations: 300 }\n"
+        "domain { grid: 8, 8 }");
     EXPECT_THAT(ran.failure, HasSubstr("(on the grid with cells 2 times as wide)"));
 }
 
@@ -137,14 +144,16 @@ TEST(CoarseStart, ThreeDimensions) {
         "stage s: decay { start: coarse(2); iterations: 4; speed: 0.01 }\n"
         "domain { grid: 8, 8, 8; boundary: noflux }");
     const float x = 3.5f / 8;
-    EXPECT_NEAR(ran.simulation->state(0).species[0].at(3, 3, 3), (1 + 3 * x) * std::pow(0.99, 20), 1e-5);
+    EXPECT_NEAR(ran.simulation->state(0).species[0].at(3, 3, 3), (1 + 3 * x) * std::pow(0.99, 20),
+                1e-5);
 }
 
 class CoarseStartRun : public ResumedRunTest {};
 
 TEST_F(CoarseStartRun, ResumesWithTheSameBits) {
-    const std::string text = "stage one: turing_spots { start: coarse(2); iterations: 30; ka: 1/80 }\n"
-                             "domain { grid: 32, 24 }";
+    const std::string text =
+        "stage one: turing_spots { start: coarse(2); iterations: 30; ka: 1/80 }\n"
+        "domain { grid: 32, 24 }";
     run_whole(text);
     for (const std::int64_t stop : {0, 7}) {
         run_in_two_parts(text, "one", stop);

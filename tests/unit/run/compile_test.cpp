@@ -74,10 +74,12 @@ protected:
                                                 step->object.size()}));
         ASSERT_TRUE(write_file(path("step.h"), step->header));
         const std::string stage = request.stage.value_or("only");
-        std::string program = replaced(c_program, "$$", "TEST_" + std::string(stage == "only" ? "ONLY" : "SMALL"));
+        std::string program =
+            replaced(c_program, "$$", "TEST_" + std::string(stage == "only" ? "ONLY" : "SMALL"));
         program = replaced(replaced(program, "$", "test_" + stage), "SET", set);
         ASSERT_TRUE(write_file(path("main.c"), program));
-        ASSERT_EQ(command("cc -Wall -Wextra -Werror -O1 " + flags + " main.c step.o -o program"), 0);
+        ASSERT_EQ(command("cc -Wall -Wextra -Werror -O1 " + flags + " main.c step.o -o program"),
+                  0);
     }
 
     int command(const std::string& text) {
@@ -281,9 +283,7 @@ stage only: smear { speed: 0.05 }
               "x86-64 does not multiply and add with one rounding");
 }
 
-TEST_F(CompileTest, TheMetricOfASurface) {
-    expect_bits_of_run(spots_on_torus, {"a", "b"});
-}
+TEST_F(CompileTest, TheMetricOfASurface) { expect_bits_of_run(spots_on_torus, {"a", "b"}); }
 
 constexpr const char* timed = R"(
 system timed {
@@ -327,9 +327,10 @@ stage only: spread { speed: 1.5; solver: SOLVER }
 }
 
 TEST_F(CompileTest, SpeedMayVaryByCell) {
-    expect_bits_of_run("domain { grid: 20, 9 }\n"
-                       "stage only: turing_spots { speed: 0.5 + 0.4 * sx; ka: 1/80 }\n",
-                       {"a", "b"});
+    expect_bits_of_run(
+        "domain { grid: 20, 9 }\n"
+        "stage only: turing_spots { speed: 0.5 + 0.4 * sx; ka: 1/80 }\n",
+        {"a", "b"});
 }
 
 TEST_F(CompileTest, FilesAreInTheObject) {
@@ -376,9 +377,10 @@ TEST_F(CompileTest, ModelsAreRefused) {
 }
 
 TEST_F(CompileTest, SidesOfAnotherStageAreRefused) {
-    const std::string text = "system s { u: x; u' = lap(u); u.left: fixed(1) }\n"
-                             "stage one: s { speed: 0.1 }\n"
-                             "domain { grid: 8, 4; boundary: noflux }\n";
+    const std::string text =
+        "system s { u: x; u' = lap(u); u.left: fixed(1) }\n"
+        "stage one: s { speed: 0.1 }\n"
+        "domain { grid: 8, 4; boundary: noflux }\n";
     EXPECT_EQ(refused(text + "stage two: s { u: lap(one.u) }", {.stage = "two"}).message,
               "stage 'two' reads u of stage 'one' at its neighbours, whose sides are rules of that "
               "stage, which are not compiled with this one");

@@ -63,16 +63,21 @@ TEST_F(DamagedTest, ManifestsAreCheckedBeforeTheyAreBelieved) {
     EXPECT_THAT(resume_with([](auto& run) { run["stages"][0]["name"] = "other"; }),
                 HasSubstr("stage 1 is not right"));
     EXPECT_THAT(resume_with([](auto& run) { run["script"] = 5; }), HasSubstr("is damaged"));
-    EXPECT_THAT(resume_with([](auto& run) { run["overrides"] = {{"seed", -1}}; }),
+    EXPECT_THAT(resume_with([](auto& run) {
+                    run["overrides"] = {{"seed", -1}};
+                }),
                 HasSubstr("the stored overrides cannot be read"));
     EXPECT_THAT(resume_with([](auto& run) { run = nlohmann::json::array(); }),
                 HasSubstr("not a manifest"));
 }
 
 TEST_F(DamagedTest, WhatAManifestRepeatsOfItsScriptMustAgreeWithIt) {
-    EXPECT_THAT(resume_with([](auto& run) { run["seed"] = 77; }), HasSubstr("its seed is not that"));
-    EXPECT_THAT(resume_with([](auto& run) { run["grid"][0] = 4096; }), HasSubstr("its grid is not that"));
-    EXPECT_THAT(resume_with([](auto& run) { run["stages"][0]["steps"] = 1'000'000'000'000'000'000; }),
+    EXPECT_THAT(resume_with([](auto& run) { run["seed"] = 77; }),
+                HasSubstr("its seed is not that"));
+    EXPECT_THAT(resume_with([](auto& run) { run["grid"][0] = 4096; }),
+                HasSubstr("its grid is not that"));
+    EXPECT_THAT(resume_with(
+                    [](auto& run) { run["stages"][0]["steps"] = 1'000'000'000'000'000'000; }),
                 HasSubstr("stage 1 has too many steps"));
     EXPECT_THAT(resume_with([](auto& run) { run["more"] = std::vector<int>(300'000, 1); }),
                 HasSubstr("run.json holds too much"));
@@ -151,13 +156,15 @@ TEST_F(DamagedTest, TheLastStepOfAStageIsAPlaceToStopAt) {
 TEST_F(DamagedTest, ASpaceTimePictureNeedsOneRow) {
     RunRequest wanted = request();
     wanted.picture.space_time = true;
-    EXPECT_THAT(faults(wanted), HasSubstr("<--space-time>:1:1: error: a space-time picture is drawn "
-                                          "of a grid of one row, not of 18"));
+    EXPECT_THAT(faults(wanted),
+                HasSubstr("<--space-time>:1:1: error: a space-time picture is drawn "
+                          "of a grid of one row, not of 18"));
 }
 
 TEST_F(DamagedTest, ARefusedRunLeavesNoFolder) {
-    Script script = load("stage s: turing_spots { a: field(\"no.npy\") + field(\"no.npy\")\n"
-                         "b: field(\"/dev/zero\") }");
+    Script script = load(
+        "stage s: turing_spots { a: field(\"no.npy\") + field(\"no.npy\")\n"
+        "b: field(\"/dev/zero\") }");
     script.overrides.reads.everything = true;
     RunRequest wanted = request();
     wanted.frames = path("frames");

@@ -45,10 +45,10 @@ TEST_F(DoubtfulResults, AChequerboardOfDomainsIsTold) {
           "grid: 96, 96; mask: disc(0.5, 0.5, 0.4)", "grid: 300", "grid: 80, 80; boundary: noflux",
           "grid: 80, 80; precision: double"}) {
         const std::string speed = domain == std::string("grid: 300") ? "0.6" : "0.3";
-        EXPECT_THAT(
-            warnings_of(
-                too_fast_diffusion(domain, "lap(u)", "speed: " + speed + "; iterations: 300")),
-            ElementsAre(AllOf(HasSubstr("u alternates from cell to cell like a chequerboard"),
+        EXPECT_THAT(warnings_of(too_fast_diffusion(domain, "lap(u)",
+                                                   "speed: " + speed + "; iterations: 300")),
+                    ElementsAre(
+                        AllOf(HasSubstr("u alternates from cell to cell like a chequerboard"),
                               HasSubstr("the largest stable speed is about "))))
             << domain;
     }
@@ -56,9 +56,9 @@ TEST_F(DoubtfulResults, AChequerboardOfDomainsIsTold) {
 
 TEST_F(DoubtfulResults, StripesOfOneAxisAreTold) {
     for (const char* rate : {"dxx(u)", "dyy(u) + 0.1 * dxx(u)", "diffuse(u, 1.5, 0.3, 0)"}) {
-        EXPECT_THAT(
-            warnings_of(too_fast_diffusion("grid: 90, 90", rate, "speed: 0.6; iterations: 300")),
-            ElementsAre(HasSubstr("u alternates from cell to cell")))
+        EXPECT_THAT(warnings_of(
+                        too_fast_diffusion("grid: 90, 90", rate, "speed: 0.6; iterations: 300")),
+                    ElementsAre(HasSubstr("u alternates from cell to cell")))
             << rate;
     }
 }
@@ -73,15 +73,16 @@ TEST_F(DoubtfulResults, AlternatingPartsAreTold) {
 }
 
 TEST_F(DoubtfulResults, AChequerboardOnAModelIsTold) {
-    const auto warnings = warnings_of(too_fast_diffusion(
-        "surface: sphere; cells: 1500", "lap(u)", "speed: 0.5; iterations: 300; solver: rk2"));
+    const auto warnings =
+        warnings_of(too_fast_diffusion("surface: sphere; cells: 1500", "lap(u)",
+                                       "speed: 0.5; iterations: 300; solver: rk2"));
     EXPECT_THAT(warnings, ElementsAre(HasSubstr("u alternates from cell to cell")));
 }
 
 TEST_F(DoubtfulResults, TheWrongSignOfDiffusionIsTold) {
-    EXPECT_THAT(
-        warnings_of(too_fast_diffusion("grid: 64, 64", "-lap(u)", "speed: 0.01; iterations: 1000")),
-        ElementsAre(HasSubstr("because its rate makes differences of neighbours grow")));
+    EXPECT_THAT(warnings_of(
+                    too_fast_diffusion("grid: 64, 64", "-lap(u)", "speed: 0.01; iterations: 1000")),
+                ElementsAre(HasSubstr("because its rate makes differences of neighbours grow")));
 }
 
 TEST_F(DoubtfulResults, NoiseAndAFewCellsAreNoChequerboard) {
@@ -94,10 +95,10 @@ TEST_F(DoubtfulResults, NoiseAndAFewCellsAreNoChequerboard) {
                     IsEmpty())
             << domain;
     }
-    EXPECT_THAT(
-        warnings_of("system n { u: random(0.5, 0.1); u' = 0.2 * lap(u) }\ndomain { grid: 4 }\n"
+    EXPECT_THAT(warnings_of(
+                    "system n { u: random(0.5, 0.1); u' = 0.2 * lap(u) }\ndomain { grid: 4 }\n"
                     "stage s: n { iterations: 1 }\n"),
-        IsEmpty());
+                IsEmpty());
 }
 
 // Steps too long for the reaction.
@@ -174,9 +175,9 @@ TEST_F(DoubtfulResults, FixedPointsOfTheSolverAloneAreTold) {
 }
 
 TEST_F(DoubtfulResults, FlowOfMoreThanACellAStepIsTold) {
-    EXPECT_THAT(
-        warnings_of(carried("3, 0", "iterations: 100")),
-        ElementsAre(AllOf(HasSubstr("the time step is too large"), HasSubstr("move u by"))));
+    EXPECT_THAT(warnings_of(carried("3, 0", "iterations: 100")),
+                ElementsAre(
+                    AllOf(HasSubstr("the time step is too large"), HasSubstr("move u by"))));
     EXPECT_THAT(warnings_of(carried("1.4, 0.3", "iterations: 60")),
                 ElementsAre(HasSubstr("the time step is too large")));
     EXPECT_THAT(warnings_of(carried("3, 0", "speed: 0.33; iterations: 300")), IsEmpty());
@@ -194,9 +195,9 @@ TEST_F(DoubtfulResults, APeriodOfOneStepIsTold) {
 
 // What depends on the number of steps or on their length is another equation with shorter ones.
 TEST_F(DoubtfulResults, StepsThatAreCountedAreNotDivided) {
-    EXPECT_THAT(
-        warnings_of("system n { u: 0.5; u' = 0.1*sin(3*step) }\nstage s: n { iterations: 100 }\n"),
-        IsEmpty());
+    EXPECT_THAT(warnings_of(
+                    "system n { u: 0.5; u' = 0.1*sin(3*step) }\nstage s: n { iterations: 100 }\n"),
+                IsEmpty());
     EXPECT_THAT(warnings_of("system n { u: x; u' = 0.1*normal(0, 1)/sqrt([speed]) - 0.1*u }\n"
                             "stage s: n { iterations: 100 }\n"),
                 IsEmpty());

@@ -1,4 +1,5 @@
-// Runs with --fast: bits of their own, which depend on nothing that a run's bits must not depend on.
+// Runs with --fast: bits of their own, which depend on nothing that a run's bits must not depend
+// on.
 #include "resumed_run.h"
 
 #include "ir/multiply_add.h"
@@ -10,8 +11,8 @@
 namespace cascade {
 namespace {
 
-/// Products and sums, a division by what is the same in all cells, functions, a direction that no step
-/// changes, and an operator inside another.
+/// Products and sums, a division by what is the same in all cells, functions, a direction that no
+/// step changes, and an operator inside another.
 constexpr const char* mixed = R"(
 system mixed {
   speed: 0.05

@@ -46,7 +46,8 @@ TEST(Forcing, AJumpIsMetByOneInterval) {
 TEST(Forcing, AllPartsCount) {
     const auto slow = over_time(100, [](double t) { return t; });
     const auto fast = over_time(100, [](double t) { return std::sin(10 * t); });
-    EXPECT_NEAR(Forcing({slow, fast}, 100).longest_step(10), Forcing({fast}, 100).longest_step(10), 1e-12);
+    EXPECT_NEAR(Forcing({slow, fast}, 100).longest_step(10), Forcing({fast}, 100).longest_step(10),
+                1e-12);
     EXPECT_GT(Forcing({slow}, 100).longest_step(10), 4.9);
 }
 

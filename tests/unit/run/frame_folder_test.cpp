@@ -13,7 +13,8 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr const char* spots = "domain { grid: 8, 8 }\nstage s: turing_spots { iterations: 40; interval: 20 }\n";
+constexpr const char* spots =
+    "domain { grid: 8, 8 }\nstage s: turing_spots { iterations: 40; interval: 20 }\n";
 
 class FrameFolder : public RunTest {
 protected:
@@ -41,8 +42,8 @@ TEST_F(FrameFolder, HasNoFramesOfTheRunBefore) {
     changes.sets = {"s.interval=30"};
     Script changed = load(spots, changes);
     run_well(changed, frames_in("film"));
-    EXPECT_THAT(names("film"), ElementsAre("0000-s-0000000.png", "0001-b.png", "0001-s-0000030.png",
-                                           "notes.txt"));
+    EXPECT_THAT(names("film"),
+                ElementsAre("0000-s-0000000.png", "0001-b.png", "0001-s-0000030.png", "notes.txt"));
 }
 
 TEST_F(FrameFolder, OfAnotherScriptIsLeftAlone) {
@@ -62,7 +63,8 @@ TEST_F(FrameFolder, OfAnotherScriptIsLeftAlone) {
 TEST_F(FrameFolder, KeepsWhatItHasWhereARunFails) {
     Script script = load(spots);
     run_well(script, frames_in("film"));
-    Script bad = load("system g { u: 1; u' = u^3 }\ndomain { grid: 4, 4 }\nstage s: g { iterations: 99 }\n");
+    Script bad =
+        load("system g { u: 1; u' = u^3 }\ndomain { grid: 4, 4 }\nstage s: g { iterations: 99 }\n");
     run_badly(bad, frames_in("film"));
     EXPECT_THAT(names("film"), testing::SizeIs(3));
 }

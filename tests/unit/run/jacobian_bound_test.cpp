@@ -126,13 +126,15 @@ double spectral_radius(const std::vector<Vector>& columns, double shift) {
 
 std::string script_of(const std::string& rates, const std::string& domain = "grid: 12, 6") {
     return "system s {\n u: 0.9 + 0.5 * sin(2 * pi * sx) + 0.1 * cos(2 * pi * sy)\n"
-           " v: 1.2 + 0.4 * cos(2 * pi * sx)\n k: 1 + 0.3 * cos(2 * pi * sx)\n" + rates +
-           "\n}\nstage one: s { iterations: 10; speed: 1; solver: euler }\ndomain { " + domain + " }\n";
+           " v: 1.2 + 0.4 * cos(2 * pi * sx)\n k: 1 + 0.3 * cos(2 * pi * sx)\n" +
+           rates + "\n}\nstage one: s { iterations: 10; speed: 1; solver: euler }\ndomain { " +
+           domain + " }\n";
 }
 
 /// No eigenvalue is larger than one bound, and what grows does not grow faster than the other;
 /// neither is far too large.
-void expect_sound(const std::string& rates, double at_most, const std::string& domain = "grid: 12, 6") {
+void expect_sound(const std::string& rates, double at_most,
+                  const std::string& domain = "grid: 12, 6") {
     Rates run(script_of(rates, domain));
     ASSERT_TRUE(run.ok()) << rates;
     const auto bound = run.bound();
@@ -156,21 +158,25 @@ TEST(JacobianBounds, HoldForOperatorsOnThePlane) {
     expect_sound(" u' = 0.1 * lap(u) + 0.5 * grad2(u)\n v' = dx(u * v)\n", 3.5);
     expect_sound(" u' = -div(vector(v, u) * u)\n v' = dxx(v) + 0.5 * dyy(v) - 0.2 * dxy(v)\n", 3);
     expect_sound(" u' = -lap(lap(u)) - 2 * lap(u) - u\n v' = -lap(lap(lap(v) + v) + k)\n", 1.5);
-    expect_sound(" u' = 0.3 * lap(u) + mean(u * v over domain) - u\n v' = v * min(u over domain)\n", 3);
+    expect_sound(" u' = 0.3 * lap(u) + mean(u * v over domain) - u\n v' = v * min(u over domain)\n",
+                 3);
 }
 
 TEST(JacobianBounds, HoldInOtherUnitsAndDimensions) {
     expect_sound(" u' = 0.5 * lap(u) - dx(v)\n v' = diffuse(v, 1, 1, 0) - v\n", 1.6,
                  "grid: 12, 6; spacing: 0.5");
-    expect_sound(" u' = lap(u) + u\n v' = div(k * grad(v))\n", 1.5, "grid: 24, 1; boundary: noflux");
+    expect_sound(" u' = lap(u) + u\n v' = div(k * grad(v))\n", 1.5,
+                 "grid: 24, 1; boundary: noflux");
     expect_sound(" u' = lap(u) - u\n v' = dzz(v) - advect(0, 0, 1, v)\n", 1.6, "grid: 6, 4, 4");
 }
 
 TEST(JacobianBounds, HoldOnASurface) {
     const std::string torus =
-        "grid: 12, 8; surface: (3 + cos(2*pi*sy)) * cos(2*pi*sx), (3 + cos(2*pi*sy)) * sin(2*pi*sx), "
+        "grid: 12, 8; surface: (3 + cos(2*pi*sy)) * cos(2*pi*sx), (3 + cos(2*pi*sy)) * "
+        "sin(2*pi*sx), "
         "sin(2*pi*sy)";
-    const std::string sheared = "grid: 12, 6; boundary: noflux; surface: sx + 0.5 * sy, sy + 0.3*sx, 0";
+    const std::string sheared =
+        "grid: 12, 6; boundary: noflux; surface: sx + 0.5 * sy, sy + 0.3*sx, 0";
     for (const std::string& domain : {torus, sheared}) {
         expect_sound(" u' = lap(u) - u\n v' = lap(v)\n", 1.6, domain);
         expect_sound(" u' = diffuse(u, 2, 1, 1)\n v' = div(k * grad(v))\n", 2, domain);
@@ -182,8 +188,9 @@ TEST(JacobianBounds, HoldOnASurface) {
 TEST(JacobianBounds, GrowthThroughOperatorsIsThatOfTheory) {
     // Cahn and Hilliard: of cos kx the growth is k² (1 − 3c²) − γ k⁴, at most (1 − 3c²)² / 4γ.
     for (const double gamma : {0.25, 0.5, 2.0}) {
-        Rates run("system s {\n c: 0.3\n c' = lap(c^3 - c - " + std::to_string(gamma) +
-                  " * lap(c))\n}\nstage one: s { iterations: 10; speed: 1 }\ndomain { grid: 8, 8 }\n");
+        Rates run(
+            "system s {\n c: 0.3\n c' = lap(c^3 - c - " + std::to_string(gamma) +
+            " * lap(c))\n}\nstage one: s { iterations: 10; speed: 1 }\ndomain { grid: 8, 8 }\n");
         const auto bound = run.bound();
         ASSERT_TRUE(bound);
         const double theory = std::pow(1 - 3 * 0.09, 2) / (4 * gamma);

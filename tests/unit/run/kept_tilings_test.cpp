@@ -36,7 +36,9 @@ TEST_F(KeptTilingsTest, AreFoundByLaterProcesses) {
 }
 
 TEST_F(KeptTilingsTest, WhatWasFoundOnceIsNotTold) {
-    const auto keep = [&](const Tiling& tiling) { KeptTilings(folder_, "code").keep("key", tiling); };
+    const auto keep = [&](const Tiling& tiling) {
+        KeptTilings(folder_, "code").keep("key", tiling);
+    };
     const auto told = [&] { return KeptTilings(folder_, "code").find("key"); };
     keep(some);
     EXPECT_EQ(told(), std::nullopt);
@@ -52,7 +54,8 @@ TEST_F(KeptTilingsTest, WhatWasFoundOnceIsNotTold) {
 }
 
 TEST_F(KeptTilingsTest, WithoutAFolderOrACodeAreKnownToTheProcess) {
-    for (const auto& [folder, code] : {std::pair<fs::path, std::string>{"", "code"}, {folder_, ""}}) {
+    for (const auto& [folder, code] :
+         {std::pair<fs::path, std::string>{"", "code"}, {folder_, ""}}) {
         KeptTilings tilings(folder, code);
         tilings.keep("key", some);
         EXPECT_EQ(tilings.find("key"), std::nullopt);
@@ -70,7 +73,8 @@ TEST_F(KeptTilingsTest, TextsGoBackAndForth) {
             EXPECT_EQ(found_tiling_of(text_of(found)), found);
         }
     }
-    for (const char* const text : {"", "16", "16 1 1 1 2 0 1", "16 1 1 1 0 0", "sixteen 1 1 1 0 0 0", "\xff\xff"}) {
+    for (const char* const text :
+         {"", "16", "16 1 1 1 2 0 1", "16 1 1 1 0 0", "sixteen 1 1 1 0 0 0", "\xff\xff"}) {
         EXPECT_EQ(found_tiling_of(text), std::nullopt) << text;
     }
 }
@@ -84,7 +88,8 @@ TEST_F(KeptTilingsTest, KeysDifferInAllThatDecides) {
     EXPECT_EQ(StageTilings(tilings, problem(grid), 1).find(1), std::nullopt);
     EXPECT_EQ(StageTilings(tilings, problem(grid), 2).find(2), std::nullopt);
     EXPECT_EQ(StageTilings(tilings, problem(Grid{30, 40}), 1).find(2), std::nullopt);
-    EXPECT_EQ(StageTilings(tilings, problem(Grid{40, 30, Boundary::no_flux}), 1).find(2), std::nullopt);
+    EXPECT_EQ(StageTilings(tilings, problem(Grid{40, 30, Boundary::no_flux}), 1).find(2),
+              std::nullopt);
     StepProblem more = problem(grid);
     more.passes.push_back(more.passes[0]);
     EXPECT_EQ(StageTilings(tilings, more, 1).find(2), std::nullopt);

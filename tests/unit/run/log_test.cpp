@@ -40,9 +40,8 @@ TEST_F(LogTest, ARowAtEachIntervalAndAtBothEnds) {
     // stripes has no ka, and the first stage cannot read the second.
     EXPECT_THAT(lines("picture.csv"),
                 ElementsAre("stage,step,t,t*2,ka,small.speed", "large,0,0,0,0.0125,",
-                            "large,10,5,10,0.0125,", "large,20,10,20,0.0125,",
-                            "small,0,0,0,,0.25", "small,3,0.75,1.5,,0.25",
-                            "small,6,1.5,3,,0.25"));
+                            "large,10,5,10,0.0125,", "large,20,10,20,0.0125,", "small,0,0,0,,0.25",
+                            "small,3,0.75,1.5,,0.25", "small,6,1.5,3,,0.25"));
 }
 
 TEST_F(LogTest, StepsOfItsOwnAndWithFrames) {
@@ -67,8 +66,9 @@ TEST_F(LogTest, StepsOfItsOwnAndWithFrames) {
 
 // A stage with a duration and no interval is drawn at its tenths, however often it is logged.
 TEST_F(LogTest, FramesOfADurationHaveAnIntervalOfTheirOwn) {
-    Script script = load("stage s: turing_spots { duration: 10; speed: 0.25 }\n"
-                         "domain { grid: 8, 4 }");
+    Script script = load(
+        "stage s: turing_spots { duration: 10; speed: 0.25 }\n"
+        "domain { grid: 8, 4 }");
     RunRequest wanted = request();
     wanted.log.expressions = {"step"};
     wanted.log.every = 3;
@@ -88,9 +88,10 @@ TEST_F(LogTest, FramesOfADurationHaveAnIntervalOfTheirOwn) {
 
 TEST_F(LogTest, AggregatesOverTime) {
     // The mean decays by 1/64 a step, whatever diffusion does; 8 cells of 1 and 24 of 0.
-    Script script = load("system s { u: sx < 0.25; u' = lap(u) / 8 - u / 64 }\n"
-                         "domain { grid: 8, 4 }\n"
-                         "stage s: s { iterations: 64; interval: 16 }");
+    Script script = load(
+        "system s { u: sx < 0.25; u' = lap(u) / 8 - u / 64 }\n"
+        "domain { grid: 8, 4 }\n"
+        "stage s: s { iterations: 64; interval: 16 }");
     RunRequest wanted = request();
     wanted.log.expressions = {"mean(u over domain)", "sum(u^2 over domain)",
                               "max(u over domain) - min(u over domain)"};
@@ -128,8 +129,9 @@ TEST_F(LogTest, ItNeverChangesAResult) {
 }
 
 TEST_F(LogTest, ABlowUpIsLogged) {
-    Script script = load("system s { u: 1; u' = u^3 }\ndomain { grid: 4, 4 }\n"
-                         "stage s: s { iterations: 1000; interval: 1 }");
+    Script script = load(
+        "system s { u: 1; u' = u^3 }\ndomain { grid: 4, 4 }\n"
+        "stage s: s { iterations: 1000; interval: 1 }");
     RunRequest wanted = request();
     wanted.log.expressions = {"step"};
     EXPECT_THAT(run_badly(script, wanted), HasSubstr("not finite"));
@@ -161,8 +163,9 @@ TEST_F(LogTest, TooManyRows) {
 }
 
 TEST_F(LogTest, RowsOfADurationAreNotKnownBefore) {
-    Script script = load("domain { grid: 8, 8 }\n"
-                         "stage s: turing_spots { solver: rk23; duration: 3; interval: 1 }");
+    Script script = load(
+        "domain { grid: 8, 8 }\n"
+        "stage s: turing_spots { solver: rk23; duration: 3; interval: 1 }");
     RunRequest wanted = request();
     wanted.log.expressions = {"t"};
     wanted.log.every = 1;
@@ -202,8 +205,9 @@ TEST_F(RunTest, MemoryCountsWhatSolversAndSurfacesKeep) {
 }
 
 TEST_F(RunTest, FeaturesOfWhatIsShown) {
-    Script script = load("domain { grid: 40, 20 }\nsystem s { u: (x < 0.5); u' = 0 * u }\n"
-                         "stage s: s { iterations: 1 }");
+    Script script = load(
+        "domain { grid: 40, 20 }\nsystem s { u: (x < 0.5); u' = 0 * u }\n"
+        "stage s: s { iterations: 1 }");
     RunRequest wanted = request();
     wanted.features = true;
     wanted.picture.show = "u + 1";
@@ -218,10 +222,11 @@ TEST_F(RunTest, FeaturesOfWhatIsShown) {
 
 TEST_F(RunTest, FeaturesOfAVolume) {
     // Two balls in a periodic box, one of them across its far side; the picture's slice cuts one.
-    Script script = load("domain { grid: 16, 16, 32; spacing: 0.5 }\n"
-                         "system s { u: ((x - 0.25)^2 + (y - 0.25)^2 + (z - 0.5)^2 < 0.02) +\n"
-                         "  ((x - 0.25)^2 + (y - 0.25)^2 + min(z, 1 - z)^2 < 0.02); u' = 0 * u }\n"
-                         "stage s: s { iterations: 1 }");
+    Script script = load(
+        "domain { grid: 16, 16, 32; spacing: 0.5 }\n"
+        "system s { u: ((x - 0.25)^2 + (y - 0.25)^2 + (z - 0.5)^2 < 0.02) +\n"
+        "  ((x - 0.25)^2 + (y - 0.25)^2 + min(z, 1 - z)^2 < 0.02); u' = 0 * u }\n"
+        "stage s: s { iterations: 1 }");
     RunRequest wanted = request();
     wanted.features = true;
     const RunReport report = run_well(script, wanted);
@@ -229,9 +234,10 @@ TEST_F(RunTest, FeaturesOfAVolume) {
     EXPECT_EQ(report.features->spots, 2);
     EXPECT_EQ(report.features->holes, 1);
     EXPECT_NEAR(report.features->area, 2 * 4.18879 * std::pow(0.02, 1.5) * 4, 0.01);
-    Script waves = load("domain { grid: 16, 8, 32; spacing: 0.5 }\n"
-                        "system s { u: sin(8 * pi * z); u' = 0 * u }\n"
-                        "stage s: s { iterations: 1 }");
+    Script waves = load(
+        "domain { grid: 16, 8, 32; spacing: 0.5 }\n"
+        "system s { u: sin(8 * pi * z); u' = 0 * u }\n"
+        "stage s: s { iterations: 1 }");
     EXPECT_NEAR(run_well(waves, wanted).features->wavelength, 4, 1e-6);
 }
 

@@ -133,8 +133,9 @@ TEST_F(RunTest, MaskedColoursAreTransparentOutside) {
 }
 
 TEST_F(RunTest, TheRangeOfAPictureIsThatOfTheDomain) {
-    Script script = load("domain { grid: 8, 8; mask: x < 0.5 }\n"
-                         "system s { u: 5 + x; u' = 0 }\nstage only: s { iterations: 1 }");
+    Script script = load(
+        "domain { grid: 8, 8; mask: x < 0.5 }\n"
+        "system s { u: 5 + x; u' = 0 }\nstage only: s { iterations: 1 }");
     run_well(script, request());
     const auto picture = read_grey_picture(path("picture.png"));
     ASSERT_TRUE(picture);
@@ -144,9 +145,10 @@ TEST_F(RunTest, TheRangeOfAPictureIsThatOfTheDomain) {
 
 TEST_F(RunTest, FeaturesAreOfTheDomain) {
     // Two islands, and a spot in one of them: all that is above lies inside.
-    Script script = load("domain { grid: 40, 40; mask: disc(0.25, 0.25, 0.15) or disc(0.7, 0.7, 0.2) }\n"
-                         "system s { u: disc(0.7, 0.7, 0.1); u' = 0 }\n"
-                         "stage only: s { iterations: 1 }");
+    Script script = load(
+        "domain { grid: 40, 40; mask: disc(0.25, 0.25, 0.15) or disc(0.7, 0.7, 0.2) }\n"
+        "system s { u: disc(0.7, 0.7, 0.1); u' = 0 }\n"
+        "stage only: s { iterations: 1 }");
     RunRequest wanted = request();
     wanted.features = true;
     const RunReport report = run_well(script, wanted);
@@ -158,8 +160,9 @@ TEST_F(RunTest, FeaturesAreOfTheDomain) {
 }
 
 TEST_F(RunTest, VolumesHideWhatIsOutside) {
-    Script script = load("domain { grid: 6, 5, 4; mask: x < 0.5 }\n"
-                         "system s { u: 1; u' = lap(u) }\nstage only: s { iterations: 2 }");
+    Script script = load(
+        "domain { grid: 6, 5, 4; mask: x < 0.5 }\n"
+        "system s { u: 1; u' = lap(u) }\nstage only: s { iterations: 2 }");
     RunRequest wanted = request();
     wanted.volume = path("volume.vti");
     run_well(script, wanted);
@@ -188,8 +191,9 @@ TEST_F(RunTest, ASurfaceHasHoles) {
 }
 
 TEST_F(RunTest, AMaskWithoutCellsIsAFault) {
-    Script script = load("domain { grid: 8, 8; mask: disc(5, 5, 0.1) * 0 }\n"
-                         "system s { u: 1; u' = 0 }\nstage only: s { }");
+    Script script = load(
+        "domain { grid: 8, 8; mask: disc(5, 5, 0.1) * 0 }\n"
+        "system s { u: 1; u' = 0 }\nstage only: s { }");
     run_badly(script, request());
     EXPECT_EQ(script.messages(false),
               "test.cascade:1:28: error: no cell is inside the mask\n"

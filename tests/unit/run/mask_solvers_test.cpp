@@ -18,11 +18,11 @@ double decay_in_disc(int side, double radius_in_cells) {
     const double d = 0.2;
     const double rate = std::pow(1.8411838 / radius_in_cells, 2) * d;
     const auto amplitude = [&](double t) {
-        const auto ran = run_text(fmt::format(
-            "domain {{ grid: {0}, {0}; mask: hypot(x - 0.5, y - 0.5) < {1} }}\n"
-            "system heat {{\n  u: x - 0.5\n  u' = {2} * lap(u)\n}}\n"
-            "stage only: heat {{ iterations: {3} }}\n",
-            side, radius_in_cells / side, d, static_cast<int>(t / rate)));
+        const auto ran = run_text(
+            fmt::format("domain {{ grid: {0}, {0}; mask: hypot(x - 0.5, y - 0.5) < {1} }}\n"
+                        "system heat {{\n  u: x - 0.5\n  u' = {2} * lap(u)\n}}\n"
+                        "stage only: heat {{ iterations: {3} }}\n",
+                        side, radius_in_cells / side, d, static_cast<int>(t / rate)));
         const Field& u = ran->field("u");
         double sum = 0;
         for (int j = 0; j < side; ++j) {
@@ -88,23 +88,26 @@ TEST(Mask, OutsideMayBeAnything) {
 }
 
 TEST(Mask, NotANumberIsOutside) {
-    const auto ran = run_text("domain { grid: 10, 10; mask: 1 / sqrt(x - 0.5) }\n"
-                              "system s { u: 1; u' = 0; }\nstage only: s { iterations: 1 }\n");
+    const auto ran = run_text(
+        "domain { grid: 10, 10; mask: 1 / sqrt(x - 0.5) }\n"
+        "system s { u: 1; u' = 0; }\nstage only: s { iterations: 1 }\n");
     EXPECT_EQ(ran->simulation->mask()->cells, 50);
 }
 
 TEST(Mask, ADomainHasCells) {
-    const auto ran = run_text("domain { grid: 10, 10; mask: x > 2 }\n"
-                              "system s { u: 1; u' = 0; }\nstage only: s { iterations: 1 }\n");
+    const auto ran = run_text(
+        "domain { grid: 10, 10; mask: x > 2 }\n"
+        "system s { u: 1; u' = 0; }\nstage only: s { iterations: 1 }\n");
     EXPECT_NE(ran->failure.find("no cell is inside the mask"), std::string::npos) << ran->failure;
 }
 
 TEST(Mask, ASteadyStateIsFoundAsOnTheSmallGrid) {
     const auto steps = [](const char* domain, int longest) {
-        const auto ran = run_text(fmt::format(
-            "domain {{ {} }}\nsystem s {{\n  p: {} * x\n  u: 2 + sin(0.2 * p)\n"
-            "  u' = 0.2 * lap(u) - 0.01 * (u - 2 - p / 16)\n}}\n"
-            "stage only: s {{ until: steady(0.05) }}\n", domain, longest));
+        const auto ran = run_text(
+            fmt::format("domain {{ {} }}\nsystem s {{\n  p: {} * x\n  u: 2 + sin(0.2 * p)\n"
+                        "  u' = 0.2 * lap(u) - 0.01 * (u - 2 - p / 16)\n}}\n"
+                        "stage only: s {{ until: steady(0.05) }}\n",
+                        domain, longest));
         EXPECT_EQ(ran->failure, "");
         return ran->simulation->state(0).steps;
     };
@@ -132,7 +135,8 @@ TEST(Mask, AdaptiveStepsAreThoseOfTheSmallGrid) {
     const auto steps = [](const char* domain, const char* p) {
         const auto ran = run_text(fmt::format(
             "domain {{ {} }}\nsystem s {{\n  p: {}\n  u: sin(0.7 * p)\n  u' = lap(u) - u^3\n}}\n"
-            "stage only: s {{ solver: rk45; duration: 30 }}\n", domain, p));
+            "stage only: s {{ solver: rk45; duration: 30 }}\n",
+            domain, p));
         EXPECT_EQ(ran->failure, "");
         return ran->simulation->state(0).steps;
     };

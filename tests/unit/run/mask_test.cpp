@@ -13,15 +13,16 @@ using testing::run_text;
 using testing::sum_of;
 using testing::word;
 
-/// Systems in p, q and r, which count the cells of a box from its corner: each with another operator.
-/// Everything differs from cell to cell, so that a wrong neighbour shows.
+/// Systems in p, q and r, which count the cells of a box from its corner: each with another
+/// operator. Everything differs from cell to cell, so that a wrong neighbour shows.
 std::string system_of(const std::string& rates) {
     return "system s {\n"
            "  p: P; q: Q; r: R\n"
            "  u: sin(1.3 * p + 0.7 * q - 0.9 * r) + 0.1 * p\n"
            "  v: cos(0.8 * p - 1.1 * q + 0.3 * r) - 0.05 * q\n"
            "  k: 1 + 0.3 * sin(p + 2 * q)\n"
-           "  a: 0.3 * p - q\n" + rates + "}\n";
+           "  a: 0.3 * p - q\n" +
+           rates + "}\n";
 }
 
 struct Operator {
@@ -39,7 +40,8 @@ const Operator operators_of_planes[] = {
     {"diffuse", "u' = diffuse(u, 1, 0.3, a)\nv' = diffuse(u * v, 0.4, 0.9, 0.5)\n"},
     {"flux", "u' = div(k * grad(u)) - div(v * u * grad(v))\nv' = div(grad(lap(v)) / k)\n"},
     {"flux of a vector", "u' = div(vector(u * v, k))\nv' = div(v * vector(1, -2))\n"},
-    {"tensor", "u' = div(tensor(1, 0.2, a) * grad(u))\nv' = div(tensor(k, 0.5, 1) * grad(u * v))\n"},
+    {"tensor",
+     "u' = div(tensor(1, 0.2, a) * grad(u))\nv' = div(tensor(k, 0.5, 1) * grad(u * v))\n"},
 };
 
 /// The part of a large grid inside of a box against a small grid of its own, cell by cell.
@@ -47,9 +49,9 @@ void expect_box_is_grid(const std::string& rates, const std::string& stage, Grid
                         GridSize small, GridSize corner, const std::string& what) {
     const auto script = [&](GridSize size, GridSize from, const std::string& domain) {
         const std::int64_t longest = std::max({size.width, size.height, size.depth});
-        std::string text = fmt::format(
-            "domain {{ grid: {}, {}, {}; {} }}\n{}stage only: s {{ {} }}\n", size.width, size.height,
-            size.depth, domain, system_of(rates), stage);
+        std::string text =
+            fmt::format("domain {{ grid: {}, {}, {}; {} }}\n{}stage only: s {{ {} }}\n", size.width,
+                        size.height, size.depth, domain, system_of(rates), stage);
         const auto count = [&](const char* name, const char* axis, std::int64_t first) {
             const std::string key = fmt::format("{}: {}", name, static_cast<char>(name[0] - 32));
             text.replace(text.find(key), key.size(),
@@ -64,9 +66,10 @@ void expect_box_is_grid(const std::string& rates, const std::string& stage, Grid
         const std::int64_t longest = std::max({large.width, large.height, large.depth});
         return fmt::format("{0} > {1}/{3} and {0} < {2}/{3}", axis, first, first + count, longest);
     };
-    const std::string box = fmt::format(
-        "mask: {} and {} and {}", between("x", corner.width, small.width),
-        between("y", corner.height, small.height), between("z", corner.depth, small.depth));
+    const std::string box =
+        fmt::format("mask: {} and {} and {}", between("x", corner.width, small.width),
+                    between("y", corner.height, small.height),
+                    between("z", corner.depth, small.depth));
     const auto masked = run_text(script(large, corner, box));
     const auto plain = run_text(script(small, {0, 0, 0}, "boundary: noflux"));
     ASSERT_EQ(masked->failure, "") << what;
@@ -109,15 +112,16 @@ TEST(Mask, ABoxAtTheSideIsTheSmallGridToTheBit) {
 TEST(Mask, ABoxOfALineOrAVolumeIsTheSmallGridToTheBit) {
     expect_box_is_grid("u' = lap(u + v * lap(v))\nv' = dx(u) + div(k * grad(v))\n",
                        "iterations: 7; speed: 0.01", {64, 1, 1}, {16, 1, 1}, {9, 0, 0}, "line");
-    expect_box_is_grid("u' = lap(u) + dxz(v) - dyz(k * u)\nv' = div(u * grad(v)) + grad2(u) + dxy(v)\n",
-                       "iterations: 5; speed: 0.01", {16, 8, 16}, {8, 4, 8}, {3, 2, 5}, "volume");
+    expect_box_is_grid(
+        "u' = lap(u) + dxz(v) - dyz(k * u)\nv' = div(u * grad(v)) + grad2(u) + dxy(v)\n",
+        "iterations: 5; speed: 0.01", {16, 8, 16}, {8, 4, 8}, {3, 2, 5}, "volume");
 }
 
 TEST(Mask, SolversTakeTheStepsOfTheSmallGrid) {
-    for (const char* stage :
-         {"iterations: 9; speed: 0.05; solver: rk4", "iterations: 9; speed: 0.05; solver: symplectic",
-          "duration: 5; speed: auto; solver: rkl2", "duration: 2; speed: auto",
-          "iterations: 9; speed: 0.05; frozen: [p] > 3 and [q] < 5"}) {
+    for (const char* stage : {"iterations: 9; speed: 0.05; solver: rk4",
+                              "iterations: 9; speed: 0.05; solver: symplectic",
+                              "duration: 5; speed: auto; solver: rkl2", "duration: 2; speed: auto",
+                              "iterations: 9; speed: 0.05; frozen: [p] > 3 and [q] < 5"}) {
         expect_box_is_grid("u' = 0.5 * lap(u) - u + v\nv' = lap(v) - v^3\n", stage, {32, 24, 1},
                            {16, 8, 1}, {5, 7, 0}, stage);
     }
@@ -134,9 +138,10 @@ TEST(Mask, AMaskOfAllCellsIsNone) {
                 system.replace(system.find(name), 4, axis);
             }
             const auto script = [&](const char* mask) {
-                return fmt::format("domain {{ grid: 24, 20; {}; {} }}\n{}"
-                                   "stage only: s {{ iterations: 5; speed: 0.01 }}\n",
-                                   boundary, mask, system);
+                return fmt::format(
+                    "domain {{ grid: 24, 20; {}; {} }}\n{}"
+                    "stage only: s {{ iterations: 5; speed: 0.01 }}\n",
+                    boundary, mask, system);
             };
             const auto plain = run_text(script("seed: 1"));
             const auto masked = run_text(script("mask: 2 + x"));
@@ -184,9 +189,11 @@ TEST(Mask, TheOppositeSideIsBeside) {
 TEST(Mask, MixedDerivativesFavourNoAxis) {
     const auto script = [](const char* x, const char* y) {
         return fmt::format(
-            "domain {{ grid: 30, 30; mask: sin(17 * {0} + 3 * {1}) + cos(19 * {1} * {0}) > -0.4 }}\n"
+            "domain {{ grid: 30, 30; mask: sin(17 * {0} + 3 * {1}) + cos(19 * {1} * {0}) > -0.4 "
+            "}}\n"
             "system s {{\n  u: sin(5 * {0} + 9 * {1}) + {0}\n  u' = dxy(u)\n}}\n"
-            "stage only: s {{ iterations: 1 }}\n", x, y);
+            "stage only: s {{ iterations: 1 }}\n",
+            x, y);
     };
     const auto one = run_text(script("x", "y"));
     const auto other = run_text(script("y", "x"));
@@ -198,18 +205,18 @@ TEST(Mask, MixedDerivativesFavourNoAxis) {
 }
 
 TEST(Mask, FluxesLoseNothing) {
-    for (const char* rate :
-         {"lap(u)", "lap(u^3 - u - 0.5 * lap(u))", "div((1 + u^2) * grad(u))",
-          "div(tensor(1, 0.2, 3 * x) * grad(u))", "div(u * vector(sin(9 * y), 1))",
-          "-div(u * grad(lap(u)))"}) {
+    for (const char* rate : {"lap(u)", "lap(u^3 - u - 0.5 * lap(u))", "div((1 + u^2) * grad(u))",
+                             "div(tensor(1, 0.2, 3 * x) * grad(u))",
+                             "div(u * vector(sin(9 * y), 1))", "-div(u * grad(lap(u)))"}) {
         for (const char* domain :
              {"grid: 48, 40; mask: disc(0.4, 0.3, 0.33) and not disc(0.5, 0.4, 0.1)",
               "grid: 40, 40; boundary: noflux; mask: noise(0.2) > -0.1",
               "grid: 40, 40; spacing: 0.8; mask: noise(0.1) > -0.1"}) {
             const auto text = [&](int steps) {
-                return fmt::format("domain {{ {} }}\nsystem s {{\n  u: 1 + random(0, 0.5)\n"
-                                   "  u' = {}\n}}\nstage only: s {{ iterations: {}; speed: 0.002 }}\n",
-                                   domain, rate, steps);
+                return fmt::format(
+                    "domain {{ {} }}\nsystem s {{\n  u: 1 + random(0, 0.5)\n"
+                    "  u' = {}\n}}\nstage only: s {{ iterations: {}; speed: 0.002 }}\n",
+                    domain, rate, steps);
             };
             const double before = sum_of(run_text(text(0))->field("u"));
             const auto after = run_text(text(400));
@@ -221,15 +228,16 @@ TEST(Mask, FluxesLoseNothing) {
 
 /// On a surface the integral stays: each cell counts as much as its area.
 TEST(Mask, FluxesOnASurfaceLoseNothing) {
-    for (const char* rate : {"lap(u)", "div(u * vector(sin(9 * sy), 1))",
-                             "div(tensor(1, 0.3, 5 * sx) * grad(u^2))"}) {
+    for (const char* rate :
+         {"lap(u)", "div(u * vector(sin(9 * sy), 1))", "div(tensor(1, 0.3, 5 * sx) * grad(u^2))"}) {
         const auto ran = run_text(fmt::format(
             "domain {{\n  grid: 40, 32\n  mask: noise(0.3) > -0.2\n"
             "  surface: (3 + cos(2*pi*sy)) * cos(2*pi*sx), (3 + cos(2*pi*sy)) * sin(2*pi*sx), "
             "sin(2*pi*sy)\n}}\n"
             "system s {{\n  u: 1 + random(0, 0.5)\n  total: sum([u] over domain)\n  u' = {}\n}}\n"
             "stage before: s {{ iterations: 400; speed: 0.01 }}\n"
-            "stage after: s {{ iterations: 0; u: u }}\n", rate));
+            "stage after: s {{ iterations: 0; u: u }}\n",
+            rate));
         ASSERT_EQ(ran->failure, "");
         EXPECT_NE(ran->field("u").at(20, 16), 0);
         EXPECT_NEAR(ran->number("total", 1) / ran->number("total", 0), 1, 3e-6) << rate;
@@ -242,8 +250,10 @@ TEST(Mask, AFlatSurfaceIsThePlane) {
         return fmt::format(
             "domain {{ grid: 24, 20; boundary: noflux; mask: disc(0.4, 0.3, 0.3) and x < 0.6{} }}\n"
             "system s {{\n  u: sin(9 * x + 3 * y)\n  v: cos(7 * y)\n"
-            "  u' = lap(u) + grad2(v) + diffuse(v, 1, 0.4, 0.7)\n  v' = div(u * grad(v)) + dx(u)\n}}\n"
-            "stage only: s {{ iterations: 10; speed: 0.05 }}\n", surface);
+            "  u' = lap(u) + grad2(v) + diffuse(v, 1, 0.4, 0.7)\n  v' = div(u * grad(v)) + "
+            "dx(u)\n}}\n"
+            "stage only: s {{ iterations: 10; speed: 0.05 }}\n",
+            surface);
     };
     const auto plane = run_text(script(""));
     const auto surface = run_text(script("; surface: 24 * sx, 20 * sy, 0; unit: 1"));

@@ -1,4 +1,5 @@
-// Files of runs on models: what a name says, what travels in pictures, what the library makes of cells.
+// Files of runs on models: what a name says, what travels in pictures, what the library makes of
+// cells.
 #include "cascade/cascade.h"
 #include "run/commands/run_checks.h"
 #include "run/pictures/model_files.h"
@@ -34,7 +35,8 @@ TEST(ModelFiles, only_glb_files_are_baked) {
 }
 
 TEST(ModelFiles, a_turntable_numbers_its_pictures) {
-    EXPECT_THAT(turntable_paths("a/horse.png", 2), ElementsAre("a/horse-001.png", "a/horse-002.png"));
+    EXPECT_THAT(turntable_paths("a/horse.png", 2),
+                ElementsAre("a/horse-001.png", "a/horse-002.png"));
     EXPECT_EQ(turntable_paths("horse.png", 1200)[6], "horse-0007.png");
 }
 
@@ -54,9 +56,10 @@ TEST(ModelFiles, pictures_carry_how_a_model_is_seen) {
 }
 
 TEST(ModelFiles, the_library_has_the_cells_in_one_row) {
-    Pattern pattern("domain { surface: sphere; cells: 700 }\n"
-                    "stage s: turing_spots { iterations: 4 }\n",
-                    {false, 1, "s", "."});
+    Pattern pattern(
+        "domain { surface: sphere; cells: 700 }\n"
+        "stage s: turing_spots { iterations: 4 }\n",
+        {false, 1, "s", "."});
     ASSERT_TRUE(pattern.ok()) << pattern.messages() << pattern.error();
     EXPECT_EQ(pattern.width(), 700);
     EXPECT_EQ(pattern.height(), 1);

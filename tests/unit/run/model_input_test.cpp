@@ -15,13 +15,13 @@
 namespace cascade {
 namespace {
 
-std::string messages_of(const std::string& domain, const std::string& rate, const std::string& stage = "",
-                        const Overrides& overrides = {}) {
-    const Script script = load_script(
-        "test",
-        fmt::format("domain {{ {} }}\nsystem s {{ u: 1\n u' = {} }}\nstage one: s {{ iterations: 1; {} }}\n",
-                    domain, rate, stage),
-        ".", overrides);
+std::string messages_of(const std::string& domain, const std::string& rate,
+                        const std::string& stage = "", const Overrides& overrides = {}) {
+    const Script script = load_script("test",
+                                      fmt::format("domain {{ {} }}\nsystem s {{ u: 1\n u' = {} "
+                                                  "}}\nstage one: s {{ iterations: 1; {} }}\n",
+                                                  domain, rate, stage),
+                                      ".", overrides);
     return script.messages(false);
 }
 
@@ -29,9 +29,10 @@ constexpr const char* sphere = "surface: sphere; cells: 100";
 
 TEST(ModelInput, OperatorsOfColumnsAndRowsAreRefused) {
     for (const char* rate :
-         {"dxx(u)", "dyy(u)", "dzz(u)", "dxy(u)", "dxz(u)", "dyz(u)", "advect(1, 2, u)", "diffuse(u, 1, 1, 0)",
-          "div(vector(u, u))", "div(tensor(1, 2, 0.3) * grad(u))"}) {
-        EXPECT_NE(messages_of(sphere, rate).find("cannot be used on a model"), std::string::npos) << rate;
+         {"dxx(u)", "dyy(u)", "dzz(u)", "dxy(u)", "dxz(u)", "dyz(u)", "advect(1, 2, u)",
+          "diffuse(u, 1, 1, 0)", "div(vector(u, u))", "div(tensor(1, 2, 0.3) * grad(u))"}) {
+        EXPECT_NE(messages_of(sphere, rate).find("cannot be used on a model"), std::string::npos)
+            << rate;
     }
     EXPECT_EQ(messages_of(sphere, "lap(u) + div(u^2 * grad(u)) + grad2(u) + dx(u)"), "");
 }
@@ -39,11 +40,15 @@ TEST(ModelInput, OperatorsOfColumnsAndRowsAreRefused) {
 TEST(ModelInput, SettingsOfPlanesAreRefused) {
     for (const char* word : {"grid: 20, 20", "boundary: periodic", "spacing: 2", "mask: x > 0.5"}) {
         const std::string name = std::string(word).substr(0, std::string(word).find(':'));
-        EXPECT_NE(messages_of(fmt::format("{}; {}", sphere, word), "lap(u)").find("a model has no " + name),
-                  std::string::npos) << word;
+        EXPECT_NE(messages_of(fmt::format("{}; {}", sphere, word), "lap(u)")
+                      .find("a model has no " + name),
+                  std::string::npos)
+            << word;
     }
-    EXPECT_NE(messages_of(sphere, "lap(u)", "solver: imex").find("needs the waves of a grid"), std::string::npos);
-    EXPECT_NE(messages_of(sphere, "lap(u)", "start: coarse(2)").find("coarser grid"), std::string::npos);
+    EXPECT_NE(messages_of(sphere, "lap(u)", "solver: imex").find("needs the waves of a grid"),
+              std::string::npos);
+    EXPECT_NE(messages_of(sphere, "lap(u)", "start: coarse(2)").find("coarser grid"),
+              std::string::npos);
 }
 
 TEST(ModelInput, AMaskIsLeftAsideWhereAModelIsAskedFor) {
@@ -54,29 +59,36 @@ TEST(ModelInput, AMaskIsLeftAsideWhereAModelIsAskedFor) {
                   .find("warning: a model has no mask: this is left aside"),
               std::string::npos);
     overrides.grid = GridSize{20, 20};
-    EXPECT_NE(messages_of("grid: 20, 20", "lap(u)", "", overrides).find("<--grid>:1:1: error: a model has no grid"),
+    EXPECT_NE(messages_of("grid: 20, 20", "lap(u)", "", overrides)
+                  .find("<--grid>:1:1: error: a model has no grid"),
               std::string::npos);
 }
 
 TEST(ModelInput, MoreCellsThanMemoryAreRefusedBeforeTheyAreMade) {
-    Script script = load_script("test", "domain { surface: sphere; cells: 200000000 }\n"
-                                        "stage one: turing_spots { }\n", ".");
+    Script script = load_script("test",
+                                "domain { surface: sphere; cells: 200000000 }\n"
+                                "stage one: turing_spots { }\n",
+                                ".");
     ASSERT_TRUE(script.program) << script.messages(false);
     SimulationOptions options{BackendKind::interpreter, 0, 1};
     options.memory_limit = std::uint64_t{100} << 20;
     const auto made = Simulation::create(script, options);
     ASSERT_FALSE(made);
-    EXPECT_TRUE(made.error().message.starts_with("the cells of this model need ")) << made.error().message;
+    EXPECT_TRUE(made.error().message.starts_with("the cells of this model need "))
+        << made.error().message;
     EXPECT_NE(made.error().message.find("the limit (--limit-memory)"), std::string::npos);
     EXPECT_EQ(made.error().hint, "use fewer cells");
 }
 
 TEST(ModelInput, FacesAreCountedBeforeTheirMemoryIs) {
     const std::filesystem::path folder = ::testing::TempDir();
-    ASSERT_TRUE(write_file(folder / "tetrahedron.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
-                                                       "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
-    Script script = load_script("test", "domain { mesh: \"tetrahedron.obj\"; cells: faces }\n"
-                                        "stage one: turing_spots { solver: rkl1 }\n", folder);
+    ASSERT_TRUE(write_file(folder / "tetrahedron.obj",
+                           "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                           "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
+    Script script = load_script("test",
+                                "domain { mesh: \"tetrahedron.obj\"; cells: faces }\n"
+                                "stage one: turing_spots { solver: rkl1 }\n",
+                                folder);
     ASSERT_TRUE(script.program) << script.messages(false);
     SimulationOptions options{BackendKind::interpreter, 0, 1};
     const auto free = Simulation::create(script, options);
@@ -92,33 +104,41 @@ TEST(ModelInput, FacesAreCountedBeforeTheirMemoryIs) {
 TEST(ModelInput, AGridTakesThePlaceOfAModelAndThatIsSaid) {
     Overrides overrides;
     overrides.grid = GridSize{20, 30};
-    const Script script = load_script("test", "domain { surface: sphere }\nstage one: turing_spots { }\n",
-                                      ".", overrides);
+    const Script script =
+        load_script("test", "domain { surface: sphere }\nstage one: turing_spots { }\n", ".",
+                    overrides);
     ASSERT_TRUE(script.program) << script.messages(false);
     EXPECT_FALSE(script.program->domain.model);
     EXPECT_EQ(script.program->domain.grid, (Grid{20, 30}));
-    EXPECT_NE(script.messages(false).find("warning: the grid asked for takes the place of this model"),
-              std::string::npos) << script.messages(false);
+    EXPECT_NE(script.messages(false).find(
+                  "warning: the grid asked for takes the place of this model"),
+              std::string::npos)
+        << script.messages(false);
     const Script plane = load_script("test", "stage one: turing_spots { }\n", ".", overrides);
     EXPECT_EQ(plane.messages(false), "");
 }
 
 TEST(ModelInput, TheDumpedProgramHasTheModelAsItWasWritten) {
     for (const char* domain :
-         {"surface: torus(1, 0.4)\n  cells: 300\n  laplacian: turk\n  unit: 0.125\n  seed: 4\n  precision: double",
+         {"surface: torus(1, 0.4)\n  cells: 300\n  laplacian: turk\n  unit: 0.125\n  seed: 4\n  "
+          "precision: double",
           "mesh: \"horse.ply\"\n  cells: faces\n  up: z\n  seed: 1",
           "surface: sphere\n  cells: 16384\n  directions: axis(0, 1, 0)\n  stretch: 3\n  seed: 1",
-          "surface: creature\n  cells: 700\n  directions: curvature_low(0.5)\n  stretch: 2\n  seed: 1",
+          "surface: creature\n  cells: 700\n  directions: curvature_low(0.5)\n  stretch: 2\n  "
+          "seed: 1",
           "surface: box\n  cells: vertices\n  seed: 1",
-          "surface: box\n  cells: 90\n  directions: keys(0, 0, 1, 0, 1, 0, 0.25)\n  stretch: 2\n  seed: 1"}) {
+          "surface: box\n  cells: 90\n  directions: keys(0, 0, 1, 0, 1, 0, 0.25)\n  stretch: 2\n  "
+          "seed: 1"}) {
         const std::string text = fmt::format("domain {{\n  {}\n}}\n", domain);
         const Script script = load_script("test", text + "stage one: turing_spots { }\n", ".");
         ASSERT_TRUE(script.program) << text << script.messages(false);
         EXPECT_NE(print_program(*script.program).find(text), std::string::npos)
             << print_program(*script.program);
     }
-    const Script script = load_script("test", "domain { surface: implicit(1 - x^2 - y^2 - z^4, 2) }\n"
-                                              "stage one: turing_spots { }\n", ".");
+    const Script script = load_script("test",
+                                      "domain { surface: implicit(1 - x^2 - y^2 - z^4, 2) }\n"
+                                      "stage one: turing_spots { }\n",
+                                      ".");
     ASSERT_TRUE(script.program) << script.messages(false);
     const std::string printed = print_program(*script.program);
     EXPECT_NE(printed.find("surface: implicit("), std::string::npos) << printed;
@@ -126,9 +146,11 @@ TEST(ModelInput, TheDumpedProgramHasTheModelAsItWasWritten) {
 }
 
 TEST(ModelInput, ItsStagesAreNotCompiledToObjectFiles) {
-    Script script = load_script("test",
-                                "domain { surface: sphere; cells: 100 }\nsystem s { u: 1\n u' = lap(u) }\n"
-                                "stage one: s { iterations: 1 }\n", ".");
+    Script script =
+        load_script("test",
+                    "domain { surface: sphere; cells: 100 }\nsystem s { u: 1\n u' = lap(u) }\n"
+                    "stage one: s { iterations: 1 }\n",
+                    ".");
     ASSERT_TRUE(script.program);
     const auto compiled = compile_step(script, {});
     ASSERT_FALSE(compiled);

@@ -8,7 +8,6 @@
 
 #include <fstream>
 
-
 namespace cascade {
 namespace {
 
@@ -23,10 +22,13 @@ protected:
 TEST_F(ModelLibraryTest, EverySystemTakesStepsOrIsRefusedInWords) {
     std::size_t run = 0;
     for (const LibraryText& each : library_texts()) {
-        Script script = load(fmt::format("domain {{ mesh: \"torus.obj\"; cells: 300 }}\n"
-                                         "stage only: {} {{ iterations: 20 }}\n", each.system_name()));
+        Script script =
+            load(fmt::format("domain {{ mesh: \"torus.obj\"; cells: 300 }}\n"
+                             "stage only: {} {{ iterations: 20 }}\n",
+                             each.system_name()));
         if (!script.program) {
-            EXPECT_NE(script.messages(false).find("on a model"), std::string::npos) << script.messages(false);
+            EXPECT_NE(script.messages(false).find("on a model"), std::string::npos)
+                << script.messages(false);
             continue;
         }
         ++run;
@@ -42,9 +44,10 @@ TEST_F(ModelLibraryTest, EverySystemTakesStepsOrIsRefusedInWords) {
 }
 
 TEST_F(ModelLibraryTest, StoppedRunsEndInTheSameBits) {
-    const std::string text = "domain { mesh: \"torus.obj\"; cells: 700; seed: 3 }\n"
-                             "stage one: turing_spots { iterations: 300 }\n"
-                             "stage two: gray_scott { iterations: 100; solver: rkl1 }\n";
+    const std::string text =
+        "domain { mesh: \"torus.obj\"; cells: 700; seed: 3 }\n"
+        "stage one: turing_spots { iterations: 300 }\n"
+        "stage two: gray_scott { iterations: 100; solver: rkl1 }\n";
     // A saved run finds the model beside a script that has its text.
     std::ofstream(path("test.cascade")) << text;
     run_whole(text);

@@ -1,5 +1,5 @@
-// What steps and ends are chosen by counts every cell of a model once, and not what fills up the last row
-// of planes: 520 cells lie in two rows of 512.
+// What steps and ends are chosen by counts every cell of a model once, and not what fills up the
+// last row of planes: 520 cells lie in two rows of 512.
 #include "model_runs.h"
 #include "solvers/steady.h"
 #include "solvers/step_control.h"
@@ -19,12 +19,13 @@ using testing::SchemeRunner;
 constexpr std::size_t cells = 520;
 
 std::string script_of(const std::string& system, const std::string& stage) {
-    return fmt::format("domain {{ surface: sphere; cells: {} }}\nsystem s {{ {} }}\nstage only: s {{ {} }}\n",
-                       cells, system, stage);
+    return fmt::format(
+        "domain {{ surface: sphere; cells: {} }}\nsystem s {{ {} }}\nstage only: s {{ {} }}\n",
+        cells, system, stage);
 }
 
-/// The time of an adaptive run of u' = 20 u (1 − u) after so many steps, and so many copies of the last
-/// value being counted with the others.
+/// The time of an adaptive run of u' = 20 u (1 − u) after so many steps, and so many copies of the
+/// last value being counted with the others.
 double time_by_hand(std::vector<double> start, std::size_t copies, int steps) {
     constexpr double tolerance = 1e-6, duration = 50;
     start.insert(start.end(), copies, double{start.back()});
@@ -91,15 +92,17 @@ std::int64_t settled_by_hand(const std::string& system, double tolerance, const 
 
 TEST(ModelNorms, AStageHasSettledWhenItsCellsHave) {
     const std::string system = "k: 0.002 + 0.04 * x\n u: 0\n u' = k * (1 - u)";
-    ModelRun run(script_of(system, "until: steady(1e-3); check: 10; speed: 1"), Precision::binary64);
+    ModelRun run(script_of(system, "until: steady(1e-3); check: 10; speed: 1"),
+                 Precision::binary64);
     run.start();
     ASSERT_TRUE(run.steps(1000000));
     const std::int64_t steps = run.simulation().state(0).steps;
     EXPECT_GT(steps, 100);
     EXPECT_EQ(steps, settled_by_hand(system, 1e-3, in_one_row));
-    EXPECT_NE(steps, settled_by_hand(system, 1e-3, [](const Field& field, const ModelCells&) {
-                  return field.clone();
-              })) << "copies that count are seen";
+    EXPECT_NE(steps,
+              settled_by_hand(system, 1e-3,
+                              [](const Field& field, const ModelCells&) { return field.clone(); }))
+        << "copies that count are seen";
 }
 
 }  // namespace

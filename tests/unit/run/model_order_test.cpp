@@ -109,8 +109,7 @@ TEST(ModelOrder, StepsAreThoseOfALoopOverTheCellsInTheirOwnOrder) {
 }
 
 TEST(ModelOrder, GradientsAreThoseOfTheCellsInTheirOwnOrder) {
-    Script script = load(on_sphere(
-        "  u: 0\n  u' = 0 * u\n  f: sy * sy\n  r: dz(f) - 2 * dy(f)\n"));
+    Script script = load(on_sphere("  u: 0\n  u' = 0 * u\n  f: sy * sy\n  r: dz(f) - 2 * dy(f)\n"));
     const auto simulation = start(script);
     ASSERT_TRUE(simulation);
     const ModelCells& model = *simulation->model();
@@ -118,8 +117,9 @@ TEST(ModelOrder, GradientsAreThoseOfTheCellsInTheirOwnOrder) {
     const std::vector<double> r = cell_values(result_of(*simulation, "r"), model);
     Team team(1);
     const std::atomic<bool> cancel = false;
-    const auto gradients = cell_gradients(
-        model.cells, cell_gradient_weights(model.mesh, model.cells, team, cancel), f);
+    const auto gradients =
+        cell_gradients(model.cells, cell_gradient_weights(model.mesh, model.cells, team, cancel),
+                       f);
     double largest = 0;
     for (std::size_t k = 0; k < some_cells; ++k) {
         const double expected = (gradients[k].z - 2 * gradients[k].y) * model.unit;

@@ -60,7 +60,8 @@ public:
         const std::vector<double> areas =
             cell_values(simulation_->model()->planes[static_cast<std::size_t>(ModelPlane::area)],
                         *simulation_->model());
-        const std::vector<double> of = name.empty() ? std::vector<double>(areas.size(), 1) : values(name);
+        const std::vector<double> of =
+            name.empty() ? std::vector<double>(areas.size(), 1) : values(name);
         double sum = 0;
         for (std::size_t k = 0; k < areas.size(); ++k) sum += areas[k] * of[k];
         return sum;

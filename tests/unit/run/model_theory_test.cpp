@@ -14,10 +14,12 @@ namespace {
 using test::ModelRun;
 
 /// One stage whose steps are of this length.
-std::string script_of(const std::string& domain, const std::string& system, double speed, int steps) {
-    return fmt::format("domain {{ {} }}\nsystem s {{ {} }}\n"
-                       "stage only: s {{ iterations: {}; speed: {} }}\n",
-                       domain, system, steps, speed);
+std::string script_of(const std::string& domain, const std::string& system, double speed,
+                      int steps) {
+    return fmt::format(
+        "domain {{ {} }}\nsystem s {{ {} }}\n"
+        "stage only: s {{ iterations: {}; speed: {} }}\n",
+        domain, system, steps, speed);
 }
 
 std::string heat(const std::string& domain, const std::string& start, double speed, int steps) {
@@ -35,7 +37,8 @@ double decay_rate(const std::vector<double>& before, const std::vector<double>& 
 }
 
 TEST(ModelTheory, HeatOnASphereDecaysByHarmonics) {
-    // c' = lap(c) takes a harmonic of degree l to exp(−l (l + 1) t) of it. nz is the sine of the latitude.
+    // c' = lap(c) takes a harmonic of degree l to exp(−l (l + 1) t) of it. nz is the sine of the
+    // latitude.
     constexpr double t = 0.02;
     constexpr int steps = 40;
     struct Case {
@@ -56,7 +59,8 @@ TEST(ModelTheory, HeatOnASphereDecaysByHarmonics) {
         ASSERT_TRUE(run.steps(steps));
         for (std::size_t l = 1; l <= 3; ++l) {
             const double rate = decay_rate(before[l - 1], run.values(fmt::format("p{}", l)), t);
-            EXPECT_NEAR(rate / static_cast<double>(l * (l + 1)), 1, tolerance) << domain << ' ' << l;
+            EXPECT_NEAR(rate / static_cast<double>(l * (l + 1)), 1, tolerance)
+                << domain << ' ' << l;
         }
     }
 }
@@ -81,11 +85,12 @@ TEST(ModelTheory, NothingIsLost) {
 
 TEST(ModelTheory, AConstantHasNoDerivatives) {
     for (const char* cells : {"1300", "faces", "vertices"}) {
-        ModelRun run(script_of(fmt::format("surface: box; cells: {}", cells),
-                               "k: random(0.5, 0.4)\n c: 0.3 + 0*x\n p: c\n q: c\n r: c\n u: c\n v: c\n w: c\n"
-                               "p' = lap(p)\n q' = div(k * grad(q))\n r' = grad2(r)\n"
-                               "u' = dx(u)\n v' = dy(v)\n w' = dz(w)",
-                               0.125, 3));
+        ModelRun run(script_of(
+            fmt::format("surface: box; cells: {}", cells),
+            "k: random(0.5, 0.4)\n c: 0.3 + 0*x\n p: c\n q: c\n r: c\n u: c\n v: c\n w: c\n"
+            "p' = lap(p)\n q' = div(k * grad(q))\n r' = grad2(r)\n"
+            "u' = dx(u)\n v' = dy(v)\n w' = dz(w)",
+            0.125, 3));
         run.start();
         ASSERT_TRUE(run.steps(3));
         for (const char* name : {"p", "q", "r", "u", "v", "w"}) {
@@ -105,11 +110,12 @@ double mean_size(const ModelRun& run, const std::string& name) {
 TEST(ModelTheory, GradientsOfLinearFunctions) {
     // x runs from 0 to 1 along the longest side, which is 2 units on a sphere of radius 1: the
     // gradient of f in space is G = (1, -1/2, 3/2), and on the surface what is tangent of it.
-    ModelRun sphere(script_of("surface: sphere; cells: 6000; unit: 1",
-                              "f: 2*x - y + 3*z\n n: nx - 0.5*ny + 1.5*nz\n"
-                              "ex: dx(f) - 1 + nx*n\n ey: dy(f) + 0.5 + ny*n\n ez: dz(f) - 1.5 + nz*n\n"
-                              "e2: grad2(f) - 3.5 + n^2\n m2: mean(grad2(f) over domain)\n u: 0\n u' = 0*u",
-                              1, 0));
+    ModelRun sphere(
+        script_of("surface: sphere; cells: 6000; unit: 1",
+                  "f: 2*x - y + 3*z\n n: nx - 0.5*ny + 1.5*nz\n"
+                  "ex: dx(f) - 1 + nx*n\n ey: dy(f) + 0.5 + ny*n\n ez: dz(f) - 1.5 + nz*n\n"
+                  "e2: grad2(f) - 3.5 + n^2\n m2: mean(grad2(f) over domain)\n u: 0\n u' = 0*u",
+                  1, 0));
     sphere.start();
     for (const char* name : {"ex", "ey", "ez"}) EXPECT_LT(mean_size(sphere, name), 0.02) << name;
     // The cells' shapes shift what flows through their walls to and fro; the mean is right.
@@ -151,12 +157,13 @@ TEST(ModelTheory, BothSquaresOfGradientsConverge) {
 
 TEST(ModelTheory, AggregatesCountAreasAndNoCellTwice) {
     // 1300 cells leave 236 places of the last row that are no cells.
-    ModelRun run("domain { surface: sphere; cells: 1300; unit: 1 }\n"
-                 "system s { u: sx\n total: sum(1 + 0*u over domain)\n middle: mean(u over domain)\n"
-                 "  low: min(u over domain)\n high: max(u over domain)\n"
-                 "  square: mean(nz^2 over domain)\n u' = 0 }\n"
-                 "stage only: s { iterations: 0 }\n",
-                 Precision::binary64);
+    ModelRun run(
+        "domain { surface: sphere; cells: 1300; unit: 1 }\n"
+        "system s { u: sx\n total: sum(1 + 0*u over domain)\n middle: mean(u over domain)\n"
+        "  low: min(u over domain)\n high: max(u over domain)\n"
+        "  square: mean(nz^2 over domain)\n u' = 0 }\n"
+        "stage only: s { iterations: 0 }\n",
+        Precision::binary64);
     run.start();
     const std::vector<double> u = run.values("u");
     EXPECT_NEAR(run.number("total"), 4 * std::numbers::pi, 0.02);
@@ -186,8 +193,10 @@ TEST(ModelTheory, SubstepsAreStepsOfTheirLength) {
 
 TEST(ModelTheory, TuringsSpotsNeedNoSubsteps) {
     for (const char* surface : {"sphere", "torus(1, 0.2)", "box(1, 1, 4)", "creature"}) {
-        ModelRun run(fmt::format("domain {{ surface: {}; cells: 4000 }}\n"
-                                 "stage only: turing_spots {{ iterations: 1 }}\n", surface));
+        ModelRun run(
+            fmt::format("domain {{ surface: {}; cells: 4000 }}\n"
+                        "stage only: turing_spots {{ iterations: 1 }}\n",
+                        surface));
         run.start();
         EXPECT_TRUE(run.steps(1));
         EXPECT_LE(run.substeps(), 1u) << surface;

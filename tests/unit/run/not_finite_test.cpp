@@ -26,9 +26,11 @@ NotFiniteReport report_of(std::int64_t last_finite, std::int64_t step) {
 TEST(NotFinite, NamesTheStep) {
     EXPECT_EQ(describe(report_of(63, 64)).message,
               "stage 's' (gs): u is not finite any more at column 1, row 2, after step 64");
-    EXPECT_EQ(describe(report_of(0, 30)).message,
-              "stage 's' (gs): u is not finite any more at column 1, row 2, between steps 0 and 30");
-    EXPECT_THAT(describe(report_of(7, 7)).message, HasSubstr("the starting value of u is not finite"));
+    EXPECT_EQ(
+        describe(report_of(0, 30)).message,
+        "stage 's' (gs): u is not finite any more at column 1, row 2, between steps 0 and 30");
+    EXPECT_THAT(describe(report_of(7, 7)).message,
+                HasSubstr("the starting value of u is not finite"));
 }
 
 // Looks may be one step apart: the step is known then, and the values before it are not.
@@ -53,7 +55,8 @@ TEST(NotFinite, DoesNotAskAStateThatIsSpoiled) {
     report.largest_before = 1e20;
     report.estimate_before.largest_speed = 2.19e-63;
     EXPECT_THAT(describe(report).hint, Not(HasSubstr("largest stable speed")));
-    EXPECT_THAT(describe(report).hint, HasSubstr("or steps are too long to follow it; 'solver: rk23' finds out"));
+    EXPECT_THAT(describe(report).hint,
+                HasSubstr("or steps are too long to follow it; 'solver: rk23' finds out"));
     report.estimate_at_start.largest_speed = 1.5;
     EXPECT_THAT(describe(report).hint, HasSubstr("the largest stable speed is about 1.5 "));
     // A state that has only begun to grow is asked.
@@ -91,16 +94,20 @@ TEST(StepAdvice, IsAsMuchTimeAsBefore) {
     StepInUse use;
     use.speed = 1;
     use.iterations = 5000;
-    EXPECT_EQ(advise(0.207, use), "the largest stable speed is about 0.207 and this stage's is 1; "
-                                  "try 'speed: 0.19; iterations: 26316'");
+    EXPECT_EQ(advise(0.207, use),
+              "the largest stable speed is about 0.207 and this stage's is 1; "
+              "try 'speed: 0.19; iterations: 26316'");
     use.diffusion_limits = true;
-    EXPECT_THAT(advise(0.207, use), HasSubstr("', or longer steps: 'solver: rkl1; speed: auto; duration: 5000'"));
+    EXPECT_THAT(advise(0.207, use),
+                HasSubstr("', or longer steps: 'solver: rkl1; speed: auto; duration: 5000'"));
     use.iterations = 0;
-    EXPECT_EQ(advise(0.207, use), "the largest stable speed is about 0.207 and this stage's is 1; "
-                                  "try 'speed: 0.19', or longer steps: 'solver: rkl1; speed: auto'");
+    EXPECT_EQ(advise(0.207, use),
+              "the largest stable speed is about 0.207 and this stage's is 1; "
+              "try 'speed: 0.19', or longer steps: 'solver: rkl1; speed: auto'");
     use.speed = NAN;
     EXPECT_EQ(advise(0.207, use),
-              "the largest stable speed is about 0.207 and this stage's varies by cell; try 'speed: 0.19'");
+              "the largest stable speed is about 0.207 and this stage's varies by cell; try "
+              "'speed: 0.19'");
 }
 
 }  // namespace

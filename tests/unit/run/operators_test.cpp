@@ -1,6 +1,6 @@
-// Operators against calculus: manufactured solutions and their orders, what is conserved, directions,
-// aggregates. Parameters of a stage are computed from others, so a stage that takes no step is
-// enough to see what an operator gives.
+// Operators against calculus: manufactured solutions and their orders, what is conserved,
+// directions, aggregates. Parameters of a stage are computed from others, so a stage that takes no
+// step is enough to see what an operator gives.
 #include "run/simulation/simulation.h"
 
 #include "core/grid.h"
@@ -32,8 +32,8 @@ public:
             EXPECT_TRUE(simulation_->start_stage(k)) << text;
             if (!runs) continue;
             RunControl control;
-            const auto end = simulation_->advance_stage(
-                k, script_.program->stages[k].iterations, control, nullptr);
+            const auto end = simulation_->advance_stage(k, script_.program->stages[k].iterations,
+                                                        control, nullptr);
             EXPECT_TRUE(end) << (end ? "" : end.error().message);
         }
     }
@@ -76,16 +76,17 @@ using Function2 = std::function<double(double x, double y)>;
 /// `derivatives` counts its derivatives, for operators are in units of the cell.
 double largest_error(const std::string& operation, const std::string& extra, int side,
                      int derivatives, const Function2& exact, const std::string& boundary) {
-    const Started run(fmt::format(
-        "system s {{ u: 0; u' = 0 * u\n {}\n r: {} }}\n"
-        "domain {{ grid: {}, {}; boundary: {} }}\nstage only: s {{ iterations: 0 }}\n",
-        extra, operation, side, side, boundary));
+    const Started run(
+        fmt::format("system s {{ u: 0; u' = 0 * u\n {}\n r: {} }}\n"
+                    "domain {{ grid: {}, {}; boundary: {} }}\nstage only: s {{ iterations: 0 }}\n",
+                    extra, operation, side, side, boundary));
     const double scale = std::pow(side, derivatives);
     double largest = 0;
     for (int j = 0; j < side; ++j) {
         for (int i = 0; i < side; ++i) {
             const double found = scale * static_cast<double>(run.field("r").at(i, j));
-            largest = std::max(largest, std::abs(found - exact((i + 0.5) / side, (j + 0.5) / side)));
+            largest =
+                std::max(largest, std::abs(found - exact((i + 0.5) / side, (j + 0.5) / side)));
         }
     }
     return largest;
@@ -114,8 +115,8 @@ void expect_orders(const std::vector<Case>& cases, const std::string& extra,
         const double fine =
             largest_error(each.operation, extra, 48, each.derivatives, each.exact, boundary);
         const double order = std::log2(coarse / fine);
-        EXPECT_NEAR(order, each.order, 0.2) << each.operation << " with " << boundary << ": "
-                                            << coarse << ", " << fine;
+        EXPECT_NEAR(order, each.order, 0.2)
+            << each.operation << " with " << boundary << ": " << coarse << ", " << fine;
         std::printf("%-44s order %.2f, error %.2g on 48²\n", each.operation.c_str(), order, fine);
     }
 }
@@ -193,26 +194,25 @@ TEST(Operators, ConvergeAtSidesThatMirror) {
     const Function2 f = [](double x, double y) { return std::cos(pi * x) * std::cos(2 * pi * y); };
     const double p2 = pi * pi;
     const Function2 minus5 = [=](double x, double y) { return -5 * p2 * f(x, y); };
-    expect_orders({{"lap(f)", 2, 2, minus5},
-                   {"lap(exp(log(2 + f)) - 2)", 2, 2, minus5},
-                   {"div(grad(f))", 2, 2, minus5},
-                   {"dx(f)", 1, 2,
-                    [](double x, double y) {
-                        return -pi * std::sin(pi * x) * std::cos(2 * pi * y);
-                    }}},
-                  "f: cos(pi * x) * cos(2 * pi * y)", "noflux");
+    expect_orders(
+        {{"lap(f)", 2, 2, minus5},
+         {"lap(exp(log(2 + f)) - 2)", 2, 2, minus5},
+         {"div(grad(f))", 2, 2, minus5},
+         {"dx(f)", 1, 2,
+          [](double x, double y) { return -pi * std::sin(pi * x) * std::cos(2 * pi * y); }}},
+        "f: cos(pi * x) * cos(2 * pi * y)", "noflux");
 }
 
 /// Waves along and across the direction theta decay with a1² and a2² (Witkin & Kass, section 3).
 TEST(Operators, DirectionsTurnFromXTowardsY) {
-    const std::string waves = "theta: atan2(1, 2)\n along: sin(2 * pi * (2 * x + y))\n"
-                              "across: sin(2 * pi * (2 * y - x))";
+    const std::string waves =
+        "theta: atan2(1, 2)\n along: sin(2 * pi * (2 * x + y))\n"
+        "across: sin(2 * pi * (2 * y - x))";
     for (const char* of : {"diffuse({}, 2, 0.1, theta)", "div(tensor(2, 0.1, theta) * grad({}))"}) {
         const double q2 = 20 * pi * pi;
         const auto exact = [&](double rate, double a, double b) -> Function2 {
-            return [=](double x, double y) {
-                return -rate * q2 * std::sin(2 * pi * (a * x + b * y));
-            };
+            return
+                [=](double x, double y) { return -rate * q2 * std::sin(2 * pi * (a * x + b * y)); };
         };
         const std::string along = fmt::format(fmt::runtime(of), "along");
         const std::string across = fmt::format(fmt::runtime(of), "across");
@@ -223,19 +223,23 @@ TEST(Operators, DirectionsTurnFromXTowardsY) {
 }
 
 TEST(Operators, OfWhatIsTheSameEverywhereAreZero) {
-    const Started run("system s { u: 0.1; k: 0.3; u' = lap(k) + div(k * grad(k)) + advect(1, 1, k)"
-                      " + diffuse(k, 1, 2, 3)\n r: lap(k) + grad2(k * 3) }\n"
-                      "stage only: s { iterations: 3 }\n", true);
+    const Started run(
+        "system s { u: 0.1; k: 0.3; u' = lap(k) + div(k * grad(k)) + advect(1, 1, k)"
+        " + diffuse(k, 1, 2, 3)\n r: lap(k) + grad2(k * 3) }\n"
+        "stage only: s { iterations: 3 }\n",
+        true);
     EXPECT_TRUE(run.is_uniform("r"));
     EXPECT_EQ(run.number("r"), 0.0f);
     EXPECT_EQ(run.field("u").at(5, 5), 0.1f);
 }
 
 TEST(Operators, AlongAnAxisOfOneCellAreZero) {
-    const Started run("system s { u: x; u' = dy(u) + dyy(u) + dxy(u) + dz(u) + dzz(u)"
-                      " + advect(0, 1, u) + div(vector(0, u)) }\n"
-                      "domain { grid: 32, 1; boundary: noflux }\n"
-                      "stage only: s { iterations: 3 }\n", true);
+    const Started run(
+        "system s { u: x; u' = dy(u) + dyy(u) + dxy(u) + dz(u) + dzz(u)"
+        " + advect(0, 1, u) + div(vector(0, u)) }\n"
+        "domain { grid: 32, 1; boundary: noflux }\n"
+        "stage only: s { iterations: 3 }\n",
+        true);
     EXPECT_EQ(run.field("u").at(8, 0), 8.5f / 32);
 }
 
@@ -250,7 +254,8 @@ TEST(Operators, FluxFormConservesSums) {
         {"Cahn-Hilliard", "c: random(0.2, 0.1); mu = c^3 - c - 0.5 * lap(c); c' = lap(mu)", 0.02},
         {"chemotaxis",
          "c: random(1, 0.1); bait: 1\n c' = lap(c) - div(5 * c * grad(bait))\n"
-         "bait' = 10 * lap(bait) + c / (1 + c) - bait", 0.02},
+         "bait' = 10 * lap(bait) + c / (1 + c) - bait",
+         0.02},
         {"tensor",
          "c: random(1, 0.5); c' = div(tensor(0.5 + x, 0.3, 6 * y) * grad(c) + vector(c * y, -c))",
          0.05},
@@ -259,9 +264,10 @@ TEST(Operators, FluxFormConservesSums) {
     for (const Conserved& each : systems) {
         for (const char* boundary : {"periodic", "noflux"}) {
             const auto text = [&](int steps) {
-                return fmt::format("system s {{ {} }}\ndomain {{ grid: 48, 40; boundary: {} }}\n"
-                                   "stage only: s {{ iterations: {}; speed: {} }}\n",
-                                   each.system, boundary, steps, each.speed);
+                return fmt::format(
+                    "system s {{ {} }}\ndomain {{ grid: 48, 40; boundary: {} }}\n"
+                    "stage only: s {{ iterations: {}; speed: {} }}\n",
+                    each.system, boundary, steps, each.speed);
             };
             const Started before(text(0)), after(text(400), true);
             EXPECT_NEAR(after.sum("c") / before.sum("c"), 1, 2e-6) << each.name << ", " << boundary;
@@ -275,9 +281,11 @@ TEST(Operators, FluxFormConservesSums) {
 /// A wind carries in what a side has, and nothing where nothing flows.
 TEST(Operators, FluxesPassOpenSides) {
     const auto sum_after = [](const std::string& sides) {
-        const Started run("system s { u: 0.5; u' = -div(vector(u, 0 * u))\n" + sides + " }\n"
-                          "domain { grid: 40, 3; boundary: noflux }\n"
-                          "stage only: s { iterations: 20; speed: 0.05 }\n", true);
+        const Started run("system s { u: 0.5; u' = -div(vector(u, 0 * u))\n" + sides +
+                              " }\n"
+                              "domain { grid: 40, 3; boundary: noflux }\n"
+                              "stage only: s { iterations: 20; speed: 0.05 }\n",
+                          true);
         return run.sum("u");
     };
     EXPECT_NEAR(sum_after(""), 60, 1e-4);
@@ -287,12 +295,13 @@ TEST(Operators, FluxesPassOpenSides) {
 }
 
 TEST(Aggregates, AreSumsMeansAndExtremes) {
-    const Started run("system s { u: 0; u' = 0 * u; f: x * 2 + y\n"
-                      "mean_f: mean(f over domain); sum_f: sum(f over domain)\n"
-                      "least: min(f over domain); largest: max(f * f over domain)\n"
-                      "again: mean(f - mean(f over domain) over domain) + least\n"
-                      "scaled: f - mean_f\n steep: max(grad2(f) over domain) }\n"
-                      "domain { grid: 40, 20; boundary: noflux }\nstage only: s { iterations: 0 }\n");
+    const Started run(
+        "system s { u: 0; u' = 0 * u; f: x * 2 + y\n"
+        "mean_f: mean(f over domain); sum_f: sum(f over domain)\n"
+        "least: min(f over domain); largest: max(f * f over domain)\n"
+        "again: mean(f - mean(f over domain) over domain) + least\n"
+        "scaled: f - mean_f\n steep: max(grad2(f) over domain) }\n"
+        "domain { grid: 40, 20; boundary: noflux }\nstage only: s { iterations: 0 }\n");
     EXPECT_TRUE(run.is_uniform("mean_f"));
     EXPECT_FALSE(run.is_uniform("scaled"));
     EXPECT_FLOAT_EQ(run.number("mean_f"), 1.25f);
@@ -307,18 +316,20 @@ TEST(Aggregates, AreSumsMeansAndExtremes) {
 
 TEST(Aggregates, AreTakenAnewInEveryStep) {
     // u' = mean(u) − u keeps the mean; a constant loss spread over all cells lowers it by 1 each.
-    const Started run("system s { u: x; v: x; u' = mean(u over domain) - u\n"
-                      "v' = -v / sum(v over domain) }\n"
-                      "domain { grid: 32, 32 }\nstage only: s { iterations: 64; speed: 0.25 }\n",
-                      true);
+    const Started run(
+        "system s { u: x; v: x; u' = mean(u over domain) - u\n"
+        "v' = -v / sum(v over domain) }\n"
+        "domain { grid: 32, 32 }\nstage only: s { iterations: 64; speed: 0.25 }\n",
+        true);
     EXPECT_NEAR(run.field("u").at(0, 0), 0.5, 1e-6);
     EXPECT_NEAR(run.sum("v"), 512 - 16, 1e-3);
 }
 
 TEST(Aggregates, SeeNaN) {
-    const Started run("system s { u: 0; u' = 0 * u; f: if(x < 0.5, 1, log(-x))\n"
-                      "largest: max(f over domain); least: min(f over domain) }\n"
-                      "stage only: s { iterations: 0 }\n");
+    const Started run(
+        "system s { u: 0; u' = 0 * u; f: if(x < 0.5, 1, log(-x))\n"
+        "largest: max(f over domain); least: min(f over domain) }\n"
+        "stage only: s { iterations: 0 }\n");
     EXPECT_TRUE(std::isnan(run.number("largest")));
     EXPECT_TRUE(std::isnan(run.number("least")));
 }

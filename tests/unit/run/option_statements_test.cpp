@@ -1,5 +1,5 @@
-// Options of the command line are statements: they are checked as the script's are, and have the last
-// word.
+// Options of the command line are statements: they are checked as the script's are, and have the
+// last word.
 #include "run/script/script.h"
 
 #include <gmock/gmock.h>
@@ -27,16 +27,19 @@ TEST(OptionStatements, AreShownAsTheyWereTyped) {
     Overrides overrides;
     overrides.grid = GridSize{64, 0};
     EXPECT_THAT(messages(stage, overrides),
-                HasSubstr("<--grid>:1:4: error: a side of the grid must be a whole number of at least 1\n"
-                          "    1 | 64x0\n"));
+                HasSubstr(
+                    "<--grid>:1:4: error: a side of the grid must be a whole number of at least 1\n"
+                    "    1 | 64x0\n"));
     overrides = {};
     overrides.model = "sphere";
     overrides.cells = "many";
     EXPECT_THAT(messages(stage, overrides),
-                HasSubstr("<--cells>:1:1: error: cells are a number, faces or vertices\n    1 | many\n"));
+                HasSubstr(
+                    "<--cells>:1:1: error: cells are a number, faces or vertices\n    1 | many\n"));
     overrides = {};
     overrides.solver = "rk5";
-    EXPECT_THAT(messages(stage, overrides), HasSubstr("<--solver>:1:1: error: there is no solver 'rk5'"));
+    EXPECT_THAT(messages(stage, overrides),
+                HasSubstr("<--solver>:1:1: error: there is no solver 'rk5'"));
     overrides = {};
     overrides.cells = "100";
     EXPECT_THAT(messages(stage, overrides),
@@ -50,8 +53,10 @@ TEST(OptionStatements, HaveTheLastWord) {
     overrides.precision = Precision::binary64;
     overrides.solver = "rk4";
     overrides.steps = 20;
-    const Script script = load(
-        std::string("domain { grid: 8, 8; boundary: noflux; seed: 3; precision: single }\n") + stage, overrides);
+    const Script script =
+        load(std::string("domain { grid: 8, 8; boundary: noflux; seed: 3; precision: single }\n") +
+                 stage,
+             overrides);
     ASSERT_TRUE(script.program) << script.messages(false);
     const DomainSettings& domain = script.program->domain;
     EXPECT_EQ(domain.grid, (Grid{40, 30, Boundary::no_flux}));
@@ -79,7 +84,8 @@ TEST(OptionStatements, MendWhatTheScriptCannotHaveItself) {
 }
 
 TEST(OptionStatements, ALimitOfChosenStepsGoesWithThem) {
-    const std::string text = "stage one: turing_spots { solver: rk45; largest_step: 2; duration: 9 }\n";
+    const std::string text =
+        "stage one: turing_spots { solver: rk45; largest_step: 2; duration: 9 }\n";
     Overrides overrides;
     overrides.solver = "euler";
     const Script script = load(text, overrides);
@@ -93,7 +99,8 @@ TEST(OptionStatements, LeaveTheBordersOfThePlaneAside) {
     overrides.model = "torus";
     const std::string said = messages(
         "domain { grid: 9, 9; boundary: noflux; left: fixed(1) }\n"
-        "stage one: turing_spots { a.right: flux(1); a.top: noflux }\n", overrides);
+        "stage one: turing_spots { a.right: flux(1); a.top: noflux }\n",
+        overrides);
     EXPECT_THAT(said, HasSubstr("test:1:40: warning: a model has no sides: this is left aside"));
     EXPECT_THAT(said, HasSubstr("test:2:27: warning: a model has no sides: this is left aside"));
     EXPECT_THAT(said, ::testing::Not(HasSubstr("error")));

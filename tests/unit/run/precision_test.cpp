@@ -26,8 +26,8 @@ public:
         RunControl control;
         for (std::uint32_t k = 0; k < script_.program->stages.size(); ++k) {
             EXPECT_TRUE(simulation_->start_stage(k)) << text;
-            const auto end = simulation_->advance_stage(
-                k, script_.program->stages[k].iterations, control, nullptr);
+            const auto end = simulation_->advance_stage(k, script_.program->stages[k].iterations,
+                                                        control, nullptr);
             EXPECT_TRUE(end) << (end ? "" : end.error().message);
         }
     }

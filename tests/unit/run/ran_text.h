@@ -23,13 +23,16 @@ struct Ran {
     std::vector<std::string> warnings;
 
     const StageState& state(std::uint32_t stage = 0) const { return simulation->state(stage); }
-    const StageState& last() const { return state(static_cast<std::uint32_t>(script.stage_count() - 1)); }
+    const StageState& last() const {
+        return state(static_cast<std::uint32_t>(script.stage_count() - 1));
+    }
     /// Of the last stage.
     const Field& species(std::size_t number = 0) const { return last().species[number]; }
 };
 
-inline Ran run_text(const std::string& text, const SimulationOptions& options = {BackendKind::interpreter, 0, 1},
-             const Overrides& overrides = {}) {
+inline Ran run_text(const std::string& text,
+                    const SimulationOptions& options = {BackendKind::interpreter, 0, 1},
+                    const Overrides& overrides = {}) {
     Ran ran;
     ran.script = load_script("test", text, ".", overrides);
     EXPECT_TRUE(ran.script.program) << ran.script.messages(false);

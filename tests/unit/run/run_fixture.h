@@ -65,11 +65,13 @@ protected:
         return report ? *report : RunReport{};
     }
 
-    /// The warnings of a run without what it says of results that are right (silent_results_test.cpp).
+    /// The warnings of a run without what it says of results that are right
+    /// (silent_results_test.cpp).
     std::vector<std::string> warnings_besides_remarks(const RunReport& report) const {
         std::vector<std::string> warnings = warnings_;
         std::erase_if(warnings, [&](const std::string& warning) {
-            return std::find(report.remarks.begin(), report.remarks.end(), warning) != report.remarks.end();
+            return std::find(report.remarks.begin(), report.remarks.end(), warning) !=
+                   report.remarks.end();
         });
         return warnings;
     }

@@ -16,8 +16,8 @@ TEST_F(RunTest, SavesEveryFieldOfEveryStage) {
     const RunReport report = run_well(script, wanted);
     EXPECT_EQ(report.status, RunStatus::finished);
     EXPECT_EQ(report.steps, 500);
-    for (const char* name : {"large.a", "large.b", "large.beta", "small.a", "small.b",
-                             "small.beta", "small.frozen"}) {
+    for (const char* name :
+         {"large.a", "large.b", "large.beta", "small.a", "small.b", "small.beta", "small.frozen"}) {
         const auto read = read_npy(path(std::string("saved/") + name + ".npy"));
         ASSERT_TRUE(read) << name;
         EXPECT_EQ(read->rows, 18);
@@ -124,7 +124,8 @@ TEST_F(RunTest, ReadsAFieldAsStartingValue) {
 
 TEST_F(RunTest, ReadsAPictureAsStartingValue) {
     Image image(4, 2);
-    for (std::size_t k = 0; k < 8; ++k) image.pixels[k] = k % 4 < 2 ? Colour{1, 1, 1} : Colour{0, 0, 0};
+    for (std::size_t k = 0; k < 8; ++k)
+        image.pixels[k] = k % 4 < 2 ? Colour{1, 1, 1} : Colour{0, 0, 0};
     ASSERT_TRUE(write_png(path("half.png"), image, PngDepth::eight, {}));
     Script script = load(
         "domain { grid: 8, 6; boundary: noflux }\n"
@@ -136,12 +137,14 @@ TEST_F(RunTest, ReadsAPictureAsStartingValue) {
     const Result<NpyArray> array = read_npy(path("one.u.npy"));
     ASSERT_TRUE(array);
     const std::vector<float> row{4, 4, 4, 3, 1, 0, 0, 0};
-    for (std::size_t k = 0; k < 48; ++k) EXPECT_EQ(array->values[k], static_cast<double>(row[k % 8])) << k;
+    for (std::size_t k = 0; k < 48; ++k)
+        EXPECT_EQ(array->values[k], static_cast<double>(row[k % 8])) << k;
 }
 
 TEST_F(RunTest, APictureThatCannotBeReadIsAnErrorAtItsPath) {
     ASSERT_TRUE(write_file(path("text.png"), "no picture"));
-    Script script = load("stage s: turing_spots { a: image(\"none.png\"); b: image(\"text.png\") }\n");
+    Script script =
+        load("stage s: turing_spots { a: image(\"none.png\"); b: image(\"text.png\") }\n");
     run_badly(script, request());
     const std::string messages = script.messages(false);
     EXPECT_THAT(messages, ::testing::HasSubstr("test.cascade:1:34: error: cannot read"));
@@ -159,11 +162,12 @@ TEST_F(RunTest, AFieldOfAnotherShapeIsAnErrorAtItsPath) {
     run_well(script, wanted);
     Script reader = load("stage s: turing_spots { b: field(\"small.b.npy\") }\n");
     run_badly(reader, request());
-    EXPECT_EQ(reader.messages(false),
-              "test.cascade:1:34: error: 'small.b.npy' has 18 rows and 24 columns, but the grid has "
-              "64 and 64\n"
-              "    1 | stage s: turing_spots { b: field(\"small.b.npy\") }\n"
-              "      |                                  ^~~~~~~~~~~~~ a grid of 24, 18 would fit\n");
+    EXPECT_EQ(
+        reader.messages(false),
+        "test.cascade:1:34: error: 'small.b.npy' has 18 rows and 24 columns, but the grid has "
+        "64 and 64\n"
+        "    1 | stage s: turing_spots { b: field(\"small.b.npy\") }\n"
+        "      |                                  ^~~~~~~~~~~~~ a grid of 24, 18 would fit\n");
 }
 
 TEST_F(RunTest, FramesComeAtTheInterval) {
@@ -176,11 +180,11 @@ TEST_F(RunTest, FramesComeAtTheInterval) {
         names.push_back(entry.path().filename().string());
     }
     std::sort(names.begin(), names.end());
-    EXPECT_EQ(names, (std::vector<std::string>{
-                         "0000-large-0000000.png", "0001-large-0000100.png",
-                         "0002-large-0000200.png", "0003-large-0000300.png",
-                         "0004-small-0000050.png", "0005-small-0000100.png",
-                         "0006-small-0000150.png", "0007-small-0000200.png"}));
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"0000-large-0000000.png", "0001-large-0000100.png",
+                                        "0002-large-0000200.png", "0003-large-0000300.png",
+                                        "0004-small-0000050.png", "0005-small-0000100.png",
+                                        "0006-small-0000150.png", "0007-small-0000200.png"}));
 }
 
 TEST_F(RunTest, AnOutputThatCannotBeWrittenIsFoundBeforeTheFirstStep) {

@@ -214,7 +214,8 @@ TEST_F(SavedFolderTest, ListsOfFilesAreNotBelieved) {
                         {"notes", good.at("files").at("large.b.npy")}};
     ASSERT_TRUE(write_file(path("saved/run.json"), changed.dump()));
     ASSERT_TRUE(write_file(path("saved/notes"), "mine"));
-    for (const char* name : {"a", "b", "beta"}) fs::remove(path(std::string("saved/large.") + name + ".npy"));
+    for (const char* name : {"a", "b", "beta"})
+        fs::remove(path(std::string("saved/large.") + name + ".npy"));
     save(two_stages, 70);
     EXPECT_EQ(bytes("keep.npy"), "mine");
     EXPECT_EQ(bytes("saved/notes"), "mine");

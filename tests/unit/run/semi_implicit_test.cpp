@@ -41,11 +41,12 @@ struct Wave {
         return -4 * (x * x + y * y);
     }
     static std::string script(const char* rate, const char* solver, double speed, int steps) {
-        return fmt::format("system s {{ u: 2 + cos(6 * pi * sx) * cos(2 * pi * sy); k: 0.7; g: 0.2\n"
-                           " u' = {} }}\n"
-                           "stage one: s {{ solver: {}; speed: {}; iterations: {} }}\n"
-                           "domain {{ grid: 24, 20; boundary: periodic, noflux }}",
-                           rate, solver, speed, steps);
+        return fmt::format(
+            "system s {{ u: 2 + cos(6 * pi * sx) * cos(2 * pi * sy); k: 0.7; g: 0.2\n"
+            " u' = {} }}\n"
+            "stage one: s {{ solver: {}; speed: {}; iterations: {} }}\n"
+            "domain {{ grid: 24, 20; boundary: periodic, noflux }}",
+            rate, solver, speed, steps);
     }
     /// What is left of its height.
     static double height(const Field& u) {
@@ -63,12 +64,15 @@ struct Wave {
 
 TEST(SemiImplicit, EachWaveIsDampedAsTheFormulaSays) {
     const double s = Wave::eigenvalue(), h = 40;
-    const struct { const char* rate; double m; } cases[] = {
-        {"k * lap(u)", 0.7 * s},
-        {"lap(k * u - g * lap(u))", 0.7 * s - 0.2 * s * s},
-        {"div(k * grad(u)) + 0.1 * dxx(u)", 0.7 * s - 0.1 * 4 * std::pow(std::sin(pi * 3 / 24), 2)},
-        {"diffuse(u, 0.8, 0.5, 0)", -0.64 * 4 * std::pow(std::sin(pi * 3 / 24), 2) -
-                                        0.25 * 4 * std::pow(std::sin(pi * 2 / 40), 2)}};
+    const struct {
+        const char* rate;
+        double m;
+    } cases[] = {{"k * lap(u)", 0.7 * s},
+                 {"lap(k * u - g * lap(u))", 0.7 * s - 0.2 * s * s},
+                 {"div(k * grad(u)) + 0.1 * dxx(u)",
+                  0.7 * s - 0.1 * 4 * std::pow(std::sin(pi * 3 / 24), 2)},
+                 {"diffuse(u, 0.8, 0.5, 0)", -0.64 * 4 * std::pow(std::sin(pi * 3 / 24), 2) -
+                                                 0.25 * 4 * std::pow(std::sin(pi * 2 / 40), 2)}};
     for (const auto& [rate, m] : cases) {
         const Ran implicit = run_text(Wave::script(rate, "imex", h, 2));
         EXPECT_NEAR(Wave::height(implicit.species()), std::pow(1 - h * m, -2), 2e-6) << rate;
@@ -90,9 +94,11 @@ TEST(SemiImplicit, SidesKeepTheirValues) {
         const Ran ran = run_text(fmt::format(
             "system heat {{ u: 0; u' = lap(u); u.left: fixed(1); u.right: flux(1/8) }}\n"
             "stage s: heat {{ solver: {}; speed: 50; iterations: 200 }}\n"
-            "domain {{ grid: 16, 3; boundary: noflux }}", solver));
+            "domain {{ grid: 16, 3; boundary: noflux }}",
+            solver));
         for (std::int64_t i = 0; i < 16; ++i) {
-            EXPECT_NEAR(ran.species().at(i, 1), 1 + (static_cast<double>(i) + 0.5) / 8, 1e-4) << solver;
+            EXPECT_NEAR(ran.species().at(i, 1), 1 + (static_cast<double>(i) + 0.5) / 8, 1e-4)
+                << solver;
         }
     }
 }
@@ -106,8 +112,10 @@ constexpr const char* alloy =
 TEST(SemiImplicit, CahnHilliardAtAThousandTimesTheExplicitLimit) {
     for (const char* solver : {"imex", "gauss"}) {
         for (const char* boundary : {"periodic", "periodic, noflux"}) {
-            const Ran start = run_text(fmt::format(fmt::runtime(alloy), 0.2, boundary, solver, 40, 0), fast());
-            const Ran ran = run_text(fmt::format(fmt::runtime(alloy), 0.2, boundary, solver, 40, 400), fast());
+            const Ran start =
+                run_text(fmt::format(fmt::runtime(alloy), 0.2, boundary, solver, 40, 0), fast());
+            const Ran ran =
+                run_text(fmt::format(fmt::runtime(alloy), 0.2, boundary, solver, 40, 400), fast());
             EXPECT_EQ(ran.failure, "");
             const FieldMoments found = moments(ran.species());
             // What there is of each stays to rounding, and the parts have come apart.
@@ -120,7 +128,8 @@ TEST(SemiImplicit, CahnHilliardAtAThousandTimesTheExplicitLimit) {
 
 TEST(SemiImplicit, CahnHilliardCoarsensAsWithEuler) {
     const auto wavelength = [](const char* solver, double speed, int steps) {
-        const Ran ran = run_text(fmt::format(fmt::runtime(alloy), 0, "periodic", solver, speed, steps), fast());
+        const Ran ran =
+            run_text(fmt::format(fmt::runtime(alloy), 0, "periodic", solver, speed, steps), fast());
         const FieldMoments found = moments(ran.species());
         EXPECT_GT(found.deviation, 0.7) << solver;
         measure::Samples samples;
@@ -134,7 +143,8 @@ TEST(SemiImplicit, CahnHilliardCoarsensAsWithEuler) {
         return measure::peak_wavelength(measure::radial_spectrum(samples));
     };
     const double euler = wavelength("euler", 0.025, 8000);
-    // Of first order, and damped by what the steepest cells need: shorter steps for the same course.
+    // Of first order, and damped by what the steepest cells need: shorter steps for the same
+    // course.
     EXPECT_NEAR(wavelength("imex", 0.2, 1000) / euler, 1, 0.12);
     EXPECT_NEAR(wavelength("imex2", 0.5, 400) / euler, 1, 0.12);
     EXPECT_NEAR(wavelength("gauss", 0.5, 400) / euler, 1, 0.12);
@@ -142,8 +152,10 @@ TEST(SemiImplicit, CahnHilliardCoarsensAsWithEuler) {
 
 TEST(SemiImplicit, GrowsTheSameSpotsAsEuler) {
     const auto spots = [](const Overrides& overrides) {
-        return run_text("stage s: turing_spots { iterations: 12000; ka: 1/200 }\n"
-                        "domain { grid: 48, 48 }", fast(), overrides);
+        return run_text(
+            "stage s: turing_spots { iterations: 12000; ka: 1/200 }\n"
+            "domain { grid: 48, 48 }",
+            fast(), overrides);
     };
     const Ran euler = spots({});
     for (const char* solver : {"imex", "imex2", "gauss"}) {
@@ -154,7 +166,8 @@ TEST(SemiImplicit, GrowsTheSameSpotsAsEuler) {
         EXPECT_LT(found.last().steps, 2500) << solver;
         const Field& a = euler.species(1);
         const Field& b = found.species(1);
-        const double difference = moments_of_difference(a, b).root_mean_square / moments(a).deviation;
+        const double difference =
+            moments_of_difference(a, b).root_mean_square / moments(a).deviation;
         // The correlation of two fields of one mean and deviation is 1 − difference² / 2.
         const double correlation = std::string_view(solver) == "imex" ? 0.95 : 0.98;
         EXPECT_LT(difference, std::sqrt(2 * (1 - correlation))) << solver;
@@ -165,19 +178,24 @@ TEST(SemiImplicit, GrowsTheSameSpotsAsEuler) {
 TEST(SemiImplicit, AStateWithoutRatesStaysToTheBit) {
     for (const char* solver : {"imex", "imex2", "gauss"}) {
         const Ran ran = run_text(fmt::format(
-            "system s {{ u: 3; v: 2 * x; u' = lap(u) + 3 - u\n v' = dxx(v) - dxx(v) + lap(lap(u)) }}\n"
-            "stage one: s {{ solver: {}; speed: 5; iterations: 7 }}\ndomain {{ grid: 12, 9 }}", solver));
+            "system s {{ u: 3; v: 2 * x; u' = lap(u) + 3 - u\n v' = dxx(v) - dxx(v) + lap(lap(u)) "
+            "}}\n"
+            "stage one: s {{ solver: {}; speed: 5; iterations: 7 }}\ndomain {{ grid: 12, 9 }}",
+            solver));
         EXPECT_EQ(ran.species(0).at(5, 5), 3.0f) << solver;
         EXPECT_EQ(ran.species(1).at(5, 5), static_cast<float>(2 * (5.5f / 12))) << solver;
     }
 }
 
-// A factor that depends on the species itself: u' = lap(u^3) spreads with a front, and its total stays.
+// A factor that depends on the species itself: u' = lap(u^3) spreads with a front, and its total
+// stays.
 TEST(SemiImplicit, FactorsThatVaryAreBounded) {
     for (const char* solver : {"imex", "gauss"}) {
         const Ran ran = run_text(fmt::format(
-            "system s {{ u: 2 * gauss(0.5, 0.5, 0.1); k: 1 + x; u' = lap(u^3) + 0.1 * div(k * grad(u)) }}\n"
-            "stage one: s {{ solver: {}; speed: 2; iterations: 200 }}\ndomain {{ grid: 40, 40 }}", solver));
+            "system s {{ u: 2 * gauss(0.5, 0.5, 0.1); k: 1 + x; u' = lap(u^3) + 0.1 * div(k * "
+            "grad(u)) }}\n"
+            "stage one: s {{ solver: {}; speed: 2; iterations: 200 }}\ndomain {{ grid: 40, 40 }}",
+            solver));
         const Ran start = run_text(
             "system s { u: 2 * gauss(0.5, 0.5, 0.1); u' = lap(u) }\n"
             "stage one: s { iterations: 0 }\ndomain { grid: 40, 40 }");
@@ -208,7 +226,9 @@ TEST(SemiImplicit, SameBitsOnEveryBackendAndThread) {
         for (const int lanes : {4, 16}) {
             const Ran found = run_text(everything(solver), {BackendKind::jit, lanes, 3});
             for (std::size_t k = 0; k < 3; ++k) {
-                EXPECT_EQ(moments_of_difference(found.species(k), expected.species(k)).root_mean_square, 0)
+                EXPECT_EQ(
+                    moments_of_difference(found.species(k), expected.species(k)).root_mean_square,
+                    0)
                     << solver;
             }
         }
@@ -219,13 +239,16 @@ TEST(SemiImplicit, SameBitsOnEveryBackendAndThread) {
 class SemiImplicitRun : public ResumedRunTest {};
 
 TEST_F(SemiImplicitRun, ResumesWithTheSameBits) {
-    for (const char* settings : {"solver: imex; speed: 3; iterations: 30", "solver: imex2; speed: 2; iterations: 30",
-                                 "solver: gauss; speed: auto; duration: 300"}) {
-        const std::string text = fmt::format("stage one: turing_spots {{ {} }}\ndomain {{ grid: 30, 20 }}", settings);
+    for (const char* settings :
+         {"solver: imex; speed: 3; iterations: 30", "solver: imex2; speed: 2; iterations: 30",
+          "solver: gauss; speed: auto; duration: 300"}) {
+        const std::string text =
+            fmt::format("stage one: turing_spots {{ {} }}\ndomain {{ grid: 30, 20 }}", settings);
         run_whole(text);
         run_in_two_parts(text, "one", 7);
         for (const char* name : {"one.a.npy", "one.b.npy"}) {
-            EXPECT_EQ(bytes(std::string("whole/") + name), bytes(std::string("rest/") + name)) << settings;
+            EXPECT_EQ(bytes(std::string("whole/") + name), bytes(std::string("rest/") + name))
+                << settings;
         }
     }
 }
@@ -235,8 +258,9 @@ TEST(SemiImplicit, ABlowUpNamesItsStepAndAShorterOne) {
         "system burst { u: 1 + 0.1 * sx; u' = u^2 + lap(u) }\n"
         "stage s: burst { solver: imex; speed: 0.25; iterations: 300 }\ndomain { grid: 8, 8 }");
     EXPECT_THAT(ran.failure, HasSubstr("u is not finite any more at column 0, row 0, after step "));
-    EXPECT_THAT(ran.failure, HasSubstr("imex takes diffusion alone for a step of any length, the reaction "
-                                       "not; try 'speed: 0.12'"));
+    EXPECT_THAT(ran.failure,
+                HasSubstr("imex takes diffusion alone for a step of any length, the reaction "
+                          "not; try 'speed: 0.12'"));
 }
 
 TEST(SemiImplicit, SaysWhatItCannotTake) {

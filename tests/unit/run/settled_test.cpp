@@ -62,7 +62,8 @@ TEST(Settled, HardlyDependsOnTheSeedNorOnTheLooks) {
         for (int seed = 2; seed < (has_jit() ? 5 : 3); ++seed) {
             const std::string text = fmt::format(
                 "domain {{ grid: 64, 64; seed: {} }}\n"
-                "stage s: turing_spots {{ until: steady(0.2); ka: 0.2/16; {} }}\n", seed, settings);
+                "stage s: turing_spots {{ until: steady(0.2); ka: 0.2/16; {} }}\n",
+                seed, settings);
             const Rest rest = rests_of(text, 64)[0];
             EXPECT_GT(rest.t, 2300) << settings << ' ' << seed;
             EXPECT_LT(rest.t, 5000) << settings << ' ' << seed;

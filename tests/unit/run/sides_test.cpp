@@ -38,11 +38,12 @@ double error_of(const std::vector<float>& u, std::size_t width, std::size_t heig
 
 // A straight line is exact on any grid: the error is rounding.
 TEST(Sides, StraightLines) {
-    const char* heat = "system heat {{ u: 0; u' = lap(u) }}\n"
-                       "domain {{ grid: {}; boundary: noflux }}\n"
-                       "stage s: heat {{ iterations: {}; speed: {}; {} }}\n";
-    const auto fixed = run(fmt::format(fmt::runtime(heat), "16", 3000, 0.4,
-                                       "u.left: fixed(1); u.right: fixed(3)"));
+    const char* heat =
+        "system heat {{ u: 0; u' = lap(u) }}\n"
+        "domain {{ grid: {}; boundary: noflux }}\n"
+        "stage s: heat {{ iterations: {}; speed: {}; {} }}\n";
+    const auto fixed = run(
+        fmt::format(fmt::runtime(heat), "16", 3000, 0.4, "u.left: fixed(1); u.right: fixed(3)"));
     EXPECT_LT(error_of(fixed, 16, 1, [](double x, double, double) { return 1 + 2 * x; }), 1e-5);
     const auto flux = run(fmt::format(fmt::runtime(heat), "1, 16", 12000, 0.4,
                                       "u.top: flux(-1/8); u.bottom: fixed(2)"));
@@ -52,7 +53,6 @@ TEST(Sides, StraightLines) {
                                        "u.top: noflux; u.bottom: noflux; u.back: fixed(3)"));
     EXPECT_LT(error_of(front, 2, 3, [](double, double, double z) { return 9 - 6 * z; }), 1e-4);
 }
-
 
 // sin(2x) exp(−2y) solves Laplace's equation. Values that vary along three sides and the slope at
 // the fourth give it back, with an error that falls with the square of the cell.
@@ -80,11 +80,11 @@ TEST(Sides, ValuesThatVaryAlongThem) {
 // Decay of modes: exp(−λ t) with the discrete λ. On fixed sides sin fits, on noflux sides cos.
 TEST(Sides, ModesDecayAsTheyShould) {
     constexpr double pi = 3.14159265358979;
-    const auto u = run(
-        "system heat { u: sin(pi * sx) * cos(2 * pi * sy) * cos(2 * pi * sz); u' = lap(u) }\n"
-        "domain { grid: 12, 10, 8; boundary: noflux, noflux, periodic; left: fixed(0)\n"
-        "  right: fixed(0) }\n"
-        "stage s: heat { iterations: 100; speed: 0.1 }\n");
+    const auto u =
+        run("system heat { u: sin(pi * sx) * cos(2 * pi * sy) * cos(2 * pi * sz); u' = lap(u) }\n"
+            "domain { grid: 12, 10, 8; boundary: noflux, noflux, periodic; left: fixed(0)\n"
+            "  right: fixed(0) }\n"
+            "stage s: heat { iterations: 100; speed: 0.1 }\n");
     const auto lambda = [](double angle) { return 2 * (1 - std::cos(angle)); };
     const double rate = lambda(pi / 12) + lambda(2 * pi / 10) + lambda(2 * pi / 8);
     const double left = std::pow(1 - 0.1 * rate, 100);
@@ -113,20 +113,22 @@ TEST(Spacing, IsTheUsersUnitOfLength) {
     }
     EXPECT_GT(std::log2(errors[0] / errors[1]), 1.8) << errors[0] << " " << errors[1];
     EXPECT_GT(std::log2(errors[1] / errors[2]), 1.8) << errors[1] << " " << errors[2];
-    const auto slope = run("system heat { u: 0; u' = lap(u) }\n"
-                           "domain { grid: 8; spacing: 0.25; boundary: noflux; left: fixed(0)\n"
-                           "  right: flux(3) }\n"
-                           "stage s: heat { iterations: 4000; speed: 0.02 }\n");
+    const auto slope =
+        run("system heat { u: 0; u' = lap(u) }\n"
+            "domain { grid: 8; spacing: 0.25; boundary: noflux; left: fixed(0)\n"
+            "  right: flux(3) }\n"
+            "stage s: heat { iterations: 4000; speed: 0.02 }\n");
     EXPECT_LT(error_of(slope, 8, 1, [](double x, double, double) { return 6 * x; }), 1e-4);
 }
 
 // The domain's sides hold for all species, a system's for its own, a stage's before both.
 TEST(Sides, WhoHasTheLastWord) {
-    const std::string heat = "system heat { u: 0; v: 0; w: 0\n"
-                             "  u' = lap(u); v' = lap(v); w' = lap(w)\n"
-                             "  v.left: fixed(2); w.left: fixed(2) }\n"
-                             "system derived: heat { w.right: fixed(4) }\n"
-                             "domain { grid: 8; boundary: noflux; left: fixed(1); sides: fixed(1) }\n";
+    const std::string heat =
+        "system heat { u: 0; v: 0; w: 0\n"
+        "  u' = lap(u); v' = lap(v); w' = lap(w)\n"
+        "  v.left: fixed(2); w.left: fixed(2) }\n"
+        "system derived: heat { w.right: fixed(4) }\n"
+        "domain { grid: 8; boundary: noflux; left: fixed(1); sides: fixed(1) }\n";
     const std::string stage = "stage s: heat { iterations: 2000; speed: 0.4; w.sides: fixed(3) }";
     EXPECT_NEAR(run(heat + stage, "u")[0], 1, 1e-5);
     EXPECT_NEAR(run(heat + stage, "v")[0], 2 - 1.0 / 16, 1e-4);
@@ -138,8 +140,9 @@ TEST(Sides, WhoHasTheLastWord) {
 
 // What flows in stays: Σu grows by the flux at every step, and by nothing where there is none.
 TEST(Sides, WhatFlowsInIsThere) {
-    const std::string heat = "system heat { u: 1 + 0.5 * disc(0.3, 0.3, 0.2); u' = 0.2 * lap(u) }\n"
-                             "domain { grid: 20, 16; boundary: noflux }\n";
+    const std::string heat =
+        "system heat { u: 1 + 0.5 * disc(0.3, 0.3, 0.2); u' = 0.2 * lap(u) }\n"
+        "domain { grid: 20, 16; boundary: noflux }\n";
     const auto sum = [](const std::vector<float>& u) {
         double total = 0;
         for (const float value : u) total += value;

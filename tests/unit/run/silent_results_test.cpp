@@ -1,5 +1,5 @@
-// Runs that end well and show nothing, or something else than one would think, say so in one line; and
-// runs that are as they should be say nothing.
+// Runs that end well and show nothing, or something else than one would think, say so in one line;
+// and runs that are as they should be say nothing.
 #include "run_fixture.h"
 
 #include "run/commands/sweep.h"
@@ -50,9 +50,11 @@ protected:
 
 TEST_F(SilentResults, NothingTellsOneCellFromAnother) {
     EXPECT_THAT(words_of(fmt::format(gray_scott, "1", "0", 0.037, 0.06, 200)),
-                ElementsAre("stage 'coral' ended even (u = 1, v = 0): nothing tells one cell from another; "
-                            "noise or a spot in a starting value would"));
-    EXPECT_THAT(words_of("system s { u: 1; v: 0.9; u' = 0.1 - u + u^2*v + lap(u); v' = 0.9 - u^2*v + 40*lap(v) }\n"
+                ElementsAre(
+                    "stage 'coral' ended even (u = 1, v = 0): nothing tells one cell from another; "
+                    "noise or a spot in a starting value would"));
+    EXPECT_THAT(words_of("system s { u: 1; v: 0.9; u' = 0.1 - u + u^2*v + lap(u); v' = 0.9 - u^2*v "
+                         "+ 40*lap(v) }\n"
                          "domain { grid: 16, 16 }\n"
                          "stage t: s { speed: 0.005; iterations: 100 }\n"),
                 ElementsAre(HasSubstr("nothing tells one cell from another")));
@@ -63,43 +65,51 @@ TEST_F(SilentResults, NoiseThatFades) {
                          "  u' = 0.1 - u + u^2*v + lap(u); v' = 0.9 - u^2*v + lap(v) }\n"
                          "domain { grid: 16, 16 }\n"
                          "stage t: s { speed: 0.1; iterations: 3000 }\n"),
-                ElementsAre(StartsWith("stage 't' ended even (u = 1, v = 0.9): the differences it began "
-                                       "with faded, and nothing has grown; it is even since step ")));
+                ElementsAre(
+                    StartsWith("stage 't' ended even (u = 1, v = 0.9): the differences it began "
+                               "with faded, and nothing has grown; it is even since step ")));
 }
 
 TEST_F(SilentResults, APatternThatDied) {
     const std::string text = fmt::format(gray_scott, "1 - 0.5*disc(0.5, 0.5, 0.2)",
                                          "0.25*disc(0.5, 0.5, 0.2)", 0.1, 0.1, 600);
-    EXPECT_THAT(words_of(text), ElementsAre(StartsWith("stage 'coral' died out: it is even since step ")));
+    EXPECT_THAT(words_of(text),
+                ElementsAre(StartsWith("stage 'coral' died out: it is even since step ")));
     Overrides fewer;
     fewer.steps = 80;
     EXPECT_THAT(words_of(text, request(), fewer),
-                ElementsAre(StartsWith("stage 'coral' is dying out: the deviations left are small and "
-                                       "falling (u ")));
+                ElementsAre(
+                    StartsWith("stage 'coral' is dying out: the deviations left are small and "
+                               "falling (u ")));
 }
 
 TEST_F(SilentResults, APatternThatIsStillGrowing) {
     for (const std::int64_t steps : {100, 600}) {
         Overrides few;
         few.steps = steps;
-        EXPECT_THAT(words_of("stage s: turing_spots { iterations: 8000; ka: 1/80 }\n", request(), few),
-                    ElementsAre(AllOf(StartsWith("stage 's' was still growing when it ended: the deviation "),
-                                      HasSubstr(" % in the last tenth, to 0."))))
+        EXPECT_THAT(
+            words_of("stage s: turing_spots { iterations: 8000; ka: 1/80 }\n", request(), few),
+            ElementsAre(
+                AllOf(StartsWith("stage 's' was still growing when it ended: the deviation "),
+                      HasSubstr(" % in the last tenth, to 0."))))
             << steps;
     }
 }
 
 TEST_F(SilentResults, AnUntilThatNeverCameTrue) {
-    static constexpr const char* settles = "domain {{ grid: 24, 24 }}\nstage s: turing_spots {{ until: {}; iterations: {} }}\n";
+    static constexpr const char* settles =
+        "domain {{ grid: 24, 24 }}\nstage s: turing_spots {{ until: {}; iterations: {} }}\n";
     EXPECT_THAT(words_of(fmt::format(settles, "steady(0.2)", 400)),
-                ElementsAre("stage 's' took 400 steps and has not settled as 'until: steady(0.2)' asks"));
+                ElementsAre(
+                    "stage 's' took 400 steps and has not settled as 'until: steady(0.2)' asks"));
     EXPECT_THAT(words_of(fmt::format(settles, "max(b over domain) > 100", 400)),
                 ElementsAre("stage 's' took 400 steps and 'until' has not ended it"));
     EXPECT_THAT(words_of(fmt::format(settles, "max(b over domain) > 4.1", 8000)), IsEmpty());
 }
 
 TEST_F(SilentResults, AllOfThePictureBesideTheRange) {
-    const std::string text = "domain { grid: 24, 24 }\nstage s: turing_spots { iterations: 4000 }\n";
+    const std::string text =
+        "domain { grid: 24, 24 }\nstage s: turing_spots { iterations: 4000 }\n";
     RunRequest wanted = request();
     EXPECT_THAT(words_of(text, wanted), IsEmpty());
     wanted.picture.range = ValueRange{50, 90};
@@ -119,9 +129,10 @@ TEST_F(SilentResults, AllOfThePictureBesideTheRange) {
 }
 
 TEST_F(SilentResults, WavesOfFewCells) {
-    EXPECT_THAT(words_of("domain { grid: 32, 32 }\n"
-                         "stage s: turing_spots { iterations: 6000; diff_a: 1/80; diff_b: 1/320 }\n"),
-                ElementsAre(AllOf(StartsWith("the waves of the pattern are 2."), HasSubstr("cells long"))));
+    EXPECT_THAT(
+        words_of("domain { grid: 32, 32 }\n"
+                 "stage s: turing_spots { iterations: 6000; diff_a: 1/80; diff_b: 1/320 }\n"),
+        ElementsAre(AllOf(StartsWith("the waves of the pattern are 2."), HasSubstr("cells long"))));
 }
 
 TEST_F(SilentResults, AGridThatIsALine) {
@@ -157,7 +168,8 @@ TEST_F(SilentResults, ASeedOfNothingRandom) {
 }
 
 TEST_F(SilentResults, AStageThatNobodyReads) {
-    const std::string first = "domain { grid: 24, 24 }\nstage one: turing_spots { iterations: 300 }\n";
+    const std::string first =
+        "domain { grid: 24, 24 }\nstage one: turing_spots { iterations: 300 }\n";
     static constexpr const char* second = "stage two: turing_spots {{ iterations: 4000; {} }}\n";
     EXPECT_THAT(words_of(first + fmt::format(second, "")),
                 ElementsAre("no later stage and no picture reads stage 'one' | "
@@ -165,20 +177,23 @@ TEST_F(SilentResults, AStageThatNobodyReads) {
     // What the hint says helps.
     EXPECT_THAT(words_of(first + fmt::format(second, "a: a; b: b")), IsEmpty());
     EXPECT_THAT(words_of(first + fmt::format(second, "frozen: one.b < 4")), IsEmpty());
-    EXPECT_THAT(words_of(first + fmt::format(second, "") + "picture { color: rgb(one.b/8, b/8, 0) }\n"),
+    EXPECT_THAT(words_of(first + fmt::format(second, "") +
+                         "picture { color: rgb(one.b/8, b/8, 0) }\n"),
                 IsEmpty());
     const std::string other =
         "system s { u: random(0, 1); u' = 0.01*(0.5 - u)*(u - 1)*u }\n"
         "stage two: s { iterations: 4 }\n";
     EXPECT_THAT(words_of(first + other),
-                ElementsAre("no later stage and no picture reads stage 'one' | a stage begins with its own "
-                            "starting values: 'p: one.a' would read this one"));
+                ElementsAre(
+                    "no later stage and no picture reads stage 'one' | a stage begins with its own "
+                    "starting values: 'p: one.a' would read this one"));
 }
 
 /// Dying fields in a sweep: the numbers are those of a ripple, and the remark says what it is.
 TEST_F(SilentResults, SweepsRemarkOnTheirRuns) {
-    const Script script = load("system s { u: 3.7 + random(0, 0.5); c: -0.02; u' = c*(u - 3.7) + 0.02*lap(u) }\n"
-                               "domain { grid: 24, 24 }\nstage skin: s { iterations: 200 }\n");
+    const Script script = load(
+        "system s { u: 3.7 + random(0, 0.5); c: -0.02; u' = c*(u - 3.7) + 0.02*lap(u) }\n"
+        "domain { grid: 24, 24 }\nstage skin: s { iterations: 200 }\n");
     SweepRequest wanted;
     wanted.varied.push_back(*parse_variation("s.c=-0.03,-0.1,0.0005"));
     wanted.folder = path("sweep");
@@ -189,7 +204,9 @@ TEST_F(SilentResults, SweepsRemarkOnTheirRuns) {
     std::vector<std::string> rows;
     for (std::string row; std::getline(table, row);) rows.push_back(row);
     ASSERT_EQ(rows.size(), 4u);
-    EXPECT_THAT(rows[1], HasSubstr("stage 'skin' is dying out: the deviations left are small and falling (u "));
+    EXPECT_THAT(rows[1],
+                HasSubstr(
+                    "stage 'skin' is dying out: the deviations left are small and falling (u "));
     EXPECT_THAT(rows[2], HasSubstr("stage 'skin' died out: it is even since step "));
     EXPECT_THAT(rows[3], testing::EndsWith(",200,"));
 }
@@ -201,7 +218,8 @@ TEST_F(SilentResults, ARunThatStopsOnTheWaySaysNothing) {
 }
 
 TEST_F(SilentResults, AResumedRunGoesOnOrSaysWhyNot) {
-    const std::string text = "domain { grid: 24, 24 }\nstage s: turing_spots { iterations: 4000; ka: 1/40 }\n";
+    const std::string text =
+        "domain { grid: 24, 24 }\nstage s: turing_spots { iterations: 4000; ka: 1/40 }\n";
     Overrides changes;
     changes.steps = 1000;
     RunRequest wanted = request();
@@ -224,8 +242,9 @@ TEST_F(SilentResults, AResumedRunGoesOnOrSaysWhyNot) {
     ASSERT_TRUE(saved);
     warnings_.clear();
     EXPECT_EQ(run_well(*saved, on).steps, 0);
-    EXPECT_THAT(warnings_, ElementsAre("the saved run had come to its end, and no step was left to take: "
-                                       "stage 's', step 3000 of 3000"));
+    EXPECT_THAT(warnings_,
+                ElementsAre("the saved run had come to its end, and no step was left to take: "
+                            "stage 's', step 3000 of 3000"));
 }
 
 TEST_F(SilentResults, WhatALaterStageBeganFromStays) {
@@ -241,7 +260,8 @@ TEST_F(SilentResults, WhatALaterStageBeganFromStays) {
     on.resume = path("half");
     warnings_.clear();
     EXPECT_EQ(run_well(*saved, on).steps, 50);
-    EXPECT_THAT(warnings_, testing::Contains("stage 'large' stays at step 100: stage 'small' has begun from it"));
+    EXPECT_THAT(warnings_, testing::Contains(
+                               "stage 'large' stays at step 100: stage 'small' has begun from it"));
 }
 
 struct Told {
@@ -357,9 +377,9 @@ TEST_F(SilentResults, AStageThatEndsAsItBegan) {
                 ElementsAre("stage 'a' ended as it began: its rates are 0 in all cells; on a line "
                             "derivatives along "
                             "y are 0"));
-    EXPECT_THAT(
-        words_of(rates + "domain { grid: 100, 3 }\nstage a: s { speed: 0.1; iterations: 300 }\n"),
-        IsEmpty());
+    EXPECT_THAT(words_of(rates +
+                         "domain { grid: 100, 3 }\nstage a: s { speed: 0.1; iterations: 300 }\n"),
+                IsEmpty());
     EXPECT_THAT(words_of("system s { u: x; k: 0; u' = k*lap(u) }\ndomain { grid: 8, 8 }\n"
                          "stage a: s { iterations: 30 }\n"),
                 ElementsAre("stage 'a' ended as it began: its rates are 0 in all cells"));
@@ -429,7 +449,8 @@ TEST_F(SilentResults, PicturesAndMasksOfOneLevel) {
 
 TEST_F(SilentResults, OneTrueLineEach) {
     for (const Told& each : told) {
-        EXPECT_THAT(words_of(std::string("domain { grid: 48, 48 }\n") + each.script), ElementsAre(HasSubstr(each.words)))
+        EXPECT_THAT(words_of(std::string("domain { grid: 48, 48 }\n") + each.script),
+                    ElementsAre(HasSubstr(each.words)))
             << each.name;
     }
 }

@@ -18,15 +18,16 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// u = 1 + cos t · cos 2πx: what a source makes it beside diffusion, whose eigenvalue on 16 cells is
-/// known; v swings with the angle sin t.
+/// u = 1 + cos t · cos 2πx: what a source makes it beside diffusion, whose eigenvalue on 16 cells
+/// is known; v swings with the angle sin t.
 std::string manufactured(const std::string& settings) {
     return "system made {\n"
            "  u: 1 + cos(2 * pi * x)\n  v: 0\n  w: 1\n"
            "  q = 2 - 2 * cos(2 * pi / 16)\n"
            "  u' = 0.5 * lap(u) + (0.5 * q * cos(t) - sin(t)) * cos(2 * pi * x)\n"
            "  v' = w * cos(t)\n  w' = -v * cos(t)\n}\n"
-           "stage s: made {\n" + settings + "\n}\ndomain { grid: 16, 1 }\n";
+           "stage s: made {\n" +
+           settings + "\n}\ndomain { grid: 16, 1 }\n";
 }
 
 double manufactured_error(const Ran& ran) {
@@ -43,19 +44,21 @@ double manufactured_error(const Ran& ran) {
 }
 
 double error_of(const std::string& solver, int steps) {
-    const Ran ran = run_text(manufactured(fmt::format("solver: {}; speed: 2/{}; iterations: {}",
-                                                      solver, steps, steps)));
+    const Ran ran = run_text(
+        manufactured(fmt::format("solver: {}; speed: 2/{}; iterations: {}", solver, steps, steps)));
     EXPECT_EQ(ran.failure, "");
     EXPECT_NEAR(ran.state().t, 2, 1e-5);
     return manufactured_error(ran);
 }
 
 TEST(Solvers, OrdersThroughTheLanguage) {
-    struct Case { const char* solver; int steps; };
-    for (const auto& [solver, steps] :
-         {Case{"euler", 64}, Case{"symplectic", 64}, Case{"rk2", 16}, Case{"rk4", 8},
-          Case{"rkl1", 64}, Case{"rkl2", 16}, Case{"imex", 64}, Case{"imex2", 16},
-          Case{"gauss", 64}}) {
+    struct Case {
+        const char* solver;
+        int steps;
+    };
+    for (const auto& [solver, steps] : {Case{"euler", 64}, Case{"symplectic", 64}, Case{"rk2", 16},
+                                        Case{"rk4", 8}, Case{"rkl1", 64}, Case{"rkl2", 16},
+                                        Case{"imex", 64}, Case{"imex2", 16}, Case{"gauss", 64}}) {
         const double order = std::log2(error_of(solver, steps) / error_of(solver, 2 * steps));
         RecordProperty(solver, fmt::format("{:.2f}", order));
         // Steps must be long enough for errors to show beside the rounding of floats.
@@ -68,8 +71,8 @@ TEST(Solvers, AdaptiveOnesKeepTheirTolerance) {
     for (const char* solver : {"rk23", "rk45"}) {
         std::int64_t steps_before = 0;
         for (const double tolerance : {1e-2, 1e-5}) {
-            const Ran ran = run_text(manufactured(
-                fmt::format("solver: {}; tolerance: {}; duration: 2; speed: 1", solver, tolerance)));
+            const Ran ran = run_text(manufactured(fmt::format(
+                "solver: {}; tolerance: {}; duration: 2; speed: 1", solver, tolerance)));
             EXPECT_EQ(ran.failure, "");
             EXPECT_DOUBLE_EQ(ran.state().t, 2);
             EXPECT_LT(manufactured_error(ran), 10 * tolerance) << solver;
@@ -95,7 +98,8 @@ double energy(const Ran& ran) {
 TEST(Solvers, SymplecticBoundsTheEnergyOfAWave) {
     const auto wave = [](const char* solver, int steps) {
         return energy(run_text(fmt::format(
-            "system wave {{ u: sin(2 * pi * x) + 0.3 * sin(6 * pi * x); v: 0\n u' = v\n v' = lap(u) }}\n"
+            "system wave {{ u: sin(2 * pi * x) + 0.3 * sin(6 * pi * x); v: 0\n u' = v\n v' = "
+            "lap(u) }}\n"
             "stage s: wave {{ solver: {}; speed: 0.5; iterations: {} }}\ndomain {{ grid: 64, 1 }}",
             solver, steps)));
     };
@@ -107,7 +111,8 @@ TEST(Solvers, SymplecticBoundsTheEnergyOfAWave) {
 }
 
 constexpr const char* frozen_spots =
-    "system s {\n a: 4; b: 4; beta: random(12, 0.1)\n a' = 0.05 * (16 - a*b) + 0.125 * lap(a) + 0.001 * sin(t)\n"
+    "system s {\n a: 4; b: 4; beta: random(12, 0.1)\n a' = 0.05 * (16 - a*b) + 0.125 * lap(a) + "
+    "0.001 * sin(t)\n"
     " b' = 0.05 * (a*b - b - beta) + 0.03125 * lap(b)\n b >= 3.9\n}\n";
 
 std::string frozen_script(const std::string& settings) {
@@ -116,12 +121,16 @@ std::string frozen_script(const std::string& settings) {
 }
 
 const std::vector<std::string>& all_settings() {
-    static const std::vector<std::string> settings{
-        "solver: euler; duration: 30.7; speed: 0.5", "solver: symplectic; iterations: 60",
-        "solver: rk2; iterations: 60",               "solver: rk4; iterations: 60",
-        "solver: rk23; duration: 60",                "solver: rk45; duration: 60",
-        "solver: rkl1; speed: 7; iterations: 25",    "solver: rkl2; speed: auto; duration: 200",
-        "speed: auto; duration: 150.3",              "iterations: 5000; until: steady(0.5)"};
+    static const std::vector<std::string> settings{"solver: euler; duration: 30.7; speed: 0.5",
+                                                   "solver: symplectic; iterations: 60",
+                                                   "solver: rk2; iterations: 60",
+                                                   "solver: rk4; iterations: 60",
+                                                   "solver: rk23; duration: 60",
+                                                   "solver: rk45; duration: 60",
+                                                   "solver: rkl1; speed: 7; iterations: 25",
+                                                   "solver: rkl2; speed: auto; duration: 200",
+                                                   "speed: auto; duration: 150.3",
+                                                   "iterations: 5000; until: steady(0.5)"};
     return settings;
 }
 
@@ -167,16 +176,20 @@ TEST(Solvers, ThreadsDoNotChangeABit) {
     }
 }
 
-/// A rate that reads the number of the step is evaluated anew at the start of each step; of one that
-/// does not, the last value of the step before is taken.
+/// A rate that reads the number of the step is evaluated anew at the start of each step; of one
+/// that does not, the last value of the step before is taken.
 TEST(Solvers, TheLastRatesOfAStepAreTheFirstOfTheNext) {
     for (const char* solver : {"rk23", "rk45"}) {
         const auto run = [&](const std::string& more) {
-            return run_text("system s { u: 1 + 0.5 * cos(2 * pi * x); v: 0.1\n"
-                            "u' = 0.3 * lap(u) - u * v + 0.1 * sin(t) " + more + "\n"
-                            "v' = 0.1 * lap(v) + u * v - v\n u <= 1.4 }\nstage one: s { solver: " +
-                            solver + "; duration: 20; tolerance: 0.0001; speed: 5 }\n"
-                            "domain { grid: 24, 8 }\n");
+            return run_text(
+                "system s { u: 1 + 0.5 * cos(2 * pi * x); v: 0.1\n"
+                "u' = 0.3 * lap(u) - u * v + 0.1 * sin(t) " +
+                more +
+                "\n"
+                "v' = 0.1 * lap(v) + u * v - v\n u <= 1.4 }\nstage one: s { solver: " +
+                solver +
+                "; duration: 20; tolerance: 0.0001; speed: 5 }\n"
+                "domain { grid: 24, 8 }\n");
         };
         const Ran expected = run("+ 0 * step");
         EXPECT_GT(expected.state().steps, 10);
@@ -199,7 +212,8 @@ TEST(Solvers, LegendreTakesNestedOperatorsInStages) {
         const Field& a = euler.state().species[0];
         const Field& b = legendre.state().species[0];
         EXPECT_NEAR(moments(b).mean, moments(a).mean, 1e-5) << solver;  // Nothing is lost.
-        const double difference = moments_of_difference(a, b).root_mean_square / moments(a).deviation;
+        const double difference =
+            moments_of_difference(a, b).root_mean_square / moments(a).deviation;
         EXPECT_LT(difference, std::sqrt(2 * (1 - 0.95))) << solver;
     }
 }
@@ -210,7 +224,8 @@ TEST(Solvers, LegendreTakesTensorsOnASurfaceInStages) {
     changes.solver = "rkl1";
     const std::string text =
         "domain { grid: 48, 24; boundary: periodic, noflux; unit: 1/8\n"
-        "surface: (1.2 + sy) * cos(2*pi*(sx + 0.2*sy)), (1.2 + sy) * sin(2*pi*(sx + 0.2*sy)), 3 * (1 - sy) }\n"
+        "surface: (1.2 + sy) * cos(2*pi*(sx + 0.2*sy)), (1.2 + sy) * sin(2*pi*(sx + 0.2*sy)), 3 * "
+        "(1 - sy) }\n"
         "system one: witkin_kass { i: 1..1; theta[i]: pi/3; e: 2; rho: 0 }\n"
         "stage s: one { iterations: 4000; speed: 0.005; tolerance: 0.03 }\n";
     const Ran ran = run_text(text, {BackendKind::interpreter, 0, 1}, changes);
@@ -252,8 +267,10 @@ TEST_F(SolversRun, StepsThatAreSplitOnAModelResumeWithTheSameBits) {
     // Weights sum to 4, so that what decays most does so at 8 * 0.4.
     for (const auto& [speed, parts] : {std::pair{1, 2}, {2, 4}, {4, 7}}) {
         const std::string text = fmt::format(
-            "system heat {{ u: sx; u' = 0.4 * lap(u) }}\ndomain {{ surface: box; cells: 60; laplacian: turk }}\n"
-            "stage one: heat {{ speed: {}; iterations: 9 }}", speed);
+            "system heat {{ u: sx; u' = 0.4 * lap(u) }}\ndomain {{ surface: box; cells: 60; "
+            "laplacian: turk }}\n"
+            "stage one: heat {{ speed: {}; iterations: 9 }}",
+            speed);
         run_whole(text);
         EXPECT_THAT(bytes("whole/run.json"), HasSubstr(fmt::format("\"stages\": {},", parts)));
         run_in_two_parts(text, "one", 4);
@@ -266,8 +283,9 @@ TEST(Solvers, LegendreGrowsTheSameSpotsAsEuler) {
         SimulationOptions options;
         options.threads = 1;
         if (!has_jit()) options.backend = BackendKind::interpreter;
-        return run_text("stage s: turing_spots { iterations: 12000; ka: 1/200 }\ndomain { grid: 48, 48 }",
-                        options, overrides);
+        return run_text(
+            "stage s: turing_spots { iterations: 12000; ka: 1/200 }\ndomain { grid: 48, 48 }",
+            options, overrides);
     };
     const Ran euler = spots({});
     for (const char* solver : {"rkl1", "rkl2"}) {
@@ -278,7 +296,8 @@ TEST(Solvers, LegendreGrowsTheSameSpotsAsEuler) {
         EXPECT_LT(legendre.state().steps, 1500);
         const Field& a = euler.state().species[1];
         const Field& b = legendre.state().species[1];
-        const double difference = moments_of_difference(a, b).root_mean_square / moments(a).deviation;
+        const double difference =
+            moments_of_difference(a, b).root_mean_square / moments(a).deviation;
         // The correlation of two fields of one mean and deviation is 1 − difference² / 2.
         EXPECT_LT(difference, std::sqrt(2 * (1 - 0.99))) << solver;
     }
@@ -286,7 +305,8 @@ TEST(Solvers, LegendreGrowsTheSameSpotsAsEuler) {
 
 TEST(Solvers, ADurationIsMetByTheLastStep) {
     const Ran ran = run_text(
-        "system clock { u: 0; k: 1; u' = k }\nstage s: clock { speed: 0.3; duration: 1 }\ndomain { grid: 4, 1 }");
+        "system clock { u: 0; k: 1; u' = k }\nstage s: clock { speed: 0.3; duration: 1 }\ndomain { "
+        "grid: 4, 1 }");
     EXPECT_EQ(ran.state().steps, 4);
     EXPECT_DOUBLE_EQ(ran.state().t, 1);
     EXPECT_NEAR(ran.state().species[0].at(0, 0), 1, 1e-6);
@@ -316,7 +336,8 @@ TEST(Solvers, AStepThatShrinksToNothingIsToldWithItsPlace) {
 
 TEST(Solvers, ABlowUpNamesItsStep) {
     const Ran ran = run_text(
-        "system burst { u: 1; u' = u^2 }\nstage s: burst { solver: rk2; speed: 0.125; iterations: 300 }\n"
+        "system burst { u: 1; u' = u^2 }\nstage s: burst { solver: rk2; speed: 0.125; iterations: "
+        "300 }\n"
         "domain { grid: 4, 4 }");
     EXPECT_THAT(ran.failure, HasSubstr("u is not finite any more at column 0, row 0, after step "));
 }
@@ -325,7 +346,8 @@ TEST(Solvers, TheOptionKeepsTheTimeOfEachStage) {
     Overrides changes;
     changes.solver = "rk23";
     const Ran ran = run_text(
-        "system decay { u: 1; u' = -u }\nstage s: decay { speed: 0.25; iterations: 8 }\ndomain { grid: 4, 1 }",
+        "system decay { u: 1; u' = -u }\nstage s: decay { speed: 0.25; iterations: 8 }\ndomain { "
+        "grid: 4, 1 }",
         {BackendKind::interpreter, 0, 1}, changes);
     EXPECT_DOUBLE_EQ(ran.state().t, 2);
     EXPECT_NEAR(ran.state().species[0].at(0, 0), std::exp(-2.0), 1e-3);
@@ -334,8 +356,10 @@ TEST(Solvers, TheOptionKeepsTheTimeOfEachStage) {
 TEST(Solvers, TheOptionSaysWhichStageCannotTakeIt) {
     Overrides changes;
     changes.solver = "rk4";
-    const Script script = load_script(
-        "test", "system decay { u: 1; u' = -u }\nstage s: decay { speed: 0.25 + 0.1 * x }", ".", changes);
+    const Script script =
+        load_script("test",
+                    "system decay { u: 1; u' = -u }\nstage s: decay { speed: 0.25 + 0.1 * x }", ".",
+                    changes);
     EXPECT_FALSE(script.program);
     EXPECT_THAT(script.messages(false),
                 HasSubstr("2:25: error: with rk4 the speed is the same in all cells"));

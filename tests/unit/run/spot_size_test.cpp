@@ -50,8 +50,10 @@ class SpotSizeTest : public RunTest {
 protected:
     /// How many of Schnakenberg's spots have grown on a domain.
     std::int64_t spots_on(const std::string& domain) {
-        Script script = load(fmt::format("domain {{ {} }}\nstage spots: schnakenberg {{\n"
-                                         "  duration: 80\n  speed: 0.04\n  solver: rkl1\n}}\n", domain));
+        Script script =
+            load(fmt::format("domain {{ {} }}\nstage spots: schnakenberg {{\n"
+                             "  duration: 80\n  speed: 0.04\n  solver: rkl1\n}}\n",
+                             domain));
         EXPECT_TRUE(script.program) << script.messages(false);
         if (!script.program) return 0;
         SimulationOptions options;
@@ -62,12 +64,15 @@ protected:
         Simulation& simulation = **made;
         RunControl control;
         EXPECT_TRUE(simulation.start_stage(0));
-        const auto end = simulation.advance_stage(0, script.program->stages[0].iterations, control, {});
+        const auto end =
+            simulation.advance_stage(0, script.program->stages[0].iterations, control, {});
         EXPECT_TRUE(end) << (end ? "" : end.error().message);
         const Field& field = simulation.state(0).species[0];
         if (const auto model = simulation.model()) {
-            const double area = std::accumulate(model->cells.areas.begin(), model->cells.areas.end(), 0.0);
-            EXPECT_NEAR(area / model->unit / model->unit / area_in_units, 1, 1e-6) << "the same surface";
+            const double area =
+                std::accumulate(model->cells.areas.begin(), model->cells.areas.end(), 0.0);
+            EXPECT_NEAR(area / model->unit / model->unit / area_in_units, 1, 1e-6)
+                << "the same surface";
             return count_spots(model->cells, cell_values(field, *model));
         }
         const measure::Samples samples = to_samples(field, simulation.grid());
@@ -78,7 +83,8 @@ protected:
     double spot_area(const std::string& domain) {
         constexpr int runs = 2;
         std::int64_t spots = 0;
-        for (int seed = 1; seed <= runs; ++seed) spots += spots_on(fmt::format("{}; seed: {}", domain, seed));
+        for (int seed = 1; seed <= runs; ++seed)
+            spots += spots_on(fmt::format("{}; seed: {}", domain, seed));
         EXPECT_GT(spots, 0);
         return runs * area_in_units / static_cast<double>(spots);
     }
@@ -100,8 +106,8 @@ TEST_F(SpotSizeTest, IsTheSameOnAnyTrianglesAndOnThePlane) {
             fmt::format("grid: {0}, {0}; spacing: {1}", side, std::sqrt(area_in_units) / side));
         std::printf("spots of %.0f cells in square units: plane %.1f", cells, plane);
         for (const char* name : {"coarse", "fine", "bad"}) {
-            const double found = spot_area(
-                fmt::format("mesh: \"{}.obj\"; cells: {}; unit: {}", name, cells, unit));
+            const double found =
+                spot_area(fmt::format("mesh: \"{}.obj\"; cells: {}; unit: {}", name, cells, unit));
             std::printf(", %s %.1f", name, found);
             // Among equal runs on the plane the number of spots deviates by 4 %.
             EXPECT_NEAR(found / plane, 1, 0.08) << name << ", " << cells;

@@ -15,7 +15,8 @@ std::vector<Field> species(double mean, double amplitude) {
     Field field{PlaneLayout(Grid{64, 4})};
     for (std::int64_t j = 0; j < 4; ++j) {
         for (std::int64_t i = 0; i < 64; ++i) {
-            field.at(i, j) = static_cast<float>(mean + amplitude * std::cos(0.0981747704 * static_cast<double>(i)));
+            field.at(i, j) = static_cast<float>(
+                mean + amplitude * std::cos(0.0981747704 * static_cast<double>(i)));
         }
     }
     fields.push_back(std::move(field));
@@ -27,8 +28,8 @@ StageCourse course_of(double mean, const std::function<double(double)>& amplitud
     StageCourse course;
     for (std::int64_t step = 0; step <= 1000; step += 10) {
         if (step < 1000 && !course.is_due(step)) continue;
-        course.look(step, static_cast<double>(step), species(mean, amplitude(static_cast<double>(step))),
-                    nullptr);
+        course.look(step, static_cast<double>(step),
+                    species(mean, amplitude(static_cast<double>(step))), nullptr);
     }
     return course;
 }
@@ -54,7 +55,8 @@ TEST(StageCourse, PatternsThatAreThereAreNot) {
     EXPECT_EQ(course_of(2, [](double t) { return std::tanh(t / 200); }).trend(), Trend::none);
     // Coarsening, and a pulse that happens to rise.
     EXPECT_EQ(course_of(2, [](double t) { return std::cbrt(t); }).trend(), Trend::none);
-    EXPECT_EQ(course_of(2, [](double t) { return 1 + 0.5 * std::sin(t / 20); }).trend(), Trend::none);
+    EXPECT_EQ(course_of(2, [](double t) { return 1 + 0.5 * std::sin(t / 20); }).trend(),
+              Trend::none);
     EXPECT_EQ(course_of(2, [](double t) { return std::exp(-t / 300); }).trend(), Trend::none);
 }
 

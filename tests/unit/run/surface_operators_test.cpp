@@ -72,11 +72,11 @@ double divergence(const FluxOfPlace& flux, double sx, double sy) {
         return f[1] * a[0] - f[0] * a[1];
     };
     return ((through_x(sx + h, sy) - through_x(sx - h, sy)) +
-            (through_y(sx, sy + h) - through_y(sx, sy - h))) / (2 * h * area(sx, sy));
+            (through_y(sx, sy + h) - through_y(sx, sy - h))) /
+           (2 * h * area(sx, sy));
 }
 
-constexpr const char* bent_plane =
-    "sx + 0.06 * sin(2 * pi * sy), sy + 0.06 * sin(2 * pi * sx), 0";
+constexpr const char* bent_plane = "sx + 0.06 * sin(2 * pi * sy), sy + 0.06 * sin(2 * pi * sx), 0";
 
 Script load(const std::string& text) { return load_script("test", text, "."); }
 
@@ -126,33 +126,28 @@ TEST(SurfaceOperators, MeasureOnTheSurface) {
     const auto of_flux = [](const FluxOfPlace& flux) {
         return [=](double sx, double sy) { return divergence(flux, sx, sy); };
     };
-    const OfPlace laplacian = [](double sx, double sy) {
-        return -20 * pi * pi * wave(sx, sy);
-    };
+    const OfPlace laplacian = [](double sx, double sy) { return -20 * pi * pi * wave(sx, sy); };
     const std::vector<Case> cases{
         {"lap(f)", 2, laplacian},
         {"lap(3 * f)", 2, [=](double sx, double sy) { return 3 * laplacian(sx, sy); }},
         {"div(grad(f))", 2, laplacian},
         {"dx(f)", 2, [](double sx, double sy) { return dot(first(sx, sy), slope(sx, sy)); }},
         {"dy(f)", 2, [](double sx, double sy) { return dot(second(sx, sy), slope(sx, sy)); }},
-        {"grad2(f)", 2,
-         [](double sx, double sy) { return dot(slope(sx, sy), slope(sx, sy)); }},
+        {"grad2(f)", 2, [](double sx, double sy) { return dot(slope(sx, sy), slope(sx, sy)); }},
         {"advect(0.7, -0.4, f)", 1,
          [](double sx, double sy) {
              return 0.7 * dot(first(sx, sy), slope(sx, sy)) -
                     0.4 * dot(second(sx, sy), slope(sx, sy));
          }},
-        {"div(k * grad(f))", 2, of_flux([=](double sx, double sy) {
-             return scaled(slope(sx, sy), k(sx, sy));
-         })},
+        {"div(k * grad(f))", 2,
+         of_flux([=](double sx, double sy) { return scaled(slope(sx, sy), k(sx, sy)); })},
         {"div(vector(k * f, f) / 2)", 2, of_flux([=](double sx, double sy) {
              const Vector2 e = first(sx, sy), g = second(sx, sy);
              const double f = wave(sx, sy) / 2;
              return Vector2{f * (k(sx, sy) * e[0] + g[0]), f * (k(sx, sy) * e[1] + g[1])};
          })},
-        {"div(tensor(2, 0.5, 0.6) * grad(f))", 2, of_flux([=](double sx, double sy) {
-             return turned(2, slope(sx, sy), sx, sy);
-         })},
+        {"div(tensor(2, 0.5, 0.6) * grad(f))", 2,
+         of_flux([=](double sx, double sy) { return turned(2, slope(sx, sy), sx, sy); })},
         {"div(tensor(k, 0.5, 0.6) * (grad(f) - vector(f, 0) * 3))", 2,
          of_flux([=](double sx, double sy) {
              const Vector2 s = slope(sx, sy), e = first(sx, sy);
@@ -176,9 +171,10 @@ TEST(SurfaceOperators, WithoutAMetricCellsAreSquares) {
     };
     const Field with = on_surface("metric: 1");
     const Field without = on_surface("metric: 0");
-    Script plane = load("domain { grid: 32, 32 }\nsystem s {\n  u: 0\n  u' = 0 * u\n"
-                        "  f: sin(2*pi*(sx + 0.06*sin(2*pi*sy) + 2*sy + 0.12*sin(2*pi*sx)))\n"
-                        "  r: lap(f)\n}\nstage only: s { iterations: 0 }\n");
+    Script plane = load(
+        "domain { grid: 32, 32 }\nsystem s {\n  u: 0\n  u' = 0 * u\n"
+        "  f: sin(2*pi*(sx + 0.06*sin(2*pi*sy) + 2*sy + 0.12*sin(2*pi*sx)))\n"
+        "  r: lap(f)\n}\nstage only: s { iterations: 0 }\n");
     const auto simulation = start(plane);
     const Field& flat = result_of(*simulation, "r");
     double apart = 0;
@@ -215,15 +211,16 @@ TEST(SurfaceOperators, AggregatesCountAreas) {
     Script script = load(script_of("0 * f + sum(0 * f + 1 over domain)", 40, "unit: 1"));
     const auto simulation = start(script);
     EXPECT_NEAR(result_of(*simulation, "r").at(3, 3), 1, 1e-5);
-    Script mean = load(script_of("0 * f + mean(if(sx < 0.5, 1, 0) * (1 + 0 * f) over domain)", 40,
-                                 "unit: 1"));
+    Script mean = load(
+        script_of("0 * f + mean(if(sx < 0.5, 1, 0) * (1 + 0 * f) over domain)", 40, "unit: 1"));
     const auto second_run = start(mean);
     EXPECT_NEAR(result_of(*second_run, "r").at(3, 3), 0.5, 1e-5);
 }
 
 TEST(SurfaceOperators, SingularSurfacesAreRefusedBeforeTheFirstStep) {
-    Script script = load("domain { grid: 8, 4; surface: sx * sy, sx * sy, 2 * sx * sy }\n"
-                         "system_name: turing_spots\n");
+    Script script = load(
+        "domain { grid: 8, 4; surface: sx * sy, sx * sy, 2 * sx * sy }\n"
+        "system_name: turing_spots\n");
     ASSERT_TRUE(script.program) << script.messages(false);
     const auto simulation = Simulation::create(script, {BackendKind::interpreter, 0, 1});
     ASSERT_FALSE(simulation);

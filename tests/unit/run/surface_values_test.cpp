@@ -17,7 +17,8 @@ constexpr double pi = std::numbers::pi;
 class SurfaceValuesTest : public RunTest {
 protected:
     /// The simulation of a script of one stage that has begun; null with a failed test.
-    std::unique_ptr<Simulation> start(const std::string& domain, const std::string& statements = "") {
+    std::unique_ptr<Simulation> start(const std::string& domain,
+                                      const std::string& statements = "") {
         script_ = load("domain { " + domain + " }\nsystem_name: turing_spots\n" + statements);
         EXPECT_EQ(script_.messages(false), "");
         if (!script_.program) return nullptr;
@@ -119,7 +120,8 @@ TEST_F(SurfaceValuesTest, KeysGoOverIntoEachOther) {
 }
 
 TEST_F(SurfaceValuesTest, CurvaturesOfABallOfRadiusOne) {
-    for (const char* name : {"curvature_mean", "curvature_gauss", "curvature_high", "curvature_low"}) {
+    for (const char* name :
+         {"curvature_mean", "curvature_gauss", "curvature_high", "curvature_low"}) {
         for (const double value : values(ball, name)) EXPECT_NEAR(value, 1, 0.05) << name;
     }
 }
@@ -152,7 +154,8 @@ constexpr const char* painted_obj =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
     "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
 constexpr const char* square_ply =
-    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+    "z\n"
     "property float heat\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
     "0 0 0 0\n1 0 0 10\n1 1 0 10\n0 1 0 0\n3 0 1 2\n3 0 2 3\n";
 
@@ -193,21 +196,23 @@ TEST_F(SurfaceValuesTest, APaintedPictureLiesWhereTheTextureSays) {
 TEST_F(SurfaceValuesTest, WhatAModelDoesNotHave) {
     std::ofstream(path("square.ply")) << square_ply;
     const std::string square = "mesh: \"square.ply\"; cells: 60";
-    EXPECT_NE(fault(square, "a: attr(\"heet\")\n").find(
-                  "the model's points have no 'heet'"), std::string::npos);
+    EXPECT_NE(fault(square, "a: attr(\"heet\")\n").find("the model's points have no 'heet'"),
+              std::string::npos);
     EXPECT_NE(script_.messages(false).find("did you mean 'heat'?"), std::string::npos);
     EXPECT_NE(fault(square, "a: attr(\"luminosity\")\n").find("they have heat"), std::string::npos);
-    EXPECT_NE(fault("surface: sphere; cells: 60", "a: attr(\"heat\")\n").find(
-                  "they have places and nothing else"), std::string::npos);
+    EXPECT_NE(fault("surface: sphere; cells: 60", "a: attr(\"heat\")\n")
+                  .find("they have places and nothing else"),
+              std::string::npos);
     Image image(2, 2);
     ASSERT_TRUE(write_png(path("coat.png"), image, PngDepth::eight, {}));
-    EXPECT_NE(fault(square, "a: uvimage(\"coat.png\")\n").find(
-                  "the model has no texture coordinates"), std::string::npos);
+    EXPECT_NE(
+        fault(square, "a: uvimage(\"coat.png\")\n").find("the model has no texture coordinates"),
+        std::string::npos);
     EXPECT_NE(fault(square, "a: uvimage(\"none.png\")\n").find("none.png"), std::string::npos);
 }
 
-/// The mean over all links of (across / along)² weights: how much faster heat goes along y than around,
-/// as the second moment of the weights in the two directions.
+/// The mean over all links of (across / along)² weights: how much faster heat goes along y than
+/// around, as the second moment of the weights in the two directions.
 double speed_along_y(const ModelCells& model) {
     double along = 0, across = 0;
     for (std::size_t cell = 0; cell < model.count(); ++cell) {
@@ -238,14 +243,16 @@ TEST_F(SurfaceValuesTest, HeatGoesFasterAlongTheDirections) {
     EXPECT_GT(axis / same, 6);
     EXPECT_LT(axis / same, 12);
     EXPECT_NEAR(speed("directions: gradient(y); stretch: 3") / axis, 1, 0.1);
-    EXPECT_NEAR(speed("directions: keys(0.5, 0.2, 0.5, 0, 1, 0, 0.5, 0.8, 0.5, 0, 2, 0); stretch: 3") /
-                    axis, 1, 0.25);
+    EXPECT_NEAR(
+        speed("directions: keys(0.5, 0.2, 0.5, 0, 1, 0, 0.5, 0.8, 0.5, 0, 2, 0); stretch: 3") /
+            axis,
+        1, 0.25);
     EXPECT_LT(speed("directions: axis(0, 1, 0)") / axis, 0.7);
 }
 
 TEST_F(SurfaceValuesTest, SpotsAreStretchedAlongTheDirections) {
-    // What part of the squared gradient is upright: a half where spots are round, and where they are
-    // three times as long as wide a tenth.
+    // What part of the squared gradient is upright: a half where spots are round, and where they
+    // are three times as long as wide a tenth.
     const auto upright_part = [&](const std::string& settings) {
         const auto simulation = start(
             "surface: box(4, 8, 0.5); cells: 2500; " + settings,
@@ -253,7 +260,8 @@ TEST_F(SurfaceValuesTest, SpotsAreStretchedAlongTheDirections) {
             "show: mean(dy(b)^2 over domain) / mean(dx(b)^2 + dy(b)^2 + dz(b)^2 over domain)\n");
         if (!simulation) return 0.0;
         RunControl control;
-        EXPECT_TRUE(simulation->advance_stage(0, 1000, control, [] {}, 1000));
+        EXPECT_TRUE(simulation->advance_stage(
+            0, 1000, control, [] {}, 1000));
         const Field part = std::move(simulation->evaluate(script_.program->stages[0].show, 0)[0]);
         return part.number_at(0, 0);
     };

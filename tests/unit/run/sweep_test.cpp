@@ -171,15 +171,16 @@ TEST_F(SweepTest, NothingRunsWhereAScriptIsWrong) {
     EXPECT_THAT(sweep(script, shown, control).error().failure.message, HasSubstr("palette"));
     EXPECT_THAT(sweep(script, request({"seed=1,x"}), control).error().failure.message,
                 HasSubstr("'x' is not a seed"));
-    EXPECT_THAT(sweep(load("domain { grid: 8, 8 }"), request({"seed=1"}), control)
-                    .error().failure.message,
-                HasSubstr("no stage to run"));
+    EXPECT_THAT(
+        sweep(load("domain { grid: 8, 8 }"), request({"seed=1"}), control).error().failure.message,
+        HasSubstr("no stage to run"));
     EXPECT_FALSE(std::filesystem::exists(path("sweep")));
 }
 
 TEST_F(SweepTest, AMissingFileEndsTheSweep) {
-    const Script script = load("domain { grid: 8, 8 }\n"
-                               "stage s: turing_spots { iterations: 3; a: field(\"none.npy\") }");
+    const Script script = load(
+        "domain { grid: 8, 8 }\n"
+        "stage s: turing_spots { iterations: 3; a: field(\"none.npy\") }");
     SweepControl control;
     const auto ended = sweep(script, request({"ka=1,2,3,4,5"}), control);
     ASSERT_FALSE(ended);
@@ -196,8 +197,9 @@ TEST_F(SweepTest, ItIsKeyedByWhatFilesHold) {
         field.at(3, 3) = value;
         ASSERT_TRUE(write_npy(path("a.npy"), field));
     };
-    const char* text = "domain { grid: 8, 8 }\n"
-                       "stage s: turing_spots { iterations: 3; a: field(\"a.npy\") }";
+    const char* text =
+        "domain { grid: 8, 8 }\n"
+        "stage s: turing_spots { iterations: 3; a: field(\"a.npy\") }";
     write_array(1);
     EXPECT_EQ(sweep_well(load(text), request({"ka=1/80"})).done_before, 0u);
     EXPECT_EQ(sweep_well(load(text), request({"ka=1/80"})).done_before, 1u);

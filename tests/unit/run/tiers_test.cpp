@@ -94,8 +94,10 @@ Ran run_text(const std::string& text, std::shared_ptr<TieredBackend> stepper, in
     const auto simulation = Simulation::create(script, options).value();
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
         EXPECT_TRUE(simulation->start_stage(k));
-        EXPECT_TRUE(simulation->advance_stage(k, script.program->stages[k].iterations, control, {}));
-        for (const Field& field : simulation->state(k).species) ran.species.push_back(field.clone());
+        EXPECT_TRUE(
+            simulation->advance_stage(k, script.program->stages[k].iterations, control, {}));
+        for (const Field& field : simulation->state(k).species)
+            ran.species.push_back(field.clone());
     }
     ran.counts = stepper->counts();
     return ran;
@@ -108,7 +110,8 @@ std::shared_ptr<TieredBackend> tiered(std::unique_ptr<Backend> native) {
 const std::vector<std::string> scripts = {
     "domain { grid: 67, 43 }\nstage a: turing_spots { iterations: 150 }\n"
     "stage b: gray_scott { iterations: 150 }",
-    "domain { grid: 48, 40; precision: double }\nstage a: gray_scott { iterations: 40; solver: rk4 }",
+    "domain { grid: 48, 40; precision: double }\nstage a: gray_scott { iterations: 40; solver: rk4 "
+    "}",
     "domain { grid: 31, 17, 9; boundary: noflux }\nstage a: gray_scott { iterations: 40 }",
 };
 
@@ -130,7 +133,8 @@ TEST(Tiers, WhatIsRefusedLateIsSaidBehindTheStage) {
     const std::string text = "domain { grid: 32, 32 }\nstage a: turing_spots { iterations: 8000 }";
     const Ran ran = run_text(text, tiered(std::make_unique<RefusingBackend>()));
     EXPECT_THAT(ran.warnings,
-                ElementsAre(HasSubstr("stage 'a' is interpreted, which is slow: it has too many corners")));
+                ElementsAre(
+                    HasSubstr("stage 'a' is interpreted, which is slow: it has too many corners")));
 }
 
 TEST(Tiers, WhatIsRefusedWhenTheRunIsOverIsSaidToo) {
@@ -147,8 +151,9 @@ TEST(Tiers, WhatIsRefusedWhenTheRunIsOverIsSaidToo) {
     };
     auto slow = std::make_unique<SlowBackend>();
     SlowBackend& backend = *slow;
-    Script script = load_script(
-        "test", "domain { grid: 32, 32 }\nstage a: turing_spots { iterations: 120 }", ".", {});
+    Script script =
+        load_script("test", "domain { grid: 32, 32 }\nstage a: turing_spots { iterations: 120 }",
+                    ".", {});
     ASSERT_TRUE(script.program);
     SimulationOptions options;
     options.stepper = tiered(std::move(slow));
@@ -162,16 +167,17 @@ TEST(Tiers, WhatIsRefusedWhenTheRunIsOverIsSaidToo) {
     EXPECT_THAT(warnings, IsEmpty());
     backend.is_over = true;
     simulation->settle(control);
-    EXPECT_THAT(warnings,
-                ElementsAre(HasSubstr("stage 'a' is interpreted, which is slow: it has too many corners")));
+    EXPECT_THAT(warnings, ElementsAre(HasSubstr(
+                              "stage 'a' is interpreted, which is slow: it has too many corners")));
     simulation->settle(control);
     EXPECT_EQ(warnings.size(), 1u);
 }
 
 TEST(Tiers, AShortRunCompilesNothing) {
     if (!has_jit()) GTEST_SKIP() << "there is no compiler";
-    const std::string text = "domain { grid: 64, 64 }\nstage a: turing_spots { iterations: 3 }\n"
-                             "stage b: gray_scott { iterations: 3 }";
+    const std::string text =
+        "domain { grid: 64, 64 }\nstage a: turing_spots { iterations: 3 }\n"
+        "stage b: gray_scott { iterations: 3 }";
     const auto stepper = tiered(native_backend());
     run_text(text, stepper);
     EXPECT_EQ(stepper->counts().compiled, 0);
@@ -179,10 +185,11 @@ TEST(Tiers, AShortRunCompilesNothing) {
 
 TEST(Tiers, LaterStagesAreCompiledAhead) {
     if (!has_jit()) GTEST_SKIP() << "there is no compiler";
-    Script script = load_script("test",
-                                "domain { grid: 64, 64 }\nstage a: turing_spots { iterations: 1000 }\n"
-                                "stage b: gray_scott { iterations: 1000 }",
-                                ".", {});
+    Script script =
+        load_script("test",
+                    "domain { grid: 64, 64 }\nstage a: turing_spots { iterations: 1000 }\n"
+                    "stage b: gray_scott { iterations: 1000 }",
+                    ".", {});
     ASSERT_TRUE(script.program);
     SimulationOptions options;
     options.stepper = tiered(native_backend());

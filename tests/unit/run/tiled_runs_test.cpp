@@ -1,5 +1,6 @@
-// Scripts whose steps go through memory in tiles of time: the bits of plain steps, on grids, in space, under
-// masks and on models, for all solvers, and what a run does when it is stopped or blows up meanwhile.
+// Scripts whose steps go through memory in tiles of time: the bits of plain steps, on grids, in
+// space, under masks and on models, for all solvers, and what a run does when it is stopped or
+// blows up meanwhile.
 #include "run/script/script.h"
 #include "run/simulation/simulation.h"
 
@@ -101,8 +102,8 @@ std::vector<BackendKind> backends() {
     return {BackendKind::interpreter, BackendKind::jit};
 }
 
-/// Runs a script in tiles of several shapes and compares with its plain steps. `is_tiled`: does one thread
-/// take more than one sweep at once? The bands of several may be too narrow for that.
+/// Runs a script in tiles of several shapes and compares with its plain steps. `is_tiled`: does one
+/// thread take more than one sweep at once? The bands of several may be too narrow for that.
 void expect_same_bits(const std::string& text, std::optional<bool> is_tiled = true) {
     SCOPED_TRACE(text);
     for (const BackendKind backend : backends()) {
@@ -118,7 +119,8 @@ void expect_same_bits(const std::string& text, std::optional<bool> is_tiled = tr
                 EXPECT_EQ(tiled->failure, "");
                 EXPECT_EQ(tiled->steps, plain->steps);
                 if (threads == 1 && is_tiled) {
-                    EXPECT_EQ(tiled->stepping.find("one step a pass") == std::string::npos, *is_tiled)
+                    EXPECT_EQ(tiled->stepping.find("one step a pass") == std::string::npos,
+                              *is_tiled)
                         << tiled->stepping;
                 }
                 EXPECT_TRUE(words_of(*tiled) == expected);
@@ -130,68 +132,79 @@ void expect_same_bits(const std::string& text, std::optional<bool> is_tiled = tr
 // Grids are large enough for three threads to be worth it.
 
 TEST(TiledRuns, EulerWithAFrozenDiscAndAParameterOfEachCell) {
-    expect_same_bits("domain { grid: 173, 149; boundary: periodic }\n"
-                     "stage s: turing_spots { iterations: 70; frozen: disc(0.3, 0.4, 0.2)\n"
-                     "  beta: random(12, 0.1) }\n");
+    expect_same_bits(
+        "domain { grid: 173, 149; boundary: periodic }\n"
+        "stage s: turing_spots { iterations: 70; frozen: disc(0.3, 0.4, 0.2)\n"
+        "  beta: random(12, 0.1) }\n");
 }
 
 TEST(TiledRuns, NoFluxAndDoublePrecision) {
-    expect_same_bits("domain { grid: 173, 149; boundary: noflux; precision: double }\n"
-                     "stage s: turing_spots { iterations: 20 }\n");
+    expect_same_bits(
+        "domain { grid: 173, 149; boundary: noflux; precision: double }\n"
+        "stage s: turing_spots { iterations: 20 }\n");
 }
 
 TEST(TiledRuns, Symplectic) {
-    expect_same_bits("domain { grid: 160, 170; boundary: noflux, periodic }\n"
-                     "system wave { u: disc(0.3, 0.3, 0.1); w: 0\n"
-                     "  u' = w\n  w' = 0.2 * lap(u) }\n"
-                     "stage s: wave { iterations: 70; speed: 0.5; solver: symplectic }\n");
+    expect_same_bits(
+        "domain { grid: 160, 170; boundary: noflux, periodic }\n"
+        "system wave { u: disc(0.3, 0.3, 0.1); w: 0\n"
+        "  u' = w\n  w' = 0.2 * lap(u) }\n"
+        "stage s: wave { iterations: 70; speed: 0.5; solver: symplectic }\n");
 }
 
 TEST(TiledRuns, SolversOfSeveralSweeps) {
     for (const char* const solver :
          {"solver: rk4; iterations: 13; speed: 0.5", "solver: rkl1; duration: 30",
           "solver: rkl2; duration: 30", "solver: rkl2; iterations: 7; speed: 2"}) {
-        expect_same_bits("domain { grid: 173, 149; boundary: periodic }\n"
-                         "stage s: turing_spots { " + std::string(solver) + " }\n");
+        expect_same_bits(
+            "domain { grid: 173, 149; boundary: periodic }\n"
+            "stage s: turing_spots { " +
+            std::string(solver) + " }\n");
     }
 }
 
 TEST(TiledRuns, PassesOverTemporaries) {
-    expect_same_bits("domain { grid: 190, 173 }\n"
-                     "system mixing { c: random(0, 0.1); d: random(1, 0.1)\n"
-                     "  mu = c^3 - c - 0.5 * lap(c)\n"
-                     "  c' = lap(mu)\n  d' = lap(lap(d) * mu) + 0.1 * step * (c - d) }\n"
-                     "stage s: mixing { iterations: 40; speed: 0.002 }\n");
+    expect_same_bits(
+        "domain { grid: 190, 173 }\n"
+        "system mixing { c: random(0, 0.1); d: random(1, 0.1)\n"
+        "  mu = c^3 - c - 0.5 * lap(c)\n"
+        "  c' = lap(mu)\n  d' = lap(lap(d) * mu) + 0.1 * step * (c - d) }\n"
+        "stage s: mixing { iterations: 40; speed: 0.002 }\n");
 }
 
 TEST(TiledRuns, SidesThatChangeWithTime) {
     for (const char* const solver : {"solver: euler", "solver: rk4"}) {
-        expect_same_bits("domain { grid: 173, 149; boundary: noflux }\n"
-                         "system tide { u[i]: 0; i: 1..2\n  u[i]' = lap(u[i]) - 0.1 * u[i]\n"
-                         "  u[i].left: fixed(sin(i * t) * sy); u[i].top: flux(cos(t) * sx)\n"
-                         "  u[i].bottom: fixed(t) }\n"
-                         "stage s: tide { iterations: 40; speed: 0.15; " + std::string(solver) + " }\n");
+        expect_same_bits(
+            "domain { grid: 173, 149; boundary: noflux }\n"
+            "system tide { u[i]: 0; i: 1..2\n  u[i]' = lap(u[i]) - 0.1 * u[i]\n"
+            "  u[i].left: fixed(sin(i * t) * sy); u[i].top: flux(cos(t) * sx)\n"
+            "  u[i].bottom: fixed(t) }\n"
+            "stage s: tide { iterations: 40; speed: 0.15; " +
+            std::string(solver) + " }\n");
     }
 }
 
 TEST(TiledRuns, SidesThatWrapForOneSpeciesOnly) {
-    expect_same_bits("domain { grid: 173, 149; boundary: periodic }\n"
-                     "system pair { u: random(1, 0.5); v: random(1, 0.5)\n"
-                     "  u' = 0.5 * lap(u) - v * u\n  v' = 0.5 * lap(v) + dx(u) * dy(u)\n"
-                     "  u.top: fixed(1); u.bottom: fixed(0.5) }\n"
-                     "stage s: pair { iterations: 40; speed: 0.2 }\n");
+    expect_same_bits(
+        "domain { grid: 173, 149; boundary: periodic }\n"
+        "system pair { u: random(1, 0.5); v: random(1, 0.5)\n"
+        "  u' = 0.5 * lap(u) - v * u\n  v' = 0.5 * lap(v) + dx(u) * dy(u)\n"
+        "  u.top: fixed(1); u.bottom: fixed(0.5) }\n"
+        "stage s: pair { iterations: 40; speed: 0.2 }\n");
 }
 
 TEST(TiledRuns, Masks) {
-    expect_same_bits("domain { grid: 190, 173; mask: disc(0.5, 0.5, 0.45) and not disc(0.4, 0.4, 0.1) }\n"
-                     "stage s: turing_spots { iterations: 40; frozen: x > 0.6 }\n");
+    expect_same_bits(
+        "domain { grid: 190, 173; mask: disc(0.5, 0.5, 0.45) and not disc(0.4, 0.4, 0.1) }\n"
+        "stage s: turing_spots { iterations: 40; frozen: x > 0.6 }\n");
 }
 
 TEST(TiledRuns, Families) {
-    expect_same_bits("domain { grid: 160, 120 }\n"
-                     "system ring { u[i]: random(1, 0.3); i: 1..4\n"
-                     "  u[i]' = 0.1 * i * lap(u[i]) + u[i] * (u[mod(i, 4) + 1] - u[i]) }\n"
-                     "stage s: ring { iterations: 40; speed: 0.2 }\n");
+    expect_same_bits(
+        "domain { grid: 160, 120 }\n"
+        "system ring { u[i]: random(1, 0.3); i: 1..4\n"
+        "  u[i]' = 0.1 * i * lap(u[i]) + u[i] * (u[mod(i, 4) + 1] - u[i]) }\n"
+        "stage s: ring { iterations: 40; speed: 0.2 }\n");
 }
 
 TEST(TiledRuns, OneDimension) {
@@ -200,29 +213,33 @@ TEST(TiledRuns, OneDimension) {
 
 TEST(TiledRuns, InSpace) {
     for (const char* const boundary : {"periodic", "noflux"}) {
-        expect_same_bits("domain { grid: 37, 41, 33; boundary: " + std::string(boundary) + " }\n"
+        expect_same_bits("domain { grid: 37, 41, 33; boundary: " + std::string(boundary) +
+                         " }\n"
                          "stage s: turing_spots { iterations: 20; speed: 0.5 }\n");
     }
 }
 
 TEST(TiledRuns, OnAModel) {
-    expect_same_bits("domain { surface: sphere; cells: 13000 }\n"
-                     "stage s: turing_spots { iterations: 20 }\n");
+    expect_same_bits(
+        "domain { surface: sphere; cells: 13000 }\n"
+        "stage s: turing_spots { iterations: 20 }\n");
 }
 
 TEST(TiledRuns, AggregatesEndTiles) {
-    expect_same_bits("domain { grid: 173, 149 }\n"
-                     "system s { u: 1 + random(0, 0.5); v: 1\n  q = lap(u) * u\n"
-                     "  u' = lap(q) * 0.1 - (u - mean(u over domain)); v' = 0.1 * lap(v * lap(q)) }\n"
-                     "stage s: s { iterations: 20; speed: 0.02 }\n",
-                     std::nullopt);
+    expect_same_bits(
+        "domain { grid: 173, 149 }\n"
+        "system s { u: 1 + random(0, 0.5); v: 1\n  q = lap(u) * u\n"
+        "  u' = lap(q) * 0.1 - (u - mean(u over domain)); v' = 0.1 * lap(v * lap(q)) }\n"
+        "stage s: s { iterations: 20; speed: 0.02 }\n",
+        std::nullopt);
 }
 
 /// A front of growth that overflows somewhere in the middle of a tile.
-const char* const blow_up = "domain { grid: 173, 149 }\n"
-                            "system grow { u: 1 + 0.5 * disc(0.6, 0.3, 0.1) + random(0, 0.01)\n"
-                            "  u' = u^2 + 0.1 * lap(u) }\n"
-                            "stage s: grow { iterations: 500; speed: 0.02 }\n";
+const char* const blow_up =
+    "domain { grid: 173, 149 }\n"
+    "system grow { u: 1 + 0.5 * disc(0.6, 0.3, 0.1) + random(0, 0.01)\n"
+    "  u' = u^2 + 0.1 * lap(u) }\n"
+    "stage s: grow { iterations: 500; speed: 0.02 }\n";
 
 TEST(TiledRuns, BlowUpsAreFoundAtTheSameStepAndCell) {
     for (const BackendKind backend : backends()) {
@@ -237,8 +254,8 @@ TEST(TiledRuns, BlowUpsAreFoundAtTheSameStepAndCell) {
     }
 }
 
-// A cancel that comes while steps are taken leaves a complete step, whichever; what is there is what so many
-// plain steps give.
+// A cancel that comes while steps are taken leaves a complete step, whichever; what is there is
+// what so many plain steps give.
 TEST(TiledRuns, ACancelLeavesACompleteStep) {
     const auto text = [](std::int64_t steps) {
         return "domain { grid: 173, 149 }\nstage s: turing_spots { iterations: " +
@@ -264,7 +281,8 @@ TEST(TiledRuns, ACancelLeavesACompleteStep) {
 
 // Frames are taken of complete steps, where they would be without tiles.
 TEST(TiledRuns, ObserversSeeTheSameSteps) {
-    const std::string text = "domain { grid: 173, 149 }\nstage s: turing_spots { iterations: 50 }\n";
+    const std::string text =
+        "domain { grid: 173, 149 }\nstage s: turing_spots { iterations: 50 }\n";
     const auto seen = [&](const Tiling& tiling) {
         std::vector<std::vector<std::uint64_t>> frames;
         RunControl control;

@@ -27,7 +27,8 @@ public:
         Triangles made;
         for (std::uint32_t i = 0; i < around; ++i) {
             for (std::uint32_t j = 0; j < across; ++j) {
-                const double a = 2 * std::numbers::pi * i / around, b = 2 * std::numbers::pi * j / across;
+                const double a = 2 * std::numbers::pi * i / around,
+                             b = 2 * std::numbers::pi * j / across;
                 const double r = 1 + 0.4 * std::cos(b);
                 made.points_.push_back({r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b)});
                 const std::uint32_t right = (i + 1) % around * across, here = i * across;
@@ -50,7 +51,8 @@ public:
                 const auto edge = std::minmax(t[k], t[(k + 1) % 3]);
                 const auto [found, is_new] =
                     middles.try_emplace(edge, static_cast<std::uint32_t>(made.points_.size()));
-                if (is_new) made.points_.push_back((points_[edge.first] + points_[edge.second]) * 0.5);
+                if (is_new)
+                    made.points_.push_back((points_[edge.first] + points_[edge.second]) * 0.5);
                 middle[k] = found->second;
             }
             made.triangles_.push_back(middle);
@@ -61,8 +63,8 @@ public:
         return made;
     }
 
-    /// Most triangles in three, around a point that often lies near an edge or a corner, and again four
-    /// times: slivers beside triangles of very different sizes.
+    /// Most triangles in three, around a point that often lies near an edge or a corner, and again
+    /// four times: slivers beside triangles of very different sizes.
     Triangles worse() const {
         Triangles made = *this;
         for (std::uint32_t round = 0; round < 4; ++round) {
@@ -70,7 +72,9 @@ public:
             for (std::size_t n = 0; n < count; ++n) {
                 const auto words = pcg4d({static_cast<std::uint32_t>(n), round, 17, 4});
                 if (words[0] % 8 < 3) continue;
-                const auto part = [&](std::size_t k) { return std::pow(words[k] * 0x1p-32, 3) + 1e-3; };
+                const auto part = [&](std::size_t k) {
+                    return std::pow(words[k] * 0x1p-32, 3) + 1e-3;
+                };
                 made.cut(n, {part(1), part(2), part(3)});
             }
         }
@@ -94,7 +98,8 @@ public:
     std::string obj() const {
         std::string text;
         for (const Vector3d& p : points_) text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
-        for (const Corners& t : triangles_) text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+        for (const Corners& t : triangles_)
+            text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
         return text;
     }
 

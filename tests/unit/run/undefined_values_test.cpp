@@ -24,13 +24,13 @@ protected:
 };
 
 TEST_F(UndefinedValues, OfParametersAreTold) {
-    EXPECT_THAT(
-        warnings_of("system s { k: sqrt(x - 0.5); u: 1; u' = if(k > 0.1, -0.01*u, 0.01*lap(u)) }\n"
+    EXPECT_THAT(warnings_of(
+                    "system s { k: sqrt(x - 0.5); u: 1; u' = if(k > 0.1, -0.01*u, 0.01*lap(u)) }\n"
                     "stage a: s { iterations: 10 }\n"),
-        ElementsAre("stage 'a': k is not a number at column 0, row 0"));
-    EXPECT_THAT(
-        warnings_of("system s { k: 1/(x - x); u: 1; u' = -u/k }\nstage a: s { iterations: 10 }\n"),
-        ElementsAre("stage 'a': k is infinite at column 0, row 0"));
+                ElementsAre("stage 'a': k is not a number at column 0, row 0"));
+    EXPECT_THAT(warnings_of(
+                    "system s { k: 1/(x - x); u: 1; u' = -u/k }\nstage a: s { iterations: 10 }\n"),
+                ElementsAre("stage 'a': k is infinite at column 0, row 0"));
     EXPECT_THAT(warnings_of("system s { k: log(0.5 - x); u: 1; u' = -0.01*u; u >= k }\nstage a: s "
                             "{ iterations: 10 }\n"),
                 ElementsAre("stage 'a': k is not a number at column 32, row 0"));
@@ -75,10 +75,10 @@ TEST_F(UndefinedValues, OfConditionsAreTold) {
                             "0.2; iterations: 10 }\n"),
                 ElementsAre(HasSubstr(
                     "sqrt(x - 0.5) in the value of frozen is not a number at column 0, row 0")));
-    EXPECT_THAT(
-        warnings_of("system s { u: 1; u' = -0.01*u }\nstage a: s { frozen: sqrt(x - 0.5); "
-                    "iterations: 10 }\n"),
-        ElementsAre("stage 'a': frozen is not a number at column 0, row 0, which counts as true"));
+    EXPECT_THAT(warnings_of("system s { u: 1; u' = -0.01*u }\nstage a: s { frozen: sqrt(x - 0.5); "
+                            "iterations: 10 }\n"),
+                ElementsAre(
+                    "stage 'a': frozen is not a number at column 0, row 0, which counts as true"));
 }
 
 TEST_F(UndefinedValues, OfMasksAreTold) {

@@ -37,7 +37,8 @@ protected:
             text += fmt::format("v {} {} {}\n", v.x, v.y, v.z);
         }
         for (const auto& corners : mesh->texture) {
-            for (const TexturePlace& place : corners) text += fmt::format("vt {} {}\n", place[0], place[1]);
+            for (const TexturePlace& place : corners)
+                text += fmt::format("vt {} {}\n", place[0], place[1]);
         }
         for (std::size_t t = 0; t < mesh->triangles.size(); ++t) {
             const auto& [a, b, c] = mesh->triangles[t];
@@ -48,17 +49,19 @@ protected:
     }
 
     /// The script's only stage at its end.
-    std::unique_ptr<Simulation> grown(Axis file, const std::string& domain, const std::string& stage,
-                                      const Overrides& overrides = {}) {
-        script_ = load(fmt::format("domain {{ mesh: \"{}.obj\"; cells: 300; {} }}\n{}", name_of(file), domain,
-                                   stage), overrides);
+    std::unique_ptr<Simulation> grown(Axis file, const std::string& domain,
+                                      const std::string& stage, const Overrides& overrides = {}) {
+        script_ = load(fmt::format("domain {{ mesh: \"{}.obj\"; cells: 300; {} }}\n{}",
+                                   name_of(file), domain, stage),
+                       overrides);
         EXPECT_TRUE(script_.program) << script_.messages(false);
         if (!script_.program) return nullptr;
         auto made = Simulation::create(script_, {BackendKind::interpreter, 0, 1});
         EXPECT_TRUE(made) << script_.messages(false);
         if (!made || !(*made)->start_stage(0)) return nullptr;
         RunControl control;
-        const auto end = (*made)->advance_stage(0, script_.program->stages[0].iterations, control, {});
+        const auto end =
+            (*made)->advance_stage(0, script_.program->stages[0].iterations, control, {});
         EXPECT_TRUE(end) << (end ? "" : end.error().message);
         return *std::move(made);
     }
@@ -89,14 +92,15 @@ stage one: s { iterations: 3; speed: 0.01 }
 )";
 
 TEST_F(Upright, ScriptsSeeTheSameModelBitForBit) {
-    for (const char* directions : {"", "directions: axis(1, 2, 4)", "directions: gradient(x + 2 * y - z^2)",
-                                   "directions: keys(0, 0, 0, 1, 0, 0, 1, 0.3, 0.5, 0, 0, 1)"}) {
+    for (const char* directions :
+         {"", "directions: axis(1, 2, 4)", "directions: gradient(x + 2 * y - z^2)",
+          "directions: keys(0, 0, 0, 1, 0, 0, 1, 0.3, 0.5, 0, 0, 1)"}) {
         const auto expected =
             first_species(grown(Axis::y, fmt::format("{}; up: y", directions), all_of_space));
         ASSERT_EQ(expected.size(), 300u);
         for (const Axis up : {Axis::x, Axis::z}) {
-            const auto got =
-                first_species(grown(up, fmt::format("{}; {}", directions, up_is(up)), all_of_space));
+            const auto got = first_species(
+                grown(up, fmt::format("{}; {}", directions, up_is(up)), all_of_space));
             EXPECT_EQ(got, expected) << directions << " " << up_is(up);
         }
     }
@@ -122,8 +126,9 @@ TEST_F(Upright, TheOptionIsTheStatement) {
 TEST_F(Upright, ItIsRefusedOnPlanesAndTravelsInPictures) {
     Overrides overrides;
     overrides.up = Axis::z;
-    EXPECT_THAT(load("domain { grid: 9, 9 }\nstage one: turing_spots { }\n", overrides).messages(false),
-                ::testing::HasSubstr("<--up>:1:1: error: only a domain with a model has this setting"));
+    EXPECT_THAT(
+        load("domain { grid: 9, 9 }\nstage one: turing_spots { }\n", overrides).messages(false),
+        ::testing::HasSubstr("<--up>:1:1: error: only a domain with a model has this setting"));
     const auto back = overrides_from_json(overrides_to_json(overrides));
     ASSERT_TRUE(back);
     EXPECT_EQ(back->up, Axis::z);
@@ -164,8 +169,9 @@ TEST_F(Upright, FilesHaveTheCoordinatesOfTheModelsOwn) {
     ASSERT_TRUE(original);
     // Cells that are points do not depend on the axis, so that the two runs differ in nothing else.
     for (const char* up : {"y", "z"}) {
-        Script script = load(fmt::format("domain {{ mesh: \"z.obj\"; cells: vertices; up: {} }}\n{}", up,
-                                         few_spots));
+        Script script =
+            load(fmt::format("domain {{ mesh: \"z.obj\"; cells: vertices; up: {} }}\n{}", up,
+                             few_spots));
         RunRequest all = request();
         all.outputs.clear();
         for (const char* name : {"{}.ply", "{}.glb", "{}.vtp", "{}.cells.vtp"}) {
@@ -175,7 +181,8 @@ TEST_F(Upright, FilesHaveTheCoordinatesOfTheModelsOwn) {
         const auto written = read_model(path(fmt::format("{}.ply", up)));
         ASSERT_TRUE(written);
         ASSERT_GE(written->points.size(), original->points.size());
-        EXPECT_TRUE(std::equal(original->points.begin(), original->points.end(), written->points.begin()));
+        EXPECT_TRUE(
+            std::equal(original->points.begin(), original->points.end(), written->points.begin()));
     }
     const auto turned = read_model(path("z.ply")), plain = read_model(path("y.ply"));
     EXPECT_EQ(turned->points, plain->points);

@@ -112,9 +112,11 @@ private:
 
 TEST(ChosenTilings, ChangeNoBit) {
     // More than a usual second-level cache holds, so that there is something to choose.
-    for (const Grid& grid : {Grid{640, 400, Boundary::periodic}, Grid{211, 1013, Boundary::no_flux}}) {
+    for (const Grid& grid :
+         {Grid{640, 400, Boundary::periodic}, Grid{211, 1013, Boundary::no_flux}}) {
         const Mixture mixture(grid);
-        const std::vector<Tiling> candidates = tilings_to_try(mixture.problem, 1, CacheSizes::here(), 1);
+        const std::vector<Tiling> candidates =
+            tilings_to_try(mixture.problem, 1, CacheSizes::here(), 1);
         std::vector<std::vector<float>> expected;
         for (const Tiling& tiling : candidates) {
             OneTiling memory(tiling);
@@ -158,16 +160,13 @@ TEST_P(Grids, FrozenCellsKeepTheirValues) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, Grids,
-                         ::testing::Values(Grid{64, 64, Boundary::periodic},
-                                           Grid{64, 64, Boundary::no_flux},
-                                           Grid{131, 1, Boundary::periodic},
-                                           Grid{1, 67, Boundary::no_flux},
-                                           Grid{2, 2, Boundary::periodic},
-                                           Grid{2, 2, Boundary::no_flux},
-                                           Grid{17, 31, Boundary::periodic},
-                                           Grid{1, 1, Boundary::periodic},
-                                           Grid{47, 3, Boundary::no_flux}));
+INSTANTIATE_TEST_SUITE_P(
+    Sizes, Grids,
+    ::testing::Values(Grid{64, 64, Boundary::periodic}, Grid{64, 64, Boundary::no_flux},
+                      Grid{131, 1, Boundary::periodic}, Grid{1, 67, Boundary::no_flux},
+                      Grid{2, 2, Boundary::periodic}, Grid{2, 2, Boundary::no_flux},
+                      Grid{17, 31, Boundary::periodic}, Grid{1, 1, Boundary::periodic},
+                      Grid{47, 3, Boundary::no_flux}));
 
 TEST(Advance, NeighboursReadFrozenCells) {
     const Grid grid{3, 1, Boundary::no_flux};
@@ -307,8 +306,8 @@ TEST(Advance, ReportsProgress) {
     about.stage = "large";
     about.stage_number = 2;
     about.stage_count = 3;
-    const StageOutcome outcome = advance(mixture.problem, {.last_step = 1'000'000'000}, species,
-                                         control, about, Observer{});
+    const StageOutcome outcome =
+        advance(mixture.problem, {.last_step = 1'000'000'000}, species, control, about, Observer{});
     ASSERT_GE(reports.size(), 3u);
     EXPECT_EQ(reports.front().step, 0);
     EXPECT_EQ(reports.front().steps_per_second, 0);
@@ -344,11 +343,12 @@ TEST(Advance, NamesTheStepAndTheCellOfABlowUp) {
                 std::vector<Field> species;
                 species.push_back(make_field(grid, scatter));
                 species.push_back(make_field(grid, [](auto, auto) { return 1.0; }));
-                const StageOutcome outcome = advance_quietly(
-                    exploding(grid, where),
-                    {.first_step = first, .last_step = first + 500, .check_every = check_every,
-                     .threads = threads},
-                    species);
+                const StageOutcome outcome = advance_quietly(exploding(grid, where),
+                                                             {.first_step = first,
+                                                              .last_step = first + 500,
+                                                              .check_every = check_every,
+                                                              .threads = threads},
+                                                             species);
                 ASSERT_TRUE(outcome.not_finite);
                 EXPECT_EQ(outcome.not_finite->species, 1u);
                 EXPECT_EQ(outcome.not_finite->column, 299);
@@ -376,9 +376,9 @@ TEST(Advance, WithoutAKeptCopyTwoLooksEncloseABlowUp) {
         std::vector<Field> species;
         species.push_back(make_field(grid, scatter));
         species.push_back(make_field(grid, [](auto, auto) { return 1.0; }));
-        const StageOutcome outcome =
-            advance_quietly(exploding(grid, where), {.last_step = 500, .check_every = 10,
-                                                     .most_kept_bytes = bytes, .threads = 2}, species);
+        const StageOutcome outcome = advance_quietly(
+            exploding(grid, where),
+            {.last_step = 500, .check_every = 10, .most_kept_bytes = bytes, .threads = 2}, species);
         ASSERT_TRUE(outcome.not_finite);
         EXPECT_EQ(outcome.not_finite->species, 1u);
         EXPECT_EQ(outcome.not_finite->column, 299);
@@ -397,7 +397,8 @@ TEST(Advance, AKeptCopyChangesNoBit) {
     const Mixture mixture(grid);
     std::vector<Field> kept = mixture.start(), spared = mixture.start();
     advance_quietly(mixture.problem, {.last_step = 75, .check_every = 7}, kept);
-    advance_quietly(mixture.problem, {.last_step = 75, .check_every = 7, .most_kept_bytes = 0}, spared);
+    advance_quietly(mixture.problem, {.last_step = 75, .check_every = 7, .most_kept_bytes = 0},
+                    spared);
     EXPECT_EQ(all_cells(spared), all_cells(kept));
 }
 
@@ -412,7 +413,8 @@ TEST(Advance, NoPictureIsMadeOfValuesThatAreNotFinite) {
     std::int64_t last_seen = 0;
     const StageOutcome outcome =
         advance(exploding(grid, where), {.last_step = 200, .interval = 3, .check_every = 50},
-                species, control, Progress{}, [&](std::int64_t step, double, std::span<const Field>) {
+                species, control, Progress{},
+                [&](std::int64_t step, double, std::span<const Field>) {
                     last_seen = step;
                     return true;
                 });
@@ -428,8 +430,8 @@ TEST(Advance, ABlowUpIsFoundAtTheEndOfTheStage) {
     std::vector<Field> species;
     species.push_back(make_field(grid, scatter));
     species.push_back(make_field(grid, [](auto, auto) { return 1.0; }));
-    const StageOutcome outcome = advance_quietly(
-        exploding(grid, where), {.last_step = 64, .check_every = 1000}, species);
+    const StageOutcome outcome =
+        advance_quietly(exploding(grid, where), {.last_step = 64, .check_every = 1000}, species);
     ASSERT_TRUE(outcome.not_finite);
     EXPECT_EQ(outcome.not_finite->step, 64);
     EXPECT_EQ(outcome.steps, 63);

@@ -85,9 +85,8 @@ inline StepProblem make_problem(const Grid& grid, int species, KernelPointer ker
 }
 
 inline StepProblem make_problem(const Grid& grid, int species, CellFunction function) {
-    return make_problem(
-        grid, species,
-        std::make_shared<CellFunctionKernel>(std::move(function), grid.stencil()));
+    return make_problem(grid, species,
+                        std::make_shared<CellFunctionKernel>(std::move(function), grid.stencil()));
 }
 
 /// One explicit step of heat conduction: uniform 0 is diffusion times the time step.
@@ -129,8 +128,8 @@ inline StageOutcome advance_quietly(const StepProblem& problem, const Schedule& 
 
 /// Reproducible numbers in [0, 1) without structure a grid could resonate with.
 inline double scatter(std::int64_t i, std::int64_t j) {
-    const double wave = 43758.5453 * (static_cast<double>((i * 7919 + j * 104729) % 65537) + 0.5) /
-                        65537.0;
+    const double wave =
+        43758.5453 * (static_cast<double>((i * 7919 + j * 104729) % 65537) + 0.5) / 65537.0;
     return wave - static_cast<double>(static_cast<std::int64_t>(wave));
 }
 

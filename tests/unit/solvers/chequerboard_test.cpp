@@ -20,13 +20,13 @@ TEST(Chequerboard, OfKnownFields) {
     EXPECT_EQ(part(16, 12, board), 1);
     EXPECT_EQ(part(16, 12, [](auto i, auto j) { return 1e4 + 43 * board(i, j); }), 1);
     EXPECT_EQ(part(16, 12, [](auto, auto) { return 4.0; }), 0);
-    EXPECT_EQ(
-        part(16, 12, [](auto i, auto) { return std::sin(0.392699082 * static_cast<double>(i)); }),
-        0);
+    EXPECT_EQ(part(16, 12,
+                   [](auto i, auto) { return std::sin(0.392699082 * static_cast<double>(i)); }),
+              0);
     // Equal parts of wide stripes and of a chequerboard.
-    EXPECT_GT(
-        part(64, 64, [](auto i, auto j) { return 2 * board(i, j) + (i / 8 % 2 ? -1.0 : 1.0); }),
-        0.9);
+    EXPECT_GT(part(64, 64,
+                   [](auto i, auto j) { return 2 * board(i, j) + (i / 8 % 2 ? -1.0 : 1.0); }),
+              0.9);
     EXPECT_EQ(alternating_part(Field{}), 0);
 }
 

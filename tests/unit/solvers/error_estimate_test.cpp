@@ -15,8 +15,9 @@ namespace {
 using testing::PlainState;
 using testing::SchemeRunner;
 
-constexpr Solver unjudged[] = {Solver::euler, Solver::symplectic, Solver::rk2,   Solver::rk4,  Solver::rkl1,
-                               Solver::rkl2,  Solver::imex,       Solver::imex2, Solver::gauss};
+constexpr Solver unjudged[] = {Solver::euler, Solver::symplectic, Solver::rk2,
+                               Solver::rk4,   Solver::rkl1,       Solver::rkl2,
+                               Solver::imex,  Solver::imex2,      Solver::gauss};
 
 /// u' = v cos t, v' = −u cos t.
 PlainState swing(const PlainState& state, double t) {
@@ -24,17 +25,19 @@ PlainState swing(const PlainState& state, double t) {
 }
 
 double largest_error(Solver solver, double step) {
-    SchemeRunner runner(with_error_estimate(make_scheme(solver, 2, false, 5)), swing, {{0.6}, {0.8}});
+    SchemeRunner runner(with_error_estimate(make_scheme(solver, 2, false, 5)), swing,
+                        {{0.6}, {0.8}});
     runner.attempt(step);
     double largest = 0;
-    for (const auto& of_species : runner.error()) largest = std::max(largest, std::abs(of_species[0]));
+    for (const auto& of_species : runner.error())
+        largest = std::max(largest, std::abs(of_species[0]));
     return largest;
 }
 
 TEST(ErrorEstimate, IsTheLeadingTermOfEulersError) {
-    SchemeRunner runner(with_error_estimate(make_scheme(Solver::euler, 1, false)),
-                        [](const PlainState& state, double) { return PlainState{{-3 * state[0][0]}}; },
-                        {{2.0}});
+    SchemeRunner runner(
+        with_error_estimate(make_scheme(Solver::euler, 1, false)),
+        [](const PlainState& state, double) { return PlainState{{-3 * state[0][0]}}; }, {{2.0}});
     runner.attempt(0.1);
     EXPECT_NEAR(runner.error()[0][0], 0.5 * 0.3 * 0.3 * 2, 1e-15);
     EXPECT_NEAR(runner.state()[0][0], 2, 0) << "an attempt is no step";
@@ -42,7 +45,8 @@ TEST(ErrorEstimate, IsTheLeadingTermOfEulersError) {
 
 TEST(ErrorEstimate, FallsWithThePowerOfTheStepThatItIsSaidTo) {
     for (const Solver solver : unjudged) {
-        const double order = std::log2(largest_error(solver, 1.0 / 64) / largest_error(solver, 1.0 / 128));
+        const double order =
+            std::log2(largest_error(solver, 1.0 / 64) / largest_error(solver, 1.0 / 128));
         EXPECT_NEAR(order, order_of_estimate(solver), 0.12) << name_of(solver);
     }
 }

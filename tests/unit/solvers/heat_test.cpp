@@ -73,16 +73,12 @@ TEST_P(Heat, DecaysAtTheDiscreteRate) {
 
 INSTANTIATE_TEST_SUITE_P(
     Grids, Heat,
-    ::testing::Values(HeatCase{60, 1, Boundary::periodic, 3, 0},
-                      HeatCase{61, 1, Boundary::no_flux, 2, 0},
-                      HeatCase{1, 47, Boundary::periodic, 0, 2},
-                      HeatCase{1, 16, Boundary::no_flux, 0, 1},
-                      HeatCase{64, 64, Boundary::periodic, 2, 3},
-                      HeatCase{37, 53, Boundary::periodic, 1, 4},
-                      HeatCase{37, 53, Boundary::no_flux, 3, 2},
-                      HeatCase{2, 2, Boundary::no_flux, 1, 0},
-                      HeatCase{17, 2, Boundary::no_flux, 1, 0},
-                      HeatCase{2, 31, Boundary::periodic, 0, 1}),
+    ::testing::Values(
+        HeatCase{60, 1, Boundary::periodic, 3, 0}, HeatCase{61, 1, Boundary::no_flux, 2, 0},
+        HeatCase{1, 47, Boundary::periodic, 0, 2}, HeatCase{1, 16, Boundary::no_flux, 0, 1},
+        HeatCase{64, 64, Boundary::periodic, 2, 3}, HeatCase{37, 53, Boundary::periodic, 1, 4},
+        HeatCase{37, 53, Boundary::no_flux, 3, 2}, HeatCase{2, 2, Boundary::no_flux, 1, 0},
+        HeatCase{17, 2, Boundary::no_flux, 1, 0}, HeatCase{2, 31, Boundary::periodic, 0, 1}),
     [](const auto& tested) {
         return std::to_string(tested.param.width) + "x" + std::to_string(tested.param.height) +
                (tested.param.boundary == Boundary::periodic ? "_periodic" : "_no_flux");

@@ -66,8 +66,7 @@ TEST(KernelPhysics, HeatDecaysAtTheDiscreteRate) {
             }
         }
         const double rate = 1 - 0.125 * (decay(2, width) + decay(1, height));
-        EXPECT_NEAR(projection / norm / std::pow(rate, 100), 1, 1e-5)
-            << width << " x " << height;
+        EXPECT_NEAR(projection / norm / std::pow(rate, 100), 1, 1e-5) << width << " x " << height;
     }
 }
 
@@ -134,20 +133,20 @@ TEST(KernelPhysics, TuringGrowsAsTheDispersionRelationSays) {
     constexpr int steps = 100;
     const Grid grid{64, 48, Boundary::periodic};
     int growing = 0;
-    for (const auto& [kx, ky] : {std::pair{8, 0}, std::pair{9, 4}, std::pair{13, 2},
-                                 std::pair{0, 8}, std::pair{16, 0}}) {
+    for (const auto& [kx, ky] :
+         {std::pair{8, 0}, std::pair{9, 4}, std::pair{13, 2}, std::pair{0, 8}, std::pair{16, 0}}) {
         const double sine_x = std::sin(pi * kx / 64), sine_y = std::sin(pi * ky / 48);
         const Linear linear(4 * sine_x * sine_x + 4 * sine_y * sine_y, diff_a, diff_b);
         const double eigenvalue = linear.root(1);
         growing += eigenvalue > 0;
         const auto wave = [kx = kx, ky = ky](auto i, auto j) {
-            return std::cos(2 * pi * (kx * static_cast<double>(i) / 64 +
-                                      ky * static_cast<double>(j) / 48));
+            return std::cos(2 * pi *
+                            (kx * static_cast<double>(i) / 64 + ky * static_cast<double>(j) / 48));
         };
         const double part_a = linear.ab / (eigenvalue - linear.aa);  // b's part is 1.
         std::vector<Field> species;
-        species.push_back(make_field(
-            grid, [&](auto i, auto j) { return 4 + 0.01 * part_a * wave(i, j); }));
+        species.push_back(
+            make_field(grid, [&](auto i, auto j) { return 4 + 0.01 * part_a * wave(i, j); }));
         species.push_back(make_field(grid, [&](auto i, auto j) { return 4 + 0.01 * wave(i, j); }));
         const auto amplitude = [&] {
             double sum = 0;

@@ -116,12 +116,12 @@ TEST_P(LinkedHeat, WavesDecayAtTheDiscreteRate) {
 TEST_P(LinkedHeat, KeepsTheSum) {
     const Ring ring(GetParam());
     std::vector<Field> species;
-    species.push_back(ring.field([](std::size_t place) {
-        return scatter(static_cast<std::int64_t>(place), 1);
-    }));
+    species.push_back(
+        ring.field([](std::size_t place) { return scatter(static_cast<std::int64_t>(place), 1); }));
     const auto sum = [&] {
         double total = 0;
-        for (std::size_t place = 0; place < Ring::cells; ++place) total += ring.at(species[0], place);
+        for (std::size_t place = 0; place < Ring::cells; ++place)
+            total += ring.at(species[0], place);
         return total;
     };
     const double before = sum();
@@ -138,7 +138,8 @@ INSTANTIATE_TEST_SUITE_P(Precisions, LinkedHeat,
                              return tested.param == Precision::single ? "single" : "double";
                          });
 
-/// The fastest wave of rates f_(p-1) − 2 f_p + f_(p+1) decays at 4: Euler's steps up to 1/2 are stable.
+/// The fastest wave of rates f_(p-1) − 2 f_p + f_(p+1) decays at 4: Euler's steps up to 1/2 are
+/// stable.
 TEST(StabilityOfLinkedCells, IsThatOfTheFastestWave) {
     const Ring ring(Precision::binary64);
     KernelBuilder builder(Precision::binary64);

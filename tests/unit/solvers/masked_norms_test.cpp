@@ -31,7 +31,9 @@ Field field_of(std::int64_t width, Value value) {
     return field;
 }
 
-float pattern(std::int64_t i, std::int64_t j) { return 5 + std::sin(0.7F * static_cast<float>(i + j)); }
+float pattern(std::int64_t i, std::int64_t j) {
+    return 5 + std::sin(0.7F * static_cast<float>(i + j));
+}
 
 TEST(MaskedNorms, AreThoseOfASmallField) {
     const Mask inside = left_half();

@@ -20,8 +20,8 @@ class SchemeRunner {
 public:
     SchemeRunner(Scheme scheme, PlainRates rates, PlainState start, double speed = 0)
         : scheme_(std::move(scheme)), rates_(std::move(rates)), speed_(speed) {
-        registers_.assign(scheme_.registers, PlainState(start.size(), std::vector<double>(
-                                                                          start[0].size())));
+        registers_.assign(scheme_.registers,
+                          PlainState(start.size(), std::vector<double>(start[0].size())));
         registers_[old_register] = std::move(start);
     }
 
@@ -36,8 +36,7 @@ public:
     }
     void accept() {
         registers_[old_register] = registers_[new_register];
-        std::swap(registers_[scheme_.first_rate_register],
-                  registers_[scheme_.last_rate_register]);
+        std::swap(registers_[scheme_.first_rate_register], registers_[scheme_.last_rate_register]);
         time_ += step_;
     }
     /// Evaluates the first rate of each step anew.
@@ -77,7 +76,8 @@ private:
                     double sum = 0;
                     for (const SweepTerm& term : form.outputs[o].terms) {
                         double value = rates[s][cell];
-                        if (term.source != SweepTerm::Source::rate) value = inputs[term.input][s][cell];
+                        if (term.source != SweepTerm::Source::rate)
+                            value = inputs[term.input][s][cell];
                         if (term.source == SweepTerm::Source::difference) {
                             value -= inputs[form.base_input][s][cell];
                         }

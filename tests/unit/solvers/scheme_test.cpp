@@ -53,9 +53,10 @@ INSTANTIATE_TEST_SUITE_P(Solvers, Order,
 /// What a step costs: the classical methods as many evaluations as stages, embedded ones one less
 /// than they have, since the last rate is the first of the next step.
 TEST(Scheme, EvaluatesTheRatesAsOftenAsItMust) {
-    const std::pair<Solver, std::size_t> all[] = {
-        {Solver::euler, 1}, {Solver::rk2, 2},  {Solver::rk4, 4}, {Solver::rk23, 3},
-        {Solver::rk45, 6},  {Solver::rkl1, 5}, {Solver::rkl2, 5}};
+    const std::pair<Solver, std::size_t> all[] = {{Solver::euler, 1}, {Solver::rk2, 2},
+                                                  {Solver::rk4, 4},   {Solver::rk23, 3},
+                                                  {Solver::rk45, 6},  {Solver::rkl1, 5},
+                                                  {Solver::rkl2, 5}};
     for (const auto& [solver, expected] : all) {
         const Scheme scheme = make_scheme(solver, 2, false, 5);
         EXPECT_EQ(scheme.evaluations(), expected) << name_of(solver);
@@ -85,16 +86,16 @@ TEST(Scheme, RatesThatAreKeptAreThoseThatWouldBeEvaluated) {
     }
 }
 
-/// Planes that lie in the cache: a step writes one plane of each species in each sweep and keeps few
-/// stages. What it overwrites is read in the own cell only, and the old step stays.
+/// Planes that lie in the cache: a step writes one plane of each species in each sweep and keeps
+/// few stages. What it overwrites is read in the own cell only, and the old step stays.
 TEST(Scheme, StepsWithoutAnErrorKeepFewPlanes) {
     EXPECT_EQ(make_scheme(Solver::rk2, 1, false).registers, 3u);
     EXPECT_EQ(make_scheme(Solver::rk4, 1, false).registers, 4u);
     EXPECT_EQ(make_scheme(Solver::rkl1, 1, false, 9).registers, 3u);
     EXPECT_EQ(make_scheme(Solver::rkl1, 1, false, 1).registers, 2u);
     EXPECT_EQ(make_scheme(Solver::rkl2, 1, false, 9).registers, 4u);
-    for (const Solver solver : {Solver::rk2, Solver::rk4, Solver::rk23, Solver::rk45, Solver::rkl1,
-                                Solver::rkl2}) {
+    for (const Solver solver :
+         {Solver::rk2, Solver::rk4, Solver::rk23, Solver::rk45, Solver::rkl1, Solver::rkl2}) {
         const Scheme scheme = make_scheme(solver, 1, false, 9);
         for (const Sweep& sweep : scheme.sweeps) {
             if (scheme.error_register == 0 && solver != Solver::rkl2) {
@@ -125,16 +126,16 @@ TEST(Scheme, NamesAreTheSettings) {
 
 /// The growth of u' = λ u over one step of length 1.
 double growth(const Scheme& scheme, double lambda) {
-    SchemeRunner runner(scheme, [=](const PlainState& state, double) {
-        return PlainState{{lambda * state[0][0]}};
-    }, {{1.0}});
+    SchemeRunner runner(
+        scheme, [=](const PlainState& state, double) { return PlainState{{lambda * state[0][0]}}; },
+        {{1.0}});
     runner.step(1);
     return std::abs(runner.state()[0][0]);
 }
 
 TEST(Scheme, IsStableUpToItsInterval) {
-    for (const Solver solver : {Solver::euler, Solver::rk2, Solver::rk4, Solver::rk23,
-                                Solver::rk45}) {
+    for (const Solver solver :
+         {Solver::euler, Solver::rk2, Solver::rk4, Solver::rk23, Solver::rk45}) {
         const Scheme scheme = make_scheme(solver, 1, false);
         const double interval = stability_interval(solver);
         for (double part = 0.01; part < 0.999; part += 0.01) {
@@ -202,8 +203,8 @@ TEST(Scheme, HeatDecaysAsTheoryHasItFarBeyondEulersLimit) {
 }
 
 TEST(Scheme, AStateWithoutRatesStaysToTheBit) {
-    for (const Solver solver : {Solver::rk2, Solver::rk4, Solver::rk23, Solver::rk45, Solver::rkl1,
-                                Solver::rkl2}) {
+    for (const Solver solver :
+         {Solver::rk2, Solver::rk4, Solver::rk23, Solver::rk45, Solver::rkl1, Solver::rkl2}) {
         SchemeRunner runner(make_scheme(solver, 1, false, 7),
                             [](const PlainState&, double) { return PlainState{{0.0}}; }, {{0.1}});
         for (int n = 0; n < 100; ++n) runner.step(0.37);
@@ -213,9 +214,12 @@ TEST(Scheme, AStateWithoutRatesStaysToTheBit) {
 
 /// The largest deviation of the energy u² + v² of an oscillator, over a thousand turns and more.
 double energy_drift(Solver solver) {
-    SchemeRunner runner(make_scheme(solver, 2, true), [](const PlainState& state, double) {
-        return PlainState{{state[1][0]}, {-state[0][0]}};
-    }, {{1.0}, {0.0}}, 0.1);
+    SchemeRunner runner(
+        make_scheme(solver, 2, true),
+        [](const PlainState& state, double) {
+            return PlainState{{state[1][0]}, {-state[0][0]}};
+        },
+        {{1.0}, {0.0}}, 0.1);
     double worst = 0;
     for (int n = 0; n < 100000; ++n) {
         runner.step(0.1);

@@ -27,9 +27,8 @@ std::vector<Field> one(Field field) {
 TEST(Stability, DiffusionOnAPlane) {
     const Grid grid{64, 64, Boundary::periodic};
     for (const double level : {1.0, 1e-4, 300.0}) {
-        const auto species = one(make_field(grid, [&](auto i, auto j) {
-            return level * (1 + 0.1 * scatter(i, j));
-        }));
+        const auto species = one(
+            make_field(grid, [&](auto i, auto j) { return level * (1 + 0.1 * scatter(i, j)); }));
         const StabilityEstimate estimate = estimate_stability(diffusion_rates(grid, 0.3f), species);
         EXPECT_NEAR(estimate.eigenvalue, -8 * 0.3, 0.02 * 8 * 0.3);
         ASSERT_TRUE(estimate.largest_speed);
@@ -160,8 +159,7 @@ TEST(Stability, TuringsChequerboard) {
     const StabilityEstimate estimate = estimate_stability(rates, turing_start(grid));
     const double u = -2 - 4.0 / 80, v = -0.5 + 3.0 / 80;
     const double middle = (u + v) / 2;
-    const double eigenvalue =
-        middle - std::sqrt((u - v) * (u - v) / 4 - 4.0 * 3.0 / 80 / 80);
+    const double eigenvalue = middle - std::sqrt((u - v) * (u - v) / 4 - 4.0 * 3.0 / 80 / 80);
     EXPECT_NEAR(estimate.eigenvalue, eigenvalue, 0.01 * -eigenvalue);
     ASSERT_TRUE(estimate.largest_speed);
     EXPECT_LT(*estimate.largest_speed, 0.995);
@@ -199,7 +197,8 @@ TEST(Stability, TheEstimateDividesRunsThatDampFromRunsThatExplode) {
 TEST(Stability, OfASpeciesThatHasDiedOut) {
     const Grid grid{32, 32, Boundary::periodic};
     StepProblem rates = make_problem(grid, 2, [](const CellView& cell, float* results) {
-        results[0] = 0.16F * cell.laplacian(0) - cell.field(0) * cell.field(1) + 0.04F * (1 - cell.field(0));
+        results[0] =
+            0.16F * cell.laplacian(0) - cell.field(0) * cell.field(1) + 0.04F * (1 - cell.field(0));
         results[1] = 0.08F * cell.laplacian(1) - 0.1F * cell.field(1);
     });
     std::vector<Field> species;

@@ -31,7 +31,8 @@ TEST(SteppingTest, StepsOfOnePass) {
     EXPECT_EQ(tiled.sweeps_at_once, 16);
     EXPECT_EQ(tiled.meetings, 2.0 / 16);
     // Nineteen rows of both copies.
-    EXPECT_NEAR(tiled.bytes_in_use, 19 * 2 * 4 * static_cast<double>(PlaneLayout(problem.grid).stride), 1);
+    EXPECT_NEAR(tiled.bytes_in_use,
+                19 * 2 * 4 * static_cast<double>(PlaneLayout(problem.grid).stride), 1);
     const Stepping plain = stepping_with(problem, {}, 1, 1);
     EXPECT_EQ(plain.sweeps_at_once, 1);
     EXPECT_EQ(plain.meetings, 1);

@@ -1,7 +1,6 @@
 // Tiles in time: every layer of every level once, and nothing before what it needs.
 #include "solvers/tile_shape.h"
 
-
 #include <algorithm>
 #include <cstdint>
 #include <gtest/gtest.h>
@@ -47,8 +46,8 @@ bool is_before(const Turn& a, const Turn& b) {
     return a.part == b.part && a.order < b.order;
 }
 
-/// What is at most a layer away and belongs to a lower level must be done before: a level reads what
-/// those before it wrote, and writes where they read.
+/// What is at most a layer away and belongs to a lower level must be done before: a level reads
+/// what those before it wrote, and writes where they read.
 void expect_in_order(const TileAxis& axis, bool wraps, int levels) {
     Turns turns;
     ASSERT_EQ(walk(axis, levels, turns), 0);

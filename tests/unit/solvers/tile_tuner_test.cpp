@@ -26,7 +26,8 @@ struct Spent {
     int trials = 0;  ///< Batches that were tried.
 };
 
-Spent run(TileTuner& tuner, double usual_seconds, const Machine& machine, std::int64_t sweeps_of_batch = 64) {
+Spent run(TileTuner& tuner, double usual_seconds, const Machine& machine,
+          std::int64_t sweeps_of_batch = 64) {
     const double usual_sweep = machine(tuner.candidates()[0], -1);
     auto left = static_cast<std::int64_t>(usual_seconds / usual_sweep);
     Spent spent;
@@ -38,7 +39,8 @@ Spent run(TileTuner& tuner, double usual_seconds, const Machine& machine, std::i
         const double took = each * static_cast<double>(sweeps);
         left -= sweeps;
         spent.seconds += took;
-        tuner.took(sweeps, TileTuner::Seconds(took), TileTuner::Seconds(each * static_cast<double>(left)));
+        tuner.took(sweeps, TileTuner::Seconds(took),
+                   TileTuner::Seconds(each * static_cast<double>(left)));
     }
     return spent;
 }
@@ -98,12 +100,14 @@ TEST(TileTuner, ShortRunsTryNothing) {
 }
 
 TEST(TileTuner, TrialsCostLittle) {
-    // One way is many times as slow; steps are short, or so long that a tile takes most of a second.
+    // One way is many times as slow; steps are short, or so long that a tile takes most of a
+    // second.
     for (const double sweep : {1e-6, 1e-4, 1e-2}) {
         for (const double seconds : {0.2, 1.0, 5.0, 25.0, 125.0}) {
             TileTuner tuner(usual);
             const Spent taken = run(tuner, seconds, fixed(sweep, sweep, 3 * sweep), 16);
-            EXPECT_LT(taken.seconds, 1.04 * seconds) << "sweeps of " << sweep << " s, " << seconds << " s";
+            EXPECT_LT(taken.seconds, 1.04 * seconds)
+                << "sweeps of " << sweep << " s, " << seconds << " s";
         }
     }
 }

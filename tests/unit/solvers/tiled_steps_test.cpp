@@ -1,5 +1,5 @@
-// Several steps for each pass through memory: the bits of one step after the other, for random systems
-// of passes, registers and temporaries, on all kinds of grids and on linked cells.
+// Several steps for each pass through memory: the bits of one step after the other, for random
+// systems of passes, registers and temporaries, on all kinds of grids and on linked cells.
 #include "solvers/stepper.h"
 
 #include "core/floating_point.h"
@@ -29,8 +29,8 @@ private:
     std::uint64_t state_;
 };
 
-/// Result r is a sum over all fields of their own cells and, of most, of all cells around; a mask keeps
-/// field 0. After each row it writes NaN, as the contract of kernels allows.
+/// Result r is a sum over all fields of their own cells and, of most, of all cells around; a mask
+/// keeps field 0. After each row it writes NaN, as the contract of kernels allows.
 template <typename Number>
 class SumKernel : public Kernel {
 public:
@@ -66,7 +66,8 @@ private:
         if (!given.masks.empty() && given.masks[0][at] != 0) return given.fields[0][at];
         Number value = given.uniforms[0];
         for (std::size_t f = 0; f < sums.size(); ++f) {
-            const auto weight = static_cast<Number>(0.9 / static_cast<double>(sums.size() + result + f));
+            const auto weight =
+                static_cast<Number>(0.9 / static_cast<double>(sums.size() + result + f));
             value += weight * given.fields[f][at] + static_cast<Number>(0.003) * sums[f];
         }
         return value / (1 + value * value);
@@ -81,15 +82,18 @@ private:
         if (stencil_.links) {
             const std::int64_t slices = (layout.width + 15) / 16;
             const std::int64_t slice = row * slices + column / 16;
-            for (std::uint32_t e = given.links.starts[slice]; e < given.links.starts[slice + 1]; ++e) {
+            for (std::uint32_t e = given.links.starts[slice]; e < given.links.starts[slice + 1];
+                 ++e) {
                 const std::int64_t link = 16 * static_cast<std::int64_t>(e) + column % 16;
                 sum += given.links.weights[link] * cells[given.links.targets[link]];
             }
             return sum;
         }
         for (std::int64_t dz = -std::int64_t{stencil_.z}; dz <= std::int64_t{stencil_.z}; ++dz) {
-            for (std::int64_t dy = -std::int64_t{stencil_.y}; dy <= std::int64_t{stencil_.y}; ++dy) {
-                for (std::int64_t dx = -std::int64_t{stencil_.x}; dx <= std::int64_t{stencil_.x}; ++dx) {
+            for (std::int64_t dy = -std::int64_t{stencil_.y}; dy <= std::int64_t{stencil_.y};
+                 ++dy) {
+                for (std::int64_t dx = -std::int64_t{stencil_.x}; dx <= std::int64_t{stencil_.x};
+                     ++dx) {
                     sum += cells[at + dz * layout.slice_stride + dy * layout.stride + dx];
                 }
             }
@@ -151,8 +155,10 @@ private:
     void fill(Field& field, std::uint64_t number) const {
         for (std::int64_t row = 0; row < layout_.row_count(); ++row) {
             for (std::int64_t i = 0; i < layout_.width; ++i) {
-                const auto mixed = static_cast<std::uint64_t>(row * 7919 + i * 104729) + number * 31;
-                field.row<Number>(row)[i] = static_cast<Number>((mixed * 2654435761u >> 7) % 1000) / 1000;
+                const auto mixed =
+                    static_cast<std::uint64_t>(row * 7919 + i * 104729) + number * 31;
+                field.row<Number>(row)[i] =
+                    static_cast<Number>((mixed * 2654435761u >> 7) % 1000) / 1000;
             }
         }
     }
@@ -162,7 +168,8 @@ private:
         for (std::int64_t cell = 0; cell < cells; ++cell) {
             for (std::int64_t k = dice_.below(5); k > 0; --k) {
                 const std::int64_t to = cell + dice_.below(most) - most / 2;
-                list.neighbours.push_back(static_cast<std::uint32_t>(std::clamp<std::int64_t>(to, 0, cells - 1)));
+                list.neighbours.push_back(
+                    static_cast<std::uint32_t>(std::clamp<std::int64_t>(to, 0, cells - 1)));
                 list.weights.push_back(0.1 * static_cast<double>(k));
             }
             list.ends.push_back(list.neighbours.size());
@@ -186,7 +193,8 @@ private:
         if (choice < 3 || written_.empty()) {
             return {Kind::species, static_cast<std::uint32_t>(dice_.below(species_)), 0, nullptr};
         }
-        return written_[static_cast<std::size_t>(dice_.below(static_cast<std::int64_t>(written_.size())))];
+        return written_[static_cast<std::size_t>(
+            dice_.below(static_cast<std::int64_t>(written_.size())))];
     }
     static bool same(const PlaneRef& a, const PlaneRef& b) {
         return a.kind == b.kind && a.number == b.number && a.in_register == b.in_register;
@@ -199,7 +207,8 @@ private:
         const std::uint32_t results = to_temporary ? problem_.temporaries : species_;
         for (std::uint32_t k = 0; k < results; ++k) {
             StepProblem::Result result;
-            result.plane = {to_temporary ? Kind::temporary : Kind::species, k, to_temporary ? 0 : target, nullptr};
+            result.plane = {to_temporary ? Kind::temporary : Kind::species, k,
+                            to_temporary ? 0 : target, nullptr};
             result.needs_halo = true;
             result.boundary = problem_.grid.boundary;
             pass.results.push_back(result);
@@ -207,15 +216,16 @@ private:
         std::vector<bool> own_only;
         for (std::int64_t fields = 1 + dice_.below(4); fields > 0; --fields) {
             const PlaneRef plane = some_plane();
-            const bool is_result = std::any_of(pass.results.begin(), pass.results.end(), [&](const auto& result) {
-                return same(result.plane, plane);
-            });
+            const bool is_result =
+                std::any_of(pass.results.begin(), pass.results.end(),
+                            [&](const auto& result) { return same(result.plane, plane); });
             pass.fields.push_back(plane);
             own_only.push_back(is_result || !dice_.often());
         }
         if (dice_.below(3) == 0) pass.masks = {mask_.origin()};
         pass.uniforms = {0.1};
-        if (dice_.often()) pass.changing = {{StepProblem::ChangingUniform::Kind::time, 0, 0, 0.5, false}};
+        if (dice_.often())
+            pass.changing = {{StepProblem::ChangingUniform::Kind::time, 0, 0, 0.5, false}};
         pass.kernel = std::make_shared<SumKernel<Number>>(own_only, problem_.grid.stencil());
         if (dice_.below(8) == 0) {
             pass.reductions = {{ReductionKind::sum, {Kind::species, 0, 0, nullptr}, 0}};
@@ -283,8 +293,8 @@ void compare(const Grid& grid, std::uint64_t seed) {
         if (!dice.often()) tiling.along = Tiling::Along::rows;
         EXPECT_TRUE(plain == steps_of(system, tiling, threads))
             << "seed " << seed << ", " << threads << " threads, " << tiling.levels << " levels of "
-            << tiling.outer_layer << ", " << tiling.inner_bands << " bands of " << tiling.inner_layer
-            << (tiling.along == Tiling::Along::rows ? ", along rows" : "")
+            << tiling.outer_layer << ", " << tiling.inner_bands << " bands of "
+            << tiling.inner_layer << (tiling.along == Tiling::Along::rows ? ", along rows" : "")
             << ", grid " << grid.width << " x " << grid.height << " x " << grid.depth;
     }
 }
@@ -305,9 +315,9 @@ Boundaries boundary_of(std::uint64_t seed) {
 }
 
 TEST(TiledSteps, OnSmallGrids) {
-    const std::vector<GridSize> sizes{{1, 1, 1}, {1, 37, 1}, {41, 1, 1}, {16, 2, 1}, {13, 3, 1},
-                                      {48, 23, 1}, {80, 31, 1}, {97, 29, 1}, {7, 5, 2}, {9, 11, 7},
-                                      {5, 23, 13}, {1, 9, 6}, {33, 40, 4}};
+    const std::vector<GridSize> sizes{{1, 1, 1},   {1, 37, 1},  {41, 1, 1},  {16, 2, 1}, {13, 3, 1},
+                                      {48, 23, 1}, {80, 31, 1}, {97, 29, 1}, {7, 5, 2},  {9, 11, 7},
+                                      {5, 23, 13}, {1, 9, 6},   {33, 40, 4}};
     std::uint64_t seed = 1;
     for (const GridSize& size : sizes) {
         for (int repetition = 0; repetition < 6; ++repetition, ++seed) {
@@ -330,7 +340,8 @@ TEST(TiledSteps, OnSeveralThreads) {
 
 TEST(TiledSteps, OnLinkedCells) {
     std::uint64_t seed = 900;
-    for (const GridSize& size : {GridSize{16, 50}, GridSize{64, 40}, GridSize{512, 90}, GridSize{32, 1}}) {
+    for (const GridSize& size :
+         {GridSize{16, 50}, GridSize{64, 40}, GridSize{512, 90}, GridSize{32, 1}}) {
         for (int repetition = 0; repetition < 4; ++repetition, ++seed) {
             Grid grid{size.width, size.height};
             grid.linked = true;

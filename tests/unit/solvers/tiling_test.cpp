@@ -56,7 +56,8 @@ TEST(Tiling, LayersOfThinGridsHaveWhatACallIsWorth) {
     EXPECT_EQ(choose_tiling(heat_problem(Grid{512, 8192}, 0.1f), 1, caches).outer_layer, 3);
     EXPECT_EQ(choose_tiling(heat_problem(Grid{1024, 8192}, 0.1f), 1, caches).outer_layer, 1);
     for (const GridSize size : {GridSize{2, 1000003}, GridSize{17, 100003}, GridSize{1021, 4093}}) {
-        const Tiling of_prime = choose_tiling(heat_problem(Grid{size.width, size.height}, 0.1f), 1, caches);
+        const Tiling of_prime =
+            choose_tiling(heat_problem(Grid{size.width, size.height}, 0.1f), 1, caches);
         EXPECT_EQ(of_prime.levels, 16) << size.width;
         EXPECT_TRUE(of_prime.is_near) << size.width;
     }
@@ -110,7 +111,8 @@ TEST(Tiling, CutsLargeSlices) {
 TEST(Tiling, SidesWrapWhereAnyPlaneDoes) {
     StepProblem problem = heat_problem(Grid{64, 64, Boundary::no_flux}, 0.1f);
     EXPECT_FALSE(wraps(problem, Side::top));
-    problem.sides = {SideRules(Boundaries(Boundary::no_flux, Boundary::periodic, Boundary::no_flux))};
+    problem.sides = {
+        SideRules(Boundaries(Boundary::no_flux, Boundary::periodic, Boundary::no_flux))};
     EXPECT_TRUE(wraps(problem, Side::top));
     EXPECT_FALSE(wraps(problem, Side::left));
 }

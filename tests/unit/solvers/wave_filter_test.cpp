@@ -1,5 +1,5 @@
-// Filtered planes against the operators that they undo, whose neighbours come from the halo: nothing
-// here knows of waves.
+// Filtered planes against the operators that they undo, whose neighbours come from the halo:
+// nothing here knows of waves.
 #include "solvers/wave_filter.h"
 
 #include "core/plane.h"
@@ -63,8 +63,9 @@ Values second_difference(const Domain& domain, const Values& u, int axis) {
     for_cells(domain.grid, [&](std::int64_t i, std::int64_t j, std::int64_t k) {
         std::int64_t at[3] = {i, j, k};
         const double own = u[domain.cell(i, j, k)];
-        result[domain.cell(i, j, k)] = (neighbour(domain, u, at, axis, -1) +
-                                        neighbour(domain, u, at, axis, 1) - 2 * own) / (h * h);
+        result[domain.cell(i, j, k)] =
+            (neighbour(domain, u, at, axis, -1) + neighbour(domain, u, at, axis, 1) - 2 * own) /
+            (h * h);
     });
     return result;
 }
@@ -183,8 +184,9 @@ TEST(WaveFilter, ExponentialStepsAddUp) {
     for (const Domain& domain : domains()) {
         const auto step = [&](const Values& u, double h) {
             Values result = u;
-            add(result, h, diffused(domain, of_all, filtered<double>(domain, of_all,
-                                                                     WaveResponse::exponential, h, u)));
+            add(result, h,
+                diffused(domain, of_all,
+                         filtered<double>(domain, of_all, WaveResponse::exponential, h, u)));
             return result;
         };
         const Values u = any_values(domain.count());
@@ -195,12 +197,14 @@ TEST(WaveFilter, ExponentialStepsAddUp) {
 TEST(WaveFilter, LeavesWavesThatWouldGrow) {
     const Domain domain{Grid{64, 1}, rules("pppppp")};
     Values u(64);
-    for (int n = 0; n < 64; ++n) u[static_cast<std::size_t>(n)] = std::cos(2 * std::numbers::pi * n / 16);
+    for (int n = 0; n < 64; ++n)
+        u[static_cast<std::size_t>(n)] = std::cos(2 * std::numbers::pi * n / 16);
     DiffusionSymbol backwards{};
     backwards[0] = -1;
     backwards[1] = 1;
-    EXPECT_LT(largest_difference(filtered<double>(domain, backwards, WaveResponse::implicit, 100, u), u),
-              1e-12);
+    EXPECT_LT(
+        largest_difference(filtered<double>(domain, backwards, WaveResponse::implicit, 100, u), u),
+        1e-12);
 }
 
 TEST(WaveFilter, BitsDoNotDependOnThreads) {

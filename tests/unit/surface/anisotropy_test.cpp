@@ -18,7 +18,8 @@ SurfaceMesh plane(std::uint32_t n) {
     for (std::uint32_t j = 0; j < n; ++j) {
         for (std::uint32_t i = 0; i < n; ++i) {
             const std::uint32_t a = (n + 1) * j + i;
-            for (const std::uint32_t corner : {a, a + 1, a + n + 2, a + n + 1}) soup.corners.push_back(corner);
+            for (const std::uint32_t corner : {a, a + 1, a + n + 2, a + n + 1})
+                soup.corners.push_back(corner);
             soup.ends.push_back(soup.corners.size());
         }
     }
@@ -30,7 +31,8 @@ Anisotropy constant(const SurfaceMesh& mesh, Vector3d direction, double ratio) {
             std::vector<double>(mesh.triangles.size(), ratio)};
 }
 
-SurfaceCells cells_of(const SurfaceMesh& mesh, std::uint64_t count, const Anisotropy& anisotropy, int threads = 2) {
+SurfaceCells cells_of(const SurfaceMesh& mesh, std::uint64_t count, const Anisotropy& anisotropy,
+                      int threads = 2) {
     Team team(threads);
     CellOptions options;
     options.count = count;
@@ -82,7 +84,8 @@ TEST(Anisotropy, CellsAreLongerThanWide) {
                     spread.add(position_of(mesh, cells.places[wall.neighbour]) - p, direction, 1);
                 }
             }
-            EXPECT_NEAR(std::sqrt(spread.along / spread.across) / ratio, 1, 0.05) << n << " " << ratio;
+            EXPECT_NEAR(std::sqrt(spread.along / spread.across) / ratio, 1, 0.05)
+                << n << " " << ratio;
         }
     }
 }
@@ -99,7 +102,8 @@ TEST(Anisotropy, DiffusionSpreadsFartherAlongTheDirection) {
         Spread spread;
         double sum = 0;
         for (std::size_t k = 0; k < c.size(); ++k) {
-            spread.add(position_of(mesh, cells.places[k]) - middle, direction, c[k] * cells.areas[k]);
+            spread.add(position_of(mesh, cells.places[k]) - middle, direction,
+                       c[k] * cells.areas[k]);
             sum += c[k] * cells.areas[k];
         }
         return Spread{spread.along / sum, spread.across / sum};
@@ -125,7 +129,8 @@ TEST(Anisotropy, WorksOnASphereOnAnyNumberOfThreads) {
     Anisotropy anisotropy = constant(mesh, {0, 0, 1}, 3);
     for (std::size_t t = 0; t < anisotropy.ratio.size(); t += 2) anisotropy.ratio[t] = 2;
     anisotropy.direction[5] = {};  // No direction at all.
-    const SurfaceCells one = cells_of(mesh, 900, anisotropy, 1), three = cells_of(mesh, 900, anisotropy, 3);
+    const SurfaceCells one = cells_of(mesh, 900, anisotropy, 1),
+                       three = cells_of(mesh, 900, anisotropy, 3);
     EXPECT_EQ(one.areas, three.areas);
     EXPECT_EQ(one.ends, three.ends);
     test::expect_areas_sum_to(mesh, one);

@@ -64,9 +64,8 @@ void expect_finite_geometry(const SurfaceMesh& mesh) {
                 static_cast<double>(facts_of(mesh).euler_characteristic), 1e-6);
     const TangentPlanes planes = planes_of_triangles(mesh);
     EXPECT_TRUE(all_unit(axis_directions(planes, {0, 0, 1}, DirectionKind::arrows)));
-    EXPECT_TRUE(all_unit(
-        directions(planes, curvature_lines(mesh, planes, curvature, Principal::high),
-                   DirectionKind::lines)));
+    EXPECT_TRUE(all_unit(directions(
+        planes, curvature_lines(mesh, planes, curvature, Principal::high), DirectionKind::lines)));
 }
 
 void expect_finite_cells(const SurfaceMesh& mesh) {
@@ -94,10 +93,11 @@ void expect_finite_cells(const SurfaceMesh& mesh) {
     }
     const TangentPlanes planes = planes_of_cells(mesh, cells, team, never);
     const KeyDirection key = {at, {1, 2, 3}};
-    const auto field = key_directions(mesh, planes, std::span(&key, 1), DirectionKind::lines, never);
+    const auto field =
+        key_directions(mesh, planes, std::span(&key, 1), DirectionKind::lines, never);
     EXPECT_TRUE(all_unit(field));
-    EXPECT_TRUE(all_unit(
-        smoothed_directions(planes, field, DirectionKind::lines, size / 5, team, never)));
+    EXPECT_TRUE(
+        all_unit(smoothed_directions(planes, field, DirectionKind::lines, size / 5, team, never)));
 }
 
 TEST(AnyModel, HasFiniteGeometry) {

@@ -101,7 +101,8 @@ TEST(BlurCells, APointBecomesAGaussian) {
         squares += dot(apart, apart) * static_cast<double>(after[k]) * cells.areas[k] / sum;
     }
     EXPECT_NEAR(squares / 2, sigma * sigma, 0.1 * sigma * sigma);
-    const double peak = cells.areas[middle] / (2 * std::numbers::pi * sigma * sigma) / (spacing * spacing);
+    const double peak =
+        cells.areas[middle] / (2 * std::numbers::pi * sigma * sigma) / (spacing * spacing);
     EXPECT_NEAR(static_cast<double>(after[middle]) / peak, 1, 0.15);
 }
 

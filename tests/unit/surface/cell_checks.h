@@ -19,7 +19,8 @@ inline double unevenness(const SurfaceMesh& mesh, const std::vector<SurfacePlace
         double nearest = 1e9;
         for (std::size_t b = 0; b < places.size(); ++b) {
             if (a == b) continue;
-            nearest = std::min(nearest, length(position_of(mesh, places[a]) - position_of(mesh, places[b])));
+            nearest = std::min(nearest,
+                               length(position_of(mesh, places[a]) - position_of(mesh, places[b])));
         }
         sum += nearest;
         squares += nearest * nearest;

@@ -50,7 +50,8 @@ protected:
 
     const std::filesystem::path folder =
         std::filesystem::path(testing::TempDir()) /
-        ("cascade_cells_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        ("cascade_cells_" +
+         std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     const std::filesystem::path path = folder / "some.cells";
     const SurfaceMesh mesh = test::box();
     CellOptions options;
@@ -88,7 +89,8 @@ TEST_F(CellFile, KeyTellsApartAllThatMatters) {
         keys.push_back(key_of(changed_mesh, changed));
     };
     const std::size_t triangles = mesh.triangles.size();
-    Anisotropy along_x = {std::vector<Vector3d>(triangles, {1, 0, 0}), std::vector<double>(triangles, 2)};
+    Anisotropy along_x = {std::vector<Vector3d>(triangles, {1, 0, 0}),
+                          std::vector<double>(triangles, 2)};
     Anisotropy more = along_x;
     more.ratio[3] = 2.5;
     other([](auto&, CellOptions& o) { o.count = 61; });
@@ -122,7 +124,8 @@ TEST_F(CellFile, SaysWhyItIsNotUsed) {
     others.seed = 9;
     const auto stale = read_cells(path, mesh, key_of(mesh, others));
     ASSERT_FALSE(stale);
-    EXPECT_NE(stale.error().message.find("of another surface or made in another way"), std::string::npos);
+    EXPECT_NE(stale.error().message.find("of another surface or made in another way"),
+              std::string::npos);
     change(false, [](std::string& b) { b[0] = 'K'; });
     EXPECT_NE(reason().find("is no file of cells"), std::string::npos);
     change(false, [](std::string& b) { b[8] = 99; });
@@ -161,24 +164,25 @@ TEST_F(CellFile, RefusesHostileNumbersWithARightChecksum) {
         EXPECT_NE(reason(), "") << "at " << at;
     };
     // How many cells and walls: neither is believed, however large.
-    for (const std::uint64_t count : {std::uint64_t{0}, std::uint64_t{61}, ~std::uint64_t{0}, std::uint64_t{1} << 62,
-                                      std::uint64_t{1} << 40, (~std::uint64_t{0} - 71) / 44 + 1}) {
+    for (const std::uint64_t count :
+         {std::uint64_t{0}, std::uint64_t{61}, ~std::uint64_t{0}, std::uint64_t{1} << 62,
+          std::uint64_t{1} << 40, (~std::uint64_t{0} - 71) / 44 + 1}) {
         put(32, count);
         put(40, count);
     }
     const std::size_t cell = 64, walls = 64 + 60 * 44;
-    put(48, -1.0);                                         // The bare area.
-    put(cell, std::uint32_t{12});                          // A triangle that is not there.
+    put(48, -1.0);                                            // The bare area.
+    put(cell, std::uint32_t{12});                             // A triangle that is not there.
     put(cell + 4, std::numeric_limits<double>::quiet_NaN());  // A weight.
     put(cell + 4, 1.5);
     put(cell + 28, std::numeric_limits<double>::infinity());  // An area.
-    put(cell + 36, std::uint64_t{1} << 50);                // Where a cell's walls end.
+    put(cell + 36, std::uint64_t{1} << 50);                   // Where a cell's walls end.
     put(cell + 59 * 44 + 36, std::uint64_t{5});
-    put(walls, std::uint32_t{0});                          // A wall of cell 0 to itself,
-    put(walls, std::uint32_t{60});                         // and to none.
-    put(walls + 4, 0.0);                                   // Its length,
-    put(walls + 4, 0.25);                                  // which the other cell does not have.
-    put(walls + 12, -2.0);                                 // Its distance.
+    put(walls, std::uint32_t{0});   // A wall of cell 0 to itself,
+    put(walls, std::uint32_t{60});  // and to none.
+    put(walls + 4, 0.0);            // Its length,
+    put(walls + 4, 0.25);           // which the other cell does not have.
+    put(walls + 12, -2.0);          // Its distance.
 }
 
 TEST_F(CellFile, CellsAreMadeOnceAndThenKept) {

@@ -17,7 +17,8 @@ CellFilter filter_of(const SurfaceMesh& mesh, const SurfaceCells& cells, int thr
     return CellFilter(mesh, cells, team);
 }
 
-float filtered(const CellFilter& filter, const std::vector<float>& values, const SurfacePlace& place) {
+float filtered(const CellFilter& filter, const std::vector<float>& values,
+               const SurfacePlace& place) {
     std::vector<CellShare> shares;
     filter.shares(place, shares);
     float sum = 0;
@@ -26,7 +27,8 @@ float filtered(const CellFilter& filter, const std::vector<float>& values, const
 }
 
 template <typename Function>
-std::vector<float> values_of(const SurfaceMesh& mesh, const SurfaceCells& cells, Function function) {
+std::vector<float> values_of(const SurfaceMesh& mesh, const SurfaceCells& cells,
+                             Function function) {
     std::vector<float> values;
     for (const SurfacePlace& place : cells.places) {
         values.push_back(static_cast<float>(function(position_of(mesh, place))));
@@ -37,7 +39,8 @@ std::vector<float> values_of(const SurfaceMesh& mesh, const SurfaceCells& cells,
 /// −1 or 1 by chance: the roughest values there are.
 std::vector<float> coins(std::size_t count) {
     std::vector<float> values;
-    for (std::uint32_t k = 0; k < count; ++k) values.push_back(pcg4d({k, 0, 0, 0})[0] & 1 ? 1.0F : -1.0F);
+    for (std::uint32_t k = 0; k < count; ++k)
+        values.push_back(pcg4d({k, 0, 0, 0})[0] & 1 ? 1.0F : -1.0F);
     return values;
 }
 
@@ -164,7 +167,8 @@ TEST(CellFilter, TheOtherSideOfALeafIsNotSeen) {
                 return mesh.double_area_normal(place.triangle).z > 0;
             };
             std::vector<float> values;
-            for (const SurfacePlace& place : cells.places) values.push_back(is_top(place) ? 1.0F : -1.0F);
+            for (const SurfacePlace& place : cells.places)
+                values.push_back(is_top(place) ? 1.0F : -1.0F);
             const double s = filter.radius();
             for (const SurfacePlace& place : scatter(mesh, 4000, 9)) {
                 const Vector3d p = position_of(mesh, place);
@@ -188,7 +192,8 @@ TEST(CellFilter, PiecesHaveNothingToDoWithEachOther) {
     const SurfaceCells cells = cells_of(mesh, 3000);
     const CellFilter filter = filter_of(mesh, cells);
     std::vector<float> values;
-    for (const SurfacePlace& place : cells.places) values.push_back(static_cast<float>(components[place.triangle]));
+    for (const SurfacePlace& place : cells.places)
+        values.push_back(static_cast<float>(components[place.triangle]));
     for (const SurfacePlace& place : scatter(mesh, 3000, 2)) {
         EXPECT_NEAR(filtered(filter, values, place), components[place.triangle], 1e-6);
     }
@@ -257,7 +262,8 @@ TEST(CellFilter, SlopesAreThoseOfTheShares) {
                 behind.weights[k] += steps[k];
             }
             const Vector3d way = position_of(mesh, behind) - position_of(mesh, before);
-            const double change = filtered(filter, values, behind) - filtered(filter, values, before);
+            const double change =
+                filtered(filter, values, behind) - filtered(filter, values, before);
             const double expected =
                 (slope.x * way.x + slope.y * way.y + slope.z * way.z) / filter.radius();
             EXPECT_NEAR(change, expected, 1e-5 + 0.08 * length(way) / filter.radius());

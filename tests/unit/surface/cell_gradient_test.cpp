@@ -11,7 +11,8 @@ namespace {
 
 using namespace test;
 
-std::vector<Vector3d> weights_of(const SurfaceMesh& mesh, const SurfaceCells& cells, int threads = 2) {
+std::vector<Vector3d> weights_of(const SurfaceMesh& mesh, const SurfaceCells& cells,
+                                 int threads = 2) {
     Team team(threads);
     return cell_gradient_weights(mesh, cells, team, never);
 }
@@ -31,9 +32,9 @@ TEST(CellGradient, IsExactForLinearFunctionsOnAPlane) {
     });
     const SurfaceCells cells = cells_of(mesh, 400);
     const Vector3d slope = e * 3.0 - f * 1.25;
-    const std::vector<Vector3d> gradients = cell_gradients(
-        cells, weights_of(mesh, cells),
-        values(mesh, cells, [&](Vector3d p) { return dot(p, slope) + 0.5; }));
+    const std::vector<Vector3d> gradients =
+        cell_gradients(cells, weights_of(mesh, cells),
+                       values(mesh, cells, [&](Vector3d p) { return dot(p, slope) + 0.5; }));
     for (const Vector3d& gradient : gradients) EXPECT_LT(length(gradient - slope), 1e-10);
 }
 
@@ -44,9 +45,8 @@ TEST(CellGradient, CrossesFoldsWithoutError) {
     });
     const SurfaceCells cells = cells_of(mesh, 300);
     const std::vector<Vector3d> gradients =
-        cell_gradients(cells, weights_of(mesh, cells), values(mesh, cells, [](Vector3d p) {
-                           return 2 * (p.x + p.z) - p.y;
-                       }));
+        cell_gradients(cells, weights_of(mesh, cells),
+                       values(mesh, cells, [](Vector3d p) { return 2 * (p.x + p.z) - p.y; }));
     for (std::size_t k = 0; k < gradients.size(); ++k) {
         const bool is_upright = position_of(mesh, cells.places[k]).z > 0;
         const Vector3d wanted = is_upright ? Vector3d{0, -1, 2} : Vector3d{2, -1, 0};
@@ -63,14 +63,14 @@ TEST(CellGradient, FirstHarmonicsOfASphereAreOfFirstOrder) {
         const std::vector<Vector3d> weights = weights_of(mesh, cells);
         double sum = 0;
         for (const Vector3d axis : {Vector3d{1, 0, 0}, Vector3d{0, 1, 0}, Vector3d{0, 0, 1}}) {
-            const std::vector<Vector3d> gradients = cell_gradients(
-                cells, weights, values(mesh, cells, [&](Vector3d p) { return dot(axis, p); }));
+            const std::vector<Vector3d> gradients =
+                cell_gradients(cells, weights,
+                               values(mesh, cells, [&](Vector3d p) { return dot(axis, p); }));
             for (std::size_t k = 0; k < count; ++k) {
                 const Vector3d p = unit(position_of(mesh, cells.places[k]));
                 const double error = length(gradients[k] - (axis - p * dot(axis, p)));
                 sum += error * error;
-                const Vector3d normal =
-                    tangent_frame(mesh, cells.places[k].triangle).normal;
+                const Vector3d normal = tangent_frame(mesh, cells.places[k].triangle).normal;
                 EXPECT_LT(std::abs(dot(gradients[k], normal)), 1e-12);
             }
         }

@@ -129,7 +129,8 @@ TEST(CellOrder, TheCurveKeepsNeighboursNear) {
     EXPECT_GT(static_cast<double>(near), 0.8 * static_cast<double>(links.neighbours.size()));
 }
 
-/// Hilbert's curve goes on to a box that touches the one before, which no other of these orders does.
+/// Hilbert's curve goes on to a box that touches the one before, which no other of these orders
+/// does.
 TEST(CellOrder, TheCurveIsConnected) {
     constexpr std::int64_t side = 16;
     std::vector<Vector3d> positions;
@@ -150,8 +151,8 @@ TEST(CellOrder, PlacesThatAreNoneAreOrderedToo) {
     EXPECT_EQ(order_along_curve({}), Order{});
     const std::vector<Vector3d> same(5, {1, 2, 3});
     EXPECT_EQ(order_along_curve(same), (Order{0, 1, 2, 3, 4}));
-    const std::vector<Vector3d> strange{{nan, nan, nan}, {1, 0, 0}, {0, infinity, 1}, {0, 0, 0},
-                                        {1e308, -1e308, 0}, {nan, 1, -infinity}};
+    const std::vector<Vector3d> strange{{nan, nan, nan}, {1, 0, 0},          {0, infinity, 1},
+                                        {0, 0, 0},       {1e308, -1e308, 0}, {nan, 1, -infinity}};
     EXPECT_TRUE(has_each_once(order_along_curve(strange), strange.size()));
     const std::vector<Vector3d> one_is_none{{2, 0, 0}, {nan, nan, nan}, {1, 0, 0}};
     EXPECT_EQ(order_along_curve(one_is_none), (Order{1, 2, 0}));
@@ -166,7 +167,8 @@ TEST(CellOrder, GroupsAreSortedByLinksWithinWindows) {
     for (std::size_t k = 0; k < cells; ++k) {
         EXPECT_EQ(order[k] / window, k / window);
         if (k % window == 0) continue;
-        const std::size_t before = link_count(links, order[k - 1]), now = link_count(links, order[k]);
+        const std::size_t before = link_count(links, order[k - 1]),
+                          now = link_count(links, order[k]);
         EXPECT_TRUE(before < now || (before == now && order[k - 1] < order[k])) << k;
     }
 }

@@ -101,7 +101,8 @@ double unevenness_by_lloyd(std::size_t count, int rounds) {
                 const Vector2d image = {d.x - std::round(d.x), d.y - std::round(d.y)};
                 if (j != k && length(image) < 0.4) others.push_back({length(image), image});
             }
-            std::sort(others.begin(), others.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+            std::sort(others.begin(), others.end(),
+                      [](const auto& a, const auto& b) { return a.first < b.first; });
             nearest[k] = others[0].first;
             ConvexRegion region = ConvexRegion::square(0.2);
             for (const auto& [distance, place] : others) {

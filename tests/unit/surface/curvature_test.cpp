@@ -132,13 +132,17 @@ TEST(Curvature, TurksRadiiAreSmoothedAndBounded) {
     // A dent in a plane is found where it is, and wider after each round.
     SurfaceMesh dented = sheet(20, 20, [](double u, double v) { return Vector3d{u, v, 0}; });
     const auto p = static_cast<std::size_t>(
-        std::min_element(dented.points.begin(), dented.points.end(), [](Vector3d a, Vector3d b) {
-            const Vector3d middle = {0.5, 0.5, 0};
-            return length(a - middle) < length(b - middle);
-        }) - dented.points.begin());
+        std::min_element(dented.points.begin(), dented.points.end(),
+                         [](Vector3d a, Vector3d b) {
+                             const Vector3d middle = {0.5, 0.5, 0};
+                             return length(a - middle) < length(b - middle);
+                         }) -
+        dented.points.begin());
     dented.points[p].z = -0.05;
-    const auto none = turk_radii(dented, 0), one = turk_radii(dented, 1), two = turk_radii(dented, 2);
-    EXPECT_EQ(std::min_element(none.begin(), none.end()) - none.begin(), static_cast<std::ptrdiff_t>(p));
+    const auto none = turk_radii(dented, 0), one = turk_radii(dented, 1),
+               two = turk_radii(dented, 2);
+    EXPECT_EQ(std::min_element(none.begin(), none.end()) - none.begin(),
+              static_cast<std::ptrdiff_t>(p));
     const auto changed = [](const std::vector<double>& radii) {
         return std::count_if(radii.begin(), radii.end(), [](double r) { return r < 1.41; });
     };
@@ -150,8 +154,8 @@ TEST(Curvature, StaysFiniteOnBadMeshes) {
     SurfaceMesh noisy = sphere(20);
     for (std::uint32_t p = 0; p < noisy.points.size(); ++p) {
         const auto [x, y, z, w] = pcg4d({p, 1, 2, 3});
-        noisy.points[p] = noisy.points[p] +
-                          Vector3d{x / 4294967296.0, y / 4294967296.0, z / 4294967296.0} * 0.5;
+        noisy.points[p] =
+            noisy.points[p] + Vector3d{x / 4294967296.0, y / 4294967296.0, z / 4294967296.0} * 0.5;
     }
     const SurfaceMesh thin = sheet(30, 4, [](double u, double v) {
         return Vector3d{std::pow(u, 9.0) + 50 * v, v, u * v};

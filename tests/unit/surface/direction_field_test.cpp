@@ -30,7 +30,8 @@ void expect_tangents(const TangentPlanes& planes, const std::vector<Vector3d>& f
 Vector3d around_z(Vector3d p) { return unit(Vector3d{-p.y, p.x, 0}); }
 
 /// The largest angle between neighbours, in degrees, where they are carried over.
-double worst_jump(const TangentPlanes& planes, const std::vector<Vector3d>& field, DirectionKind kind) {
+double worst_jump(const TangentPlanes& planes, const std::vector<Vector3d>& field,
+                  DirectionKind kind) {
     double worst = 0;
     for (std::size_t k = 0; k < planes.size(); ++k) {
         const Vector2d here = planes.frames[k].in_plane(field[k]);
@@ -82,7 +83,8 @@ TEST(Directions, OfAnAxisOnASphereAreMeridians) {
     const SurfaceMesh mesh = sphere(24);
     const SurfaceCells cells = cells_of(mesh, 1500);
     for (const TangentPlanes& planes : {planes_of_triangles(mesh), planes_of(mesh, cells)}) {
-        const std::vector<Vector3d> field = axis_directions(planes, {0, 0, 1e200}, DirectionKind::arrows);
+        const std::vector<Vector3d> field =
+            axis_directions(planes, {0, 0, 1e200}, DirectionKind::arrows);
         expect_tangents(planes, field);
         for (std::size_t k = 0; k < field.size(); ++k) {
             const Vector3d p = unit(position_of(mesh, planes.places[k]));
@@ -123,7 +125,8 @@ TEST(Directions, OfGradientsPointUphill) {
     const SurfaceCells cells = cells_of(mesh, 1500);
     std::vector<double> heights, cell_heights;
     for (const Vector3d& p : mesh.points) heights.push_back(3 * p.z);
-    for (const SurfacePlace& place : cells.places) cell_heights.push_back(-position_of(mesh, place).z);
+    for (const SurfacePlace& place : cells.places)
+        cell_heights.push_back(-position_of(mesh, place).z);
     for (const TangentPlanes& planes : {planes_of_triangles(mesh), planes_of(mesh, cells)}) {
         for (const Vector3d& v : gradients_of_points(mesh, planes, heights)) {
             EXPECT_LT(length(v - Vector3d{0, 0, 3}), 1e-9);
@@ -132,7 +135,8 @@ TEST(Directions, OfGradientsPointUphill) {
     Team team(2);
     const TangentPlanes planes = planes_of(mesh, cells);
     const std::vector<Vector3d> downhill = directions(
-        planes, cell_gradients(cells, cell_gradient_weights(mesh, cells, team, never), cell_heights),
+        planes,
+        cell_gradients(cells, cell_gradient_weights(mesh, cells, team, never), cell_heights),
         DirectionKind::arrows);
     for (const Vector3d& v : downhill) EXPECT_LT(length(v - Vector3d{0, 0, -1}), 1e-6);
 }
@@ -143,10 +147,12 @@ TEST(Directions, OfCurvatureOnACylinderAndATorus) {
         const SurfaceCells cells = cells_of(*mesh, 1200);
         const PrincipalCurvatures curvature = principal_curvatures(*mesh);
         for (const TangentPlanes& planes : {planes_of_triangles(*mesh), planes_of(*mesh, cells)}) {
-            const auto high = directions(planes, curvature_lines(*mesh, planes, curvature, Principal::high),
-                                         DirectionKind::lines);
-            const auto low = directions(planes, curvature_lines(*mesh, planes, curvature, Principal::low),
-                                        DirectionKind::lines);
+            const auto high =
+                directions(planes, curvature_lines(*mesh, planes, curvature, Principal::high),
+                           DirectionKind::lines);
+            const auto low =
+                directions(planes, curvature_lines(*mesh, planes, curvature, Principal::low),
+                           DirectionKind::lines);
             expect_tangents(planes, high);
             for (std::size_t k = 0; k < planes.size(); ++k) {
                 const Vector3d p = position_of(*mesh, planes.places[k]);
@@ -168,7 +174,8 @@ TEST(Directions, OfCurvatureOnACylinderAndATorus) {
 TEST(KeyDirections, AreCarriedAroundACylinder) {
     const SurfaceMesh mesh = cylinder(48, 24, 0.5, 2);
     const SurfaceCells cells = cells_of(mesh, 1500);
-    const KeyDirection key = {{0.6, 0, 1}, {5, 1, 1}};  // At 45 degrees on the surface, once projected.
+    const KeyDirection key = {{0.6, 0, 1},
+                              {5, 1, 1}};  // At 45 degrees on the surface, once projected.
     for (const TangentPlanes& planes : {planes_of_triangles(mesh), planes_of(mesh, cells)}) {
         const std::vector<Vector3d> field =
             key_directions(mesh, planes, std::span(&key, 1), DirectionKind::arrows, never);
@@ -213,12 +220,14 @@ TEST(KeyDirections, SmoothingTurnsFromOneKeyToTheNext) {
 TEST(KeyDirections, LinesDoNotKnowTheirSign) {
     const SurfaceMesh mesh = sheet(20, 20, [](double u, double v) { return Vector3d{u, v, 0}; });
     const TangentPlanes planes = planes_of_triangles(mesh);
-    const std::vector<KeyDirection> keys = {{{0.1, 0.5, 0}, {1, 2, 0}}, {{0.9, 0.5, 0}, {-1, -2, 0}}};
+    const std::vector<KeyDirection> keys = {{{0.1, 0.5, 0}, {1, 2, 0}},
+                                            {{0.9, 0.5, 0}, {-1, -2, 0}}};
     const auto lines = key_directions(mesh, planes, keys, DirectionKind::lines, never);
     Team team(2);
     const auto soft = smoothed_directions(planes, lines, DirectionKind::lines, 0.3, team, never);
     for (const auto& field : {lines, soft}) {
-        for (const Vector3d& v : field) EXPECT_NEAR(std::abs(dot(v, unit(Vector3d{1, 2, 0}))), 1, 1e-9);
+        for (const Vector3d& v : field)
+            EXPECT_NEAR(std::abs(dot(v, unit(Vector3d{1, 2, 0}))), 1, 1e-9);
     }
     const auto arrows = key_directions(mesh, planes, keys, DirectionKind::arrows, never);
     EXPECT_NEAR(worst_jump(planes, arrows, DirectionKind::arrows), 180, 1e-6);
@@ -229,12 +238,10 @@ TEST(KeyDirections, WhatSaysNothingIsLeftOut) {
     append(soup, cube(), {5, 0, 0});
     const SurfaceMesh mesh = make_mesh(std::move(soup))->mesh;
     const TangentPlanes planes = planes_of(mesh, cells_of(mesh, 400));
-    const std::vector<KeyDirection> keys = {{{0.5, 0.5, 2}, {0, 0, 1}},  // Upright.
-                                            {{0.5, 0.5, 2}, {0, 0, 0}},
-                                            {{0.5, 0.5, 2}, {NAN, 0, 0}},
-                                            {{NAN, 0.5, 2}, {1, 0, 0}},
-                                            {{0.5, 0.5, 2}, {0, 1e-300, 0}},
-                                            {{0.5, 0.5, 2}, {1, 0, 0}}};  // Comes too late.
+    const std::vector<KeyDirection> keys = {
+        {{0.5, 0.5, 2}, {0, 0, 1}},  // Upright.
+        {{0.5, 0.5, 2}, {0, 0, 0}},      {{0.5, 0.5, 2}, {NAN, 0, 0}}, {{NAN, 0.5, 2}, {1, 0, 0}},
+        {{0.5, 0.5, 2}, {0, 1e-300, 0}}, {{0.5, 0.5, 2}, {1, 0, 0}}};  // Comes too late.
     const auto field = key_directions(mesh, planes, keys, DirectionKind::arrows, never);
     expect_tangents(planes, field);
     for (std::size_t k = 0; k < planes.size(); ++k) {

@@ -51,7 +51,8 @@ TEST(NearestPlace, IsThatOfATryOfAllTriangles) {
         double best = 1e9;
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
             const SurfacePlace place = {
-                t, nearest_weights({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, point)};
+                t,
+                nearest_weights({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, point)};
             best = std::min(best, length(position_of(mesh, place) - point));
         }
         EXPECT_EQ(length(position_of(mesh, found) - point), best);
@@ -61,7 +62,8 @@ TEST(NearestPlace, IsThatOfATryOfAllTriangles) {
 }
 
 TEST(NearestPlace, OfATriangleIsInsideOnAnEdgeOrAtACorner) {
-    const std::array<Vector3d, 3> corners = {Vector3d{0, 0, 0}, Vector3d{2, 0, 0}, Vector3d{0, 2, 0}};
+    const std::array<Vector3d, 3> corners = {Vector3d{0, 0, 0}, Vector3d{2, 0, 0},
+                                             Vector3d{0, 2, 0}};
     using Weights = std::array<double, 3>;
     EXPECT_EQ(nearest_weights(corners, {0.5, 0.5, 7}), (Weights{0.5, 0.25, 0.25}));
     EXPECT_EQ(nearest_weights(corners, {1, -3, 1}), (Weights{0.5, 0.5, 0}));
@@ -131,7 +133,8 @@ TEST(Distance, GoesAroundACube) {
     const SurfaceDistance distance(mesh, std::span(&source, 1), never);
     for (const SurfacePlace& place : scatter(mesh, 3000, 3)) {
         const Vector3d p = position_of(mesh, place);
-        EXPECT_NEAR(distance.at(place).distance, from_below_the_cube(p), 2e-3) << p.x << ' ' << p.y << ' ' << p.z;
+        EXPECT_NEAR(distance.at(place).distance, from_below_the_cube(p), 2e-3)
+            << p.x << ' ' << p.y << ' ' << p.z;
     }
     EXPECT_NEAR(distance.at(nearest(mesh, {0.5, 0.5, 2})).distance, 2, 1e-9);
 }
@@ -160,7 +163,8 @@ TEST(Distance, OnASphereIsOfFirstOrder) {
 
 TEST(Distance, SeveralSourcesShareTheSurface) {
     const SurfaceMesh mesh = sheet(20, 20, [](double u, double v) { return Vector3d{u, v, 0}; });
-    const std::vector<SurfacePlace> sources = {nearest(mesh, {0.21, 0.33, 0}), nearest(mesh, {0.8, 0.4, 0}),
+    const std::vector<SurfacePlace> sources = {nearest(mesh, {0.21, 0.33, 0}),
+                                               nearest(mesh, {0.8, 0.4, 0}),
                                                nearest(mesh, {0.5, 0.91, 0})};
     const SurfaceDistance distance(mesh, sources, never);
     for (const SurfacePlace& place : scatter(mesh, 2000, 5)) {
@@ -198,9 +202,17 @@ TEST(Distance, OtherPiecesAreInfinitelyFar) {
 /// Turning a corner of a saddle costs a way along its point.
 TEST(Distance, GoesAroundAHole) {
     // A ring 1..3 wide around a square hole: straight ways are barred.
-    const SurfaceMesh mesh = make_mesh(soup_of({{0, 0, 0}, {6, 0, 0}, {6, 6, 0}, {0, 6, 0},
-                                                {2, 2, 0}, {4, 2, 0}, {4, 4, 0}, {2, 4, 0}},
-                                               {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}))->mesh;
+    const SurfaceMesh mesh =
+        make_mesh(soup_of({{0, 0, 0},
+                           {6, 0, 0},
+                           {6, 6, 0},
+                           {0, 6, 0},
+                           {2, 2, 0},
+                           {4, 2, 0},
+                           {4, 4, 0},
+                           {2, 4, 0}},
+                          {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}))
+            ->mesh;
     const SurfacePlace source = nearest(mesh, {1, 3, 0});
     const SurfaceDistance distance(mesh, std::span(&source, 1), never);
     EXPECT_NEAR(distance.at(nearest(mesh, {5, 3, 0})).distance, 2 * std::sqrt(2.0) + 2, 0.01);
@@ -216,7 +228,8 @@ TEST(Distance, BadTrianglesOnlyTakeLonger) {
     const SurfaceDistance distance(mesh, std::span(&source, 1), never, {1});
     const Vector3d from = position_of(mesh, source);
     for (std::uint32_t k = 0; k < mesh.points.size(); ++k) {
-        const double straight = length(mesh.points[k] - from), found = distance.at_point(k).distance;
+        const double straight = length(mesh.points[k] - from),
+                     found = distance.at_point(k).distance;
         EXPECT_GE(found, straight * (1 - 1e-6));
         EXPECT_LT(found, straight * 1.05 + 1e-9);
     }

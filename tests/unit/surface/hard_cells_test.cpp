@@ -1,4 +1,5 @@
-// Cells of surfaces that are unlike an animal: fins, slivers, wires, parts, and very large or small.
+// Cells of surfaces that are unlike an animal: fins, slivers, wires, parts, and very large or
+// small.
 #include "mesh/shapes.h"
 #include "surface/make_cells.h"
 #include "unit/surface/cell_checks.h"
@@ -62,22 +63,24 @@ TEST(HardCells, AWireLongerThanCellsReach) {
         soup.points.push_back({5.0 * k, 1, 0});
     }
     for (std::uint32_t k = 0; k < 200; ++k) {
-        for (const std::uint32_t corner : {2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1}) soup.corners.push_back(corner);
+        for (const std::uint32_t corner : {2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1})
+            soup.corners.push_back(corner);
         soup.ends.push_back(soup.corners.size());
     }
     const SurfaceMesh mesh = mesh_of(std::move(soup));
     for (const std::uint64_t count : {1, 4, 30, 2000}) expect_fine(mesh, count);
 }
 
-/// The largest sum of the weights of a cell's walls over its share of the mean area: 3.46 of regular
-/// hexagons. A step of diffusion has to be so much shorter.
+/// The largest sum of the weights of a cell's walls over its share of the mean area: 3.46 of
+/// regular hexagons. A step of diffusion has to be so much shorter.
 double largest_weight(const SurfaceCells& cells) {
     double total = 0, largest = 0;
     for (const double area : cells.areas) total += area;
     for (std::size_t k = 0; k < cells.places.size(); ++k) {
         double sum = 0;
         for (const CellWall& wall : cells.walls_of(k)) sum += wall.weight();
-        largest = std::max(largest, sum / cells.areas[k] * total / static_cast<double>(cells.places.size()));
+        largest = std::max(largest,
+                           sum / cells.areas[k] * total / static_cast<double>(cells.places.size()));
     }
     return largest;
 }
@@ -118,15 +121,15 @@ TEST(HardCells, VeryLargeAndVerySmallModels) {
 TEST(HardCells, EveryPieceHasACell) {
     // A large box and forty small ones, whose whole area is less than that of a cell.
     PolygonSoup soup = test::cube();
-    for (int k = 0; k < 40; ++k) test::append(soup, scaled(test::cube(), 0.001 * (k + 1)), {2.0 + k, 0, 0});
+    for (int k = 0; k < 40; ++k)
+        test::append(soup, scaled(test::cube(), 0.001 * (k + 1)), {2.0 + k, 0, 0});
     const SurfaceMesh mesh = mesh_of(std::move(soup));
     expect_fine(mesh, 41);
     expect_fine(mesh, 42);
     expect_fine(mesh, 600);
     const auto few = cells_of(mesh, 40);
     ASSERT_FALSE(few);
-    EXPECT_EQ(few.error().message,
-              "40 cells cannot cover a surface of 41 connected components");
+    EXPECT_EQ(few.error().message, "40 cells cannot cover a surface of 41 connected components");
     EXPECT_EQ(few.error().hint, "use 41 cells or more, or join components");
 }
 

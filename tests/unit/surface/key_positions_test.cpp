@@ -47,7 +47,8 @@ TEST(KeyPositions, EachCellHasTheValueOfTheNearestKey) {
         const Vector3d p = unit(position_of(mesh, cells.places[k]));
         std::array<std::pair<double, double>, 3> angles;
         for (std::size_t n = 0; n < 3; ++n) {
-            angles[n] = {std::acos(std::clamp(dot(p, unit(keys[n].position)), -1.0, 1.0)), keys[n].value};
+            angles[n] = {std::acos(std::clamp(dot(p, unit(keys[n].position)), -1.0, 1.0)),
+                         keys[n].value};
         }
         std::sort(angles.begin(), angles.end());
         if (angles[1].first - angles[0].first < 0.05) continue;
@@ -75,10 +76,13 @@ TEST(KeyPositions, PiecesWithoutAKeyTakeTheNearestInSpace) {
 
 /// A step on a long flat strip becomes the error function.
 TEST(Smoothing, SpreadsLikeAGaussian) {
-    const SurfaceMesh mesh = sheet(40, 4, [](double u, double v) { return Vector3d{10 * u, v, 0}; });
+    const SurfaceMesh mesh = sheet(40, 4, [](double u, double v) {
+        return Vector3d{10 * u, v, 0};
+    });
     const SurfaceCells cells = cells_of(mesh, 3000);
     std::vector<double> step;
-    for (const SurfacePlace& place : cells.places) step.push_back(position_of(mesh, place).x > 5 ? 1000 : 999);
+    for (const SurfacePlace& place : cells.places)
+        step.push_back(position_of(mesh, place).x > 5 ? 1000 : 999);
     const double length = 0.8;
     const std::vector<double> found = smooth(cells, step, length);
     for (std::size_t k = 0; k < found.size(); ++k) {
@@ -108,7 +112,8 @@ TEST(Smoothing, FromNothingToTheMeanOfEachPiece) {
         EXPECT_NEAR(mean_of(cells, some), mean_of(cells, values), 1e-6);
         double range = 0;
         for (std::size_t k = 0; k < some.size(); ++k) {
-            if (position_of(mesh, cells.places[k]).x < 3) range = std::max(range, std::abs(some[k] - 0.5));
+            if (position_of(mesh, cells.places[k]).x < 3)
+                range = std::max(range, std::abs(some[k] - 0.5));
         }
         EXPECT_LT(range, last);
         last = range;
@@ -156,7 +161,8 @@ TEST(CellsNear, AreTheNearestOfAll) {
     const SurfaceCells cells = cells_of(mesh, 2000);
     std::vector<Vector3d> points;
     for (int k = 0; k < 60; ++k) {
-        points.push_back(unit(Vector3d{std::sin(k * 1.3), std::cos(k * 2.1), std::sin(k * 0.7)}) * 1.2);
+        points.push_back(unit(Vector3d{std::sin(k * 1.3), std::cos(k * 2.1), std::sin(k * 0.7)}) *
+                         1.2);
     }
     const std::vector<std::uint32_t> found = cells_at(mesh, cells, points);
     const NearestPlace nearest(mesh);
@@ -207,7 +213,8 @@ TEST(CellsNear, WithinADistanceIsADisc) {
     double area = 0;
     for (std::size_t k = 0; k < within.size(); ++k) {
         const Vector3d p = position_of(mesh, cells.places[k]);
-        const double away = std::min(length(p - Vector3d{0.3, 0.3, 0}), length(p - Vector3d{0.7, 0.6, 0}));
+        const double away =
+            std::min(length(p - Vector3d{0.3, 0.3, 0}), length(p - Vector3d{0.7, 0.6, 0}));
         if (std::abs(away - 0.1) > 0.005) {
             EXPECT_EQ(within[k], away < 0.1);
         }

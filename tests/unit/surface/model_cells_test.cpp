@@ -24,14 +24,15 @@ SurfaceMesh rough_torus(int n, int m, double shift) {
         for (int j = 0; j < m; ++j) {
             const double u = 2 * std::numbers::pi * (i + moved()) / n;
             const double v = 2 * std::numbers::pi * (j + moved()) / m;
-            soup.points.push_back({(2 + std::cos(v)) * std::cos(u), (2 + std::cos(v)) * std::sin(u),
-                                   std::sin(v)});
+            soup.points.push_back(
+                {(2 + std::cos(v)) * std::cos(u), (2 + std::cos(v)) * std::sin(u), std::sin(v)});
         }
     }
     const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(i % n * m + j % m); };
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < m; ++j) {
-            for (const std::uint32_t corner : {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)}) {
+            for (const std::uint32_t corner : {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j),
+                                               at(i + 1, j + 1), at(i, j + 1)}) {
                 soup.corners.push_back(corner);
             }
             soup.ends.push_back(soup.corners.size() - 3);
@@ -124,7 +125,8 @@ TEST(VertexCells, WeightsAreTheCotangentsOnAFlatLattice) {
     const std::size_t middle = 6 * 3 + 2;
     EXPECT_NEAR(cells.areas[middle], height, 1e-12);
     ASSERT_EQ(cells.walls_of(middle).size(), 6u);
-    for (const CellWall& wall : cells.walls_of(middle)) EXPECT_NEAR(wall.weight(), 1 / std::sqrt(3), 1e-12);
+    for (const CellWall& wall : cells.walls_of(middle))
+        EXPECT_NEAR(wall.weight(), 1 / std::sqrt(3), 1e-12);
     // Linear functions are harmonic, however the points lie.
     std::vector<double> f;
     for (const Vector3d& p : mesh.points) f.push_back(3 * p.x - 2 * p.y);
@@ -142,13 +144,15 @@ SurfaceMesh rough_plane() {
     for (int j = 0; j <= 12; ++j) {
         for (int i = 0; i <= 12; ++i) {
             const bool is_inside = i > 0 && i < 12 && j > 0 && j < 12;
-            soup.points.push_back({i + (is_inside ? moved() : 0), 3 * j + (is_inside ? moved() : 0), 0});
+            soup.points.push_back(
+                {i + (is_inside ? moved() : 0), 3 * j + (is_inside ? moved() : 0), 0});
         }
     }
     for (std::uint32_t j = 0; j < 12; ++j) {
         for (std::uint32_t i = 0; i < 12; ++i) {
             const std::uint32_t a = 13 * j + i;
-            for (const std::uint32_t corner : {a, a + 1, a + 14, a, a + 14, a + 13}) soup.corners.push_back(corner);
+            for (const std::uint32_t corner : {a, a + 1, a + 14, a, a + 14, a + 13})
+                soup.corners.push_back(corner);
             soup.ends.push_back(soup.corners.size() - 3);
             soup.ends.push_back(soup.corners.size());
         }
@@ -164,7 +168,8 @@ TEST(VertexCells, ObtuseTrianglesAreFlippedAndKeepLinearFunctionsHarmonic) {
     for (const Vector3d& p : mesh.points) f.push_back(p.x - 2 * p.y);
     const std::vector<double> lap = test::laplacian(cells, f);
     for (int j = 2; j < 11; ++j) {
-        for (int i = 2; i < 11; ++i) EXPECT_NEAR(lap[static_cast<std::size_t>(13 * j + i)], 0, 1e-9);
+        for (int i = 2; i < 11; ++i)
+            EXPECT_NEAR(lap[static_cast<std::size_t>(13 * j + i)], 0, 1e-9);
     }
 }
 
@@ -180,7 +185,8 @@ TEST(IntrinsicDelaunay, HasNoNegativeWeightsAndTheSameArea) {
             const TriangleEdge other = flipped.across[t][k], here{t, k};
             ASSERT_TRUE(other.exists());
             EXPECT_EQ(flipped.across[other.triangle][other.edge], here);
-            EXPECT_EQ(flipped.triangles[t][k], flipped.triangles[other.triangle][(other.edge + 1) % 3]);
+            EXPECT_EQ(flipped.triangles[t][k],
+                      flipped.triangles[other.triangle][(other.edge + 1) % 3]);
             EXPECT_NEAR(flipped.lengths[t][k], flipped.lengths[other.triangle][other.edge], 1e-12);
             EXPECT_GE(flipped.cotangent(here) + flipped.cotangent(other), -1e-8);
         }

@@ -89,8 +89,10 @@ TEST(ParameterSurface, PlacesWithoutAreaAreNamed) {
     ASSERT_FALSE(folded);
     EXPECT_NE(folded.error().message.find("column 2"), std::string::npos);
     const auto undefined = measure_surface(
-        [](double sx, double sy) { return Position{std::sqrt(sx - 0.5), sy, 0}; }, grid_of(8, 4),
-        std::nullopt);
+        [](double sx, double sy) {
+            return Position{std::sqrt(sx - 0.5), sy, 0};
+        },
+        grid_of(8, 4), std::nullopt);
     ASSERT_FALSE(undefined);
     EXPECT_EQ(undefined.error().message,
               "the surface is not finite at sx = 0.0625, sy = 0.125 (column 0, row 0)");

@@ -16,9 +16,7 @@ using test::farthest_moved;
 using test::never;
 using test::torus_soup;
 
-SurfaceMesh torus(std::uint32_t n, std::uint32_t m) {
-    return make_mesh(torus_soup(n, m))->mesh;
-}
+SurfaceMesh torus(std::uint32_t n, std::uint32_t m) { return make_mesh(torus_soup(n, m))->mesh; }
 
 /// A square 0..1² of n² squares.
 SurfaceMesh fine_square(std::uint32_t n) {
@@ -82,7 +80,8 @@ double distance_from(const SurfaceMesh& from, const SurfaceMesh& to) {
     return farthest;
 }
 
-/// How many triangles of places turn away from the mean normal of the old triangles in which these lie.
+/// How many triangles of places turn away from the mean normal of the old triangles in which these
+/// lie.
 std::size_t upside_down(const SurfaceMesh& mesh, const std::vector<SurfacePlace>& places,
                         const Retiled& retiled) {
     std::size_t count = 0;
@@ -276,10 +275,8 @@ TEST(Retile, APieceWithoutPlacesHasNoValues) {
     expect_same_topology(mesh, *retiled, 1);
     const PointAttribute seven = attribute_of(*retiled, "seven", std::vector<float>{7});
     for (std::size_t k = 0; k < seven.values.size(); ++k) {
-        if (retiled->mesh.points[k].x < 2)
-            EXPECT_EQ(seven.values[k], 7);
-        else
-            EXPECT_TRUE(std::isnan(seven.values[k]));
+        if (retiled->mesh.points[k].x < 2) EXPECT_EQ(seven.values[k], 7);
+        else EXPECT_TRUE(std::isnan(seven.values[k]));
     }
 }
 

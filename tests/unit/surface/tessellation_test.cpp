@@ -19,8 +19,9 @@ using test::never;
 
 TEST(PlaceLattice, KnowsCornersAndEdges) {
     const SurfaceMesh mesh = test::square();
-    const std::vector<SurfacePlace> places = {
-        {0, {0, 1, 0}}, {0, {0.25, 0, 0.75}}, {1, {0.2, 0.3, 0.5}}};
+    const std::vector<SurfacePlace> places = {{0, {0, 1, 0}},
+                                              {0, {0.25, 0, 0.75}},
+                                              {1, {0.2, 0.3, 0.5}}};
     const auto lattice = to_lattice(mesh, places);
     ASSERT_TRUE(lattice);
     EXPECT_EQ((*lattice)[0].corner(), 1u);
@@ -167,7 +168,9 @@ TEST(FillHole, AllTrianglesTogetherAreTheHole) {
         const std::vector<Vector2d> ring = star(3 + seed % 20, seed, seed % 3);
         const auto cut = cut_ears(ring, true, [](const RingTriangle&) { return true; });
         expect_filled(ring, cut);
-        const auto worth = [&](const RingTriangle& t) { return std::max(0.0, least_sine(ring, t)); };
+        const auto worth = [&](const RingTriangle& t) {
+            return std::max(0.0, least_sine(ring, t));
+        };
         const auto best = best_triangles(static_cast<std::uint32_t>(ring.size()), worth);
         expect_filled(ring, best);
         const auto worst = [&](const std::vector<RingTriangle>& triangles) {
@@ -185,7 +188,8 @@ TEST(FillHole, EarsOfAConvexRimMakeDelaunayTriangles) {
         std::vector<Vector2d> bent = ring;
         for (Vector2d& p : bent) p.x *= 1.5;  // On an ellipse.
         const auto at = [&](std::uint32_t k) { return Vector3d{bent[k].x, bent[k].y, 0}; };
-        for (const RingTriangle& t : cut_ears(bent, true, [](const RingTriangle&) { return true; })) {
+        for (const RingTriangle& t :
+             cut_ears(bent, true, [](const RingTriangle&) { return true; })) {
             for (std::uint32_t k = 0; k < bent.size(); ++k) {
                 if (k == t[0] || k == t[1] || k == t[2]) continue;
                 EXPECT_LT(in_circle(at(t[0]), at(t[1]), at(t[2]), at(k)), 1e-12);
