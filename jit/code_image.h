@@ -1,7 +1,7 @@
 // Machine code as bytes that run wherever they lie.
 //
-// Internal to jit/. Kernels call nothing and read only constants of their own, so what a code
-// generator writes for them can be linked once, into an image whose parts address each other
+// Internal to jit/. Kernels call nothing and read only constants of their own, so what LLVM writes
+// for them can be linked once (jit/link_image.h), into an image whose parts address each other
 // relative to themselves. An image can be kept in a file and run by another process, without a
 // linker and without LLVM.
 #pragma once
@@ -10,9 +10,7 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 
 namespace cascade {
 
@@ -39,33 +37,37 @@ using LinkedFunction = void(const Number* const* fields, const std::uint8_t* con
                             const Number* weights, const Number* gradient_x,
                             const Number* gradient_y, const Number* gradient_z);
 
-/// A loaded function; its memory is freed with it.
-class LoadedFunction {
-public:
-    virtual ~LoadedFunction() = default;
-    std::uintptr_t address = 0;
-
-    /// As a function of the type that the caller knows it to be.
-    template <typename Function>
-    Function* as() const {
-        return reinterpret_cast<Function*>(address);
-    }
-};
-
 /// Code and constants of one function.
 struct CodeImage {
     std::string bytes;        ///< To lie at a multiple of `alignment`.
     std::uint64_t entry = 0;  ///< Where in the bytes the function begins.
 
-    static constexpr std::uint64_t alignment = 64;
+    /// Of a page: code of AArch64 tells apart what lies within pages and what between them.
+    static constexpr std::uint64_t alignment = 4096;
 };
 
-/// Links a relocatable object file (ELF, x86-64) to an image of its function `name`. Nothing where
-/// the file is of another kind, refers to what is not in it, or has addresses that only a loader
-/// knows.
-std::optional<CodeImage> link_image(std::string_view object, std::string_view name);
+/// A function in memory that may be executed and not written, and is freed with it.
+class LoadedFunction {
+public:
+    static Result<std::unique_ptr<LoadedFunction>> load(const CodeImage& image);
 
-/// Puts an image into memory that may be executed and not written.
-Result<std::unique_ptr<LoadedFunction>> load_image(const CodeImage& image);
+    ~LoadedFunction();
+    LoadedFunction(const LoadedFunction&) = delete;
+    LoadedFunction& operator=(const LoadedFunction&) = delete;
+
+    /// As a function of the type that the caller knows it to be.
+    template <typename Function>
+    Function* as() const {
+        return reinterpret_cast<Function*>(pages_ + entry_);
+    }
+
+private:
+    LoadedFunction(char* pages, const CodeImage& image)
+        : pages_(pages), size_(image.bytes.size()), entry_(image.entry) {}
+
+    char* pages_;
+    std::size_t size_;
+    std::uint64_t entry_;
+};
 
 }  // namespace cascade

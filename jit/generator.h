@@ -16,11 +16,8 @@ namespace cascade {
 
 /// What the module gives. All may be called from several threads; options have been checked.
 struct CodeGenerator {
-    /// An object file with the kernel as the function `kernel_function_name`.
-    Result<std::string> (*compile)(const CellKernel& kernel, const KernelShape& shape,
-                                   int optimise);
-    /// Loads such a file where it could not be linked to an image.
-    Result<std::unique_ptr<LoadedFunction>> (*load)(const std::string& object);
+    /// Code of the kernel.
+    Result<CodeImage> (*compile)(const CellKernel& kernel, const KernelShape& shape, int optimise);
     // The functions of jit/jit.h.
     Result<std::string> (*dump_llvm)(const CellKernel&, Stencil, const JitOptions&);
     Result<std::string> (*dump_assembly)(const CellKernel&, Stencil, const JitOptions&);
@@ -29,8 +26,6 @@ struct CodeGenerator {
     std::vector<std::string> (*known_targets)();
     std::string (*describe)();
 };
-
-inline constexpr const char* kernel_function_name = "kernel";
 
 /// Loads the module if that was not done. Fails where there is none, or one of another build.
 Result<const CodeGenerator*> code_generator();

@@ -195,7 +195,7 @@ private:
     std::unique_ptr<LoadedFunction> load_kept(const std::string& file_key) {
         const auto image = cache_.find(file_key);
         if (!image) return nullptr;
-        auto function = load_image(*image);
+        auto function = LoadedFunction::load(*image);
         if (!function) return nullptr;
         ++found_;
         return std::move(*function);
@@ -207,13 +207,11 @@ private:
         if (auto function = load_kept(file_key)) return function;
         const auto generator = code_generator();
         if (!generator) return tl::unexpected(generator.error());
-        const auto object = (*generator)->compile(kernel, shape, optimise_);
-        if (!object) return tl::unexpected(object.error());
+        const auto image = (*generator)->compile(kernel, shape, optimise_);
+        if (!image) return tl::unexpected(image.error());
         ++compiled_;
-        const auto image = link_image(*object, kernel_function_name);
-        if (!image) return (*generator)->load(*object);
         cache_.keep(file_key, *image);
-        return load_image(*image);
+        return LoadedFunction::load(*image);
     }
 
     int lanes_;

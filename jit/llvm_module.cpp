@@ -2,7 +2,7 @@
 #include "jit/llvm_module.h"
 
 #include "jit/code.h"
-#include "jit/native_session.h"
+#include "jit/link_image.h"
 #include "jit/target_machine.h"
 
 #include <fmt/format.h>
@@ -46,14 +46,14 @@ IdleMachines& idle_machines() {
 
 }  // namespace
 
-Result<std::string> compile(const CellKernel& kernel, const KernelShape& shape, int optimise) {
+Result<CodeImage> compile(const CellKernel& kernel, const KernelShape& shape, int optimise) {
     auto machine = idle_machines().take(optimise);
     if (!machine) {
         auto target = choose_target("", {0, optimise});
         if (!target) return tl::unexpected(target.error());
         machine = std::move(target->machine);
     }
-    auto code = make_code(kernel, shape, kernel_function_name, *machine);
+    auto code = make_code(kernel, shape, "kernel", *machine);
     if (!code) {
         idle_machines().give_back(optimise, std::move(machine));
         return tl::unexpected(code.error());
@@ -61,13 +61,7 @@ Result<std::string> compile(const CellKernel& kernel, const KernelShape& shape, 
     const auto object = generate(*code, *machine, CodeForm::object);
     idle_machines().give_back(optimise, std::move(machine));
     if (!object) return tl::unexpected(object.error());
-    return std::string(object->begin(), object->end());
-}
-
-Result<std::unique_ptr<LoadedFunction>> load(const std::string& object) {
-    auto session = NativeSession::make();
-    if (!session) return tl::unexpected(session.error());
-    return (*session)->load(object, kernel_function_name);
+    return link_image({object->data(), object->size()}, "kernel");
 }
 
 std::string describe() {
@@ -83,9 +77,8 @@ std::string describe() {
 extern "C" __attribute__((visibility("default"))) const cascade::CodeGenerator*
 cascade_code_generator(const char* version) {
     using namespace cascade;
-    static const CodeGenerator generator = {llvm_module::compile,        llvm_module::load,
-                                            llvm_module::dump_llvm,      llvm_module::dump_assembly,
-                                            llvm_module::compile_object, llvm_module::known_targets,
-                                            llvm_module::describe};
+    static const CodeGenerator generator = {llvm_module::compile,       llvm_module::dump_llvm,
+                                            llvm_module::dump_assembly, llvm_module::compile_object,
+                                            llvm_module::known_targets, llvm_module::describe};
     return std::strcmp(version, code_version()) == 0 ? &generator : nullptr;
 }

@@ -7,8 +7,7 @@
 
 namespace cascade::llvm_module {
 
-Result<std::string> compile(const CellKernel& kernel, const KernelShape& shape, int optimise);
-Result<std::unique_ptr<LoadedFunction>> load(const std::string& object);
+Result<CodeImage> compile(const CellKernel& kernel, const KernelShape& shape, int optimise);
 Result<std::string> dump_llvm(const CellKernel& kernel, Stencil stencil, const JitOptions& options);
 Result<std::string> dump_assembly(const CellKernel& kernel, Stencil stencil,
                                   const JitOptions& options);

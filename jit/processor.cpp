@@ -2,6 +2,10 @@
 #include "jit/processor.h"
 
 #include <fmt/format.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
 #if defined(__x86_64__)
 #include <cpuid.h>
 #endif
@@ -57,9 +61,23 @@ std::string host_identity() {
 #else
 
 int host_lanes() { return 4; }
-std::string host_identity() { return {}; }
+
+std::string host_identity() {
+    std::ostringstream text;
+    text << std::ifstream("/proc/cpuinfo").rdbuf();
+    return kinds_of_cores(text.str());
+}
 
 #endif
+
+std::string kinds_of_cores(const std::string& cpuinfo) {
+    std::set<std::string> kinds;  // There are few, of however many cores.
+    std::istringstream lines(cpuinfo);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("CPU ") || line.starts_with("Features")) kinds.insert(line);
+    }
+    return fmt::format("{}", fmt::join(kinds, "|"));
+}
 
 Result<void> check_options(const JitOptions& options) {
     const int lanes = options.lanes;

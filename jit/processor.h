@@ -17,6 +17,10 @@ int host_lanes();
 /// model and features. Empty where they are not known.
 std::string host_identity();
 
+/// The same of an ARM processor, from the text of Linux's /proc/cpuinfo, by which LLVM knows it:
+/// maker, part, variant, revision and features of each kind of core.
+std::string kinds_of_cores(const std::string& cpuinfo);
+
 /// Fails on options that are out of range.
 Result<void> check_options(const JitOptions& options);
 

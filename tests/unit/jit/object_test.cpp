@@ -3,7 +3,7 @@
 #include "ir/interpreter.h"
 #include "ir/multiply_add.h"
 #include "jit/jit.h"
-#include "jit/native_session.h"
+#include "jit/link_image.h"
 #include "tests/support/kernel_comparison.h"
 #include "tests/support/random_kernels.h"
 
@@ -108,12 +108,11 @@ TEST(JitObject, HoldsTheFunctionAndNeedsNothing) {
 template <typename Number = float>
 class ObjectKernel final : public Kernel {
 public:
-    ObjectKernel(NativeSession& session, const std::vector<std::uint8_t>& object,
-                 const std::string& name) {
+    ObjectKernel(const std::vector<std::uint8_t>& object, const std::string& name) {
         const auto* bytes = reinterpret_cast<const char*>(object.data());
-        auto loaded = session.load({bytes, object.size()}, name);
-        EXPECT_TRUE(loaded) << (loaded ? "" : loaded.error().message);
-        if (loaded) function_ = std::move(*loaded);
+        const auto image = link_image({bytes, object.size()}, name);
+        EXPECT_TRUE(image) << (image ? "" : image.error().message);
+        if (image) function_ = std::move(LoadedFunction::load(*image).value());
     }
 
     using Kernel::run;
@@ -140,8 +139,6 @@ std::vector<std::string> targets_of_this_machine() {
 // The processors' instructions differ, the bits do not; and what a processor has no instruction for
 // is refused.
 TEST(JitObject, AllTargetsComputeTheSameBits) {
-    const auto session = NativeSession::make();
-    ASSERT_TRUE(session);
     const auto interpreter = make_interpreter();
     int number = 0, compared = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -157,7 +154,7 @@ TEST(JitObject, AllTargetsComputeTheSameBits) {
             }
             ++compared;
             ASSERT_TRUE(object) << object.error().message;
-            const ObjectKernel native(**session, *object, name);
+            const ObjectKernel native(*object, name);
             ASSERT_EQ(same_bits(expected, HostileInputs(kernel, grid, seed).run(native)), "")
                 << "target '" << target << "', seed " << seed;
         }
