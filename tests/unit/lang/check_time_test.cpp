@@ -1,4 +1,5 @@
-// The settings of time: what they become, their defaults, and their wrong forms.
+// The settings of time: what they become, and their defaults. Wrong forms are in
+// tests/scripts/settings/time.cascade.
 #include "check_helpers.h"
 
 #include <gmock/gmock.h>
@@ -7,7 +8,6 @@
 namespace cascade::testing {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 constexpr const char* decay = "system decay { u: 1; k: 2; u' = lap(u) - k * u }\n";
@@ -15,9 +15,6 @@ constexpr const char* decay = "system decay { u: 1; k: 2; u' = lap(u) - k * u }\
 /// A stage of a small system; its statements are on line 2, from column 18.
 std::unique_ptr<Checked> stage(const std::string& statements) {
     return check_text(std::string(decay) + "stage s: decay { " + statements + " }\n");
-}
-std::vector<std::string> faults(const std::string& statements) {
-    return stage(statements)->faults();
 }
 
 StageTime time_of(const std::string& statements) {
@@ -109,82 +106,10 @@ TEST(CheckTime, WhatReplacesAnEndReplacesBoth) {
     EXPECT_FALSE(back->program->stages[0].time.duration);
 }
 
-TEST(CheckTime, WrongSolvers) {
-    EXPECT_THAT(faults("solver: eular"),
-                ElementsAre("2:26: there is no solver 'eular' | did you mean 'euler'?"));
-    EXPECT_THAT(faults("solver: leapfrog"),
-                ElementsAre("2:26: there is no solver 'leapfrog' | solvers are euler, symplectic, "
-                            "rk2, rk4, rk23, rk45, rkl1, rkl2, imex, imex2, gauss"));
-    EXPECT_THAT(faults("solver: 4"),
-                ElementsAre("2:26: a solver is one word | solvers are euler, symplectic, rk2, rk4, "
-                            "rk23, rk45, rkl1, rkl2, imex, imex2, gauss"));
-    EXPECT_THAT(faults("solver: rk4, rk2"), ElementsAre("2:31: 'solver' takes one value"));
-    EXPECT_THAT(faults("solver: rk4; solver: rk2"),
-                ElementsAre("2:31: 'solver' is given a value twice"));
-}
-
-TEST(CheckTime, WrongNumbers) {
-    EXPECT_THAT(faults("tolerance: 0"), ElementsAre("2:29: tolerance must be from 1e-07 to 0.1"));
-    EXPECT_THAT(faults("duration: -1"),
-                ElementsAre("2:28: duration must be from 0 to 1000000000000"));
-    EXPECT_THAT(faults("duration: 1; iterations: 3"),
-                ElementsAre(
-                    "2:31: a stage ends by its iterations or by its duration, not by both | "
-                    "leave one of them out"));
-    EXPECT_THAT(faults("iterations: 3; duration: 1"),
-                ElementsAre(
-                    "2:33: a stage ends by its iterations or by its duration, not by both | "
-                    "leave one of them out"));
-    EXPECT_THAT(faults("check: 0"), ElementsAre("2:25: check must be at least 1"));
-    EXPECT_THAT(faults("check: 2.5"), ElementsAre("2:25: check must be a whole number"));
-    EXPECT_THAT(faults("tolerance: k").size(), 1u);
-}
-
-TEST(CheckTime, WrongConditions) {
-    EXPECT_THAT(faults("until: u > 3"),
-                ElementsAre("2:25: a stage ends for all cells at once, and this differs by cell | "
-                            "take one number of all cells, as in mean(u over domain) > 0.5"));
-    EXPECT_THAT(faults("until: x + 2 * t > 3"),
-                ElementsAre("2:25: a stage ends for all cells at once, and this differs by cell | "
-                            "take one number of all cells, as in mean(u over domain) > 0.5"));
-    EXPECT_THAT(faults("until: steady()").size(), 1u);
-    EXPECT_THAT(faults("until: steady(1, 2)"),
-                ElementsAre("2:25: steady takes one value: the change that counts as none | "
-                            "as in steady(0.01)"));
-    EXPECT_THAT(faults("until: steady(0)"), ElementsAre("2:32: steady must be from 1e-06 to 0.9"));
-}
-
 TEST(CheckTime, CoarseStarts) {
     EXPECT_EQ(time_of("").coarse, 1);
     EXPECT_EQ(time_of("start: coarse(4)").coarse, 4);
     EXPECT_EQ(time_of("start: coarse(2 * 8)").coarse, 16);
-    for (const char* wrong : {"1", "3", "128", "0.5", "-2"}) {
-        EXPECT_THAT(faults(std::string("start: coarse(") + wrong + ")"),
-                    ElementsAre(
-                        "2:32: coarse takes 2, 4, 8, … 64 | each grid has cells half as wide "
-                        "as the one before it"));
-    }
-    EXPECT_THAT(faults("start: coarse()"),
-                ElementsAre(
-                    "2:25: coarse takes one value: how many times as wide cells are | as in "
-                    "start: coarse(4)"));
-    EXPECT_THAT(faults("start: t"),
-                ElementsAre("2:25: a stage starts as its values say, or on coarser "
-                            "grids first | as in start: coarse(4)"));
-}
-
-TEST(CheckTime, SettingsThatDoNotGoTogether) {
-    EXPECT_THAT(faults("solver: rk4; speed: 1 + x"),
-                ElementsAre("2:38: with rk4 the speed is the same in all cells | "
-                            "euler and symplectic take one that varies"));
-    EXPECT_THAT(faults("solver: symplectic; speed: 1 + x"), IsEmpty());
-    EXPECT_THAT(faults("speed: auto"),
-                ElementsAre("2:25: with 'speed: auto' a stage ends by its duration | "
-                            "write duration: … in place of iterations"));
-    EXPECT_THAT(faults("speed: auto; duration: 3; k: [speed]"),
-                ElementsAre("2:47: stage 's' chooses its steps as it runs: its speed is no number "
-                            "that can be read"));
-    EXPECT_THAT(faults("speed: auto; duration: 3; until: speed > 2").size(), 1u);
 }
 
 }  // namespace

@@ -1,0 +1,303 @@
+// From a script with expectations to what is not as expected.
+#include "run_script.h"
+
+#include "lang/check/check.h"
+#include "lang/syntax/parse.h"
+#include "run/pictures/picture_remarks.h"
+#include "support/kernel_comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace cascade::testing {
+
+namespace {
+
+/// One native backend for all runs, so that equal kernels are compiled once.
+std::shared_ptr<TieredBackend> native_stepper() {
+    static const auto stepper = make_stepper({}).value();
+    return stepper;
+}
+
+/// A script and what came of it.
+struct Run {
+    Script script;
+    std::unique_ptr<Simulation> simulation;
+    std::string failure;
+    std::vector<std::string> warnings, remarks;
+
+    std::uint32_t last_stage() const { return script.stage_count() - 1; }
+    void start(const Configuration& configuration);
+    void remark();
+};
+
+Run load(const ScriptCase& script, const std::filesystem::path& folder,
+         const Configuration& configuration) {
+    Run run;
+    Overrides overrides;
+    overrides.sets = script.sets;
+    if (!script.is_only_checked()) overrides.precision = configuration.precision;
+    run.script = load_script("script", script.text, folder, overrides);
+    return run;
+}
+
+/// Runs every stage to its end, or to a failure.
+void Run::start(const Configuration& configuration) {
+    SimulationOptions options{configuration.backend, 0, configuration.threads};
+    if (configuration.backend == BackendKind::jit) options.stepper = native_stepper();
+    auto made = Simulation::create(script, options);
+    if (!made) {
+        // Faults of files that the script names are among the messages.
+        if (!script.diagnostics.has_errors()) failure = made.error().message;
+        return;
+    }
+    simulation = std::move(*made);
+    RunControl control;
+    control.warn = [&](const std::string& warning) { warnings.push_back(warning); };
+    const auto fails = [&](const auto& result) {
+        if (!result) {
+            failure = result.error().message;
+            if (!result.error().hint.empty()) failure += " | " + result.error().hint;
+        }
+        return !result;
+    };
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        if (fails(simulation->start_stage(k))) return;
+        const std::int64_t steps = script.program->stages[k].iterations;
+        if (fails(simulation->advance_stage(k, steps, control, {}))) return;
+    }
+}
+
+/// All that `cascade run` remarks on results.
+void Run::remark() {
+    const auto add = [&](std::string remark) {
+        if (!remark.empty()) remarks.push_back(std::move(remark));
+    };
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        if (simulation->state(k).steps > 0) add(simulation->remark_on(k));
+    }
+    auto painter = Painter::create(script, {});
+    if (painter) add(remark_on_picture(*painter, *simulation));
+}
+
+/// All messages about the texts of a script, notes among them.
+std::vector<Message> messages_of(const Script& script) {
+    std::vector<Message> messages;
+    const auto add = [&](const char* kind, const std::optional<Span>& span, std::string text) {
+        Message message{kind, "", 0, 0, std::move(text)};
+        if (span) {
+            const Source& source = script.sources[span->source];
+            const Location place = source.locate(span->begin);
+            if (source.name() != script.name) message.source = source.name();
+            message.line = place.line;
+            message.column = place.column;
+        }
+        messages.push_back(std::move(message));
+    };
+    for (const Diagnostic& each : script.diagnostics.sorted()) {
+        add(each.severity == Severity::error ? "error" : "warning", each.span,
+            each.hint.empty() ? each.message : each.message + " | " + each.hint);
+        for (const Note& note : each.notes) add("note", note.span, note.message);
+    }
+    return messages;
+}
+
+using Faults = std::vector<std::string>;
+
+/// Each of `found` has one of `expected` and the other way round, in any order.
+template <typename Found, typename Expected, typename Matches, typename Describe>
+void compare(std::vector<Found> found, const std::vector<Expected>& expected, Matches&& is_it,
+             Describe&& describe, Faults& faults) {
+    for (const Expected& pattern : expected) {
+        const auto match = std::find_if(found.begin(), found.end(),
+                                        [&](const Found& each) { return is_it(each, pattern); });
+        if (match == found.end()) {
+            faults.push_back("is missing: " + describe(pattern));
+        } else {
+            found.erase(match);
+        }
+    }
+    for (const Found& each : found) {
+        const std::string words = describe(each);
+        if (!words.starts_with("expect note")) faults.push_back("is not expected: " + words);
+    }
+}
+
+void compare_messages(const Run& run, const ScriptCase& script, Faults& faults) {
+    const auto is_it = [](const Message& found, const Message& pattern) {
+        return found.kind == pattern.kind && found.source == pattern.source &&
+               found.line == pattern.line && found.column == pattern.column &&
+               matches(found.text, pattern.text);
+    };
+    compare(messages_of(run.script), script.messages, is_it, print, faults);
+}
+
+void compare_words(const std::vector<std::string>& found, const std::vector<std::string>& patterns,
+                   const std::string& kind, Faults& faults) {
+    compare(
+        found, patterns, matches,
+        [&](const std::string& text) { return fmt::format("expect {}: {}", kind, text); }, faults);
+}
+
+/// The values of an expression over what the last stage left.
+std::optional<Field> value_of(Run& run, const std::string& text, Faults& faults) {
+    Diagnostics wrong;
+    Script& script = run.script;
+    const SourceId source = script.sources.add("<expect>", text);
+    const auto expression = parse_expression(source, script.sources, script.tree, wrong);
+    const auto formula = expression
+                             ? check_view(script.tree, *expression, run.last_stage(),
+                                          run.last_stage(), *script.program, script.sources, wrong)
+                             : std::nullopt;
+    if (!formula || wrong.has_errors()) {
+        faults.push_back(render(wrong, script.sources, {}));
+        return std::nullopt;
+    }
+    auto fields = run.simulation->evaluate(*formula, run.last_stage());
+    if (fields.size() == 1) return std::move(fields[0]);
+    faults.push_back("a colour cannot be expected: " + text);
+    return std::nullopt;
+}
+
+bool holds(double left, double right, const ExpectedValue& expected) {
+    if (expected.relation == "<") return left < right;
+    if (expected.relation == ">") return left > right;
+    if (expected.relation == "<=") return left <= right;
+    if (expected.relation == ">=") return left >= right;
+    if (std::isnan(left) && std::isnan(right)) return true;
+    return left == right || std::abs(left - right) <= expected.tolerance.value_or(0);
+}
+
+void compare_value(Run& run, const ExpectedValue& expected, Faults& faults) {
+    const auto left = value_of(run, expected.left, faults);
+    const auto right = value_of(run, expected.right, faults);
+    if (!left || !right) return;
+    const PlaneLayout& layout = left->layout();
+    const DomainMask* mask = run.simulation->mask();
+    std::int64_t wrong = 0;
+    std::string first;
+    const auto look = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
+        const double a = left->number_at(i, j, k), b = right->number_at(i, j, k);
+        if (holds(a, b, expected)) return;
+        if (wrong++ == 0) first = fmt::format("{}, {}, {}: {} and {}", i, j, k, a, b);
+    };
+    if (const auto& cell = expected.cell) {
+        const auto [i, j, k] = *cell;
+        if (i >= layout.width || j >= layout.height || k >= layout.depth) {
+            faults.push_back("there is no such cell: expect " + expected.written);
+            return;
+        }
+        look(i, j, k);
+    } else {
+        for (std::int64_t k = 0; k < layout.depth; ++k) {
+            for (std::int64_t j = 0; j < layout.height; ++j) {
+                for (std::int64_t i = 0; i < layout.width; ++i) {
+                    if (!mask || mask->inside.at(i, j, k) != 0) look(i, j, k);
+                }
+            }
+        }
+    }
+    if (wrong > 0) {
+        faults.push_back(fmt::format("expect {} fails in {} {}, first in {}", expected.written,
+                                     wrong, wrong == 1 ? "cell" : "cells", first));
+    }
+}
+
+std::vector<Field> species_of(const Run& run) {
+    std::vector<Field> copies;
+    for (const Field& each : run.simulation->state(run.last_stage()).species) {
+        copies.push_back(each.clone());
+    }
+    return copies;
+}
+
+void compare_bits(const Run& run, const Run& other, const std::string& name, Faults& faults) {
+    const std::string difference =
+        other.simulation ? same_bits(species_of(run), species_of(other)) : other.failure;
+    if (!difference.empty()) faults.push_back("is not the same as " + name + ": " + difference);
+}
+
+/// A case leaves the same bits in all configurations of a precision: those of the first are kept.
+void compare_with_first(const Run& run, const ScriptCase& script,
+                        const Configuration& configuration, Faults& faults) {
+    struct First {
+        std::string name;
+        std::vector<Field> species;
+    };
+    static std::map<std::pair<std::string, Precision>, First> known;
+    const auto [place, is_new] = known.try_emplace({script.text, configuration.precision});
+    if (is_new) {
+        place->second = {configuration.name(), species_of(run)};
+        return;
+    }
+    const std::string difference = same_bits(place->second.species, species_of(run));
+    if (!difference.empty()) {
+        faults.push_back("is not the same as " + place->second.name + ": " + difference);
+    }
+}
+
+}  // namespace
+
+std::string Configuration::name() const {
+    return fmt::format("{}/{}/{}", backend == BackendKind::jit ? "jit" : "interpreter",
+                       precision == Precision::single ? "single" : "double", threads);
+}
+
+std::vector<Configuration> configurations_of(const ScriptCase& script) {
+    const BackendKind fastest = has_jit() ? BackendKind::jit : BackendKind::interpreter;
+    if (script.is_only_checked() || script.runs_once) {
+        return {{fastest, script.is_single ? Precision::single : Precision::binary64, 3}};
+    }
+    std::vector<Configuration> configurations;
+    for (const BackendKind backend : {BackendKind::interpreter, BackendKind::jit}) {
+        if (backend == BackendKind::jit && !has_jit()) continue;
+        for (const int threads : {1, 3}) {
+            if (script.is_single) configurations.push_back({backend, Precision::single, threads});
+            if (script.is_double) configurations.push_back({backend, Precision::binary64, threads});
+        }
+    }
+    return configurations;
+}
+
+std::vector<std::string> check_script(const ScriptFile& file, const ScriptCase& script,
+                                      const std::filesystem::path& folder,
+                                      const Configuration& configuration) {
+    Faults faults;
+    Run run = load(script, folder, configuration);
+    const bool runs = run.script.program && !run.script.program->stages.empty();
+    if (runs && !script.is_sound) run.start(configuration);
+    compare_messages(run, script, faults);
+    if (!runs && !script.is_only_checked() && script.expectations > script.messages.size()) {
+        faults.push_back("nothing runs");
+    }
+    if (!run.simulation && run.failure.empty()) return faults;
+    compare_words(run.warnings, script.warnings, "warning", faults);
+    if (run.failure.empty() && script.failure) {
+        faults.push_back("is missing: expect failure: " + *script.failure);
+    }
+    if (!run.failure.empty()) {
+        if (!script.failure || !matches(run.failure, *script.failure)) {
+            faults.push_back("is not expected: expect failure: " + run.failure);
+        }
+        return faults;
+    }
+    if (script.remarks) {
+        run.remark();
+        compare_words(run.remarks, *script.remarks, "remark", faults);
+    }
+    for (const ExpectedValue& each : script.values) compare_value(run, each, faults);
+    compare_with_first(run, script, configuration, faults);
+    for (const std::string& name : script.same_as) {
+        Run other = load(*file.find(name), folder, configuration);
+        if (other.script.program) other.start(configuration);
+        compare_bits(run, other, name, faults);
+    }
+    return faults;
+}
+
+}  // namespace cascade::testing
