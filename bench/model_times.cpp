@@ -87,9 +87,9 @@ SurfaceMesh read(const std::string& path, Stopwatch& watch) {
 LinkList links_of(const SurfaceCells& cells) {
     LinkList list;
     list.ends = cells.ends;
-    for (const CellWall& wall : cells.walls) {
-        list.neighbours.push_back(wall.neighbour);
-        list.weights.push_back(wall.weight());
+    for (const VoronoiEdge& edge : cells.edges) {
+        list.neighbours.push_back(edge.neighbour);
+        list.weights.push_back(edge.weight());
     }
     return list;
 }

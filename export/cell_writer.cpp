@@ -70,14 +70,14 @@ struct Link {
     double weight = 0;
 };
 
-/// Each wall once.
+/// Each Voronoi edge once.
 std::vector<Link> links_of(const SurfaceCells& cells) {
     std::vector<Link> links;
     for (std::uint32_t cell = 0; cell < cells.places.size(); ++cell) {
-        for (const CellWall& wall : cells.walls_of(cell)) {
-            if (wall.neighbour <= cell) continue;
-            const double weight = wall.distance > 0 ? wall.length / wall.distance : 0;
-            links.push_back({cell, wall.neighbour, weight});
+        for (const VoronoiEdge& edge : cells.edges_of(cell)) {
+            if (edge.neighbour <= cell) continue;
+            const double weight = edge.distance > 0 ? edge.length / edge.distance : 0;
+            links.push_back({cell, edge.neighbour, weight});
         }
     }
     return links;

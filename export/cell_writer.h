@@ -20,9 +20,9 @@ struct CellResults {
 /// An archive of arrays for numpy.load, all little-endian, n cells, m links:
 ///
 ///     points  n × 3 float64   places of the cells       links    m × 2 uint32   i < j, ascending
-///     normals n × 3 float64   smooth, of length 1       weights  m float64      wall over distance
-///     areas   n float64                                 colors   n × 3 float32  where there are
-///     any
+///     normals n × 3 float64   smooth, of length 1       weights  m float64      length of the
+///     Voronoi edge over distance areas   n float64                                 colors   n × 3
+///     float32  where there are any
 ///
 /// and each channel as n × float32 under its name, which has an underscore added if it is one of
 /// these. A step of diffusion is u_i += D dt / areas_i · Σ weights (u_j − u_i). Fails above 4 GiB.

@@ -23,7 +23,7 @@ namespace {
 constexpr std::int64_t block_cells = 256;
 
 /// Where the value of an instruction is found while a block is computed.
-struct Place {
+struct Location {
     enum class Kind : std::uint8_t {
         nowhere,  ///< Of operands that an operation does not have.
         scalar,   ///< The same in all cells: `index` counts scalars.
@@ -48,7 +48,7 @@ struct BlockStep {
     Op op = Op::constant;
     std::uint64_t payload = 0;  ///< A slot, or two.
     std::uint32_t target = 0;
-    std::array<Place, 3> operands{};
+    std::array<Location, 3> operands{};
     BlockLoop<Number> loop = nullptr;  ///< Of operations that are functions of their operands.
 };
 
@@ -56,24 +56,24 @@ template <typename Number>
 struct Plan {
     std::vector<ScalarStep> scalar_steps;  ///< Step k computes scalar k.
     std::vector<BlockStep<Number>> block_steps;
-    std::vector<Place> results;
+    std::vector<Location> results;
     std::uint32_t register_count = 0;
 };
 
-/// Gives every value a place.
+/// Gives every value a location.
 template <typename Number>
 class Planner {
 public:
     explicit Planner(const CellKernel& kernel)
         : kernel_(kernel),
           varies_(varying(kernel)),
-          places_(kernel.code.size()),
+          locations_(kernel.code.size()),
           readers_(kernel.code.size()) {}
 
     Plan<Number> plan() && {
         count_readers();
-        for (ValueId id = 0; id < kernel_.code.size(); ++id) place(id);
-        for (const ValueId id : kernel_.results) plan_.results.push_back(places_[id]);
+        for (ValueId id = 0; id < kernel_.code.size(); ++id) locate(id);
+        for (const ValueId id : kernel_.results) plan_.results.push_back(locations_[id]);
         return std::move(plan_);
     }
 
@@ -90,44 +90,44 @@ private:
         for (const ValueId id : kernel_.results) ++readers_[id];
     }
 
-    void place(ValueId id) {
+    void locate(ValueId id) {
         if (!varies_[id]) {
-            place_scalar(id);
+            locate_scalar(id);
         } else if (kernel_.code[id].op == Op::field) {
-            places_[id] = {Place::Kind::field, kernel_.code[id].slot()};
+            locations_[id] = {Location::Kind::field, kernel_.code[id].slot()};
         } else if (kernel_.code[id].op == Op::neighbour) {
-            places_[id] = {Place::Kind::beside, kernel_.code[id].slot()};
+            locations_[id] = {Location::Kind::beside, kernel_.code[id].slot()};
         } else {
-            place_vector(id);
+            locate_vector(id);
         }
     }
 
-    void place_scalar(ValueId id) {
+    void locate_scalar(ValueId id) {
         const Instruction& instruction = kernel_.code[id];
         ScalarStep step{instruction.op, instruction.payload, {}};
         for (std::size_t k = 0; k < arity(id); ++k) {
-            step.operands[k] = places_[instruction.operands[k]].index;
+            step.operands[k] = locations_[instruction.operands[k]].index;
         }
         const auto index = static_cast<std::uint32_t>(plan_.scalar_steps.size());
-        places_[id] = {Place::Kind::scalar, index};
+        locations_[id] = {Location::Kind::scalar, index};
         plan_.scalar_steps.push_back(step);
     }
 
-    void place_vector(ValueId id) {
+    void locate_vector(ValueId id) {
         const Instruction& instruction = kernel_.code[id];
         BlockStep<Number> step;
         step.op = instruction.op;
         step.payload = instruction.payload;
         unsigned scalars = 0;
         for (std::size_t k = 0; k < arity(id); ++k) {
-            step.operands[k] = places_[instruction.operands[k]];
-            if (step.operands[k].kind == Place::Kind::scalar) scalars |= 1u << k;
+            step.operands[k] = locations_[instruction.operands[k]];
+            if (step.operands[k].kind == Location::Kind::scalar) scalars |= 1u << k;
         }
         if (is_function_of_operands(step.op)) step.loop = block_loop<Number>(step.op, scalars);
         // The target is taken before operands are released: a loop's output overlaps no operand.
         step.target = take_register();
         for (std::size_t k = 0; k < arity(id); ++k) release(instruction.operands[k]);
-        places_[id] = {Place::Kind::vector, step.target};
+        locations_[id] = {Location::Kind::vector, step.target};
         if (readers_[id] == 0) free_.push_back(step.target);
         plan_.block_steps.push_back(step);
     }
@@ -140,13 +140,13 @@ private:
     }
 
     void release(ValueId id) {
-        if (--readers_[id] != 0 || places_[id].kind != Place::Kind::vector) return;
-        free_.push_back(places_[id].index);
+        if (--readers_[id] != 0 || locations_[id].kind != Location::Kind::vector) return;
+        free_.push_back(locations_[id].index);
     }
 
     const CellKernel& kernel_;
     const std::vector<bool> varies_;
-    std::vector<Place> places_;
+    std::vector<Location> locations_;
     std::vector<std::uint32_t> readers_;  ///< Reads of a value that are still to come.
     std::vector<std::uint32_t> free_;
     Plan<Number> plan_;
@@ -200,13 +200,13 @@ private:
         return registers_.data() + static_cast<std::int64_t>(index) * block_cells;
     }
 
-    const Number* address(Place place) {
-        switch (place.kind) {
-            case Place::Kind::scalar: return scalars_.data() + place.index;
-            case Place::Kind::field: return arguments_.fields[place.index] + offset_;
-            case Place::Kind::beside: return beside(Neighbour::of(place.index));
-            case Place::Kind::vector: return register_of(place.index);
-            case Place::Kind::nowhere: return nullptr;
+    const Number* address(Location location) {
+        switch (location.kind) {
+            case Location::Kind::scalar: return scalars_.data() + location.index;
+            case Location::Kind::field: return arguments_.fields[location.index] + offset_;
+            case Location::Kind::beside: return beside(Neighbour::of(location.index));
+            case Location::Kind::vector: return register_of(location.index);
+            case Location::Kind::nowhere: return nullptr;
         }
         return nullptr;
     }
@@ -351,12 +351,12 @@ private:
     }
 
     void store(std::size_t result) {
-        const Place place = plan_.results[result];
+        const Location location = plan_.results[result];
         Number* out = arguments_.results[result] + offset_;
-        if (place.kind == Place::Kind::scalar) {
-            std::fill_n(out, count_, scalars_[place.index]);
+        if (location.kind == Location::Kind::scalar) {
+            std::fill_n(out, count_, scalars_[location.index]);
         } else {
-            std::memcpy(out, address(place), static_cast<std::size_t>(count_) * sizeof(Number));
+            std::memcpy(out, address(location), static_cast<std::size_t>(count_) * sizeof(Number));
         }
     }
 

@@ -1,4 +1,5 @@
-// Counts instruction by instruction; loads of the same place, mask or table of links count once.
+// Counts instruction by instruction; loads of the same neighbour, mask or table of links count
+// once.
 #include "ir/kernel_cost.h"
 
 #include <cstddef>
@@ -48,7 +49,7 @@ public:
     }
 
 private:
-    using Place = std::tuple<std::uint32_t, int, int, int>;
+    using Read = std::tuple<std::uint32_t, int, int, int>;
 
     void add(const Instruction& instruction) {
         switch (instruction.op) {
@@ -78,12 +79,12 @@ private:
     }
 
     /// Along an axis of one cell the neighbour is the cell itself.
-    Place within_stencil(const Neighbour& at) const {
+    Read within_stencil(const Neighbour& at) const {
         return {at.slot, stencil_.x ? at.dx : 0, stencil_.y ? at.dy : 0, stencil_.z ? at.dz : 0};
     }
 
-    void load(const Place& place) {
-        if (!loaded_.insert(place).second) return;
+    void load(const Read& read) {
+        if (!loaded_.insert(read).second) return;
         cost_.loads += 1;
         cost_.load_bytes += word_;
     }
@@ -135,7 +136,7 @@ private:
     double links_;
     double word_;  ///< Bytes.
     std::vector<bool> varies_, is_folded_;
-    std::set<Place> loaded_;
+    std::set<Read> loaded_;
     std::set<std::uint32_t> masks_, gathered_;
     std::set<Op> weights_;
     bool has_places_ = false;

@@ -8,24 +8,24 @@ namespace cascade::measure {
 
 namespace {
 
-enum class Side : char { outside, above, below, done };
+enum class Mark : char { outside, above, below, done };
 
-std::vector<Side> sides_of(const Samples& samples, double level) {
-    std::vector<Side> sides;
-    sides.reserve(samples.count());
+std::vector<Mark> marks_of(const Samples& samples, double level) {
+    std::vector<Mark> marks;
+    marks.reserve(samples.count());
     for (const double value : samples.values) {
-        sides.push_back(!std::isfinite(value) ? Side::outside
-                        : value > level       ? Side::above
-                                              : Side::below);
+        marks.push_back(!std::isfinite(value) ? Mark::outside
+                        : value > level       ? Mark::above
+                                              : Mark::below);
     }
-    return sides;
+    return marks;
 }
 
 /// Marks the region of a cell as done.
-void flood(const Samples& samples, std::size_t start, std::vector<Side>& sides,
+void flood(const Samples& samples, std::size_t start, std::vector<Mark>& marks,
            std::vector<std::size_t>& waiting) {
-    const Side wanted = sides[start];
-    sides[start] = Side::done;
+    const Mark wanted = marks[start];
+    marks[start] = Mark::done;
     waiting.assign(1, start);
     while (!waiting.empty()) {
         const std::size_t cell = waiting.back();
@@ -33,8 +33,8 @@ void flood(const Samples& samples, std::size_t start, std::vector<Side>& sides,
         for (std::size_t axis = 0; axis < 3; ++axis) {
             for (const bool forwards : {false, true}) {
                 const std::size_t next = samples.neighbour(cell, axis, forwards);
-                if (sides[next] != wanted) continue;
-                sides[next] = Side::done;
+                if (marks[next] != wanted) continue;
+                marks[next] = Mark::done;
                 waiting.push_back(next);
             }
         }
@@ -44,19 +44,19 @@ void flood(const Samples& samples, std::size_t start, std::vector<Side>& sides,
 }  // namespace
 
 Regions find_regions(const Samples& samples, double level) {
-    std::vector<Side> sides = sides_of(samples, level);
+    std::vector<Mark> marks = marks_of(samples, level);
     std::int64_t above = 0, inside = 0;
-    for (const Side side : sides) {
-        above += side == Side::above ? 1 : 0;
-        inside += side != Side::outside ? 1 : 0;
+    for (const Mark mark : marks) {
+        above += mark == Mark::above ? 1 : 0;
+        inside += mark != Mark::outside ? 1 : 0;
     }
     Regions regions;
     regions.area = inside > 0 ? static_cast<double>(above) / static_cast<double>(inside) : 0;
     std::vector<std::size_t> waiting;
-    for (std::size_t cell = 0; cell < sides.size(); ++cell) {
-        if (sides[cell] == Side::outside || sides[cell] == Side::done) continue;
-        ++(sides[cell] == Side::above ? regions.above : regions.below);
-        flood(samples, cell, sides, waiting);
+    for (std::size_t cell = 0; cell < marks.size(); ++cell) {
+        if (marks[cell] == Mark::outside || marks[cell] == Mark::done) continue;
+        ++(marks[cell] == Mark::above ? regions.above : regions.below);
+        flood(samples, cell, marks, waiting);
     }
     return regions;
 }

@@ -5,7 +5,7 @@
 #include "core/counted.h"
 #include "mesh/edge_pairs.h"
 #include "mesh/flat_triangles.h"
-#include "mesh/place_table.h"
+#include "mesh/point_table.h"
 #include "mesh/separate_fans.h"
 #include "mesh/sort_by_point.h"
 #include "mesh/triangulate.h"
@@ -80,7 +80,7 @@ private:
     /// Points in the same place become the first of them.
     void join_points() {
         joined_.resize(soup_.points.size());
-        PlaceTable places(soup_.points);
+        PointTable places(soup_.points);
         std::size_t count = 0;
         for (std::uint32_t k = 0; k < soup_.points.size(); ++k) {
             if (!is_used_[k]) continue;

@@ -1,7 +1,7 @@
 // STL files (3D Systems, "StereoLithography Interface Specification", 1989), text or binary. Which
 // of them a file is says its size: that of a binary file follows from its number of triangles.
 #include "mesh/model_file.h"
-#include "mesh/place_table.h"
+#include "mesh/point_table.h"
 #include "mesh/text_words.h"
 
 #include <fmt/format.h>
@@ -16,11 +16,11 @@ namespace {
 constexpr std::size_t head_size = 84, triangle_size = 50;  ///< Bytes of a binary file.
 
 /// Triangles come with points of their own; those in the same place become one.
-class SoupOfPlaces {
+class MergedSoup {
 public:
-    SoupOfPlaces() = default;
-    SoupOfPlaces(const SoupOfPlaces&) = delete;  // The table looks at the points.
-    SoupOfPlaces& operator=(const SoupOfPlaces&) = delete;
+    MergedSoup() = default;
+    MergedSoup(const MergedSoup&) = delete;  // The table looks at the points.
+    MergedSoup& operator=(const MergedSoup&) = delete;
 
     void add_corner(Vector3d p) {
         soup_.points.push_back(p + Vector3d{0, 0, 0});  // −0 becomes 0.
@@ -36,7 +36,7 @@ public:
 
 private:
     PolygonSoup soup_;
-    PlaceTable places_{soup_.points};
+    PointTable places_{soup_.points};
 };
 
 /// The four bytes from `at` on; STL files have the lowest first.
@@ -47,7 +47,7 @@ std::uint32_t word_at(std::string_view bytes, std::size_t at) {
 }
 
 PolygonSoup read_binary(std::string_view bytes, std::size_t count) {
-    SoupOfPlaces soup;
+    MergedSoup soup;
     for (std::size_t t = 0; t < count; ++t) {
         for (std::size_t k = 1; k <= 3; ++k) {  // Before the corners stands the normal.
             const std::size_t at = head_size + t * triangle_size + 12 * k;
@@ -69,7 +69,7 @@ bool is_word(std::string_view word, std::string_view lower_case) {
 
 Result<PolygonSoup> read_text(std::string_view bytes) {
     LineReader lines(bytes);
-    SoupOfPlaces soup;
+    MergedSoup soup;
     bool is_in_loop = false, is_in_solid = false;
     const auto wrong_line = [&](std::string_view why) {
         return failure(fmt::format("line {} of the STL file {}", lines.number(), why));

@@ -1,6 +1,7 @@
 // Ear clipping in the plane nearest to the polygon's own; quadrilaterals have a rule of their own.
 #include "mesh/triangulate.h"
 
+#include "core/vector2.h"
 #include <algorithm>
 #include <cmath>
 
@@ -12,12 +13,8 @@ constexpr double most_work = 4e9;  ///< Tests of a corner against an ear.
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-struct Place {
-    double x = 0, y = 0;
-};
-
 /// Twice the signed area of a triangle.
-double turn(Place a, Place b, Place c) {
+double turn(Vector2d a, Vector2d b, Vector2d c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
@@ -31,18 +28,18 @@ Vector3d normal_of(std::span<const Vector3d> corners) {
 }
 
 /// The polygon seen along the axis nearest to its normal, turning counterclockwise.
-std::vector<Place> flattened(std::span<const Vector3d> corners) {
+std::vector<Vector2d> flattened(std::span<const Vector3d> corners) {
     const Vector3d n = normal_of(corners);
     const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
-    std::vector<Place> places;
-    places.reserve(corners.size());
+    std::vector<Vector2d> flat;
+    flat.reserve(corners.size());
     for (const Vector3d& c : corners) {
         const Vector3d p = c - corners[0];
-        if (x >= y && x >= z) places.push_back({p.y, n.x < 0 ? -p.z : p.z});
-        else if (y >= z) places.push_back({p.z, n.y < 0 ? -p.x : p.x});
-        else places.push_back({p.x, n.z < 0 ? -p.y : p.y});
+        if (x >= y && x >= z) flat.push_back({p.y, n.x < 0 ? -p.z : p.z});
+        else if (y >= z) flat.push_back({p.z, n.y < 0 ? -p.x : p.x});
+        else flat.push_back({p.x, n.z < 0 ? -p.y : p.y});
     }
-    return places;
+    return flat;
 }
 
 void cut_quadrilateral(std::span<const Vector3d> c, std::vector<Triangle>& triangles) {
@@ -65,8 +62,8 @@ void cut_quadrilateral(std::span<const Vector3d> c, std::vector<Triangle>& trian
 /// The corners that are left of a polygon while ears are cut off, as a ring.
 class Ring {
 public:
-    explicit Ring(std::vector<Place> places) : places_(std::move(places)) {
-        const auto count = static_cast<std::uint32_t>(places_.size());
+    explicit Ring(std::vector<Vector2d> corners) : corners_(std::move(corners)) {
+        const auto count = static_cast<std::uint32_t>(corners_.size());
         for (std::uint32_t k = 0; k < count; ++k) {
             next_.push_back((k + 1) % count);
             previous_.push_back((k + count - 1) % count);
@@ -86,9 +83,9 @@ public:
         const auto [a, b, c] = ear(k);
         return std::none_of(dents_.begin(), dents_.end(), [&](std::uint32_t dent) {
             if (dent == a || dent == b || dent == c) return false;
-            const Place p = places_[dent];
-            return turn(places_[a], places_[b], p) >= 0 && turn(places_[b], places_[c], p) >= 0 &&
-                   turn(places_[c], places_[a], p) >= 0;
+            const Vector2d p = corners_[dent];
+            return turn(corners_[a], corners_[b], p) >= 0 &&
+                   turn(corners_[b], corners_[c], p) >= 0 && turn(corners_[c], corners_[a], p) >= 0;
         });
     }
 
@@ -103,10 +100,10 @@ public:
 
 private:
     bool is_convex(std::uint32_t k) const {
-        return turn(places_[previous_[k]], places_[k], places_[next_[k]]) > 0;
+        return turn(corners_[previous_[k]], corners_[k], corners_[next_[k]]) > 0;
     }
 
-    std::vector<Place> places_;
+    std::vector<Vector2d> corners_;
     std::vector<std::uint32_t> next_, previous_, dents_;
 };
 

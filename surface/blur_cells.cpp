@@ -10,8 +10,8 @@ namespace cascade {
 
 namespace {
 
-/// Walls longer than this times the distance of their cells would make steps short: cells that
-/// nearly coincide.
+/// Voronoi edges longer than this times the distance of their cells would make steps short: cells
+/// that nearly coincide.
 constexpr double most_flow = 4;
 constexpr double least_area = 0.2;  ///< Of the average.
 constexpr double precision = 1e-4;  ///< Sum of what is left away of the series.
@@ -19,23 +19,23 @@ constexpr double precision = 1e-4;  ///< Sum of what is left away of the series.
 /// What flows between cells, in units of the average area.
 struct Flows {
     std::vector<float> inverse_areas;
-    std::vector<float> walls;  ///< Length over distance, as in SurfaceCells::walls.
+    std::vector<float> edges;  ///< Length over distance, as in SurfaceCells::edges.
     double fastest = 0;        ///< No wave decays faster than this.
 };
 
 Flows flows_of(const SurfaceCells& cells) {
     Flows flows;
     const double average = cell_spacing(cells) * cell_spacing(cells);
-    for (const CellWall& wall : cells.walls) {
-        const double flow = wall.distance > 0 ? wall.length / wall.distance : most_flow;
-        flows.walls.push_back(static_cast<float>(std::min(flow, most_flow)));
+    for (const VoronoiEdge& edge : cells.edges) {
+        const double flow = edge.distance > 0 ? edge.length / edge.distance : most_flow;
+        flows.edges.push_back(static_cast<float>(std::min(flow, most_flow)));
     }
-    std::size_t wall = 0;
+    std::size_t edge = 0;
     for (std::size_t cell = 0; cell < cells.ends.size(); ++cell) {
         const double area = std::max(least_area, cells.areas[cell] / average);
         flows.inverse_areas.push_back(static_cast<float>(1 / area));
         double sum = 0;
-        for (; wall < cells.ends[cell]; ++wall) sum += static_cast<double>(flows.walls[wall]);
+        for (; edge < cells.ends[cell]; ++edge) sum += static_cast<double>(flows.edges[edge]);
         flows.fastest = std::max(flows.fastest, 2 * sum / area);  // Gershgorin's circles.
     }
     return flows;
@@ -103,9 +103,9 @@ private:
                 float* gained = &next[at];
                 std::fill(gained, gained + channels_, 0.0F);
                 const std::size_t first = cell == 0 ? 0 : cells_.ends[cell - 1];
-                for (std::size_t wall = first; wall < cells_.ends[cell]; ++wall) {
-                    const float* other = &current[cells_.walls[wall].neighbour * channels_];
-                    const float flow = flows_.walls[wall];
+                for (std::size_t edge = first; edge < cells_.ends[cell]; ++edge) {
+                    const float* other = &current[cells_.edges[edge].neighbour * channels_];
+                    const float flow = flows_.edges[edge];
                     for (std::size_t k = 0; k < channels_; ++k)
                         gained[k] += flow * (other[k] - own[k]);
                 }

@@ -25,14 +25,14 @@ struct Header {
     std::uint32_t byte_order = 0;
     std::array<std::uint64_t, 2> key{};
     std::uint64_t cells = 0;
-    std::uint64_t walls = 0;
+    std::uint64_t edges = 0;
     double bare_area = 0;
     std::uint64_t reserved = 0;
 };
 static_assert(sizeof(Header) == 64);
 
 constexpr std::uint64_t bytes_per_cell = 4 + 3 * 8 + 8 + 8;
-constexpr std::uint64_t bytes_per_wall = 4 + 8 + 8;
+constexpr std::uint64_t bytes_per_edge = 4 + 8 + 8;
 constexpr std::uint64_t most = std::uint64_t{1} << 40;  // Keeps sums of sizes from wrapping.
 
 template <typename T>
@@ -107,8 +107,8 @@ Result<Header> read_header(const std::filesystem::path& path, const CellKey& key
     }
     if (header.key != key.words)
         return fails("holds cells of another surface or made in another way");
-    if (header.cells > most || header.walls > most ||
-        size != sizeof header + header.cells * bytes_per_cell + header.walls * bytes_per_wall + 8) {
+    if (header.cells > most || header.edges > most ||
+        size != sizeof header + header.cells * bytes_per_cell + header.edges * bytes_per_edge + 8) {
         return fails("is damaged: its size is not what it says");
     }
     return header;
@@ -122,18 +122,18 @@ bool is_sound(const SurfacePlace& place, const SurfaceMesh& mesh) {
                        [](double weight) { return weight >= 0 && weight <= 1; });
 }
 
-/// Do the walls of a cell name others, in order, which have them too?
+/// Do the Voronoi edges of a cell name others, in order, which have them too?
 bool are_sound(const SurfaceCells& cells, std::uint32_t cell) {
-    const auto walls = cells.walls_of(cell);
-    for (std::size_t k = 0; k < walls.size(); ++k) {
-        const CellWall& wall = walls[k];
-        if (wall.neighbour >= cells.places.size() || wall.neighbour == cell) return false;
-        if (k > 0 && wall.neighbour <= walls[k - 1].neighbour) return false;
-        if (!is_positive(wall.length) || !is_positive(wall.distance)) return false;
-        const auto others = cells.walls_of(wall.neighbour);
-        if (std::none_of(others.begin(), others.end(), [&](const CellWall& back) {
-                return back.neighbour == cell && back.length == wall.length &&
-                       back.distance == wall.distance;
+    const auto edges = cells.edges_of(cell);
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+        const VoronoiEdge& edge = edges[k];
+        if (edge.neighbour >= cells.places.size() || edge.neighbour == cell) return false;
+        if (k > 0 && edge.neighbour <= edges[k - 1].neighbour) return false;
+        if (!is_positive(edge.length) || !is_positive(edge.distance)) return false;
+        const auto others = cells.edges_of(edge.neighbour);
+        if (std::none_of(others.begin(), others.end(), [&](const VoronoiEdge& back) {
+                return back.neighbour == cell && back.length == edge.length &&
+                       back.distance == edge.distance;
             })) {
             return false;
         }
@@ -143,7 +143,7 @@ bool are_sound(const SurfaceCells& cells, std::uint32_t cell) {
 
 bool are_sound(const SurfaceCells& cells, const SurfaceMesh& mesh) {
     if (!std::is_sorted(cells.ends.begin(), cells.ends.end())) return false;
-    if ((cells.ends.empty() ? 0 : cells.ends.back()) != cells.walls.size()) return false;
+    if ((cells.ends.empty() ? 0 : cells.ends.back()) != cells.edges.size()) return false;
     if (!(cells.bare_area >= 0)) return false;
     for (std::uint32_t cell = 0; cell < cells.places.size(); ++cell) {
         if (!is_sound(cells.places[cell], mesh) || !(cells.areas[cell] >= 0) ||
@@ -160,7 +160,7 @@ SurfaceCells taken_from(Bytes bytes, const Header& header) {
     cells.places.reserve(header.cells);
     cells.areas.reserve(header.cells);
     cells.ends.reserve(header.cells);
-    cells.walls.reserve(header.walls);
+    cells.edges.reserve(header.edges);
     for (std::uint64_t k = 0; k < header.cells; ++k) {
         SurfacePlace place;
         place.triangle = bytes.take<std::uint32_t>();
@@ -169,12 +169,12 @@ SurfaceCells taken_from(Bytes bytes, const Header& header) {
         cells.areas.push_back(bytes.take<double>());
         cells.ends.push_back(bytes.take<std::uint64_t>());
     }
-    for (std::uint64_t k = 0; k < header.walls; ++k) {
-        CellWall wall;
-        wall.neighbour = bytes.take<std::uint32_t>();
-        wall.length = bytes.take<double>();
-        wall.distance = bytes.take<double>();
-        cells.walls.push_back(wall);
+    for (std::uint64_t k = 0; k < header.edges; ++k) {
+        VoronoiEdge edge;
+        edge.neighbour = bytes.take<std::uint32_t>();
+        edge.length = bytes.take<double>();
+        edge.distance = bytes.take<double>();
+        cells.edges.push_back(edge);
     }
     return cells;
 }
@@ -211,10 +211,10 @@ Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& 
     header.byte_order = byte_order_mark;
     header.key = key.words;
     header.cells = cells.places.size();
-    header.walls = cells.walls.size();
+    header.edges = cells.edges.size();
     header.bare_area = cells.bare_area;
     std::string bytes;
-    bytes.reserve(sizeof header + header.cells * bytes_per_cell + header.walls * bytes_per_wall +
+    bytes.reserve(sizeof header + header.cells * bytes_per_cell + header.edges * bytes_per_edge +
                   8);
     append(bytes, header);
     for (std::size_t k = 0; k < cells.places.size(); ++k) {
@@ -223,10 +223,10 @@ Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& 
         append(bytes, cells.areas[k]);
         append(bytes, std::uint64_t{cells.ends[k]});
     }
-    for (const CellWall& wall : cells.walls) {
-        append(bytes, wall.neighbour);
-        append(bytes, wall.length);
-        append(bytes, wall.distance);
+    for (const VoronoiEdge& edge : cells.edges) {
+        append(bytes, edge.neighbour);
+        append(bytes, edge.length);
+        append(bytes, edge.distance);
     }
     append(bytes, fnv1a(bytes));
     return write_file(path, bytes);
@@ -237,7 +237,7 @@ Result<SurfaceCells> read_cells(const std::filesystem::path& path, const Surface
     const Result<Header> header = read_header(path, key);
     if (!header) return tl::unexpected(header.error());
     const std::uint64_t size =
-        sizeof(Header) + header->cells * bytes_per_cell + header->walls * bytes_per_wall + 8;
+        sizeof(Header) + header->cells * bytes_per_cell + header->edges * bytes_per_edge + 8;
     const Result<std::string> bytes = read_file(path, size);
     if (!bytes) return tl::unexpected(bytes.error());
     const auto damaged = [&](std::string_view why) {

@@ -2,8 +2,8 @@
 //
 // The file is, in the byte order of the machine that wrote it: eight letters "CASCELLS", the
 // version, a mark of the byte order, the hash of all that the cells were made of, the numbers of
-// cells and walls and the bare area; then places, areas, ends and walls; and a checksum (FNV-1a, 64
-// bits) of everything before it.
+// cells and Voronoi edges and the bare area; then places, areas, ends and edges; and a checksum
+// (FNV-1a, 64 bits) of everything before it.
 #pragma once
 
 #include "core/result.h"
@@ -33,7 +33,7 @@ Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& 
 /// The cells of a file written with this key for this surface. Fails, saying why, on a file that is
 /// missing, no file of cells, of another version or byte order, made of something else, truncated,
 /// or damaged in any bit. No more is allocated than the file's size allows, and cells that are
-/// returned are sound: every number names something, walls are symmetric, lengths are finite and
+/// returned are sound: every number names something, edges are symmetric, lengths are finite and
 /// above 0. Throws std::bad_alloc.
 Result<SurfaceCells> read_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
                                 const CellKey& key);

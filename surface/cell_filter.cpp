@@ -90,10 +90,10 @@ void CellFilter::lay_out(const SurfaceMesh& mesh, const SurfaceCells& cells) {
     box_ends_.assign(boxes, 0);
 }
 
-CellFilter::FlatPlace CellFilter::flat_place(const Patch& patch, const SurfacePlace& place) {
+CellFilter::FlatPoint CellFilter::flat_point(const Patch& patch, const SurfacePlace& place) {
     const auto second = static_cast<float>(place.weights[(patch.first_corner + 1) % 3]);
     const auto third = static_cast<float>(place.weights[(patch.first_corner + 2) % 3]);
-    FlatPlace result{second * patch.second_x + third * patch.third_x, third * patch.third_y, {}};
+    FlatPoint result{second * patch.second_x + third * patch.third_x, third * patch.third_y, {}};
     // On an edge the opposite corner's weight is 0, and that edge counts alone.
     float sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -112,7 +112,7 @@ CellFilter::FlatPlace CellFilter::flat_place(const Patch& patch, const SurfacePl
     return result;
 }
 
-std::size_t CellFilter::box_of(const Patch& patch, FlatPlace place) {
+std::size_t CellFilter::box_of(const Patch& patch, FlatPoint place) {
     const auto number = [](float at, std::uint32_t count) {
         return static_cast<std::size_t>(std::clamp(at, 0.0F, static_cast<float>(count - 1)));
     };
@@ -199,7 +199,7 @@ void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& c
         Patch& patch = patches_[t];
         if (sightings_of(patch.first_box, std::size_t{patch.columns} * patch.rows).empty())
             continue;
-        patch.otherwise = nearest_cell(patch, flat_place(patch, {t, {1.0 / 3, 1.0 / 3, 1.0 / 3}}));
+        patch.otherwise = nearest_cell(patch, flat_point(patch, {t, {1.0 / 3, 1.0 / 3, 1.0 / 3}}));
         is_found[t] = true;
         waiting.push_back(t);
     }
@@ -238,7 +238,7 @@ void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& c
 }
 
 /// Of all that are seen from the triangle, however far.
-std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPlace place) const {
+std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPoint place) const {
     std::uint32_t nearest = patch.otherwise;
     float least = INFINITY;
     for (const Sighting& sighting :
@@ -255,7 +255,7 @@ std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPlace place) cons
 /// Calls `visit(near)` once for each cell nearer than the radius. On each edge a distance is that
 /// of the edge's own sighting, so that both sides agree; inside a triangle it is between those.
 template <typename Visit>
-void CellFilter::visit_near(const Patch& patch, FlatPlace place, const Visit& visit) const {
+void CellFilter::visit_near(const Patch& patch, FlatPoint place, const Visit& visit) const {
     const Vector3 position = patch.origin + patch.x_axis * place.x + patch.y_axis * place.y;
     const auto sightings = sightings_of(box_of(patch, place), 1);
     for (std::size_t k = 0; k < sightings.size();) {
@@ -285,7 +285,7 @@ void CellFilter::visit_near(const Patch& patch, FlatPlace place, const Visit& vi
 
 void CellFilter::shares(const SurfacePlace& place, std::vector<CellShare>& out) const {
     const Patch& patch = patches_[place.triangle];
-    const FlatPlace at = flat_place(patch, place);
+    const FlatPoint at = flat_point(patch, place);
     out.clear();
     float sum = 0;
     visit_near(patch, at, [&](const Near& near) {
@@ -303,7 +303,7 @@ void CellFilter::shares(const SurfacePlace& place, std::vector<CellShare>& out) 
 
 void CellFilter::sloped_shares(const SurfacePlace& place, std::vector<SlopedShare>& out) const {
     const Patch& patch = patches_[place.triangle];
-    const FlatPlace at = flat_place(patch, place);
+    const FlatPoint at = flat_point(patch, place);
     out.clear();
     float sum = 0;
     Vector3 slope;

@@ -80,7 +80,7 @@ private:
         float square = 0;    ///< Of its distance.
         float x = 0, y = 0;  ///< From it to the place.
     };
-    struct FlatPlace {
+    struct FlatPoint {
         float x = 0, y = 0;
         std::array<float, 3> edges{};  ///< How near they are: 1 on an edge, and together 1.
     };
@@ -90,12 +90,12 @@ private:
         std::size_t count = 0;
     };
 
-    static FlatPlace flat_place(const Patch& patch, const SurfacePlace& place);
-    static std::size_t box_of(const Patch& patch, FlatPlace place);
+    static FlatPoint flat_point(const Patch& patch, const SurfacePlace& place);
+    static std::size_t box_of(const Patch& patch, FlatPoint place);
     std::span<const Sighting> sightings_of(std::size_t first_box, std::size_t boxes) const;
     template <typename Visit>
-    void visit_near(const Patch& patch, FlatPlace place, const Visit& visit) const;
-    std::uint32_t nearest_cell(const Patch& patch, FlatPlace place) const;
+    void visit_near(const Patch& patch, FlatPoint place, const Visit& visit) const;
+    std::uint32_t nearest_cell(const Patch& patch, FlatPoint place) const;
     void lay_out(const SurfaceMesh& mesh, const SurfaceCells& cells);
     void fill_boxes(std::span<const CellImage> images);
     static Sightings sightings_in(const CellImage& image);

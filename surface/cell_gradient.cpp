@@ -44,24 +44,24 @@ Spread pseudo_inverse(const Spread& m) {
 }
 
 /// Writes the weights of one cell.
-void fit(const TangentFrame& frame, std::span<const CellWall> walls,
+void fit(const TangentFrame& frame, std::span<const VoronoiEdge> edges,
          std::span<const UnfoldedNeighbour> neighbours, std::span<Vector3d> weights) {
     // Distances in units of the farthest, so that models of any size are fitted alike.
     double size = 0, longest = 0;
-    for (std::size_t k = 0; k < walls.size(); ++k) {
+    for (std::size_t k = 0; k < edges.size(); ++k) {
         size = std::max(size, length(neighbours[k].place));
-        longest = std::max(longest, walls[k].length);
+        longest = std::max(longest, edges[k].length);
     }
     if (!(size > same_place * longest) || !(longest > 0)) return;
     const auto place = [&](std::size_t k) { return neighbours[k].place * (1 / size); };
     const auto importance = [&](std::size_t k) {
         const double distance = length(place(k));
-        return distance > same_place ? walls[k].length / longest / distance : 0;
+        return distance > same_place ? edges[k].length / longest / distance : 0;
     };
     Spread spread;
-    for (std::size_t k = 0; k < walls.size(); ++k) spread.add(place(k), importance(k));
+    for (std::size_t k = 0; k < edges.size(); ++k) spread.add(place(k), importance(k));
     const Spread inverse = pseudo_inverse(spread);
-    for (std::size_t k = 0; k < walls.size(); ++k) {
+    for (std::size_t k = 0; k < edges.size(); ++k) {
         const Vector2d v = place(k) * (importance(k) / size);
         weights[k] = frame.in_space(
             {inverse.xx * v.x + inverse.xy * v.y, inverse.xy * v.x + inverse.yy * v.y});
@@ -73,13 +73,13 @@ void fit(const TangentFrame& frame, std::span<const CellWall> walls,
 std::vector<Vector3d> cell_gradient_weights(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                             Team& team, const std::atomic<bool>& cancel) {
     const std::vector<UnfoldedNeighbour> neighbours = unfold_neighbours(mesh, cells, team, cancel);
-    std::vector<Vector3d> weights(cells.walls.size());
+    std::vector<Vector3d> weights(cells.edges.size());
     for (std::size_t cell = 0; cell < cells.places.size() && !cancel; ++cell) {
-        const auto walls = cells.walls_of(cell);
-        const auto first = static_cast<std::size_t>(walls.data() - cells.walls.data());
-        fit(tangent_frame(mesh, cells.places[cell].triangle), walls,
-            std::span(neighbours).subspan(first, walls.size()),
-            std::span(weights).subspan(first, walls.size()));
+        const auto edges = cells.edges_of(cell);
+        const auto first = static_cast<std::size_t>(edges.data() - cells.edges.data());
+        fit(tangent_frame(mesh, cells.places[cell].triangle), edges,
+            std::span(neighbours).subspan(first, edges.size()),
+            std::span(weights).subspan(first, edges.size()));
     }
     return weights;
 }
@@ -89,9 +89,9 @@ std::vector<Vector3d> cell_gradients(const SurfaceCells& cells, std::span<const 
     std::vector<Vector3d> gradients(cells.places.size());
     std::size_t at = 0;
     for (std::size_t cell = 0; cell < gradients.size(); ++cell) {
-        for (const CellWall& wall : cells.walls_of(cell)) {
+        for (const VoronoiEdge& edge : cells.edges_of(cell)) {
             gradients[cell] =
-                gradients[cell] + weights[at++] * (values[wall.neighbour] - values[cell]);
+                gradients[cell] + weights[at++] * (values[edge.neighbour] - values[cell]);
         }
     }
     return gradients;

@@ -9,13 +9,13 @@
 
 namespace cascade {
 
-/// Weights g, one vector for each of `cells.walls`, such that the gradient of f in cell i is
+/// Weights g, one vector for each of `cells.edges`, such that the gradient of f in cell i is
 ///
-///     ∇f_i = Σ g_ij (f_j − f_i)    over the walls of i, j being what lies beyond.
+///     ∇f_i = Σ g_ij (f_j − f_i)    over the Voronoi edges of i, j being what lies beyond.
 ///
 /// It is the vector in the plane of the cell's triangle, in space, that fits the differences best
 /// in the sense of least squares, neighbours being where the unfolded surface has them and counting
-/// by the length of the wall over the distance, so that a wall that vanishes does not matter (T.
+/// by the length of the edge over the distance, so that one that vanishes does not matter (T.
 /// Barth, "A 3-D upwind Euler solver for unstructured meshes", AIAA 91-1548, 1991, has such fits).
 /// Exact for linear functions where the surface is flat or only folded; of first order where it is
 /// curved. Units are one over those of the model. Where neighbours lie on one line, or are spread

@@ -22,12 +22,12 @@ FlatTriangle longest_edge_frame(const SurfaceMesh& mesh, std::uint32_t triangle)
 /// the surface is curved a triangle is reached in several ways, so each edge has its own, and both
 /// triangles at an edge have the same one there.
 struct CellImage {
-    struct Place {
+    struct Point {
         float x = 0, y = 0;
     };
     std::uint32_t cell = 0;
     std::uint32_t triangle = 0;
-    std::array<Place, 3> from_edges;
+    std::array<Point, 3> from_edges;
 };
 
 /// The images of all places on all triangles that are reached within `radius` of them, along the

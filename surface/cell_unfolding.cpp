@@ -1,5 +1,5 @@
-// Looks for each neighbour among the unfolded triangles; both sides of a wall then get the same
-// turn.
+// Looks for each neighbour among the unfolded triangles; both sides of a Voronoi edge then get the
+// same turn.
 #include "surface/cell_unfolding.h"
 
 #include "surface/tangent_frame.h"
@@ -20,17 +20,18 @@ public:
         : mesh_(mesh), cells_(cells), unfolding_(mesh, shapes) {}
 
     void find(std::size_t cell, std::span<UnfoldedNeighbour> found) {
-        const auto walls = cells_.walls_of(cell);
+        const auto edges = cells_.edges_of(cell);
         double farthest = 0;
-        for (const CellWall& wall : walls) farthest = std::max(farthest, wall.distance);
-        // A wall's distance is the mean of what its two cells see: one of them may see more.
+        for (const VoronoiEdge& edge : edges) farthest = std::max(farthest, edge.distance);
+        // A Voronoi edge's distance is the mean of what its two cells see: one of them may see
+        // more.
         unfolding_.around(cells_.places[cell], 1.5 * farthest);
-        for (std::size_t k = 0; k < walls.size(); ++k) found[k] = neighbour(cell, walls[k]);
+        for (std::size_t k = 0; k < edges.size(); ++k) found[k] = neighbour(cell, edges[k]);
     }
 
 private:
-    UnfoldedNeighbour neighbour(std::size_t cell, const CellWall& wall) const {
-        const SurfacePlace& other = cells_.places[wall.neighbour];
+    UnfoldedNeighbour neighbour(std::size_t cell, const VoronoiEdge& edge) const {
+        const SurfacePlace& other = cells_.places[edge.neighbour];
         if (const FlatTriangle* flat = unfolding_.flat_of(other.triangle)) {
             return {position_of(*flat, other.weights), turn_of(*flat, other.triangle)};
         }
@@ -40,7 +41,7 @@ private:
         const Vector2d towards =
             frame.in_plane(position_of(mesh_, other) - position_of(mesh_, here));
         const double size = length(towards);
-        const Vector2d place = size > 0 ? towards * (wall.distance / size) : Vector2d{};
+        const Vector2d place = size > 0 ? towards * (edge.distance / size) : Vector2d{};
         const TangentFrame there = tangent_frame(mesh_, other.triangle);
         return {place, angle_of(frame.in_plane(there.along))};
     }
@@ -66,20 +67,20 @@ private:
     Unfolding unfolding_;
 };
 
-/// Takes the turn of a wall from its cell of the lower number.
+/// Takes the turn of a Voronoi edge from its cell of the lower number.
 void match_turns(const SurfaceCells& cells, std::vector<UnfoldedNeighbour>& found) {
     std::size_t at = 0;
     for (std::uint32_t cell = 0; cell < cells.places.size(); ++cell) {
-        for (const CellWall& wall : cells.walls_of(cell)) {
+        for (const VoronoiEdge& edge : cells.edges_of(cell)) {
             UnfoldedNeighbour& here = found[at++];
-            if (wall.neighbour > cell) continue;
-            const auto back = cells.walls_of(wall.neighbour);
+            if (edge.neighbour > cell) continue;
+            const auto back = cells.edges_of(edge.neighbour);
             const auto same = std::lower_bound(back.begin(), back.end(), cell,
-                                               [](const CellWall& a, std::uint32_t number) {
+                                               [](const VoronoiEdge& a, std::uint32_t number) {
                                                    return a.neighbour < number;
                                                });
             if (same == back.end() || same->neighbour != cell) continue;
-            here.turn = -found[static_cast<std::size_t>(&*same - cells.walls.data())].turn;
+            here.turn = -found[static_cast<std::size_t>(&*same - cells.edges.data())].turn;
         }
     }
 }
@@ -88,7 +89,7 @@ void match_turns(const SurfaceCells& cells, std::vector<UnfoldedNeighbour>& foun
 
 std::vector<UnfoldedNeighbour> unfold_neighbours(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                                  Team& team, const std::atomic<bool>& cancel) {
-    std::vector<UnfoldedNeighbour> found(cells.walls.size());
+    std::vector<UnfoldedNeighbour> found(cells.edges.size());
     const EdgeShapes shapes(mesh);
     team.run([&](int thread) {
         const RowRange part =
@@ -96,9 +97,9 @@ std::vector<UnfoldedNeighbour> unfold_neighbours(const SurfaceMesh& mesh, const 
         NeighbourFinder finder(mesh, shapes, cells);
         for (std::int64_t k = part.begin; k < part.end && !cancel; ++k) {
             const auto cell = static_cast<std::size_t>(k);
-            const auto walls = cells.walls_of(cell);
-            const auto first = static_cast<std::size_t>(walls.data() - cells.walls.data());
-            finder.find(cell, std::span(found).subspan(first, walls.size()));
+            const auto edges = cells.edges_of(cell);
+            const auto first = static_cast<std::size_t>(edges.data() - cells.edges.data());
+            finder.find(cell, std::span(found).subspan(first, edges.size()));
         }
     });
     if (!cancel) match_turns(cells, found);

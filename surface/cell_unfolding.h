@@ -17,9 +17,9 @@ struct UnfoldedNeighbour {
     double turn = 0;
 };
 
-/// One for each of `cells.walls`, unfolded as the cells were (surface/unfolding.h). The turns of
-/// the two sides of a wall are each other's negatives. The same on any number of threads; what it
-/// returns means nothing if `cancel` became true.
+/// One for each of `cells.edges`, unfolded as the cells were (surface/unfolding.h). The turns of
+/// the two sides of a Voronoi edge are each other's negatives. The same on any number of threads;
+/// what it returns means nothing if `cancel` became true.
 std::vector<UnfoldedNeighbour> unfold_neighbours(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                                  Team& team, const std::atomic<bool>& cancel);
 

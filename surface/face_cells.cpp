@@ -1,8 +1,8 @@
-// Triangles of one polygon are one cell; walls are its edges, and distances the sums of the two
-// centres' heights above them.
+// Triangles of one polygon are one cell; its edges take the place of Voronoi edges, and distances
+// the sums of the two centres' heights above them.
 #include "surface/face_cells.h"
 
-#include "surface/wall_list.h"
+#include "surface/voronoi_edge_list.h"
 
 #include <algorithm>
 #include <limits>
@@ -113,16 +113,16 @@ SurfaceCells face_cells(const SurfaceMesh& mesh) {
         return std::max(height_above(mesh, edge, middle),
                         least_weight * height_above(mesh, edge, least));
     };
-    WallList walls;
+    VoronoiEdgeList edges;
     for (std::uint32_t t = 0; t < cell_of.size(); ++t) {
         for (std::uint32_t k = 0; k < 3; ++k) {
             const TriangleEdge other = mesh.across[t][k];
             if (!other.exists() || std::tie(t, k) > std::tie(other.triangle, other.edge)) continue;
             const double size = length(mesh.corner(t, corner_after(k)) - mesh.corner(t, k));
-            walls.add(cell_of[t], cell_of[other.triangle], size, height({t, k}) + height(other));
+            edges.add(cell_of[t], cell_of[other.triangle], size, height({t, k}) + height(other));
         }
     }
-    walls.put_into(cells, count);
+    edges.put_into(cells, count);
     return cells;
 }
 

@@ -6,10 +6,10 @@
 namespace cascade {
 
 /// A cell for each face of the model: a triangle, or the triangles of one polygon
-/// (SurfaceMesh::faces), in order of their first triangles. Walls are the edges between faces: R.
-/// Mills, D. Newman, S. Smith and Q. Y. Zhang, "Morphogenesis and Skin Pattern Generation for 3D
-/// Models" (University of Southampton, 2005), give each triangle of a model three neighbours and
-/// weight diffusion by the edges' lengths.
+/// (SurfaceMesh::faces), in order of their first triangles. The edges between faces are their
+/// Voronoi edges: R. Mills, D. Newman, S. Smith and Q. Y. Zhang, "Morphogenesis and Skin Pattern
+/// Generation for 3D Models" (University of Southampton, 2005), give each triangle of a model three
+/// neighbours and weight diffusion by the edges' lengths.
 ///
 /// The place of a triangle is its circumcentre, that of another polygon its centroid; the distance
 /// across an edge is the sum of the two places' distances from its line. Where no angle is obtuse

@@ -62,10 +62,10 @@ std::vector<double> smoothed(const SurfaceCells& cells, std::vector<double> valu
     DiffusionGraph<double> graph;
     graph.masses = cells.areas;
     graph.ends = cells.ends;
-    graph.links.reserve(cells.walls.size());
-    for (const CellWall& wall : cells.walls) {
-        const double weight = wall.distance > 0 ? wall.length / wall.distance : 0;
-        graph.links.push_back({wall.neighbour, weight, weight});
+    graph.links.reserve(cells.edges.size());
+    for (const VoronoiEdge& edge : cells.edges) {
+        const double weight = edge.distance > 0 ? edge.length / edge.distance : 0;
+        graph.links.push_back({edge.neighbour, weight, weight});
     }
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     const double least = *low, largest = *high;

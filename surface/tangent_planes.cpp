@@ -69,11 +69,11 @@ TangentPlanes planes_of_cells(const SurfaceMesh& mesh, const SurfaceCells& cells
     for (const SurfacePlace& place : cells.places) {
         planes.frames.push_back(tangent_frame(mesh, place.triangle));
     }
-    planes.links.reserve(cells.walls.size());
-    for (std::size_t k = 0; k < cells.walls.size(); ++k) {
-        const CellWall& wall = cells.walls[k];
-        planes.links.push_back({wall.neighbour, neighbours[k].turn, wall.distance,
-                                wall.distance > 0 ? wall.length / wall.distance : 0});
+    planes.links.reserve(cells.edges.size());
+    for (std::size_t k = 0; k < cells.edges.size(); ++k) {
+        const VoronoiEdge& edge = cells.edges[k];
+        planes.links.push_back({edge.neighbour, neighbours[k].turn, edge.distance,
+                                edge.distance > 0 ? edge.length / edge.distance : 0});
     }
     return planes;
 }

@@ -39,10 +39,10 @@ struct TangentPlanes {
     }
 };
 
-/// One for each triangle, its place the middle; linked over edges.
+/// One for each triangle, its place the middle; linked over Voronoi edges.
 TangentPlanes planes_of_triangles(const SurfaceMesh& mesh);
 
-/// One for each cell; linked over walls. Means nothing if `cancel` became true.
+/// One for each cell; linked over Voronoi edges. Means nothing if `cancel` became true.
 TangentPlanes planes_of_cells(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team,
                               const std::atomic<bool>& cancel);
 

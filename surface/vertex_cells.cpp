@@ -1,9 +1,9 @@
 // Areas and cotangents of the intrinsic Delaunay triangulation (mesh/intrinsic_delaunay), so that
-// no weight of a wall is negative.
+// no weight of a Voronoi edge is negative.
 #include "surface/vertex_cells.h"
 
 #include "mesh/intrinsic_delaunay.h"
-#include "surface/wall_list.h"
+#include "surface/voronoi_edge_list.h"
 
 #include <tuple>
 
@@ -55,7 +55,7 @@ SurfaceCells vertex_cells(const SurfaceMesh& mesh) {
             cells.places[mesh.triangles[t][k]] = place;
         }
     }
-    WallList walls;
+    VoronoiEdgeList edges;
     for (std::uint32_t t = 0; t < flipped.triangles.size(); ++t) {
         share_area(flipped, t, cells.areas);
         for (std::uint32_t k = 0; k < 3; ++k) {
@@ -65,11 +65,11 @@ SurfaceCells vertex_cells(const SurfaceMesh& mesh) {
                 flipped.cotangent({t, k}) + (other.exists() ? flipped.cotangent(other) : 0);
             if (cotangents / 2 < least_weight) continue;
             const double distance = flipped.lengths[t][k];
-            walls.add(flipped.triangles[t][k], flipped.triangles[t][corner_after(k)],
+            edges.add(flipped.triangles[t][k], flipped.triangles[t][corner_after(k)],
                       cotangents / 2 * distance, distance);
         }
     }
-    walls.put_into(cells, mesh.points.size());
+    edges.put_into(cells, mesh.points.size());
     return cells;
 }
 

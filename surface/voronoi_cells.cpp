@@ -1,5 +1,5 @@
 // Each cell unfolds what lies around it and cuts the triangles by the bisectors to its neighbours;
-// what the two cells of a wall see is averaged afterwards.
+// what the two cells of a Voronoi edge see is averaged afterwards.
 #include "surface/voronoi_cells.h"
 
 #include "surface/convex_region.h"
@@ -24,7 +24,7 @@ struct Claim {
 /// What one thread found, cell after cell.
 struct Found {
     std::vector<Claim> claims;
-    std::vector<CellWall> walls;  ///< As their cells see them, by the numbers of the neighbours.
+    std::vector<VoronoiEdge> edges;  ///< As their cells see them, by the numbers of the neighbours.
 };
 
 /// Finds the regions of some cells; one a thread.
@@ -59,13 +59,15 @@ public:
             if (unfolding_.is_everything() && reach >= 2 * size_of(pieces)) break;
             found.claims.resize(claims);
         }
-        const std::size_t walls = found.walls.size();
+        const std::size_t edges = found.edges.size();
         for (std::size_t k = 0; k < neighbours_.size(); ++k) {
             if (lengths_[k] <= 0) continue;
-            found.walls.push_back({neighbours_[k].number, lengths_[k], neighbours_[k].distance});
+            found.edges.push_back({neighbours_[k].number, lengths_[k], neighbours_[k].distance});
         }
-        std::sort(found.walls.begin() + static_cast<std::ptrdiff_t>(walls), found.walls.end(),
-                  [](const CellWall& a, const CellWall& b) { return a.neighbour < b.neighbour; });
+        std::sort(found.edges.begin() + static_cast<std::ptrdiff_t>(edges), found.edges.end(),
+                  [](const VoronoiEdge& a, const VoronoiEdge& b) {
+                      return a.neighbour < b.neighbour;
+                  });
     }
 
 private:
@@ -166,7 +168,7 @@ private:
     Vector3d position_;  ///< Of the cell.
     Stretch stretch_;    ///< At the cell.
     std::vector<Neighbour> neighbours_;
-    std::vector<double> lengths_;  ///< Of the walls to the neighbours.
+    std::vector<double> lengths_;  ///< Of the edges to the neighbours.
     ConvexRegion part_;
 };
 
@@ -221,52 +223,52 @@ void share_areas(const SurfaceMesh& mesh, const std::vector<Claim>& claims, Surf
     }
 }
 
-/// The wall to a neighbour in one of the lists, which are sorted; null if there is none.
-const CellWall* wall_to(std::uint32_t neighbour, std::span<const CellWall> walls) {
-    const auto found = std::lower_bound(walls.begin(), walls.end(), neighbour,
-                                        [](const CellWall& wall, std::uint32_t number) {
-                                            return wall.neighbour < number;
+/// The edge to a neighbour in one of the lists, which are sorted; null if there is none.
+const VoronoiEdge* edge_to(std::uint32_t neighbour, std::span<const VoronoiEdge> edges) {
+    const auto found = std::lower_bound(edges.begin(), edges.end(), neighbour,
+                                        [](const VoronoiEdge& edge, std::uint32_t number) {
+                                            return edge.neighbour < number;
                                         });
-    return found != walls.end() && found->neighbour == neighbour ? &*found : nullptr;
+    return found != edges.end() && found->neighbour == neighbour ? &*found : nullptr;
 }
 
-/// Takes the mean of what the two cells of a wall see; one that one cell alone sees is half as
-/// long. `cells` has the walls as they are seen.
-void match_walls(SurfaceCells& cells) {
+/// Takes the mean of what the two cells of an edge see; one that one cell alone sees is half as
+/// long. `cells` has the edges as they are seen.
+void match_edges(SurfaceCells& cells) {
     SurfaceCells matched;
-    // Cells and the walls that their neighbours see but they do not.
-    std::vector<std::pair<std::uint32_t, CellWall>> unseen;
+    // Cells and the edges that their neighbours see but they do not.
+    std::vector<std::pair<std::uint32_t, VoronoiEdge>> unseen;
     for (std::uint32_t cell = 0; cell < cells.ends.size(); ++cell) {
-        for (const CellWall& wall : cells.walls_of(cell)) {
-            if (wall_to(cell, cells.walls_of(wall.neighbour))) continue;
-            unseen.push_back({wall.neighbour, {cell, wall.length, wall.distance}});
+        for (const VoronoiEdge& edge : cells.edges_of(cell)) {
+            if (edge_to(cell, cells.edges_of(edge.neighbour))) continue;
+            unseen.push_back({edge.neighbour, {cell, edge.length, edge.distance}});
         }
     }
     std::sort(unseen.begin(), unseen.end(), [](const auto& a, const auto& b) {
         return std::tie(a.first, a.second.neighbour) < std::tie(b.first, b.second.neighbour);
     });
-    matched.walls.reserve(cells.walls.size() + unseen.size());
+    matched.edges.reserve(cells.edges.size() + unseen.size());
     matched.ends.reserve(cells.ends.size());
     auto next = unseen.begin();
     for (std::uint32_t cell = 0; cell < cells.ends.size(); ++cell) {
         const auto take_unseen = [&](std::uint32_t before) {
             for (; next != unseen.end() && next->first == cell; ++next) {
-                const CellWall& wall = next->second;
-                if (wall.neighbour >= before) break;
-                matched.walls.push_back({wall.neighbour, wall.length / 2, wall.distance});
+                const VoronoiEdge& edge = next->second;
+                if (edge.neighbour >= before) break;
+                matched.edges.push_back({edge.neighbour, edge.length / 2, edge.distance});
             }
         };
-        for (const CellWall& wall : cells.walls_of(cell)) {
-            take_unseen(wall.neighbour);
-            const CellWall* back = wall_to(cell, cells.walls_of(wall.neighbour));
-            const CellWall other = back ? *back : CellWall{cell, 0, wall.distance};
-            matched.walls.push_back({wall.neighbour, (wall.length + other.length) / 2,
-                                     (wall.distance + other.distance) / 2});
+        for (const VoronoiEdge& edge : cells.edges_of(cell)) {
+            take_unseen(edge.neighbour);
+            const VoronoiEdge* back = edge_to(cell, cells.edges_of(edge.neighbour));
+            const VoronoiEdge other = back ? *back : VoronoiEdge{cell, 0, edge.distance};
+            matched.edges.push_back({edge.neighbour, (edge.length + other.length) / 2,
+                                     (edge.distance + other.distance) / 2});
         }
         take_unseen(static_cast<std::uint32_t>(cells.ends.size()));
-        matched.ends.push_back(matched.walls.size());
+        matched.ends.push_back(matched.edges.size());
     }
-    cells.walls.swap(matched.walls);
+    cells.edges.swap(matched.edges);
     cells.ends.swap(matched.ends);
 }
 
@@ -294,7 +296,7 @@ SurfaceCells voronoi_cells(const SurfaceMesh& mesh, std::vector<SurfacePlace> pl
         for (std::int64_t k = part.begin; k < part.end && !cancel; ++k) {
             const auto cell = static_cast<std::size_t>(k);
             finder.find(static_cast<std::uint32_t>(cell), reach, own);
-            cells.ends[cell] = own.walls.size();
+            cells.ends[cell] = own.edges.size();
         }
     });
     if (cancel) return cells;
@@ -305,11 +307,11 @@ SurfaceCells voronoi_cells(const SurfaceMesh& mesh, std::vector<SurfacePlace> pl
         for (std::int64_t k = part.begin; k < part.end; ++k) {
             cells.ends[static_cast<std::size_t>(k)] += before;
         }
-        before += found[static_cast<std::size_t>(thread)].walls.size();
+        before += found[static_cast<std::size_t>(thread)].edges.size();
     }
     share_areas(mesh, joined(found, &Found::claims), cells);
-    cells.walls = joined(found, &Found::walls);
-    match_walls(cells);
+    cells.edges = joined(found, &Found::edges);
+    match_edges(cells);
     return cells;
 }
 

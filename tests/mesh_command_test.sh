@@ -37,10 +37,10 @@ cmp -s out first && fail "another seed gives the same cells"
 run 64 mesh cube.obj --seed 2
 says err "--seed means nothing without a number of --cells"
 run 0 mesh cube.obj --cells faces
-says out "6 cells of mean area 1, deviation 0.0 %, 4.00 walls each"
+says out "6 cells of mean area 1, deviation 0.0 %, 4.00 neighbours each"
 says out "the nearest neighbour 1 away, deviation 0.0 %"
 run 0 mesh cube.obj --cells vertices
-says out "8 cells of mean area 0.75, deviation 0.0 %, 3.00 walls each"
+says out "8 cells of mean area 0.75, deviation 0.0 %, 3.00 neighbours each"
 run 64 mesh cube.obj --cells faces --seed 2
 says err "--seed means nothing without a number of --cells"
 run 64 mesh cube.obj --cells edges

@@ -105,7 +105,7 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
                                   Diagnostics& diagnostics) {
     Workspace work = workspace_of(program, diagnostics);
     checking::Scope scope;
-    scope.place = checking::Place::picture;
+    scope.context = checking::Context::picture;
     scope.stage = stage;
     scope.system = program.stages[stage].system;
     scope.last_stage = last_stage;

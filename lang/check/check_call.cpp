@@ -123,7 +123,7 @@ void report_unknown_function(Workspace& work, const ast::Word& name,
             name.span, fmt::format("{} is taken over something", name.text),
             fmt::format("write {0}(e over i) or {0}(e over domain)", name.text));
     }
-    std::string hint(advice_about(name.text, WordPlace::function));
+    std::string hint(advice_about(name.text, WordContext::function));
     if (hint.empty() && !is_hopeless(work)) {
         std::vector<std::string> names = own;
         for (std::size_t i = 0; i < function_count; ++i) {
@@ -138,45 +138,45 @@ void report_unknown_function(Workspace& work, const ast::Word& name,
 
 bool ExpressionChecker::belongs_here(Function function, Span span) {
     const FunctionInfo& row = info(function);
-    const Place place = scope_.place;
-    const bool at_step = place == Place::rate;
-    const bool at_start = place == Place::value || place == Place::mask;
+    const Context context = scope_.context;
+    const bool at_step = context == Context::rate;
+    const bool at_start = context == Context::value || context == Context::mask;
     const auto refuse = [&](const char* where) {
         fault(span, fmt::format("{} cannot stand here", row.spelling), where);
         return false;
     };
     const bool varies = row.is_aggregate || varies_by_cell(function);
-    if (place == Place::position && !is_elementary(function)) {
+    if (context == Context::position && !is_elementary(function)) {
         return refuse("a surface is made of numbers, sx, sy and functions of numbers");
     }
-    if (place == Place::mask && (row.is_aggregate || differentiates(function))) {
+    if (context == Context::mask && (row.is_aggregate || differentiates(function))) {
         return refuse("a mask says which cells the domain has, and reads no others");
     }
-    if (place == Place::mask && needs_model(function)) {
+    if (context == Context::mask && needs_model(function)) {
         return refuse("a mask is that of a plane; it belongs to the cells of a model");
     }
     const bool is_derivative = row.kind == FunctionKind::derivative;
     if (work_.on_surface && is_derivative && !includes(row.domains, Domains::surface)) {
         return refuse("second derivatives by name have no meaning on a surface; lap and div have");
     }
-    if (place == Place::constant && varies) {
+    if (context == Context::constant && varies) {
         fault(span, fmt::format("{} must be one number, but {} is {}", scope_.subject, row.spelling,
                                 row.is_aggregate ? "known only in a run" : "varying by cell"));
         return false;
     }
-    if (place == Place::bound && varies) {
+    if (context == Context::bound && varies) {
         return refuse("a bound is made of numbers and parameters only");
     }
     switch (row.places) {
-        case Places::any:
-        case Places::cells: return true;
-        case Places::rates:
+        case Contexts::any:
+        case Contexts::cells: return true;
+        case Contexts::rates:
             return at_step || refuse("it belongs in rates and definitions of a system");
-        case Places::values: return at_start || refuse("it belongs in values (name: …)");
-        case Places::noisy:
+        case Contexts::values: return at_start || refuse("it belongs in values (name: …)");
+        case Contexts::noisy:
             return at_start || at_step || refuse("pictures have no randomness of their own");
-        case Places::picture:
-            return place == Place::picture || refuse("colours belong in pictures");
+        case Contexts::picture:
+            return context == Context::picture || refuse("colours belong in pictures");
     }
     return true;
 }

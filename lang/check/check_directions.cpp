@@ -124,7 +124,7 @@ std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Sc
     read.span = value.span;
     if (name->kind == Kind::gradient) {
         Scope scope;
-        scope.place = Place::position;
+        scope.context = Context::position;
         auto height = check_number(work, script, arguments[0], scope);
         if (!height) return std::nullopt;
         read.height = std::move(height->formula);

@@ -97,7 +97,7 @@ std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& 
     if (word == "periodic") return Boundary::periodic;
     if (word == "noflux") return Boundary::no_flux;
     const auto* call = std::get_if<ast::Call>(&value.node);
-    std::string hint(advice_about(call ? call->function.text : word, WordPlace::boundary));
+    std::string hint(advice_about(call ? call->function.text : word, WordContext::boundary));
     if (hint.empty()) hint = did_you_mean(work, word, words_taken_by(Setting::boundary));
     work.diagnostics.error(value.span, "the boundary is periodic or noflux", std::move(hint));
     return std::nullopt;
@@ -152,7 +152,7 @@ void check_seed(Workspace& work, const ast::Script& script, const ast::Statement
 void check_mask(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     if (!has_one_value(work, script, statement)) return;
     Scope scope;
-    scope.place = Place::mask;
+    scope.context = Context::mask;
     scope.system = unknown_system;
     auto checked = check_number(work, script, statement.values[0], scope);
     if (!checked) return;
@@ -192,7 +192,7 @@ void report_sides(Workspace& work, const ast::Block& block) {
 }
 
 void report_no_setting(Workspace& work, const ast::Word& name) {
-    std::string hint = hint_about(work, name.text, WordPlace::domain,
+    std::string hint = hint_about(work, name.text, WordContext::domain,
                                   settings_of({SettingBlock::domain, SettingBlock::side}));
     if (hint.empty()) {
         hint =
@@ -233,7 +233,7 @@ std::uint32_t shown_stage(const Program& program) {
 void check_color(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     if (work.program.stages.empty() || !has_one_value(work, script, statement)) return;
     Scope scope;
-    scope.place = Place::picture;
+    scope.context = Context::picture;
     scope.stage = shown_stage(work.program);
     scope.system = work.program.stages[*scope.stage].system;
     scope.last_stage = static_cast<std::uint32_t>(work.program.stages.size() - 1);
@@ -281,7 +281,7 @@ void check_picture(Workspace& work, const ast::Script& script) {
     for (const ast::Statement& statement : block->statements) {
         if (statement.name.empty() || statement.values.empty()) continue;
         if (statement.kind != ast::StatementKind::value || statement.name.text != "color") {
-            const std::string hint = hint_about(work, statement.name.text, WordPlace::picture,
+            const std::string hint = hint_about(work, statement.name.text, WordContext::picture,
                                                 settings_of({SettingBlock::picture}));
             work.diagnostics.error(statement.name.span,
                                    fmt::format("'{}' is not a setting of the picture",

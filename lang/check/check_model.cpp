@@ -188,7 +188,7 @@ private:
         model.span = value.span;
         if (is_implicit) {
             Scope scope;
-            scope.place = Place::position;
+            scope.context = Context::position;
             auto checked = check_number(work_, script_, arguments[0], scope);
             if (!checked) return;
             model.implicit = std::move(checked->formula);

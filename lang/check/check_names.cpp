@@ -37,8 +37,8 @@ void report(Workspace& work, Span span, std::string message, std::string hint,
 
 /// Are the names of systems out of reach?
 bool is_constant(const Scope& scope) {
-    return scope.place == Place::constant || scope.place == Place::position ||
-           scope.place == Place::mask;
+    return scope.context == Context::constant || scope.context == Context::position ||
+           scope.context == Context::mask;
 }
 
 bool is_of_model(std::string_view name) {
@@ -49,12 +49,12 @@ bool is_of_model(std::string_view name) {
 bool varies_by_cell(std::string_view builtin) { return builtin != "t" && builtin != "step"; }
 
 void report_constant(Workspace& work, const Scope& scope, std::string_view name, Span span) {
-    if (scope.place == Place::position) {
+    if (scope.context == Context::position) {
         report(work, span, fmt::format("a surface knows nothing of '{}'", name),
                "it is made of numbers, sx, sy, pi and functions of them");
         return;
     }
-    if (scope.place == Place::mask) {
+    if (scope.context == Context::mask) {
         report(work, span, fmt::format("a mask knows nothing of '{}'", name),
                "it is made of coordinates, numbers, shapes, noise and files");
         return;
@@ -77,28 +77,29 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
         node.number = std::numbers::pi;
         return node;
     }
-    if (scope.place == Place::constant) {
+    if (scope.context == Context::constant) {
         report_constant(work, scope, name, span);
         return std::nullopt;
     }
-    if (scope.place == Place::bound) {
+    if (scope.context == Context::bound) {
         report(work, span, "a bound is made of numbers and parameters only", "");
         return std::nullopt;
     }
-    if ((scope.place == Place::position || scope.place == Place::mask) && is_of_model(name)) {
+    if ((scope.context == Context::position || scope.context == Context::mask) &&
+        is_of_model(name)) {
         report_constant(work, scope, name, span);
         return std::nullopt;
     }
-    if (scope.place == Place::position && !varies_by_cell(name)) {
+    if (scope.context == Context::position && !varies_by_cell(name)) {
         report(work, span, fmt::format("a surface cannot depend on '{}'", name),
                "it stays as it is");
         return std::nullopt;
     }
-    if (scope.place == Place::mask && !varies_by_cell(name)) {
+    if (scope.context == Context::mask && !varies_by_cell(name)) {
         report(work, span, fmt::format("a mask cannot depend on '{}'", name), "it stays as it is");
         return std::nullopt;
     }
-    if (scope.place == Place::value && !varies_by_cell(name) && !scope.knows_time) {
+    if (scope.context == Context::value && !varies_by_cell(name) && !scope.knows_time) {
         report(work, span, fmt::format("'{}' has no value when a stage starts", name),
                "it can be read in rates, definitions and pictures");
         return std::nullopt;
@@ -123,7 +124,7 @@ bool report_reserved(Workspace& work, const Scope& scope, std::string_view name,
 
 std::vector<std::string> readable_names(const System& system, const Scope& scope) {
     std::vector<std::string> names = quantity_names(system);
-    if (scope.place == Place::rate) {
+    if (scope.context == Context::rate) {
         for (const Definition& definition : system.definitions) names.push_back(definition.name);
     }
     for (const std::string_view name : builtin_names) {
@@ -145,14 +146,14 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
     }
     if (is_incomplete(work, scope.system)) return;
     const std::string names = list_names(quantity_names(system));
-    std::string hint(advice_about(name, WordPlace::value));
+    std::string hint(advice_about(name, WordContext::value));
     if (hint.empty()) hint = did_you_mean(work, name, readable_names(system, scope));
-    if (hint.empty() && scope.place == Place::rate)
+    if (hint.empty() && scope.context == Context::rate)
         hint = fmt::format("add {}: 0.1, for example", name);
     if (function_named(name)) hint = fmt::format("'{0}' is a function: {0}(…)", name);
     if (name == "steady") hint = "write steady(0.1)";
     std::string note = fmt::format("{} has {}", system.name, names);
-    if (scope.place == Place::value && scope.stage) {
+    if (scope.context == Context::value && scope.stage) {
         note = fmt::format("[name] reads this stage ({}: {})", system.name, names);
         if (reserved(name) == Reserved::builtin) {
             hint = fmt::format("'{}' is built in and needs no brackets", name);
@@ -174,14 +175,15 @@ std::optional<Node> resolve_own(Workspace& work, const Scope& scope, std::string
     }
     if (meaning->is_faulty) return std::nullopt;
     if (meaning->is_definition) {
-        if (scope.place == Place::rate) {
+        if (scope.context == Context::rate) {
             return make_node(NodeKind::definition, span, meaning->index);
         }
         report(work, span, fmt::format("'{}' is a definition and cannot be read here", name),
                "definitions can be read in rates and other definitions");
         return std::nullopt;
     }
-    if (scope.place == Place::bound && system_at(work, scope.system).is_species(meaning->index)) {
+    if (scope.context == Context::bound &&
+        system_at(work, scope.system).is_species(meaning->index)) {
         report(work, span, "a bound is made of numbers and parameters only",
                fmt::format("'{}' is a species", name));
         return std::nullopt;
@@ -217,7 +219,7 @@ void report_unknown_previous(Workspace& work, const Scope& scope, std::string_vi
     if (scope.system != unknown_system && find(work.names[scope.system], name) != nullptr) {
         hint = fmt::format("[{0}] is the '{0}' of this stage", name);
     } else {
-        hint = advice_about(name, WordPlace::value);
+        hint = advice_about(name, WordContext::value);
         if (hint.empty()) hint = did_you_mean(work, name, readable_names(system, scope));
     }
     report(work, span, not_a_parameter(name, system), std::move(hint),
@@ -271,7 +273,7 @@ std::optional<std::uint32_t> find_stage(Workspace& work, const Scope& scope,
                                         const ast::Qualified& qualified) {
     const std::string_view name = qualified.stage.text;
     const auto found = work.stages.find(std::string(name));
-    const bool picture = scope.place == Place::picture;
+    const bool picture = scope.context == Context::picture;
     const std::size_t readable = picture ? scope.last_stage + 1u : *scope.stage;
     if (found == work.stages.end()) {
         std::string hint;
@@ -302,7 +304,7 @@ std::optional<Node> resolve_bare(Workspace& work, const Scope& scope, std::strin
         report_reserved(work, scope, name, span);
         return std::nullopt;
     }
-    if (scope.place == Place::value && scope.stage) {
+    if (scope.context == Context::value && scope.stage) {
         return resolve_previous(work, scope, name, span);
     }
     return resolve_own(work, scope, name, span);
@@ -334,7 +336,7 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
     if (!stage) return std::nullopt;
     const std::uint32_t index = work.program.stages[*stage].system;
     if (index == unknown_system) return std::nullopt;
-    if (scope.place == Place::picture && *stage == *scope.stage) {
+    if (scope.context == Context::picture && *stage == *scope.stage) {
         return resolve_own(work, scope, qualified.name.text, qualified.name.span);
     }
     if (report_reserved(work, scope, qualified.name.text, qualified.name.span)) {
@@ -363,7 +365,7 @@ std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast:
         report_constant(work, scope, name.text, span);
         return std::nullopt;
     }
-    if (scope.place != Place::rate) {
+    if (scope.context != Context::rate) {
         report(work, span, fmt::format("the rate {}' cannot be read here", name.text),
                "rates can be read in rates and definitions");
         return std::nullopt;

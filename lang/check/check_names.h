@@ -62,7 +62,7 @@ struct Workspace {
 };
 
 /// Where an expression stands: it decides which names and functions it may read.
-enum class Place : std::uint8_t {
+enum class Context : std::uint8_t {
     value,     ///< name: e
     rate,      ///< name' = e and definitions
     bound,     ///< name >= e
@@ -79,7 +79,7 @@ struct IndexValue {
 };
 
 struct Scope {
-    Place place = Place::value;
+    Context context = Context::value;
     std::uint32_t system = 0;            ///< Whose names are one's own.
     std::optional<std::uint32_t> stage;  ///< Empty inside a system.
     std::uint32_t last_stage = 0;        ///< In pictures: the last stage that can be read.
@@ -120,7 +120,7 @@ std::string did_you_mean(Workspace& work, std::string_view name,
 
 /// What to write in place of a word that is no setting where it stands: what it is called here, the
 /// block that it belongs to, or the nearest of the candidates.
-std::string hint_about(Workspace& work, std::string_view word, WordPlace place,
+std::string hint_about(Workspace& work, std::string_view word, WordContext context,
                        const std::vector<std::string>& candidates);
 
 /// Is this the name of a family of the system, the u of u[1], u[2], …?

@@ -52,7 +52,7 @@ void report_unknown_override(Workspace& work, const ast::Word& name) {
         diagnostic.notes.push_back({std::nullopt, "there are " + list_names(names)});
     }
     for (std::string& each : settings_of({SettingBlock::stage})) names.push_back(std::move(each));
-    diagnostic.hint = hint_about(work, name.text, WordPlace::stage, names);
+    diagnostic.hint = hint_about(work, name.text, WordContext::stage, names);
     work.diagnostics.add(std::move(diagnostic));
 }
 

@@ -74,7 +74,7 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Statem
         settings.interval = check_count(work, script, statement);
     } else if (setting == Setting::show) {
         Scope picture = scope;
-        picture.place = Place::picture;
+        picture.context = Context::picture;
         picture.last_stage = scope.stage.value_or(0);
         auto checked = check_expression(work, script, statement.values[0], picture);
         if (checked) settings.show = std::move(checked->formula);

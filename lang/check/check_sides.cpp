@@ -47,7 +47,7 @@ std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
                                          : std::string_view();
     const auto kind = kind_of_word(word);
     if (!kind) {
-        std::string hint(advice_about(word, WordPlace::side));
+        std::string hint(advice_about(word, WordContext::side));
         if (hint.empty()) hint = did_you_mean(work, word, words_taken_by(Setting::sides));
         work.diagnostics.error(value.span, "a side is periodic, noflux, fixed(…) or flux(…)",
                                std::move(hint));

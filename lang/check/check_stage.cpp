@@ -197,7 +197,7 @@ void StageChecker::report_unknown(const Declaration& declaration) {
             {std::nullopt, fmt::format("{} has {}", system().name, list_names(names))});
         for (std::string& each : settings_of({SettingBlock::stage}))
             names.push_back(std::move(each));
-        diagnostic.hint = hint_about(work_, declaration.name, WordPlace::stage, names);
+        diagnostic.hint = hint_about(work_, declaration.name, WordContext::stage, names);
         if (is_side_word(declaration.name)) {
             diagnostic.hint =
                 fmt::format("a side of one species is SPECIES.{0}: …, of all {0}: … in the domain",

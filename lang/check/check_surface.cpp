@@ -15,7 +15,7 @@ void check_position(Workspace& work, const ast::Script& script, const ast::State
         return;
     }
     Scope scope;
-    scope.place = Place::position;
+    scope.context = Context::position;
     std::array<Formula, 3> position;
     for (std::size_t k = 0; k < 3; ++k) {
         auto checked = check_number(work, script, statement.values[k], scope);

@@ -33,9 +33,9 @@ public:
 
 private:
     System& system() { return work_.draft->systems[index_]; }
-    Scope scope(Place place, const Declaration& declaration) const {
+    Scope scope(Context context, const Declaration& declaration) const {
         Scope result;
-        result.place = place;
+        result.context = context;
         result.system = index_;
         result.index = declaration.index;
         return result;
@@ -49,7 +49,7 @@ private:
     void report_no_species(const Declaration& declaration, const Meaning* meaning);
     void report_families();
     void report_no_rates();
-    std::optional<CheckedExpression> check_value(const Declaration& declaration, Place place);
+    std::optional<CheckedExpression> check_value(const Declaration& declaration, Context context);
     void check_values();
     void check_definitions();
     void check_rates();
@@ -262,10 +262,10 @@ void SystemChecker::collect_rate(const Declaration& declaration) {
 
 /// The number that a declaration says, or nothing with a message.
 std::optional<CheckedExpression> SystemChecker::check_value(const Declaration& declaration,
-                                                            Place place) {
+                                                            Context context) {
     if (!has_one_value(work_, *declaration.script, *declaration.statement)) return std::nullopt;
     auto checked = check_number(work_, *declaration.script, declaration.statement->values[0],
-                                scope(place, declaration));
+                                scope(context, declaration));
     if (checked) mark_reads(work_, checked->formula, index_);
     return checked;
 }
@@ -273,7 +273,7 @@ std::optional<CheckedExpression> SystemChecker::check_value(const Declaration& d
 void SystemChecker::check_values() {
     for (std::size_t i = 0; i < values_.size(); ++i) {
         Quantity& quantity = system().quantities[i];
-        auto checked = check_value(*values_[i], Place::value);
+        auto checked = check_value(*values_[i], Context::value);
         if (checked) quantity.start = std::move(checked->formula);
         if (values_[i]->range != nullptr) {
             check_range(work_, *values_[i], quantity, checked ? checked->constant : std::nullopt);
@@ -283,7 +283,7 @@ void SystemChecker::check_values() {
 
 void SystemChecker::check_definitions() {
     for (std::size_t i = 0; i < definitions_.size(); ++i) {
-        auto checked = check_value(*definitions_[i], Place::rate);
+        auto checked = check_value(*definitions_[i], Context::rate);
         if (checked) system().definitions[i].formula = std::move(checked->formula);
     }
 }
@@ -315,7 +315,7 @@ void SystemChecker::check_rates() {
             declarations.insert(declarations.begin(), rates_[i].assignment);
         }
         for (const Declaration* declaration : declarations) {
-            auto checked = check_value(*declaration, Place::rate);
+            auto checked = check_value(*declaration, Context::rate);
             if (checked) superpose(system().rates[i], std::move(checked->formula));
         }
     }
@@ -347,7 +347,7 @@ void SystemChecker::check_invariants() {
             report_no_bound(*declaration);
             continue;
         }
-        auto checked = check_value(*declaration, Place::bound);
+        auto checked = check_value(*declaration, Context::bound);
         if (!checked) continue;
         system().invariants.push_back({meaning->index,
                                        declaration->kind() == ast::StatementKind::at_least,
@@ -365,7 +365,7 @@ void SystemChecker::check_settings() {
     for (const Declaration* declaration : settings_) {
         if (is_end_setting(declaration->name) && declaration->level < level_of_end) continue;
         check_setting(work_, *declaration->script, *declaration->statement,
-                      scope(Place::value, *declaration), settings);
+                      scope(Context::value, *declaration), settings);
     }
     for (const auto* formula :
          {&settings.frozen, &settings.speed, &settings.show, &settings.time.until}) {

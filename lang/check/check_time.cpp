@@ -84,7 +84,7 @@ void check_until(Workspace& work, const ast::Script& script, ast::Expression val
     }
     // It reads the stage as it is when it is tested, as a picture does.
     Scope present = scope;
-    present.place = Place::picture;
+    present.context = Context::picture;
     present.last_stage = scope.stage.value_or(0);
     auto checked = check_number(work, script, value, present);
     if (checked) time.until = std::move(checked->formula);

@@ -73,11 +73,11 @@ void warn_unread(Workspace& work) {
             } else {
                 const bool is_parameter = unread.kind == std::string_view("parameter");
                 // A system gives defaults of the settings of its stages.
-                const auto place = WordPlace::stage;
+                const auto context = WordContext::stage;
                 const auto settings = settings_of({SettingBlock::stage, SettingBlock::system});
                 work.diagnostics.warning(
                     unread.span, fmt::format("{} '{}' is never read", unread.kind, *unread.name),
-                    is_parameter ? hint_about(work, *unread.name, place, settings) : "");
+                    is_parameter ? hint_about(work, *unread.name, context, settings) : "");
             }
         }
     }

@@ -58,9 +58,9 @@ std::string did_you_mean(Workspace& work, std::string_view name,
     return near.empty() ? "" : fmt::format("did you mean '{}'?", near);
 }
 
-std::string hint_about(Workspace& work, std::string_view word, WordPlace place,
+std::string hint_about(Workspace& work, std::string_view word, WordContext context,
                        const std::vector<std::string>& candidates) {
-    std::string hint(advice_about(word, place));
+    std::string hint(advice_about(word, context));
     if (hint.empty()) hint = home_of(word);
     return hint.empty() ? did_you_mean(work, word, candidates) : hint;
 }

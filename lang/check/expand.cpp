@@ -322,7 +322,7 @@ void Expander::finish_member(const ast::Expr& here, const ast::Indexed& member,
 /// The whole number that the parts [first, last] are, or nothing with a message.
 std::optional<std::int64_t> Expander::index_value(ast::ExprId first, ast::ExprId last, Span span) {
     Scope constant;
-    constant.place = Place::constant;
+    constant.context = Context::constant;
     constant.subject = "an index";
     const auto checked = check_parts(work_, out_.parts, {first, last}, constant);
     if (!checked) return std::nullopt;
@@ -341,7 +341,7 @@ std::optional<std::int64_t> Expander::index_value(ast::ExprId first, ast::ExprId
 }  // namespace
 
 const Index* find_index(const Workspace& work, const Scope& scope, std::string_view name) {
-    if (scope.place == Place::constant || scope.system == unknown_system) return nullptr;
+    if (scope.context == Context::constant || scope.system == unknown_system) return nullptr;
     for (const Index& index : work.program.systems[scope.system].indices) {
         if (index.name == name) return &index;
     }

@@ -59,18 +59,18 @@ SystemBlocks system_blocks(const ast::Script& script) {
 
 SystemStatements::SystemStatements(const ast::Script& script, const Sources& sources,
                                    const SystemBlocks& blocks, std::string_view system) {
-    std::vector<Place> chain;  // From the system to the one that is derived from none.
-    Place place = find_block({&script, &sources, &blocks, nullptr}, system);
-    if (place.block == nullptr) place = find_in_library(system);
+    std::vector<FoundBlock> chain;  // From the system to the one that is derived from none.
+    FoundBlock found = find_block({&script, &sources, &blocks, nullptr}, system);
+    if (found.block == nullptr) found = find_in_library(system);
     constexpr std::size_t longest_chain = 1000;  // The checks allow no cycle.
-    while (place.block != nullptr && chain.size() < longest_chain) {
-        chain.push_back(place);
-        const std::string_view base = place.block->base.text;
+    while (found.block != nullptr && chain.size() < longest_chain) {
+        chain.push_back(found);
+        const std::string_view base = found.block->base.text;
         if (base.empty()) break;
         // `system a: a { … }` changes the library's a.
-        const bool is_own_name = base == place.block->name.text;
-        place = is_own_name ? Place{} : find_block(place, base);
-        if (place.block == nullptr) place = find_in_library(base);
+        const bool is_own_name = base == found.block->name.text;
+        found = is_own_name ? FoundBlock{} : find_block(found, base);
+        if (found.block == nullptr) found = find_in_library(base);
     }
     found_ = !chain.empty();
     if (found_) doc_ = chain.front().block->doc;
@@ -81,13 +81,13 @@ SystemStatements::SystemStatements(const ast::Script& script, const Sources& sou
 }
 
 /// Adds the statements of a block to those it inherits, or puts them in the place of those.
-void SystemStatements::derive(const Place& place) {
+void SystemStatements::derive(const FoundBlock& found) {
     struct Change {
         std::size_t first = SIZE_MAX;  ///< The inherited statement whose place it takes.
         bool is_used = false;
     };
     std::unordered_map<std::string, Change> changes;
-    for (const ast::Statement& statement : place.block->statements) {
+    for (const ast::Statement& statement : found.block->statements) {
         if (statement.kind == ast::StatementKind::rate_term) continue;
         changes.try_emplace(subject_of(statement) + member_of(statement));
     }
@@ -102,8 +102,8 @@ void SystemStatements::derive(const Place& place) {
             if (change->second.first == SIZE_MAX) change->second.first = k;
         }
     }
-    for (const ast::Statement& statement : place.block->statements) {
-        SaidStatement added = said(*place.script, *place.sources, statement);
+    for (const ast::Statement& statement : found.block->statements) {
+        SaidStatement added = said(*found.script, *found.sources, statement);
         const auto change = changes.find(subject_of(statement) + member_of(statement));
         const bool takes_place = statement.kind != ast::StatementKind::rate_term &&
                                  change != changes.end() && !change->second.is_used &&
@@ -131,13 +131,14 @@ void SystemStatements::derive(const Place& place) {
     statements_.resize(kept);
 }
 
-SystemStatements::Place SystemStatements::find_block(Place beside, std::string_view system) {
+SystemStatements::FoundBlock SystemStatements::find_block(FoundBlock beside,
+                                                          std::string_view system) {
     const auto found = beside.blocks->find(system);
     beside.block = found == beside.blocks->end() ? nullptr : found->second;
     return beside;
 }
 
-SystemStatements::Place SystemStatements::find_in_library(std::string_view system) {
+SystemStatements::FoundBlock SystemStatements::find_in_library(std::string_view system) {
     const LibraryText* const text = find_library_text(system);
     if (text == nullptr) return {};
     LibraryScript& read = library_.emplace_back();

@@ -53,16 +53,16 @@ private:
         ast::Script script;
         SystemBlocks blocks;
     };
-    struct Place {
+    struct FoundBlock {
         const ast::Script* script = nullptr;
         const Sources* sources = nullptr;
         const SystemBlocks* blocks = nullptr;  ///< Of that script.
         const ast::Block* block = nullptr;
     };
-    /// The place in the script of `beside`.
-    static Place find_block(Place beside, std::string_view system);
-    Place find_in_library(std::string_view system);
-    void derive(const Place& place);
+    /// The block in the script of `beside`.
+    static FoundBlock find_block(FoundBlock beside, std::string_view system);
+    FoundBlock find_in_library(std::string_view system);
+    void derive(const FoundBlock& found);
 
     std::deque<LibraryScript> library_;
     std::vector<SaidStatement> statements_;

@@ -146,7 +146,7 @@ private:
     std::size_t end_of(std::size_t line, std::size_t cell) const {
         return lines_[line].cells[cell].column + width_of(word(line, cell).text);
     }
-    /// Places the cells of a line before `end`, from the first that has no place yet.
+    /// Contexts the cells of a line before `end`, from the first that has no place yet.
     void place_up_to(std::size_t line, std::size_t end) {
         for (std::size_t& cell = placed_[line]; cell < end; ++cell) {
             lines_[line].cells[cell].column =

@@ -12,7 +12,7 @@ namespace cascade {
 using BuiltinValues = std::array<double, builtin_count>;
 
 /// The value of a formula of numbers, built-in values and functions of numbers; the checker lets
-/// nothing else into such formulas (Place::position).
+/// nothing else into such formulas (checking::Context::position).
 double evaluate(const Formula& formula, const BuiltinValues& builtins);
 
 }  // namespace cascade

@@ -276,8 +276,8 @@ enum class ModelCellKind : std::uint8_t {
 
 /// How differences of neighbours are weighted.
 enum class ModelLaplacian : std::uint8_t {
-    finite_volumes,  ///< Length of the wall over distance, over the cell's area.
-    turk,            ///< Lengths of walls, so scaled that their sum is 4.
+    finite_volumes,  ///< Length of the Voronoi edge over distance, over the cell's area.
+    turk,            ///< Lengths of Voronoi edges, so scaled that their sum is 4.
 };
 
 /// In which direction cells, and what grows over them, are stretched.

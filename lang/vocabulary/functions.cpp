@@ -11,15 +11,21 @@ constexpr int cost_of_spatial = 20;
 
 constexpr FunctionInfo function_table[] = {
 #define CASCADE_OPERATOR(id, spelling, arity, precedence, kind, behaviour, cost, meaning) \
-    {spelling,    arity,        precedence,           FunctionKind::kind,                 \
-     Places::any, Domains::all, Behaviour::behaviour, cost,                               \
+    {spelling,      arity,        precedence,           FunctionKind::kind,               \
+     Contexts::any, Domains::all, Behaviour::behaviour, cost,                             \
      meaning},
 #define CASCADE_NUMERIC(id, spelling, arity, kind, behaviour, cost, meaning) \
     CASCADE_OPERATOR(id, spelling, arity, FunctionInfo::of_a_name, kind, behaviour, cost, meaning)
 #define CASCADE_SPATIAL(id, spelling, arity, kind, places, domains, meaning) \
-    {spelling,           arity,           FunctionInfo::of_a_name,           \
-     FunctionKind::kind, Places::places,  Domains::domains,                  \
-     Behaviour::plain,   cost_of_spatial, meaning},
+    {spelling,                                                               \
+     arity,                                                                  \
+     FunctionInfo::of_a_name,                                                \
+     FunctionKind::kind,                                                     \
+     Contexts::places,                                                       \
+     Domains::domains,                                                       \
+     Behaviour::plain,                                                       \
+     cost_of_spatial,                                                        \
+     meaning},
 #include "lang/vocabulary/functions.def"
 };
 

@@ -30,7 +30,7 @@ enum class FunctionKind : std::uint8_t {
 };
 // clang-format on
 enum class Behaviour : std::uint8_t { plain, jumps, chooses, partial, divides, raises };
-enum class Places : std::uint8_t { any, cells, rates, values, noisy, picture };
+enum class Contexts : std::uint8_t { any, cells, rates, values, noisy, picture };
 
 /// How many values a function takes: one number, one of two, or groups of values.
 struct Arity {
@@ -63,7 +63,7 @@ struct FunctionInfo {
     Arity arity;
     int precedence;  ///< Of operators; of functions that of a name.
     FunctionKind kind;
-    Places places;
+    Contexts places;
     Domains domains;
     Behaviour behaviour;
     int cost;

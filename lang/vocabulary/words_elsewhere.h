@@ -11,7 +11,7 @@
 namespace cascade {
 
 /// Where a word stands that has no meaning there.
-enum class WordPlace : std::uint8_t {
+enum class WordContext : std::uint8_t {
     stage,     ///< `dt: 0.1` in a stage, or of an option such as --set
     domain,    ///< `size: 100` in the domain
     picture,   ///< `palette: "grey"` in the picture
@@ -25,7 +25,7 @@ enum class WordPlace : std::uint8_t {
 /// after `write` is that word's replacement and passes the checker as it stands
 /// (tests/unit/lang/hints_test.cpp); the word of `did you mean` replaces the name alone.
 struct WordElsewhere {
-    WordPlace place;
+    WordContext context;
     std::string_view words;
     std::string_view advice;
 };
@@ -33,6 +33,6 @@ struct WordElsewhere {
 std::span<const WordElsewhere> words_elsewhere();
 
 /// The advice about a word, in small letters or capitals; empty where there is none.
-std::string_view advice_about(std::string_view word, WordPlace place);
+std::string_view advice_about(std::string_view word, WordContext context);
 
 }  // namespace cascade

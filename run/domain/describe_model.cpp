@@ -81,16 +81,16 @@ Result<void> describe_cells(const SurfaceMesh& mesh, const CellOptions& options,
     if (!cells) return tl::unexpected(cells.error());
     if (cancel) return {};
     const Spread areas = spread_of(cells->areas);
-    lines.push_back(fmt::format("{} of mean area {:.4g}, deviation {:.1f} %, {:.2f} walls each",
-                                counted(cells->areas.size(), "cell"), areas.mean, areas.deviation,
-                                static_cast<double>(cells->walls.size()) /
-                                    static_cast<double>(cells->areas.size())));
+    lines.push_back(fmt::format(
+        "{} of mean area {:.4g}, deviation {:.1f} %, {:.2f} neighbours each",
+        counted(cells->areas.size(), "cell"), areas.mean, areas.deviation,
+        static_cast<double>(cells->edges.size()) / static_cast<double>(cells->areas.size())));
     std::vector<double> nearest;
     for (std::size_t cell = 0; cell < cells->areas.size(); ++cell) {
-        const auto walls = cells->walls_of(cell);
-        if (walls.empty()) continue;
+        const auto edges = cells->edges_of(cell);
+        if (edges.empty()) continue;
         nearest.push_back(
-            std::min_element(walls.begin(), walls.end(), [](const auto& a, const auto& b) {
+            std::min_element(edges.begin(), edges.end(), [](const auto& a, const auto& b) {
                 return a.distance < b.distance;
             })->distance);
     }

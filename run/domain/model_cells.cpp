@@ -100,21 +100,21 @@ Result<MadeMesh> make_surface(const ModelSettings& settings, const ModelAccess& 
     return MadeMesh{*std::move(mesh), {}};
 }
 
-/// Weights of a Laplacian in units, one for each wall.
+/// Weights of a Laplacian in units, one for each Voronoi edge.
 std::vector<double> weights_of(const SurfaceCells& cells, ModelLaplacian laplacian,
                                const std::vector<double>& areas, double unit, double mean_area) {
     std::vector<double> weights;
-    weights.reserve(cells.walls.size());
+    weights.reserve(cells.edges.size());
     for (std::size_t cell = 0; cell < cells.places.size(); ++cell) {
         double lengths = 0;
-        for (const CellWall& wall : cells.walls_of(cell)) lengths += wall.length;
-        for (const CellWall& wall : cells.walls_of(cell)) {
+        for (const VoronoiEdge& edge : cells.edges_of(cell)) lengths += edge.length;
+        for (const VoronoiEdge& edge : cells.edges_of(cell)) {
             if (laplacian == ModelLaplacian::turk) {
-                weights.push_back(lengths > 0 ? 4 * wall.length / lengths * unit * unit / mean_area
+                weights.push_back(lengths > 0 ? 4 * edge.length / lengths * unit * unit / mean_area
                                               : 0);
             } else {
-                const bool is_sound = wall.distance > 0 && areas[cell] > 0;
-                weights.push_back(is_sound ? wall.length / wall.distance / areas[cell] : 0);
+                const bool is_sound = edge.distance > 0 && areas[cell] > 0;
+                weights.push_back(is_sound ? edge.length / edge.distance / areas[cell] : 0);
             }
         }
     }
@@ -262,7 +262,7 @@ private:
             std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
         for (std::size_t cell = 0; cell < areas.size(); ++cell) {
             double sum = 0;
-            for (const CellWall& wall : model_->cells.walls_of(cell)) sum += wall.weight();
+            for (const VoronoiEdge& edge : model_->cells.edges_of(cell)) sum += edge.weight();
             areas[cell] = std::max(areas[cell], sum * mean / most_weight);
         }
     }
@@ -271,13 +271,13 @@ private:
         const SurfaceCells& cells = model_->cells;
         LinkList list;
         list.ends = cells.ends;
-        list.neighbours.reserve(cells.walls.size());
-        std::size_t wall = 0;
+        list.neighbours.reserve(cells.edges.size());
+        std::size_t edge = 0;
         for (std::size_t cell = 0; cell < model_->count(); ++cell) {
             double sum = 0;
-            for (; wall < cells.ends[cell]; ++wall) {
-                list.neighbours.push_back(cells.walls[wall].neighbour);
-                sum += weights[wall];
+            for (; edge < cells.ends[cell]; ++edge) {
+                list.neighbours.push_back(cells.edges[edge].neighbour);
+                sum += weights[edge];
             }
             model_->largest_weight = std::max(model_->largest_weight, sum);
         }

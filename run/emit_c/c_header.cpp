@@ -181,7 +181,7 @@ private:
             text += "/* Steps that the script takes. */\n";
             text += define("ITERATIONS", number(stage_.iterations));
         }
-        text += "/* Places in the tables. */\n";
+        text += "/* Contexts in the tables. */\n";
         text += enumeration("SPECIES", compiled_.species);
         text += enumeration("NUMBER", compiled_.numbers);
         text += enumeration("PLANE", compiled_.planes);

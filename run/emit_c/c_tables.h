@@ -26,7 +26,7 @@ public:
     /// The name of a kernel's function; kernels of the same code share one.
     std::string kernel(const CellKernel& kernel);
 
-    /// Places in the tables.
+    /// Contexts in the tables.
     std::size_t number_place(const SlotSource& source);
     /// Sources of the masks in their table.
     const std::vector<SlotSource>& masks() const { return masks_; }

@@ -16,11 +16,12 @@ namespace {
 struct FunctionRow {
     std::string_view spelling;
     Arity arity;
-    Places places;
+    Contexts places;
 };
 
 constexpr std::array rows = {
-#define CASCADE_FUNCTION(id, spelling, arity, places) FunctionRow{spelling, arity, Places::places},
+#define CASCADE_FUNCTION(id, spelling, arity, places) \
+    FunctionRow{spelling, arity, Contexts::places},
 #include "lang/vocabulary/functions.def"
 };
 
@@ -179,12 +180,12 @@ private:
             return false;
         }
         switch (row.places) {
-            case Places::any:
-            case Places::cells: return true;
-            case Places::rates: return place == Place::rate && !species_.empty();
-            case Places::noisy: return true;
-            case Places::values:
-            case Places::picture: return false;
+            case Contexts::any:
+            case Contexts::cells: return true;
+            case Contexts::rates: return place == Place::rate && !species_.empty();
+            case Contexts::noisy: return true;
+            case Contexts::values:
+            case Contexts::picture: return false;
         }
         return false;
     }

@@ -136,14 +136,14 @@ std::vector<std::vector<std::string>> table_rows(const std::string& page) {
     return rows;
 }
 
-std::string_view word_of(Places places) {
+std::string_view word_of(Contexts places) {
     switch (places) {
-        case Places::any: return "any";
-        case Places::cells: return "cells";
-        case Places::rates: return "rates";
-        case Places::values: return "values";
-        case Places::noisy: return "noisy";
-        case Places::picture: return "picture";
+        case Contexts::any: return "any";
+        case Contexts::cells: return "cells";
+        case Contexts::rates: return "rates";
+        case Contexts::values: return "values";
+        case Contexts::noisy: return "noisy";
+        case Contexts::picture: return "picture";
     }
     return "";
 }

@@ -96,29 +96,29 @@ TEST(Hints, MendWhatTheyStandAt) {
 }
 
 /// How a word stands in a script, and how its advice does.
-std::string_view frame_of(WordPlace place) {
-    switch (place) {
-        case WordPlace::stage: return "stage";
-        case WordPlace::picture: return "picture";
-        case WordPlace::function:
-        case WordPlace::value: return "rate";
+std::string_view frame_of(WordContext context) {
+    switch (context) {
+        case WordContext::stage: return "stage";
+        case WordContext::picture: return "picture";
+        case WordContext::function:
+        case WordContext::value: return "rate";
         default: return "domain";
     }
 }
 
-std::string used(WordPlace place, std::string_view word) {
-    switch (place) {
-        case WordPlace::boundary: return fmt::format("boundary: {}", word);
-        case WordPlace::side: return fmt::format("sides: {}", word);
-        case WordPlace::function: return fmt::format("{}(u)", word);
-        case WordPlace::value: return std::string(word);
+std::string used(WordContext context, std::string_view word) {
+    switch (context) {
+        case WordContext::boundary: return fmt::format("boundary: {}", word);
+        case WordContext::side: return fmt::format("sides: {}", word);
+        case WordContext::function: return fmt::format("{}(u)", word);
+        case WordContext::value: return std::string(word);
         default: return fmt::format("{}: 1", word);
     }
 }
 
-std::string advised(WordPlace place, const std::string& advice) {
+std::string advised(WordContext context, const std::string& advice) {
     const std::string text = text_to_write(advice);
-    const std::string_view frame = frame_of(place);
+    const std::string_view frame = frame_of(context);
     // Another block, in place of the statement.
     for (const char* block : {"stage ", "domain ", "picture "}) {
         if (text.starts_with(block)) return framed(frame, "") + text + "\n";
@@ -132,8 +132,8 @@ std::string advised(WordPlace place, const std::string& advice) {
         return framed(frame, text + "(u)");
     }
     const bool is_setting = text.find(": ") != std::string::npos;
-    if (place == WordPlace::boundary && !is_setting) return framed(frame, "boundary: " + text);
-    if (place == WordPlace::side && !is_setting) return framed(frame, "sides: " + text);
+    if (context == WordContext::boundary && !is_setting) return framed(frame, "boundary: " + text);
+    if (context == WordContext::side && !is_setting) return framed(frame, "sides: " + text);
     return framed(frame, text);
 }
 
@@ -143,7 +143,7 @@ TEST(Hints, KnowTheWordsOfOthers) {
         std::istringstream words{std::string(row.words)};
         const std::string advice(row.advice);
         for (std::string word; words >> word;) {
-            const std::string before = framed(frame_of(row.place), used(row.place, word));
+            const std::string before = framed(frame_of(row.context), used(row.context, word));
             const auto checked = check_text(before);
             const auto fault = find_hint(*checked, advice);
             if (!fault) {
@@ -151,7 +151,7 @@ TEST(Hints, KnowTheWordsOfOthers) {
                 continue;
             }
             if (text_to_write(advice).empty()) continue;  // It explains.
-            const std::string after = advised(row.place, advice);
+            const std::string after = advised(row.context, advice);
             expect_sound(after, check_text(after), *fault);
         }
     }

@@ -74,7 +74,7 @@ TEST(ModelOrder, RowsOfFilesComeBackAsTheyWere) {
     }
 }
 
-/// The stages as a loop over the cells in their own order, walls in theirs, in floats.
+/// The stages as a loop over the cells in their own order, edges in theirs, in floats.
 TEST(ModelOrder, StepsAreThoseOfALoopOverTheCellsInTheirOwnOrder) {
     Script script = load(on_sphere("  u: random(0, 1)\n  u' = lap(u)\n"));
     const auto simulation = start(script);
@@ -98,9 +98,9 @@ TEST(ModelOrder, StepsAreThoseOfALoopOverTheCellsInTheirOwnOrder) {
         for (std::size_t cell = 0; cell < some_cells; ++cell) {
             const double area = cells.areas[cell] / (model.unit * model.unit);
             float sum = 0;
-            for (const CellWall& wall : cells.walls_of(cell)) {
-                const auto weight = static_cast<float>(wall.length / wall.distance / area);
-                sum += weight * (old[wall.neighbour] - old[cell]);
+            for (const VoronoiEdge& edge : cells.edges_of(cell)) {
+                const auto weight = static_cast<float>(edge.length / edge.distance / area);
+                sum += weight * (old[edge.neighbour] - old[cell]);
             }
             expected[cell] = old[cell] + 0.05F * sum;
         }

@@ -19,7 +19,7 @@ double mean_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Connected parts of the cells above their mean, cells being connected by walls.
+/// Connected parts of the cells above their mean, cells being connected by Voronoi edges.
 std::int64_t count_spots(const SurfaceCells& cells, const std::vector<double>& values) {
     const double level = mean_of(values);
     std::int64_t spots = 0;
@@ -33,10 +33,10 @@ std::int64_t count_spots(const SurfaceCells& cells, const std::vector<double>& v
         while (!waiting.empty()) {
             const std::size_t cell = waiting.back();
             waiting.pop_back();
-            for (const CellWall& wall : cells.walls_of(cell)) {
-                if (is_seen[wall.neighbour] || values[wall.neighbour] <= level) continue;
-                is_seen[wall.neighbour] = true;
-                waiting.push_back(wall.neighbour);
+            for (const VoronoiEdge& edge : cells.edges_of(cell)) {
+                if (is_seen[edge.neighbour] || values[edge.neighbour] <= level) continue;
+                is_seen[edge.neighbour] = true;
+                waiting.push_back(edge.neighbour);
             }
         }
     }

@@ -217,11 +217,11 @@ double speed_along_y(const ModelCells& model) {
     double along = 0, across = 0;
     for (std::size_t cell = 0; cell < model.count(); ++cell) {
         const Vector3d here = position_of(model.mesh, model.cells.places[cell]);
-        for (const CellWall& wall : model.cells.walls_of(cell)) {
-            const Vector3d there = position_of(model.mesh, model.cells.places[wall.neighbour]);
+        for (const VoronoiEdge& edge : model.cells.edges_of(cell)) {
+            const Vector3d there = position_of(model.mesh, model.cells.places[edge.neighbour]);
             const Vector3d way = there - here;
-            along += wall.weight() * way.y * way.y;
-            across += wall.weight() * (way.x * way.x + way.z * way.z);
+            along += edge.weight() * way.y * way.y;
+            across += edge.weight() * (way.x * way.x + way.z * way.z);
         }
     }
     return along / across;
@@ -280,11 +280,11 @@ TEST_F(SurfaceValuesTest, CurvatureSaysADirection) {
         for (std::size_t cell = 0; cell < model.count(); ++cell) {
             const Vector3d here = position_of(model.mesh, model.cells.places[cell]);
             const Vector3d around = unit(Vector3d{-here.z, 0, here.x});
-            for (const CellWall& wall : model.cells.walls_of(cell)) {
+            for (const VoronoiEdge& edge : model.cells.edges_of(cell)) {
                 const Vector3d way =
-                    position_of(model.mesh, model.cells.places[wall.neighbour]) - here;
-                along += wall.weight() * dot(way, around) * dot(way, around);
-                all += wall.weight() * dot(way, way);
+                    position_of(model.mesh, model.cells.places[edge.neighbour]) - here;
+                along += edge.weight() * dot(way, around) * dot(way, around);
+                all += edge.weight() * dot(way, way);
             }
         }
         return along / all;

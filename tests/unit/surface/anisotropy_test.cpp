@@ -75,13 +75,13 @@ TEST(Anisotropy, CellsAreLongerThanWide) {
         for (const double ratio : {1.0, 2.0, 4.0}) {
             const SurfaceCells cells = cells_of(mesh, 1500, constant(mesh, direction * 7, ratio));
             test::expect_areas_sum_to(mesh, cells);
-            test::expect_symmetric_walls(cells);
+            test::expect_symmetric_edges(cells);
             Spread spread;
             for (std::uint32_t k = 0; k < 1500; ++k) {
                 const Vector3d p = position_of(mesh, cells.places[k]);
                 if (std::max(std::abs(p.x - 0.5), std::abs(p.y - 0.5)) > 0.35) continue;
-                for (const CellWall& wall : cells.walls_of(k)) {
-                    spread.add(position_of(mesh, cells.places[wall.neighbour]) - p, direction, 1);
+                for (const VoronoiEdge& edge : cells.edges_of(k)) {
+                    spread.add(position_of(mesh, cells.places[edge.neighbour]) - p, direction, 1);
                 }
             }
             EXPECT_NEAR(std::sqrt(spread.along / spread.across) / ratio, 1, 0.05)
@@ -134,7 +134,7 @@ TEST(Anisotropy, WorksOnASphereOnAnyNumberOfThreads) {
     EXPECT_EQ(one.areas, three.areas);
     EXPECT_EQ(one.ends, three.ends);
     test::expect_areas_sum_to(mesh, one);
-    test::expect_symmetric_walls(one);
+    test::expect_symmetric_edges(one);
     EXPECT_EQ(test::parts_of(one), 1u);
 }
 

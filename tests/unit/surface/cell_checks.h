@@ -29,13 +29,13 @@ inline double unevenness(const SurfaceMesh& mesh, const std::vector<SurfacePlace
     return std::sqrt(squares / count - sum / count * (sum / count)) / (sum / count);
 }
 
-/// (Σ wall (c_j − c_i) length / distance) / area.
+/// (Σ (c_j − c_i) length / distance) / area.
 inline std::vector<double> laplacian(const SurfaceCells& cells, const std::vector<double>& c) {
     std::vector<double> result;
     for (std::size_t i = 0; i < c.size(); ++i) {
         double sum = 0;
-        for (const CellWall& wall : cells.walls_of(i)) {
-            sum += (c[wall.neighbour] - c[i]) * wall.weight();
+        for (const VoronoiEdge& edge : cells.edges_of(i)) {
+            sum += (c[edge.neighbour] - c[i]) * edge.weight();
         }
         result.push_back(sum / cells.areas[i]);
     }
@@ -77,27 +77,27 @@ inline void expect_areas_sum_to(const SurfaceMesh& mesh, const SurfaceCells& cel
     EXPECT_NEAR(sum / mesh.total_area(), 1, 1e-9);
 }
 
-inline void expect_symmetric_walls(const SurfaceCells& cells) {
+inline void expect_symmetric_edges(const SurfaceCells& cells) {
     ASSERT_EQ(cells.ends.size(), cells.places.size());
-    ASSERT_EQ(cells.ends.empty() ? 0 : cells.ends.back(), cells.walls.size());
+    ASSERT_EQ(cells.ends.empty() ? 0 : cells.ends.back(), cells.edges.size());
     for (std::uint32_t i = 0; i < cells.places.size(); ++i) {
-        for (const CellWall& wall : cells.walls_of(i)) {
-            EXPECT_NE(wall.neighbour, i);
-            EXPECT_GT(wall.length, 0);
-            EXPECT_GT(wall.distance, 0);
-            EXPECT_TRUE(std::isfinite(wall.weight()));
-            const auto others = cells.walls_of(wall.neighbour);
+        for (const VoronoiEdge& edge : cells.edges_of(i)) {
+            EXPECT_NE(edge.neighbour, i);
+            EXPECT_GT(edge.length, 0);
+            EXPECT_GT(edge.distance, 0);
+            EXPECT_TRUE(std::isfinite(edge.weight()));
+            const auto others = cells.edges_of(edge.neighbour);
             EXPECT_EQ(std::count_if(others.begin(), others.end(),
-                                    [&](const CellWall& back) {
-                                        return back.neighbour == i && back.length == wall.length &&
-                                               back.distance == wall.distance;
+                                    [&](const VoronoiEdge& back) {
+                                        return back.neighbour == i && back.length == edge.length &&
+                                               back.distance == edge.distance;
                                     }),
                       1);
         }
     }
 }
 
-/// Are all cells of a piece reached from each other over walls? Counts the parts that are not.
+/// Are all cells of a piece reached from each other over edges? Counts the parts that are not.
 inline std::size_t parts_of(const SurfaceCells& cells) {
     std::vector<bool> seen(cells.places.size());
     std::size_t parts = 0;
@@ -109,10 +109,10 @@ inline std::size_t parts_of(const SurfaceCells& cells) {
         while (!waiting.empty()) {
             const std::uint32_t cell = waiting.back();
             waiting.pop_back();
-            for (const CellWall& wall : cells.walls_of(cell)) {
-                if (seen[wall.neighbour]) continue;
-                seen[wall.neighbour] = true;
-                waiting.push_back(wall.neighbour);
+            for (const VoronoiEdge& edge : cells.edges_of(cell)) {
+                if (seen[edge.neighbour]) continue;
+                seen[edge.neighbour] = true;
+                waiting.push_back(edge.neighbour);
             }
         }
     }

@@ -72,11 +72,11 @@ TEST_F(CellFile, GivesBackWhatWasWritten) {
         EXPECT_EQ(read->places[k].triangle, cells.places[k].triangle);
         EXPECT_EQ(read->places[k].weights, cells.places[k].weights);
     }
-    ASSERT_EQ(read->walls.size(), cells.walls.size());
-    for (std::size_t k = 0; k < cells.walls.size(); ++k) {
-        EXPECT_EQ(read->walls[k].neighbour, cells.walls[k].neighbour);
-        EXPECT_EQ(read->walls[k].length, cells.walls[k].length);
-        EXPECT_EQ(read->walls[k].distance, cells.walls[k].distance);
+    ASSERT_EQ(read->edges.size(), cells.edges.size());
+    for (std::size_t k = 0; k < cells.edges.size(); ++k) {
+        EXPECT_EQ(read->edges[k].neighbour, cells.edges[k].neighbour);
+        EXPECT_EQ(read->edges[k].length, cells.edges[k].length);
+        EXPECT_EQ(read->edges[k].distance, cells.edges[k].distance);
     }
 }
 
@@ -163,26 +163,26 @@ TEST_F(CellFile, RefusesHostileNumbersWithARightChecksum) {
         change(true, [&](std::string& b) { std::memcpy(b.data() + at, &value, sizeof value); });
         EXPECT_NE(reason(), "") << "at " << at;
     };
-    // How many cells and walls: neither is believed, however large.
+    // How many cells and edges: neither is believed, however large.
     for (const std::uint64_t count :
          {std::uint64_t{0}, std::uint64_t{61}, ~std::uint64_t{0}, std::uint64_t{1} << 62,
           std::uint64_t{1} << 40, (~std::uint64_t{0} - 71) / 44 + 1}) {
         put(32, count);
         put(40, count);
     }
-    const std::size_t cell = 64, walls = 64 + 60 * 44;
+    const std::size_t cell = 64, edges = 64 + 60 * 44;
     put(48, -1.0);                                            // The bare area.
     put(cell, std::uint32_t{12});                             // A triangle that is not there.
     put(cell + 4, std::numeric_limits<double>::quiet_NaN());  // A weight.
     put(cell + 4, 1.5);
     put(cell + 28, std::numeric_limits<double>::infinity());  // An area.
-    put(cell + 36, std::uint64_t{1} << 50);                   // Where a cell's walls end.
+    put(cell + 36, std::uint64_t{1} << 50);                   // Where a cell's edges end.
     put(cell + 59 * 44 + 36, std::uint64_t{5});
-    put(walls, std::uint32_t{0});   // A wall of cell 0 to itself,
-    put(walls, std::uint32_t{60});  // and to none.
-    put(walls + 4, 0.0);            // Its length,
-    put(walls + 4, 0.25);           // which the other cell does not have.
-    put(walls + 12, -2.0);          // Its distance.
+    put(edges, std::uint32_t{0});   // An edge of cell 0 to itself,
+    put(edges, std::uint32_t{60});  // and to none.
+    put(edges + 4, 0.0);            // Its length,
+    put(edges + 4, 0.25);           // which the other cell does not have.
+    put(edges + 12, -2.0);          // Its distance.
 }
 
 TEST_F(CellFile, CellsAreMadeOnceAndThenKept) {

@@ -39,7 +39,7 @@ TEST(CellGradient, IsExactForLinearFunctionsOnAPlane) {
 }
 
 TEST(CellGradient, CrossesFoldsWithoutError) {
-    // Half a cube's walls: a function that is linear when the fold is opened.
+    // Half a cube's edges: a function that is linear when the fold is opened.
     const SurfaceMesh mesh = sheet(2, 1, [](double u, double v) {
         return u <= 0.5 ? Vector3d{u, v, 0} : Vector3d{0.5, v, u - 0.5};
     });
@@ -90,14 +90,14 @@ TEST(CellGradient, WhatCannotBeKnownIsZero) {
         cells.places.push_back({0, {1 - x, x - 0.1, 0.1}});  // The place (x, 0.1).
     }
     cells.areas = {1, 1, 1};
-    cells.walls = {{1, 1, 0.2}, {0, 1, 0.2}, {2, 1, 0.2}, {1, 1, 0.2}};
+    cells.edges = {{1, 1, 0.2}, {0, 1, 0.2}, {2, 1, 0.2}, {1, 1, 0.2}};
     cells.ends = {1, 3, 4};
     const auto slope = values(mesh, cells, [](Vector3d p) { return 5 * p.x + 7 * p.y; });
     for (const Vector3d& gradient : cell_gradients(cells, weights_of(mesh, cells), slope)) {
         EXPECT_LT(length(gradient - Vector3d{5, 0, 0}), 1e-12);
     }
 
-    cells.walls.clear();
+    cells.edges.clear();
     cells.ends = {0, 0, 0};
     for (const Vector3d& gradient : cell_gradients(cells, weights_of(mesh, cells), slope)) {
         EXPECT_EQ(gradient, Vector3d());
@@ -109,7 +109,7 @@ TEST(CellGradient, PlacesThatCoincideAreHarmless) {
     SurfaceCells cells;
     cells.places = {{0, {0.5, 0.3, 0.2}}, {0, {0.5, 0.3, 0.2}}};
     cells.areas = {1, 1};
-    cells.walls = {{1, 1, 0}, {0, 1, 0}};
+    cells.edges = {{1, 1, 0}, {0, 1, 0}};
     cells.ends = {1, 2};
     for (const Vector3d& weight : weights_of(mesh, cells)) EXPECT_EQ(weight, Vector3d());
 }
@@ -138,12 +138,12 @@ TEST(UnfoldNeighbours, TurnsAreOppositeAndMatchTheFrames) {
     std::size_t at = 0;
     for (std::size_t cell = 0; cell < cells.places.size(); ++cell) {
         const TangentFrame here = tangent_frame(mesh, cells.places[cell].triangle);
-        for (const CellWall& wall : cells.walls_of(cell)) {
+        for (const VoronoiEdge& edge : cells.edges_of(cell)) {
             const UnfoldedNeighbour& neighbour = found[at++];
-            const TangentFrame there = tangent_frame(mesh, cells.places[wall.neighbour].triangle);
+            const TangentFrame there = tangent_frame(mesh, cells.places[edge.neighbour].triangle);
             const Vector3d x = here.in_space({std::cos(neighbour.turn), std::sin(neighbour.turn)});
             EXPECT_LT(length(x - there.along), 1e-9);
-            EXPECT_NEAR(length(neighbour.place), wall.distance, 1e-12);
+            EXPECT_NEAR(length(neighbour.place), edge.distance, 1e-12);
         }
     }
 }

@@ -158,10 +158,10 @@ TEST(VoronoiCells, AreasAreTheSurface) {
     }
 }
 
-TEST(VoronoiCells, WallsAreSymmetricAndAboutSix) {
+TEST(VoronoiCells, EdgesAreSymmetricAndAboutSix) {
     const SurfaceCells cells = cells_of(test::box(), 1200);
-    EXPECT_NEAR(static_cast<double>(cells.walls.size()) / 1200, 6, 0.1);
-    test::expect_symmetric_walls(cells);
+    EXPECT_NEAR(static_cast<double>(cells.edges.size()) / 1200, 6, 0.1);
+    test::expect_symmetric_edges(cells);
 }
 
 TEST(VoronoiCells, SphericalHarmonicsDecayAtTheirRates) {

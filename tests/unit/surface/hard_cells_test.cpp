@@ -23,7 +23,7 @@ void expect_fine(const SurfaceMesh& mesh, std::uint64_t count) {
     ASSERT_TRUE(cells) << cells.error().message;
     EXPECT_EQ(cells->places.size(), count);
     test::expect_areas_sum_to(mesh, *cells);
-    test::expect_symmetric_walls(*cells);
+    test::expect_symmetric_edges(*cells);
     EXPECT_EQ(cells->bare_area, 0);
     EXPECT_EQ(test::parts_of(*cells), facts_of(mesh).components);
 }
@@ -71,14 +71,14 @@ TEST(HardCells, AWireLongerThanCellsReach) {
     for (const std::uint64_t count : {1, 4, 30, 2000}) expect_fine(mesh, count);
 }
 
-/// The largest sum of the weights of a cell's walls over its share of the mean area: 3.46 of
+/// The largest sum of the weights of a cell's edges over its share of the mean area: 3.46 of
 /// regular hexagons. A step of diffusion has to be so much shorter.
 double largest_weight(const SurfaceCells& cells) {
     double total = 0, largest = 0;
     for (const double area : cells.areas) total += area;
     for (std::size_t k = 0; k < cells.places.size(); ++k) {
         double sum = 0;
-        for (const CellWall& wall : cells.walls_of(k)) sum += wall.weight();
+        for (const VoronoiEdge& edge : cells.edges_of(k)) sum += edge.weight();
         largest = std::max(largest,
                            sum / cells.areas[k] * total / static_cast<double>(cells.places.size()));
     }
@@ -113,7 +113,7 @@ TEST(HardCells, VeryLargeAndVerySmallModels) {
         const SurfaceMesh mesh = mesh_of(scaled(test::cube(), size));
         expect_fine(mesh, 300);
         const auto cells = cells_of(mesh, 300);
-        EXPECT_EQ(cells->walls.size(), at_one->walls.size()) << size;
+        EXPECT_EQ(cells->edges.size(), at_one->edges.size()) << size;
         EXPECT_NEAR(cells->areas[7] / size / size / at_one->areas[7], 1, 1e-3);
     }
 }

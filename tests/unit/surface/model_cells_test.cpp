@@ -45,7 +45,7 @@ SurfaceMesh rough_torus(int n, int m, double shift) {
 void expect_cells(const SurfaceMesh& mesh, const SurfaceCells& cells, std::size_t count) {
     ASSERT_EQ(cells.places.size(), count);
     test::expect_areas_sum_to(mesh, cells);
-    test::expect_symmetric_walls(cells);
+    test::expect_symmetric_edges(cells);
     EXPECT_EQ(test::parts_of(cells), facts_of(mesh).components);
     EXPECT_EQ(cells.bare_area, 0);
 }
@@ -56,21 +56,21 @@ TEST(FaceCells, AreWhatTheModelHas) {
     expect_cells(box, cells, 6);
     for (std::size_t k = 0; k < 6; ++k) {
         EXPECT_NEAR(cells.areas[k], 1, 1e-12);
-        EXPECT_EQ(cells.walls_of(k).size(), 4u);
-        for (const CellWall& wall : cells.walls_of(k)) {
-            EXPECT_NEAR(wall.length, 1, 1e-12);
-            EXPECT_NEAR(wall.distance, 1, 1e-12);
+        EXPECT_EQ(cells.edges_of(k).size(), 4u);
+        for (const VoronoiEdge& edge : cells.edges_of(k)) {
+            EXPECT_NEAR(edge.length, 1, 1e-12);
+            EXPECT_NEAR(edge.distance, 1, 1e-12);
         }
         const Vector3d p = position_of(box, cells.places[k]);
         EXPECT_NEAR(length(p - Vector3d{0.5, 0.5, 0.5}), 0.5, 1e-12);
     }
 }
 
-TEST(FaceCells, OfTrianglesHaveThreeWalls) {
+TEST(FaceCells, OfTrianglesHaveThreeEdges) {
     SurfaceMesh mesh = rough_torus(30, 20, 0.4);
     const SurfaceCells cells = face_cells(mesh);
     expect_cells(mesh, cells, 1200);
-    for (std::size_t k = 0; k < 1200; ++k) EXPECT_EQ(cells.walls_of(k).size(), 3u);
+    for (std::size_t k = 0; k < 1200; ++k) EXPECT_EQ(cells.edges_of(k).size(), 3u);
     // A mesh of which no faces are known has its triangles.
     mesh.faces.clear();
     EXPECT_EQ(face_cells(mesh).areas, cells.areas);
@@ -124,9 +124,9 @@ TEST(VertexCells, WeightsAreTheCotangentsOnAFlatLattice) {
     expect_cells(mesh, cells, 36);
     const std::size_t middle = 6 * 3 + 2;
     EXPECT_NEAR(cells.areas[middle], height, 1e-12);
-    ASSERT_EQ(cells.walls_of(middle).size(), 6u);
-    for (const CellWall& wall : cells.walls_of(middle))
-        EXPECT_NEAR(wall.weight(), 1 / std::sqrt(3), 1e-12);
+    ASSERT_EQ(cells.edges_of(middle).size(), 6u);
+    for (const VoronoiEdge& edge : cells.edges_of(middle))
+        EXPECT_NEAR(edge.weight(), 1 / std::sqrt(3), 1e-12);
     // Linear functions are harmonic, however the points lie.
     std::vector<double> f;
     for (const Vector3d& p : mesh.points) f.push_back(3 * p.x - 2 * p.y);

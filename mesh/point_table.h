@@ -11,9 +11,9 @@ namespace cascade {
 
 /// A hash table of points that are kept elsewhere, by their coordinates. −0 and NaN are other
 /// places than 0 and NaN: the former is to be made 0 before, the latter equals nothing.
-class PlaceTable {
+class PointTable {
 public:
-    explicit PlaceTable(const std::vector<Vector3d>& points) : points_(points), slots_(64, empty) {}
+    explicit PointTable(const std::vector<Vector3d>& points) : points_(points), slots_(64, empty) {}
 
     /// The first point added that lies where point `number` lies, else `number`, which is added.
     std::uint32_t find_or_add(std::uint32_t number) {
