@@ -50,6 +50,9 @@ Run load(const ScriptCase& script, const std::filesystem::path& folder,
 void Run::start(const Configuration& configuration) {
     SimulationOptions options{configuration.backend, 0, configuration.threads};
     if (configuration.backend == BackendKind::jit) options.stepper = native_stepper();
+    RunControl control;
+    control.warn = [&](const std::string& warning) { warnings.push_back(warning); };
+    options.control = &control;
     auto made = Simulation::create(script, options);
     if (!made) {
         // Faults of files that the script names are among the messages.
@@ -57,8 +60,6 @@ void Run::start(const Configuration& configuration) {
         return;
     }
     simulation = std::move(*made);
-    RunControl control;
-    control.warn = [&](const std::string& warning) { warnings.push_back(warning); };
     const auto fails = [&](const auto& result) {
         if (!result) {
             failure = result.error().message;
@@ -180,11 +181,16 @@ void compare_value(Run& run, const ExpectedValue& expected, Faults& faults) {
     const PlaneLayout& layout = left->layout();
     const DomainMask* mask = run.simulation->mask();
     std::int64_t wrong = 0;
-    std::string first;
+    double largest = -1;
+    std::string worst;
     const auto look = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
         const double a = left->number_at(i, j, k), b = right->number_at(i, j, k);
         if (holds(a, b, expected)) return;
-        if (wrong++ == 0) first = fmt::format("{}, {}, {}: {} and {}", i, j, k, a, b);
+        ++wrong;
+        const double difference = std::isfinite(a - b) ? std::abs(a - b) : INFINITY;
+        if (difference <= largest) return;
+        largest = difference;
+        worst = fmt::format("{}, {}, {} by {:.3g}: {} and {}", i, j, k, difference, a, b);
     };
     if (const auto& cell = expected.cell) {
         const auto [i, j, k] = *cell;
@@ -203,8 +209,8 @@ void compare_value(Run& run, const ExpectedValue& expected, Faults& faults) {
         }
     }
     if (wrong > 0) {
-        faults.push_back(fmt::format("expect {} fails in {} {}, first in {}", expected.written,
-                                     wrong, wrong == 1 ? "cell" : "cells", first));
+        faults.push_back(fmt::format("expect {} fails in {} {}, most in {}", expected.written,
+                                     wrong, wrong == 1 ? "cell" : "cells", worst));
     }
 }
 

@@ -16,7 +16,7 @@ struct Configuration {
     Precision precision = Precision::single;
     int threads = 1;
 
-    std::string name() const;  ///< "jit/single/3".
+    std::string name() const;  ///< "interpreter/single/3".
 };
 
 /// All configurations that this build has and a case asks for.

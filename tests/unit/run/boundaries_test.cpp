@@ -1,12 +1,12 @@
 // Sides against calculus: manufactured solutions for every kind of side and of operator, values
-// that change with time under every solver, sides of surfaces, and the same bits whichever way.
+// that change with time under every solver, and the same bits whichever way. Closed solutions are
+// in tests/scripts/boundaries.
 #include "run/simulation/simulation.h"
 
 #include "run/script/script.h"
 #include "support/kernel_comparison.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,12 +30,9 @@ struct Ran {
 };
 
 Ran run(const std::string& text,
-        const SimulationOptions& options = {BackendKind::interpreter, 0, 1},
-        std::vector<std::string> sets = {}) {
+        const SimulationOptions& options = {BackendKind::interpreter, 0, 1}) {
     Ran ran;
-    Overrides overrides;
-    overrides.sets = std::move(sets);
-    ran.script = load_script("test", text, ".", overrides);
+    ran.script = load_script("test", text, ".");
     EXPECT_TRUE(ran.script.program) << ran.script.messages(false) << text;
     if (!ran.script.program) return ran;
     ran.simulation = Simulation::create(ran.script, options).value();
@@ -212,17 +209,7 @@ TEST(Boundaries, ASourceBesideASideIsAFluxThatFollowsASpecies) {
         EXPECT_NEAR(ran.species()[0].number_at(i, 0), u[i + 1], 1e-12) << i;
 }
 
-TEST(Boundaries, StepCountsCompleteSteps) {
-    // Beside the right side: u' = u.right − u, with ghosts 2 step − u and u on the left.
-    const Ran ran =
-        run("system s { u: 0; u' = 0.5 * lap(u); u.right: fixed(step) }\n"
-            "domain { grid: 2; boundary: noflux }\nstage only: s { iterations: 2 }\n");
-    // Step 1 sees 0 at the face, step 2 sees 1: u1 = 0 + (0 + 2 · 1 − 0 − 0) / 2.
-    EXPECT_EQ(ran.species()[0].at(1, 0), 1.0F);
-    EXPECT_EQ(ran.species()[0].at(0, 0), 0.0F);
-}
-
-/// A script with a value at each of six sides; `and_time` is added to each.
+/// A script with a value at each of six sides, which `and_time` makes change.
 std::string volume(const std::string& and_time, const std::string& solver) {
     return fmt::format(
         "system s {{ begin: sin(7 * x) * y + z; u: begin; v: x * y\n"
@@ -235,15 +222,6 @@ std::string volume(const std::string& and_time, const std::string& solver) {
         "stage only: s {{ iterations: 25; speed: 0.5; solver: {1}\n"
         "  u.left: fixed(sin(9 * y) * z{0}) }}\n",
         and_time, solver);
-}
-
-TEST(Boundaries, ValuesThatChangeAreFoundAsThoseThatDoNot) {
-    for (const char* solver : {"euler", "rk4", "rkl2"}) {
-        const Ran still = run(volume("", solver));
-        const Ran changing = run(volume(" + 0 * t + 0 * step", solver));
-        ASSERT_TRUE(still.simulation && changing.simulation);
-        EXPECT_EQ(same_bits(still.species(), changing.species()), "") << solver;
-    }
 }
 
 TEST(Boundaries, ThreadsLanesAndBreaksChangeNothing) {
@@ -297,110 +275,6 @@ TEST(BeyondSides, FunctionsAreMadeOfWhatStandsThere) {
         EXPECT_NEAR(after_a_step("lap(u^2 - lap(u))", planning),
                     u0 + (ghost * ghost - lap0) + (u1 * u1 - lap1) - 2 * (u0 * u0 - lap0), 1e-4);
     }
-}
-
-TEST(BeyondSides, OperatorsAreLinearThere) {
-    const auto field = [](const std::string& rates) {
-        return run("system s { c: sin(5 * x) * y; " + rates +
-                   "\n"
-                   "  c.left: fixed(0.5); c.right: flux(y); c.top: noflux; c.bottom: fixed(x) }\n"
-                   "domain { grid: 12, 9; boundary: noflux }\n"
-                   "stage only: s { iterations: 40; speed: 0.02 }\n");
-    };
-    const Ran whole = field("mu = c^3 - c - 0.5 * lap(c); c' = lap(mu)");
-    const Ran parts = field("c' = lap(c^3) - lap(c) - 0.5 * lap(lap(c))");
-    ASSERT_TRUE(whole.simulation && parts.simulation);
-    double difference = 0, size = 0;
-    for (std::int64_t j = 0; j < 9; ++j) {
-        for (std::int64_t i = 0; i < 12; ++i) {
-            const double a = whole.species()[0].at(i, j), b = parts.species()[0].at(i, j);
-            difference = std::max(difference, std::abs(a - b));
-            size = std::max(size, std::abs(a));
-        }
-    }
-    EXPECT_GT(size, 0.1);
-    EXPECT_LT(difference, 1e-5 * size);
-}
-
-TEST(SidesFromOutside, HaveTheLastWord) {
-    const std::string text =
-        "system heat { i: 1..2; u[i]: 0; u[i]' = lap(u[i])\n"
-        "  u[i].left: fixed(i); u[2].right: fixed(6) }\n"
-        "domain { grid: 8; boundary: noflux }\n"
-        "stage warm: heat { iterations: 3000; speed: 0.4; u[1].right: fixed(1) }\n";
-    const auto ends = [&](std::vector<std::string> sets) {
-        const Ran ran = run(text, {BackendKind::interpreter, 0, 1}, std::move(sets));
-        const auto& u = ran.species();
-        return std::vector<double>{u[0].at(0, 0), u[0].at(7, 0), u[1].at(0, 0), u[1].at(7, 0)};
-    };
-    using ::testing::DoubleNear;
-    using ::testing::ElementsAre;
-    const auto near = [](double value) { return DoubleNear(value, 1e-3); };
-    EXPECT_THAT(ends({}), ElementsAre(near(1), near(1), near(2.25), near(5.75)));
-    EXPECT_THAT(ends({"u[2].right=fixed(2)"}), ElementsAre(near(1), near(1), near(2), near(2)));
-    EXPECT_THAT(ends({"warm.u[i].sides=fixed(i + 2)"}),
-                ElementsAre(near(3), near(3), near(4), near(4)));
-    EXPECT_THAT(ends({"heat.u[1].left=flux(0)", "u[i].right=fixed(5)", "u[2].right=fixed(7)"}),
-                ElementsAre(near(5), near(5), near(2 + 5.0 / 16), near(7 - 5.0 / 16)));
-    const Ran plain =
-        run("system heat { u: 0; left: 3; u' = lap(u) + 0 * left }\n"
-            "domain { grid: 8; boundary: noflux }\n"
-            "stage s: heat { iterations: 3000; speed: 0.4 }\n",
-            {BackendKind::interpreter, 0, 1}, {"u.left=fixed(4)", "s.left=2"});
-    EXPECT_NEAR(plain.species()[0].at(7, 0), 4, 1e-3);
-    EXPECT_EQ(plain.simulation->state(0).numbers[1], 2.0F);
-}
-
-TEST(SidesFromOutside, SlipsAreAnswered) {
-    const auto messages = [](const std::string& set) {
-        Overrides overrides;
-        overrides.sets = {set};
-        return load_script("test",
-                           "system heat { u: 0; k: 1; u' = k * lap(u) }\n"
-                           "domain { grid: 8; boundary: noflux }\nstage s: heat { }\n",
-                           ".", overrides)
-            .messages(false);
-    };
-    using ::testing::HasSubstr;
-    EXPECT_THAT(messages("s.u.lift=fixed(1)"), HasSubstr("'lift' is no side of the grid"));
-    EXPECT_THAT(messages("s.u.lift=fixed(1)"), HasSubstr("did you mean 'left'?"));
-    EXPECT_THAT(messages("w.u.left=fixed(1)"), HasSubstr("there is no stage 'w'"));
-    EXPECT_THAT(messages("w.left=fixed(1)"), HasSubstr("there is no stage 'w'"));
-    EXPECT_THAT(messages("s.k.left=fixed(1)"), HasSubstr("'k' is not a species of heat"));
-    EXPECT_THAT(messages("w[1].left=fixed(1)"), HasSubstr("no stage has a species 'w'"));
-    EXPECT_THAT(messages("u.left=fixd(1)"), HasSubstr("did you mean 'fixed'?"));
-    EXPECT_THAT(messages("u.left=fixed(c)"), HasSubstr("'c'"));
-    EXPECT_THAT(messages("u.left.right=noflux"), HasSubstr("there is no stage 'u'"));
-}
-
-/// A tube whose rows differ in length: the height solves Laplace's equation with its own slope at
-/// one end and its value at the other.
-TEST(SidesOfSurfaces, FluxesAreDerivativesOnTheSurface) {
-    std::vector<double> errors;
-    for (const int n : {8, 16, 32}) {
-        const Ran ran = run(fmt::format(
-            "system heat {{ u: sy^2 + sy; u' = lap(u); u.top: flux(-1); u.bottom: fixed(2) }}\n"
-            "domain {{ grid: 4, {}; boundary: periodic, noflux; unit: 1\n"
-            "  surface: cos(2 * pi * sx), sin(2 * pi * sx), sy^2 + sy }}\n"
-            "stage only: heat {{ iterations: {}; speed: 0.4 / {} }}\n",
-            n, 30 * n * n, n * n));
-        ASSERT_TRUE(ran.simulation);
-        EXPECT_EQ(ran.failure, "");
-        errors.push_back(
-            largest_error(ran.species()[0], [](double, double sy) { return sy * sy + sy; }));
-    }
-    EXPECT_LT(errors[2], 2e-3);
-    EXPECT_GT(std::log2(errors[1] / errors[2]), 1.6)
-        << errors[0] << " " << errors[1] << " " << errors[2];
-}
-
-TEST(SidesOfSurfaces, FluxesOfShearedOnesAreRefused) {
-    const Ran ran =
-        run("system heat { u: 0; u' = lap(u); u.top: flux(1) }\n"
-            "domain { grid: 8, 8; boundary: noflux; surface: sx + sy, sy, 0 * sx }\n"
-            "stage only: heat { iterations: 1 }\n");
-    EXPECT_EQ(ran.failure,
-              "stage 'only': u has a flux at the side top, where the surface is sheared");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Operators against calculus: manufactured solutions and their orders, what is conserved,
-// directions, aggregates. Parameters of a stage are computed from others, so a stage that takes no
-// step is enough to see what an operator gives.
+// Operators against calculus: manufactured solutions and their orders, directions, aggregates; what
+// is conserved is in tests/scripts/operators. Parameters of a stage are computed from others, so a
+// stage that takes no step is enough to see what an operator gives.
 #include "run/simulation/simulation.h"
 
 #include "core/grid.h"
@@ -233,67 +233,6 @@ TEST(Operators, OfWhatIsTheSameEverywhereAreZero) {
     EXPECT_EQ(run.field("u").at(5, 5), 0.1f);
 }
 
-TEST(Operators, AlongAnAxisOfOneCellAreZero) {
-    const Started run(
-        "system s { u: x; u' = dy(u) + dyy(u) + dxy(u) + dz(u) + dzz(u)"
-        " + advect(0, 1, u) + div(vector(0, u)) }\n"
-        "domain { grid: 32, 1; boundary: noflux }\n"
-        "stage only: s { iterations: 3 }\n",
-        true);
-    EXPECT_EQ(run.field("u").at(8, 0), 8.5f / 32);
-}
-
-/// What is lost or won by rounding is far below what any flux moves.
-TEST(Operators, FluxFormConservesSums) {
-    struct Conserved {
-        const char* name;
-        const char* system;
-        double speed;
-    };
-    const Conserved systems[] = {
-        {"Cahn-Hilliard", "c: random(0.2, 0.1); mu = c^3 - c - 0.5 * lap(c); c' = lap(mu)", 0.02},
-        {"chemotaxis",
-         "c: random(1, 0.1); bait: 1\n c' = lap(c) - div(5 * c * grad(bait))\n"
-         "bait' = 10 * lap(bait) + c / (1 + c) - bait",
-         0.02},
-        {"tensor",
-         "c: random(1, 0.5); c' = div(tensor(0.5 + x, 0.3, 6 * y) * grad(c) + vector(c * y, -c))",
-         0.05},
-        {"expensive mobility", "c: random(1, 0.5); c' = div(exp(-c * c) * grad(log(c)))", 0.05},
-    };
-    for (const Conserved& each : systems) {
-        for (const char* boundary : {"periodic", "noflux"}) {
-            const auto text = [&](int steps) {
-                return fmt::format(
-                    "system s {{ {} }}\ndomain {{ grid: 48, 40; boundary: {} }}\n"
-                    "stage only: s {{ iterations: {}; speed: {} }}\n",
-                    each.system, boundary, steps, each.speed);
-            };
-            const Started before(text(0)), after(text(400), true);
-            EXPECT_NEAR(after.sum("c") / before.sum("c"), 1, 2e-6) << each.name << ", " << boundary;
-            // Something has moved.
-            EXPECT_GT(std::abs(after.field("c").at(7, 7) - before.field("c").at(7, 7)), 1e-3)
-                << each.name;
-        }
-    }
-}
-
-/// A wind carries in what a side has, and nothing where nothing flows.
-TEST(Operators, FluxesPassOpenSides) {
-    const auto sum_after = [](const std::string& sides) {
-        const Started run("system s { u: 0.5; u' = -div(vector(u, 0 * u))\n" + sides +
-                              " }\n"
-                              "domain { grid: 40, 3; boundary: noflux }\n"
-                              "stage only: s { iterations: 20; speed: 0.05 }\n",
-                          true);
-        return run.sum("u");
-    };
-    EXPECT_NEAR(sum_after(""), 60, 1e-4);
-    EXPECT_NEAR(sum_after("u.left: fixed(1)"), 60 + 3, 1e-4);
-    EXPECT_NEAR(sum_after("u.left: fixed(1); u.right: fixed(0.25)"), 60 + 3 - 0.75, 1e-4);
-    EXPECT_NEAR(sum_after("u.left: periodic; u.right: periodic"), 60, 1e-4);
-}
-
 TEST(Aggregates, AreSumsMeansAndExtremes) {
     const Started run(
         "system s { u: 0; u' = 0 * u; f: x * 2 + y\n"
@@ -312,26 +251,6 @@ TEST(Aggregates, AreSumsMeansAndExtremes) {
     EXPECT_NEAR(run.number("again"), 0.0375, 1e-6);
     EXPECT_NEAR(run.sum("scaled"), 0, 1e-3);
     EXPECT_NEAR(run.number("steep"), 5.0 / 1600, 1e-8);
-}
-
-TEST(Aggregates, AreTakenAnewInEveryStep) {
-    // u' = mean(u) − u keeps the mean; a constant loss spread over all cells lowers it by 1 each.
-    const Started run(
-        "system s { u: x; v: x; u' = mean(u over domain) - u\n"
-        "v' = -v / sum(v over domain) }\n"
-        "domain { grid: 32, 32 }\nstage only: s { iterations: 64; speed: 0.25 }\n",
-        true);
-    EXPECT_NEAR(run.field("u").at(0, 0), 0.5, 1e-6);
-    EXPECT_NEAR(run.sum("v"), 512 - 16, 1e-3);
-}
-
-TEST(Aggregates, SeeNaN) {
-    const Started run(
-        "system s { u: 0; u' = 0 * u; f: if(x < 0.5, 1, log(-x))\n"
-        "largest: max(f over domain); least: min(f over domain) }\n"
-        "stage only: s { iterations: 0 }\n");
-    EXPECT_TRUE(std::isnan(run.number("largest")));
-    EXPECT_TRUE(std::isnan(run.number("least")));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -63,17 +62,6 @@ protected:
         auto report = run(script, request, control);
         EXPECT_TRUE(report) << (report ? "" : report.error().message) << script.messages(false);
         return report ? *report : RunReport{};
-    }
-
-    /// The warnings of a run without what it says of results that are right
-    /// (silent_results_test.cpp).
-    std::vector<std::string> warnings_besides_remarks(const RunReport& report) const {
-        std::vector<std::string> warnings = warnings_;
-        std::erase_if(warnings, [&](const std::string& warning) {
-            return std::find(report.remarks.begin(), report.remarks.end(), warning) !=
-                   report.remarks.end();
-        });
-        return warnings;
     }
 
     /// Runs what must fail; returns the reason and the hint.
