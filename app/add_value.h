@@ -1,4 +1,4 @@
-// Options whose text is read by a function (internal to the reading of options).
+// Options whose text a function parses (internal: only files that define options include this).
 #pragma once
 
 #include "app/option_values.h"
@@ -14,7 +14,7 @@
 
 namespace cascade::option_groups {
 
-/// The value of an option, or CLI11's way to say that it is wrong; parse_options() catches it.
+/// The value of an option; throws CLI11's error, which parse_options() catches, where it is wrong.
 template <typename T>
 T value_or_throw(Result<T> value, const std::string& option) {
     if (value) return std::move(*value);
@@ -24,7 +24,7 @@ T value_or_throw(Result<T> value, const std::string& option) {
                                            : fmt::format("{} ({})", why.message, why.hint));
 }
 
-/// An option whose text is read by `parse`, a function to Result<T>, and handed to `store`.
+/// Adds an option: `parse` reads its text and returns a Result<T>, `store` takes the value.
 template <typename Parse, typename Store>
 CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& value,
                        const std::string& help, Parse parse, Store store) {
@@ -35,7 +35,7 @@ CLI::Option* add_value(CLI::App& app, const std::string& names, const std::strin
         ->type_name(value);
 }
 
-/// Readers for add_value().
+/// Functions to parse with, for add_value().
 inline auto whole_number(std::int64_t low, std::int64_t high) {
     return [=](const std::string& text) { return parse_whole(text, low, high); };
 }

@@ -1,5 +1,4 @@
-// Numbers come from run/commands/bench.h; this file has the words and the columns, and the row of
-// CSV.
+// Formats the results of run/commands/bench.h as a table and as a row of CSV.
 #include "app/bench_table.h"
 
 #include "core/counted.h"
@@ -22,7 +21,7 @@ std::string sides_of(const Grid& grid) {
     return describe_sides(grid) + " cells";
 }
 
-/// Up to one digit after the point: counts are whole but for links.
+/// At most one digit after the point: all counts are whole except those of a model's links.
 std::string number(double value) {
     return std::abs(value - std::round(value)) < 0.05 ? fmt::format("{:.0f}", value)
                                                       : fmt::format("{:.1f}", value);
@@ -44,7 +43,7 @@ std::string line(std::string_view name, const std::string& text) {
     return fmt::format("  {:<17} {}\n", name, text);
 }
 
-/// Of what may be a fraction a cell, such as loads of links.
+/// A count per cell, which may be a fraction, such as the loads of links.
 std::string mean_count(double count, std::string_view one, std::string_view many) {
     const std::string text = number(count);
     return fmt::format("{} {}", text, text == "1" ? one : many);
@@ -128,14 +127,13 @@ std::string bound_sentence(const StageBench& bench) {
     }
     if (bench.threads < bench.most_threads) {
         text +=
-            fmt::format("; of {} threads {} took the steps: {}", bench.most_threads, bench.threads,
+            fmt::format("; {} of {} threads took the steps: {}", bench.threads, bench.most_threads,
                         bench.cells() < 65536 ? sides_of(bench.grid) + " are few"
                                               : "the machine is busy, or more are no faster");
     }
     if (!bench.is_native) {
         text =
-            "the interpreter takes the steps, native code is far faster (limits are those of "
-            "native "
+            "steps are interpreted, native code is far faster (limits are those of native "
             "code); " +
             text;
     }

@@ -1,4 +1,4 @@
-// `check`, `compile` and `--dump`, and how every command reads its script.
+// `check`, `compile` and `--dump`, and how each command loads its script.
 #include "app/commands.h"
 
 #include "app/exit_status.h"
@@ -47,7 +47,8 @@ Result<LoadedFile> load_file(const std::string& path, const Overrides& overrides
     return LoadedFile{load_script("<standard input>", std::move(*text), ".", overrides), ""};
 }
 
-/// For a path that nothing has: a file of nearly its name, or how to get a system of the library.
+/// A hint for a path that does not exist: a file with a similar name, or `cascade new` for a
+/// system.
 std::string advice_on_missing(const std::filesystem::path& path) {
     std::error_code error;
     if (std::filesystem::exists(path, error)) return "";
@@ -74,7 +75,8 @@ std::string advice_on_missing(const std::filesystem::path& path) {
     return fmt::format("did you mean '{}'?", beside.string());
 }
 
-/// "2 stages, 35000 steps, 64 × 64 cells". Steps that only the run will know are not counted.
+/// "2 stages, 35000 steps, 64 × 64 cells", without the steps where only a run can tell their
+/// number.
 std::string summary(const Script& script) {
     const Program& program = *script.program;
     std::int64_t steps = 0;
@@ -122,7 +124,7 @@ std::optional<LoadedFile> load(const std::string& path, const Overrides& overrid
 }
 
 int dump_command(const Script& script, const std::string& kind, Console& console) {
-    // A wrong script has tokens and a tree; beyond those its messages say enough.
+    // Tokens and tree exist even for a wrong script; the other dumps need a checked program.
     const bool can_be_shown = script.program || kind == "tokens" || kind == "ast";
     const auto text = can_be_shown ? dump(script, kind) : Result<std::string>(std::string());
     if (text) console.print(*text);
@@ -155,7 +157,7 @@ int compile_command(const Options& options, Console& console) {
     if (object.lexically_normal() == header.lexically_normal()) {
         console.fail({fmt::format("the object file and the header are both to be written to {}",
                                   object.string()),
-                      "name them apart with -o and --header"});
+                      "give them different names with -o and --header"});
         return exit_status::wrong_use;
     }
     for (const auto& path : {object, header}) {

@@ -1,4 +1,4 @@
-// The commands of the program, from options to an exit status.
+// The commands of the program: each takes options and returns an exit status.
 #pragma once
 
 #include "app/console.h"
@@ -17,17 +17,17 @@ int new_command(const Options& options, Console& console);
 int format_command(const Options& options, Console& console);
 int mesh_command(const Options& options, Console& console);
 
-/// A bar in a terminal, lines in a pipe, nothing where the user wants quiet.
+/// A bar in a terminal, lines in a pipe, nothing if `quiet`.
 ProgressDisplay make_progress_display(const Console& console, bool quiet);
 
-/// A script or a picture; "-" is standard input. Says why where there is nothing to read.
+/// Loads a script or a picture; "-" is standard input. Prints an error if it cannot be read.
 std::optional<LoadedFile> load(const std::string& path, const Overrides& overrides,
                                const Console& console);
 
-/// All of standard input, as the text of a script.
+/// All of standard input, as the text of a script. Fails beyond `largest_script` bytes.
 Result<std::string> read_standard_input();
 
-/// What `--dump` asks for, of a script that may be wrong. Exit status.
+/// Prints what `--dump` asks for, also for a script with errors. Returns the exit status.
 int dump_command(const Script& script, const std::string& kind, Console& console);
 
 }  // namespace cascade

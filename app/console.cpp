@@ -1,4 +1,4 @@
-// Writes by write(2), so that a reader that has gone or a full disk is noticed and told at the end.
+// Output by write(2), so that a closed pipe or a full disk is noticed and reported at the end.
 #include "app/console.h"
 
 #include "app/exit_status.h"
@@ -61,11 +61,11 @@ void Console::print_exactly(std::string_view text) {
 }
 
 void Console::draw(std::string_view text) {
-    if (reader_gone_ || !fault_.empty()) return;
+    if (reader_gone_ || !write_error_.empty()) return;
     const auto done = out_.write(text);
     if (done) return;
     reader_gone_ = done.error().message.empty();
-    fault_ = done.error().message;
+    write_error_ = done.error().message;
 }
 
 void Console::say(std::string_view text) const { (void)error_.write(text); }
@@ -92,8 +92,8 @@ void Console::warn(std::string_view message) const {
 }
 
 int Console::finish(int status) const {
-    if (fault_.empty()) return status;
-    fail({fmt::format("standard output cannot be written: {}", fault_), ""});
+    if (write_error_.empty()) return status;
+    fail({fmt::format("standard output cannot be written: {}", write_error_), ""});
     return status == exit_status::success ? exit_status::failed_run : status;
 }
 

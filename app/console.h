@@ -1,4 +1,4 @@
-// The two streams of the program: results go to standard output, all talk to standard error.
+// The two streams of the program: results on standard output, everything else on standard error.
 #pragma once
 
 #include "core/result.h"
@@ -8,16 +8,16 @@
 
 namespace cascade {
 
-/// What is known of a stream when the program starts.
+/// What is known about a stream when the program starts.
 struct Stream {
     int descriptor = 1;
     bool is_terminal = false;  ///< A terminal that can move its cursor.
     bool colour = false;       ///< A terminal, and the user has not set NO_COLOR (no-color.org).
 
     static Stream of(int descriptor);
-    /// Columns of the terminal; 80 where there is none.
+    /// Width of the terminal in columns; 80 if there is none.
     int columns() const;
-    /// All of it, or why not.
+    /// Writes all of it. The message of the failure is empty if the reader has closed the pipe.
     Result<void> write(std::string_view text) const;
 };
 
@@ -29,32 +29,32 @@ public:
     const Stream& out() const { return out_; }
     const Stream& error() const { return error_; }
 
-    /// A result. What a terminal would obey is replaced: parts of it may come from any file. Where
-    /// it cannot be written the fault is remembered for finish().
+    /// Writes a result. Control characters are replaced, since parts of it may come from a file. An
+    /// error is remembered for finish().
     void print(std::string_view text);
-    /// The same, but as it is where no terminal shows it: what other programs read byte for byte.
+    /// Writes to a terminal like print(), else the bytes as they are, for other programs to read.
     void print_exactly(std::string_view text);
-    /// The same with our own sequences for terminals in it, and nothing from a file.
+    /// Writes as it is: may hold our own control sequences, but no text from a file.
     void draw(std::string_view text);
-    /// A text for people, as it is: nothing from a file that has not been made printable. Where
-    /// nobody listens it is lost without complaint.
+    /// Writes to standard error as it is: text from a file must have been made printable. Errors
+    /// are ignored.
     void say(std::string_view text) const;
-    /// A line for people, made printable.
+    /// Writes a line to standard error, made printable.
     void note(std::string_view message) const;
-    /// "cascade: error: message", and the hint below it, made printable.
+    /// Writes "cascade: error: message" and the hint on a line below, made printable.
     void fail(const Failure& failure) const;
-    /// "cascade: warning: message", made printable.
+    /// Writes "cascade: warning: message", made printable.
     void warn(std::string_view message) const;
 
-    /// `status`, or that of a failed run if a result could not be written and `status` is good. A
-    /// reader who has gone away (`| head`) is no fault.
+    /// `status`, or that of a failed run if that is good but a result could not be written. A
+    /// reader that has closed the pipe (`| head`) is not an error.
     int finish(int status) const;
 
 private:
     Stream out_;
     Stream error_;
     bool reader_gone_ = false;
-    std::string fault_;
+    std::string write_error_;
 };
 
 }  // namespace cascade

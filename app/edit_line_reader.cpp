@@ -1,4 +1,4 @@
-// Lines with libedit. The only file that sees its header.
+// Lines edited with libedit. The only file that includes its header.
 #include "app/history_file.h"
 #include "app/line_reader.h"
 #include "app/prompt_text.h"
@@ -14,7 +14,7 @@ namespace cascade {
 
 namespace {
 
-/// While it lives Ctrl-C is a character like others. libedit arranges that itself, but only some
+/// While it exists, Ctrl-C is an ordinary character. libedit arranges that itself, but only some
 /// time after it has drawn its prompt.
 class InterruptKeyIsText {
 public:
@@ -52,12 +52,12 @@ public:
         el_set(edit, EL_HIST, ::history, history_.get());
         el_set(edit, EL_ADDFN, "cascade-complete", "Complete the word", &EditReader::complete);
         el_set(edit, EL_BIND, "^I", "cascade-complete", nullptr);
-        // Ctrl-C is a key while a line is typed: it drops the line and not the program.
+        // Ctrl-C while a line is edited drops the line and does not end the program.
         el_set(edit, EL_SETTY, "-d", "-isig", nullptr);
         el_set(edit, EL_ADDFN, "cascade-drop", "Drop the line", &EditReader::drop);
         el_set(edit, EL_BIND, "^C", "cascade-drop", nullptr);
         el_set(edit, EL_BIND, "^R", "em-inc-search-prev", nullptr);
-        el_source(edit, nullptr);  // The user's own ~/.editrc has the last word.
+        el_source(edit, nullptr);  // The user's ~/.editrc overrides our settings.
     }
 
     TypedLine read(const std::string& prompt) override {
@@ -132,7 +132,7 @@ std::unique_ptr<LineReader> make_edit_reader(const std::filesystem::path& histor
 
 std::filesystem::path history_path() {
     const char* const state = std::getenv("XDG_STATE_HOME");
-    // By the XDG base directory specification a relative path there counts for nothing.
+    // The XDG base directory specification says that a relative path there is to be ignored.
     if (state && *state == '/') return std::filesystem::path(state) / "cascade/history";
     const char* const home = std::getenv("HOME");
     if (!home || !*home) return {};

@@ -1,4 +1,4 @@
-// `cascade fmt`: scripts in the one style.
+// `cascade fmt`: rewrites scripts in the canonical style.
 #include "app/commands.h"
 
 #include "app/exit_status.h"
@@ -14,7 +14,7 @@ namespace cascade {
 
 namespace {
 
-/// The script in the one style; nothing, with its messages shown, if it cannot be read.
+/// The script in the canonical style; nothing, after printing its errors, if it cannot be parsed.
 std::optional<std::string> formatted(const std::string& name, const std::string& text,
                                      const Console& console) {
     Sources sources;
@@ -50,7 +50,7 @@ int format_file(const std::string& path, bool check_only, Console& console) {
     return exit_status::success;
 }
 
-/// Standard input goes to standard output; with --check nothing does.
+/// Formats standard input to standard output; with --check only the status tells.
 int format_standard_input(bool check_only, Console& console) {
     const auto text = read_standard_input();
     if (!text) {

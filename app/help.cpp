@@ -1,4 +1,4 @@
-// The texts by themselves, apart from the files that include CLI11 and take long to compile.
+// Help texts, apart from the files that include CLI11, which take long to compile.
 #include "app/help.h"
 
 #include "core/version.h"
@@ -57,7 +57,7 @@ All goes into one folder: sheet.png, features.csv (wavelength, spots, area, dire
 picture shows), and a small result of every run, so that the same command goes on where a sweep was
 stopped, and one with more values runs only what is new.)";
 
-const std::string_view check = "Says what is wrong with scripts, and runs nothing.";
+const std::string_view check = "Checks scripts for errors, and runs nothing.";
 const std::string_view check_examples = R"(Examples:
   cascade check *.cascade
   cascade check leopard.cascade --dump ir            what a cell computes in a step)";
@@ -88,14 +88,15 @@ const std::string_view new_script_examples = R"(Examples:
   cascade new brusselator -o my.cascade
   cascade run my.cascade)";
 
-const std::string_view format = "Writes scripts back in the one style: blanks, lines, indentation.";
+const std::string_view format =
+    "Rewrites scripts in the canonical style: blanks, lines, indentation.";
 const std::string_view format_examples = R"(Examples:
   cascade fmt leopard.cascade                        changes the file if it has to
   cascade fmt --check *.cascade                      status 1 if one would change
   cascade fmt - < draft.cascade                      to standard output
 Comments stay, and so does what an author has lined up. A script that cannot be read is left alone.)";
 
-const std::string_view mesh = "Looks at 3-D models: what they are, and what has to be repaired.";
+const std::string_view mesh = "Describes 3-D models, and what has to be repaired in them.";
 const std::string_view mesh_examples = R"(Examples:
   cascade mesh horse.ply
   cascade mesh *.obj --cells 4000                    with cells spread over each
@@ -104,7 +105,7 @@ PLY, OBJ, OFF, STL, glTF and GLB are read.)";
 const std::string_view repl = "The language line by line, with pictures in the terminal.";
 const std::string_view repl_examples = R"(Example:
   cascade repl leopard.cascade
-Then :help tells what can be typed.)";
+Then :help lists the commands.)";
 
 std::string in_lines(const std::vector<std::string>& names) {
     constexpr std::size_t widest = 52;

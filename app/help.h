@@ -1,4 +1,4 @@
-// What --help says beside the lists of options, and what --version says.
+// What --help says besides the lists of options, and what --version says.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ extern const std::string_view format, format_examples;
 extern const std::string_view mesh, mesh_examples;
 extern const std::string_view repl, repl_examples;
 
-/// Names in lines that fit beside the column of options.
+/// The names in lines that fit into the column of descriptions.
 std::string in_lines(const std::vector<std::string>& names);
 
 std::string version_text();

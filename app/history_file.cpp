@@ -1,4 +1,4 @@
-// Appends by O_APPEND; reading keeps each line where it was typed last, and shortens a long file.
+// Appends by O_APPEND; reading keeps the last of equal lines, and shortens a file that is too long.
 #include "app/history_file.h"
 
 #include "core/descriptor.h"
@@ -35,8 +35,8 @@ bool is_octal(std::string_view text) {
            text[0] < '4';
 }
 
-/// Also what libedit itself writes in other ways: a backslash before a backslash, and letters as
-/// they are.
+/// Decodes libedit's escapes; also accepts an escaped backslash and unescaped letters, which
+/// libedit writes in some versions.
 std::string decoded(std::string_view text) {
     std::string line;
     for (std::size_t at = 0; at < text.size(); ++at) {
@@ -72,7 +72,7 @@ std::vector<std::string> HistoryFile::load() {
         const bool is_text = line.find_first_not_of(" \t") != std::string::npos;
         if (is_text && line + "\n" != first_line) lines.push_back(std::move(line));
     }
-    // Each where it was typed last.
+    // Of equal lines only the last one is kept.
     std::set<std::string> known;
     std::vector<std::string> last;
     for (auto line = lines.rbegin(); line != lines.rend() && last.size() < most_lines; ++line) {

@@ -1,9 +1,8 @@
-// The lines that were typed at the prompt, kept in a file for the next time.
-//
-// Each line is added to the file when it has been typed, so that none is lost to a terminal that is
-// closed or to a program that is killed, and prompts at the same time keep the lines of both. The
-// file is one of libedit's: its first line says so, and in the others all but visible ASCII
-// characters are written as a backslash and three octal digits.
+// A file of the lines typed at the prompt, for later sessions.
+// ¶ Each line is appended when it is typed, so that none is lost if the terminal is closed or the
+// program is killed, and concurrent sessions keep the lines of both. The format is libedit's: a
+// first line that identifies it, and in the others all but visible ASCII characters written as a
+// backslash and three octal digits.
 #pragma once
 
 #include <filesystem>
@@ -15,16 +14,16 @@ namespace cascade {
 
 class HistoryFile {
 public:
-    /// At most so many lines are kept.
+    /// The file keeps at most this number of lines.
     static constexpr std::size_t most_lines = 2000;
 
-    /// An empty path: nothing is kept or found; nor in a folder of another user.
+    /// With an empty path, or in a folder of another user, nothing is stored and load() finds
+    /// nothing.
     explicit HistoryFile(std::filesystem::path path);
 
-    /// The last lines, oldest first, each once. A file that has grown to twice the most lines is
-    /// made shorter.
+    /// The last `most_lines` different lines, oldest first. Shortens a file of twice that number.
     std::vector<std::string> load();
-    /// Adds a line, if it can; the folder is made where it is missing.
+    /// Appends a line; creates the folder. Errors are ignored.
     void add(std::string_view line);
 
 private:

@@ -1,4 +1,4 @@
-// Signal handlers set lock-free atomic flags or call _exit(): little else is allowed in them.
+// The signal handlers only set lock-free atomic flags or call _exit(): little else is allowed.
 #include "app/interrupt.h"
 
 #include "app/exit_status.h"
@@ -17,23 +17,22 @@ namespace {
 
 constexpr std::array watched_signals = {SIGINT, SIGTERM, SIGHUP};
 
-/// A Ctrl-C may arrive twice at once: from the terminal, and from a wrapper such as timeout(1) that
-/// passes it on. A person's second one comes later than this.
+/// One Ctrl-C may arrive twice at once: from the terminal, and from a wrapper such as timeout(1)
+/// that passes it on. A second press of the key comes later than this.
 constexpr std::int64_t least_milliseconds_between = 200;
 
-// A signal handler is given nothing but a number: what it is to change can only be found in
-// variables of the process. These three and those of TimeLimit are the program's only ones, and
-// lock-free.
+// A signal handler receives only a number, so what it changes must be global. These three and those
+// of TimeLimit are the only global variables of the program, and all are lock-free.
 std::atomic<std::atomic<bool>*> cancel_flag{nullptr};
 std::atomic<int> received{0};
-std::atomic<std::int64_t> interrupted_at{0};  ///< Milliseconds of the first SIGINT; 0 for none.
+std::atomic<std::int64_t> interrupted_at{0};  ///< Time of the first SIGINT in ms; 0 for none.
 static_assert(std::atomic<std::atomic<bool>*>::is_always_lock_free);
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
 std::int64_t milliseconds_now() {
     timespec now = {};
-    clock_gettime(CLOCK_MONOTONIC, &now);  // One of the calls that a handler may make.
+    clock_gettime(CLOCK_MONOTONIC, &now);  // Async-signal-safe.
     return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1000000 + 1;
 }
 
@@ -68,7 +67,7 @@ InterruptGuard::InterruptGuard(std::atomic<bool>& cancel) : saved_(std::make_uni
     action.sa_flags = SA_RESTART;
     for (std::size_t k = 0; k < watched_signals.size(); ++k) {
         sigaction(watched_signals[k], nullptr, &saved_->actions[k]);
-        // What the caller has chosen to ignore (nohup, a job in the background) stays ignored.
+        // A signal that the parent process ignores (nohup, a background job) stays ignored.
         if (saved_->actions[k].sa_handler == SIG_IGN) continue;
         sigaction(watched_signals[k], &action, nullptr);
     }
@@ -84,7 +83,7 @@ InterruptGuard::~InterruptGuard() {
 int InterruptGuard::signal() const { return received.load(); }
 
 void stay_on_interrupt() {
-    // Not SIG_IGN: InterruptGuard would take that for the wish never to be interrupted.
+    // Not SIG_IGN: InterruptGuard would leave it ignored.
     struct sigaction action = {};
     action.sa_handler = [](int) {};
     sigemptyset(&action.sa_mask);

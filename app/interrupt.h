@@ -1,4 +1,4 @@
-// Ctrl-C: the first ends the run at a complete step, the second ends the program.
+// Ctrl-C: the first one ends the run after a complete step, the second one ends the program.
 #pragma once
 
 #include <atomic>
@@ -6,8 +6,8 @@
 
 namespace cascade {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP set `cancel`; a second SIGINT, a
-/// fifth of a second later or more, leaves the program at once, with status 130. One at a time.
+/// While it exists, SIGINT, SIGTERM and SIGHUP set `cancel`; a second SIGINT, at least 0.2 s after
+/// the first, ends the program at once with status 130. Only one may exist at a time.
 class InterruptGuard {
 public:
     explicit InterruptGuard(std::atomic<bool>& cancel);
@@ -15,7 +15,7 @@ public:
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-    /// The signal that came, 0 if none has.
+    /// The signal that arrived, 0 if none.
     int signal() const;
 
 private:
@@ -23,12 +23,12 @@ private:
     std::unique_ptr<Saved> saved_;
 };
 
-/// SIGINT does nothing from now on, where no InterruptGuard lives: for a prompt, which is not left
-/// by Ctrl-C.
+/// From now on SIGINT does nothing while no InterruptGuard exists: Ctrl-C does not leave the
+/// prompt.
 void stay_on_interrupt();
 
-/// Writing to a pipe that nobody reads any more, or more than a file may hold, becomes an error of
-/// the write and not a signal that ends the program.
+/// Writing to a closed pipe, or beyond the file size limit, becomes an error of the write instead
+/// of a signal that ends the program.
 void take_signals_of_writes_as_errors();
 
 }  // namespace cascade

@@ -13,7 +13,7 @@ namespace cascade {
 
 namespace {
 
-// What the handler of the timer changes can only be found in variables of the process.
+// What the signal handler changes must be global.
 std::atomic<std::atomic<bool>*> limited{nullptr};
 std::atomic<bool> is_reached{false};
 static_assert(std::atomic<std::atomic<bool>*>::is_always_lock_free);
@@ -29,7 +29,7 @@ void set_timer(double seconds) {
     timer.it_value.tv_usec = static_cast<suseconds_t>((seconds - std::floor(seconds)) * 1e6);
     if (seconds > 0 && timer.it_value.tv_sec == 0) {
         timer.it_value.tv_usec =
-            std::max<suseconds_t>(timer.it_value.tv_usec, 1);  // 0 would be never.
+            std::max<suseconds_t>(timer.it_value.tv_usec, 1);  // 0 would disarm the timer.
     }
     setitimer(ITIMER_REAL, &timer, nullptr);
 }
@@ -69,7 +69,8 @@ void limit_memory(std::uint64_t bytes) {
     const rlim_t wanted =
         bytes + for_the_program + static_cast<std::uint64_t>(hardware_threads()) * for_a_thread;
     limit.rlim_cur = limit.rlim_max == RLIM_INFINITY ? wanted : std::min(wanted, limit.rlim_max);
-    setrlimit(RLIMIT_DATA, &limit);  // Where the system knows no such limit, the count remains.
+    setrlimit(RLIMIT_DATA, &limit);  // May fail where the system has no such limit; runs are
+                                     // checked before they start anyway.
 }
 
 }  // namespace cascade

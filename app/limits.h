@@ -7,9 +7,8 @@
 
 namespace cascade {
 
-/// Ends a run as a Ctrl-C would: while it lives, sets `cancel` when `seconds` have passed; 0 never
-/// does. The time begins with the object. One at a time. It is a timer of the system and not a
-/// thread, which may be denied.
+/// Sets `cancel` `seconds` after its construction, unless it is destroyed before; 0 is no limit.
+/// Only one may exist at a time. It uses a system timer, since creating a thread may be denied.
 class TimeLimit {
 public:
     TimeLimit(double seconds, std::atomic<bool>& cancel);
@@ -17,7 +16,7 @@ public:
     TimeLimit(const TimeLimit&) = delete;
     TimeLimit& operator=(const TimeLimit&) = delete;
 
-    /// Has the time run out, before anything else has set `cancel`?
+    /// True if the time ran out before anything else set `cancel`.
     bool reached() const;
 
 private:
@@ -25,9 +24,9 @@ private:
     struct sigaction before_ = {};
 };
 
-/// --limit-memory as a backstop: the system gives this process no more than `bytes`, and what the
-/// program itself takes for its code, its compiler and its threads. 0 for no limit. What runs need
-/// is counted before they begin (run/stage/memory.h); this is for all else.
+/// --limit-memory as a backstop: the system gives this process at most `bytes` plus an allowance
+/// for code, compiler and threads; 0 is no limit. The needs of a run are estimated before it starts
+/// (run/stage/memory.h); this covers everything else.
 void limit_memory(std::uint64_t bytes);
 
 }  // namespace cascade

@@ -1,5 +1,4 @@
-// Lines that a user types: with editing, history and completion at a terminal, as they come from a
-// pipe.
+// Input lines: with editing, history and completion at a terminal, plain from a pipe.
 #pragma once
 
 #include <filesystem>
@@ -13,11 +12,11 @@ namespace cascade {
 struct TypedLine {
     enum class Kind {
         line,
-        cancelled,  ///< Ctrl-C: what has been begun is dropped.
+        cancelled,  ///< Ctrl-C: drops the unfinished input.
         end,        ///< Ctrl-D, or the end of the pipe.
     };
     Kind kind = Kind::end;
-    std::string text;  ///< Without its line end.
+    std::string text;  ///< Without its newline.
 };
 
 class LineReader {
@@ -26,18 +25,18 @@ public:
     virtual TypedLine read(const std::string& prompt) = 0;
 };
 
-/// Every name that may stand where a word begins; asked anew at each completion.
+/// All names that may start the word at the end of `line`; called at each completion.
 using NamesToComplete = std::function<std::vector<std::string>(const std::string& line)>;
 
-/// By libedit, on standard input and output. The history is read from `history`, and each line is
-/// added to it as it is typed (nowhere if that is empty or cannot be written).
+/// Reads with libedit from standard input. The history is loaded from `history`, and each line is
+/// appended to it; an empty path keeps none.
 std::unique_ptr<LineReader> make_edit_reader(const std::filesystem::path& history,
                                              NamesToComplete names);
 
-/// From a file descriptor, without prompts.
+/// Reads from a file descriptor, without prompts.
 std::unique_ptr<LineReader> make_plain_reader(int descriptor);
 
-/// $XDG_STATE_HOME/cascade/history, or ~/.local/state/cascade/history; empty without a home.
+/// $XDG_STATE_HOME/cascade/history, or ~/.local/state/cascade/history; empty without a home folder.
 std::filesystem::path history_path();
 
 }  // namespace cascade

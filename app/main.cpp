@@ -1,4 +1,4 @@
-// The program `cascade`: options, a command, an exit status.
+// The program `cascade`: parses the options and runs a command.
 
 #include "app/commands.h"
 #include "app/exit_status.h"
@@ -34,7 +34,7 @@ int run_chosen(const cascade::Options& options, cascade::Console& console) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // libedit asks the locale which bytes make a letter; numbers are read and written without it.
+    // For libedit, which asks the locale for the encoding; numbers are read and written without it.
     std::setlocale(LC_CTYPE, "");
     cascade::take_signals_of_writes_as_errors();
     auto console = cascade::Console::standard();
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
         return cascade::exit_status::failed_run;
     } catch (const std::exception& error) {
         console.fail({std::string("this should not have happened: ") + error.what(),
-                      "it is a fault of Cascade's own"});
+                      "it is a bug in Cascade"});
         return cascade::exit_status::bug;
     }
 }

@@ -1,4 +1,4 @@
-// `cascade mesh`: what 3-D models are made of.
+// `cascade mesh`: describes 3-D models.
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"

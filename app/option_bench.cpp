@@ -9,8 +9,8 @@ void add_bench(CLI::App& app, Options& options) {
     add_value(app, "--stage", "STAGE", "Name or number of the only stage; without it all of them",
               any_text, [&](auto stage) { options.bench.stage = stage; })
         ->group(group);
-    add_value(app, "--seconds", "S", "Of steps in each stage (1)", parse_measuring_time,
-              [&](double seconds) { options.bench.seconds = seconds; })
+    add_value(app, "--seconds", "S", "How long to measure each stage, in seconds (1)",
+              parse_measuring_time, [&](double seconds) { options.bench.seconds = seconds; })
         ->group(group);
     app.add_flag("--csv", options.csv,
                  "A line of comma-separated values for each stage, without\nthe machine's limits")

@@ -1,4 +1,4 @@
-// Each function adds one group to a command, with texts of help that tests/help_test.sh checks.
+// Each function adds one group of options to a command; tests/help_test.sh checks the help texts.
 #include "app/option_groups.h"
 
 #include "app/add_value.h"
@@ -63,7 +63,7 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
         [&](auto grid) { overrides.grid = grid; })
         ->group(group);
     add_value(app, "--mesh", "MODEL",
-              "On this model instead: a file (PLY, OBJ, OFF, STL,\nglTF, GLB), sphere, torus, box "
+              "Grow on this model: a file (PLY, OBJ, OFF, STL,\nglTF, GLB), sphere, torus, box "
               "or creature",
               any_text,
               [&](const std::string& model) {
@@ -78,7 +78,7 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
               one_of({"x", "y", "z"}),
               [&](const std::string& up) { overrides.up = axis_of_name(up); })
         ->group(group);
-    add_value(app, "--seed", "N", "Other random numbers",
+    add_value(app, "--seed", "N", "The seed of all random numbers",
               whole_number(0, std::numeric_limits<std::uint32_t>::max()),
               [&](auto seed) { overrides.seed = static_cast<std::uint32_t>(seed); })
         ->group(group);
@@ -100,7 +100,7 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
                   "\nfor every stage, which takes as much time as before",
               one_of(solver_names()), [&](auto solver) { overrides.solver = solver; })
         ->group(group);
-    add_value(app, "--steps", "N", "At most so many steps in every stage",
+    add_value(app, "--steps", "N", "At most N steps in every stage",
               whole_number(0, std::numeric_limits<std::int64_t>::max()),
               [&](auto steps) { overrides.steps = steps; })
         ->group(group);
@@ -255,7 +255,7 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
                   simulation.lanes = lanes == "4" ? 4 : lanes == "8" ? 8 : 16;
               })
         ->group(group);
-    // For tests and fuzzers; the help has none of it.
+    // For tests and fuzzers; not shown by --help.
     add_value(app, "--tiling", "LEVELS,LAYER", "How steps go through memory", parse_tiling,
               [&](const Tiling& tiling) { simulation.tiling = tiling; })
         ->group("");
@@ -277,7 +277,7 @@ void add_mesh(CLI::App& app, Options& options) {
               "model's faces or points, and say how they turn out",
               parse_cells, [&](const CellOptions& cells) { options.cells = cells; })
         ->group("Cells");
-    add_value(app, "--seed", "N", "Other random places of the cells (with --cells N)",
+    add_value(app, "--seed", "N", "The seed of the cells' random places (with --cells N)",
               whole_number(0, 4294967295),
               [&](auto seed) { options.cell_seed = static_cast<std::uint32_t>(seed); })
         ->group("Cells");
@@ -312,8 +312,8 @@ void add_dump(CLI::App& app, Options& options) {
     std::vector<std::string> kinds;
     for (const std::string_view kind : dump_kinds()) kinds.emplace_back(kind);
     add_value(app, "--dump", "WHAT",
-              "Print what becomes of the script, and stop there:\n" + help::in_lines(kinds),
-              one_of(kinds), [&](auto kind) { options.dump = kind; })
+              "Print one form of the script, and stop:\n" + help::in_lines(kinds), one_of(kinds),
+              [&](auto kind) { options.dump = kind; })
         ->group("More");
 }
 

@@ -14,14 +14,14 @@ void add_sweep(CLI::App& app, Options& options) {
     };
     app.add_option_function<std::vector<std::string>>(
            "--vary", read_all,
-           "A parameter or setting with a range of so many values,\nfeed=0.02..0.06:9, or a list, "
-           "ka=1/400,1/200; may be given\nagain: the first runs across, the second up")
+           "A parameter or setting and its values: a range and their\nnumber, feed=0.02..0.06:9, "
+           "or a list, ka=1/400,1/200; may\nbe given again: the first runs across, the second up")
         ->allow_extra_args(false)
         ->type_name("NAME=VALUES")
         ->group(varied);
     const std::string files = "Files";
     add_value(app, "-o,--output", "FOLDER",
-              "Where all goes; without it SCRIPT_sweep in this folder", any_text,
+              "Folder of the results; without it SCRIPT_sweep in this folder", any_text,
               [&](auto path) { sweep.folder = path; })
         ->group(files);
     add_value(app, "--tile", "N",

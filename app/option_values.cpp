@@ -1,4 +1,4 @@
-// Numbers are read by from_chars(), which knows no locale, and must take all of the text.
+// Numbers are read by from_chars(), which ignores the locale, and must use up the whole text.
 #include "app/option_values.h"
 
 #include "core/near_name.h"
@@ -17,7 +17,7 @@ namespace cascade {
 
 namespace {
 
-/// Reads all of `text` as a number.
+/// True if all of `text` is a number.
 template <typename Number>
 bool read_all(std::string_view text, Number& number) {
     const char* const end = text.data() + text.size();
@@ -34,7 +34,7 @@ Result<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::i
 }
 
 Result<GridSize> parse_grid(std::string_view text) {
-    // More cells than this are refused later, with a message about the grid.
+    // Numbers of cells that are too large are refused later, with a message about the grid.
     constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();
     std::array<std::int64_t, 3> sides{1, 1, 1};
     std::size_t begin = 0;
@@ -128,7 +128,7 @@ struct Unit {
     double size = 1;
 };
 
-/// A number and one of the units after it; a unit of no name stands for none.
+/// A number with an optional unit; a unit with an empty name stands for none.
 std::optional<double> read_with_unit(std::string_view text, std::span<const Unit> units) {
     const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
     double number = 0;
@@ -163,7 +163,7 @@ Result<double> parse_duration(std::string_view text) {
 Result<double> parse_measuring_time(std::string_view text) {
     const auto seconds = parse_duration(text);
     if (seconds && *seconds >= 0.001 && *seconds <= 3600) return *seconds;
-    return failure(fmt::format("'{}' is no time to measure for", text), "0.001 to 3600 seconds");
+    return failure(fmt::format("'{}' is not a time to measure for", text), "0.001 to 3600 seconds");
 }
 
 std::string describe_duration(double seconds) {
@@ -199,7 +199,7 @@ Result<std::vector<std::string>> parse_names(std::string_view text) {
 Result<std::string> parse_choice(std::string_view text, std::span<const std::string> choices) {
     if (std::find(choices.begin(), choices.end(), text) != choices.end()) return std::string(text);
     const std::string near = nearest_name(text, choices);
-    return failure(fmt::format("'{}' is none of {}", text, fmt::join(choices, ", ")),
+    return failure(fmt::format("'{}' is not one of {}", text, fmt::join(choices, ", ")),
                    near.empty() ? "" : fmt::format("did you mean '{}'?", near));
 }
 
@@ -213,7 +213,8 @@ Result<float> parse_bump(std::string_view text) {
 Result<std::string> parse_output_path(std::string_view text) {
     if (output_kind(std::filesystem::path(text))) return std::string(text);
     if (is_called_like_a_movie(std::filesystem::path(text))) {
-        return failure(fmt::format("'{}' is called like a movie, and pictures are drawn", text),
+        return failure(fmt::format("'{}' is named like a movie, but only pictures are written",
+                                   text),
                        how_to_make_a_movie(std::filesystem::path(text)));
     }
     return failure(

@@ -1,4 +1,4 @@
-// The values of command-line options, from text. Failures say what the option takes.
+// Parsers for values of command-line options. Failures say what the option takes.
 #pragma once
 
 #include "core/result.h"
@@ -16,7 +16,7 @@
 
 namespace cascade {
 
-/// A whole number of digits only, within [low, high].
+/// A whole number within [low, high], written with digits only.
 Result<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::int64_t high);
 
 /// "256x128" is 256 columns of 128 rows; "60" is one row of 60 cells.
@@ -28,20 +28,20 @@ Result<CellOptions> parse_cells(std::string_view text);
 /// "z=0.5": a slice across an axis, 0 … 1 along it.
 Result<Slice> parse_slice(std::string_view text);
 
-/// "0,8": two different finite numbers. The first may be the larger one: colours turn around.
+/// "0,8": two different finite numbers. If the first is larger the palette is reversed.
 Result<ValueRange> parse_range(std::string_view text);
 
 /// "30,25": degrees around, −360 … 360, and above the horizon, −89 … 89.
 Result<View> parse_view(std::string_view text);
 
-/// "large:12000": a stage and a number of complete steps.
+/// "large:12000": a stage and a number of steps.
 Result<StopAt> parse_stop_at(std::string_view text);
-/// "4,2": tiles of four steps and two rows or slices a layer; "1,1": every step by itself.
+/// "4,2": tiles of four steps, two rows or slices a layer; "1,1": no tiling.
 Result<Tiling> parse_tiling(std::string_view text);
 
 /// "90s", "20m", "1.5h", "2d" or "90": seconds, more than 0 and at most ten years.
 Result<double> parse_duration(std::string_view text);
-/// "0.5", "2s": seconds of a measurement, 0.001 … 3600.
+/// "0.5", "2s": seconds to measure for, 0.001 … 3600.
 Result<double> parse_measuring_time(std::string_view text);
 /// "2 h", "1.5 min", "90 s".
 std::string describe_duration(double seconds);
@@ -49,20 +49,20 @@ std::string describe_duration(double seconds);
 /// "500MB", "2GB", "1.5GiB", "800KB" or bytes; at least a megabyte.
 Result<std::uint64_t> parse_size(std::string_view text);
 
-/// "p,q" in parts; fails on an empty part.
+/// "p,q" as a list; fails if a name is empty.
 Result<std::vector<std::string>> parse_names(std::string_view text);
 
-/// One of `choices`; a failure lists them and names the nearest.
+/// One of `choices`; a failure lists them and suggests the nearest one.
 Result<std::string> parse_choice(std::string_view text, std::span<const std::string> choices);
 
-/// "0.02": how far bumps stand out, −1 … 1.
+/// "0.02": the largest displacement of a surface, −1 … 1 of the model's longest side.
 Result<float> parse_bump(std::string_view text);
 
-/// The path of what `run -o` writes: see output_kind.
+/// The path of an output of `run -o`; see output_kind() for the endings.
 Result<std::string> parse_output_path(std::string_view text);
-/// The path of a picture to be written: it must end in .png.
+/// The path of a picture; it must end in .png.
 Result<std::string> parse_png_path(std::string_view text);
-/// The path of a volume to be written: it must end in .vti.
+/// The path of a volume; it must end in .vti.
 Result<std::string> parse_vti_path(std::string_view text);
 
 }  // namespace cascade

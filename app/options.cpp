@@ -1,5 +1,4 @@
-// One CLI11 application with a subcommand for each command; its errors are put into words of our
-// own.
+// One CLI11 application with a subcommand for each command; its errors are reworded.
 #include "app/options.h"
 
 #include "app/exit_status.h"
@@ -18,7 +17,7 @@ namespace cascade {
 
 namespace {
 
-/// Help in the order in which one needs it: what it does, how it is called, options, examples.
+/// Formats help: what the command does, usage, options, examples.
 class HelpFormatter : public CLI::Formatter {
 public:
     HelpFormatter() {
@@ -43,7 +42,7 @@ public:
     }
 };
 
-/// All of CLI11 in one place, so that its objects end with the parsing.
+/// Everything of CLI11 in one struct, so that it is destroyed after parsing.
 struct Parser {
     CLI::App app;
     CLI::App* run = nullptr;
@@ -63,11 +62,11 @@ struct Parser {
         add_all();
     }
     void add_all();
-    /// --help of the chosen command, or of the program.
+    /// --help of the chosen command, or of the program if there is none.
     std::string help();
     CLI::App* command(const std::string& name, std::string_view about, std::string_view examples);
     CLI::App* chosen();
-    /// "cascade run": what the user has called.
+    /// The command as the user calls it, such as "cascade run".
     std::string called(const std::string& program) {
         return chosen() ? fmt::format("{} {}", program, chosen()->get_name()) : program;
     }
@@ -86,7 +85,7 @@ CLI::App* Parser::command(const std::string& name, std::string_view about,
     CLI::App* sub = app.add_subcommand(name, std::string(about));
     sub->footer(std::string(examples));
     sub->group("Commands");
-    sub->set_help_flag();  // It is added last, to stand last.
+    sub->set_help_flag();  // It is added last, so that it is listed last.
     return sub;
 }
 
@@ -102,8 +101,8 @@ std::string Parser::help() {
 void Parser::add_all() {
     namespace groups = option_groups;
     app.formatter(std::make_shared<HelpFormatter>());
-    app.option_defaults()->disable_flag_override();  // --fast=0 would be taken, and --fast=3.
-    app.set_help_flag("-h,--help", "This text; 'cascade COMMAND --help' tells of a command");
+    app.option_defaults()->disable_flag_override();  // Else --fast=0 and --fast=3 are taken.
+    app.set_help_flag("-h,--help", "This text; 'cascade COMMAND --help' describes a command");
     app.add_flag("-V,--version", show_version, "The version, and what it was built with");
     app.get_option("--help")->group("Options");
     app.footer(std::string(help::examples));
@@ -208,7 +207,7 @@ std::string Parser::near_option(const std::string& word) {
     return nearest_name(word.substr(0, word.find('=')), names);
 }
 
-/// The first option that there is not.
+/// The first argument that looks like an option and is none.
 std::optional<std::string> Parser::unknown_option() const {
     for (const std::string& word : app.remaining(true)) {
         if (word.starts_with("-") && word.size() > 1) return word;
@@ -216,8 +215,8 @@ std::optional<std::string> Parser::unknown_option() const {
     return std::nullopt;
 }
 
-/// What there is not: an option, since a word after it may only be the value meant for it, or else
-/// the first word that no option and no argument has taken.
+/// Describes an unknown option, since a word after it may only be its value; else the first word
+/// that no option and no argument has taken.
 std::string Parser::describe_unexpected(const std::string& program) {
     const std::string where = called(program);
     if (const auto option = unknown_option()) {
@@ -245,7 +244,7 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
     if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
         return leave(program, describe_unexpected(program));
     }
-    // The value of an unknown option looks like an argument too many: the option is to blame.
+    // The value of an unknown option looks like an extra argument: report the option.
     if (unknown_option()) return leave(program, describe_unexpected(program));
     const std::string words = error.what();
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && words.starts_with("--")) {
@@ -259,7 +258,7 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
     return leave(program, fmt::format("{}: {}", called(program), words));
 }
 
-/// What CLI11 cannot know: which arguments a command cannot do without.
+/// Names a required argument that is missing, which CLI11 cannot check; empty if there is none.
 std::string missing_argument(const Options& options) {
     const bool needs_script =
         options.command == Command::sweep || options.command == Command::check ||
@@ -274,8 +273,8 @@ std::string missing_argument(const Options& options) {
     return "";
 }
 
-/// What stands after `--` is no option. Whatever is given without an option is a path or a name,
-/// and a path that begins with '-' is the same with './' in front.
+/// Removes `--`, after which no word is an option: a word that begins with '-' is a path there, so
+/// './' is put before it.
 std::vector<std::string> without_terminator(std::vector<std::string> arguments) {
     const auto mark = std::find(arguments.begin(), arguments.end(), "--");
     if (mark == arguments.end()) return arguments;
@@ -307,7 +306,7 @@ std::variant<Options, Leave> parse_options(const std::string& program,
     Parser parser(program);
     try {
         std::vector<std::string> words = without_terminator(arguments);
-        std::reverse(words.begin(), words.end());  // CLI11 takes them from the back.
+        std::reverse(words.begin(), words.end());  // CLI11 takes the arguments in reverse order.
         parser.app.parse(std::move(words));
     } catch (const CLI::CallForHelp&) {
         return Leave{exit_status::success, parser.help()};

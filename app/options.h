@@ -1,5 +1,5 @@
-// The command line: what the user asked for, as values. Only options.cpp and option_*.cpp see
-// CLI11, since its headers take seconds to compile.
+// The command line as values. Only options.cpp and option_*.cpp see CLI11, since its headers take
+// seconds to compile.
 #pragma once
 
 #include "run/commands/bench.h"
@@ -21,8 +21,8 @@ namespace cascade {
 
 enum class Command { run, sweep, check, bench, compile, systems, new_script, format, mesh, repl };
 
-/// The options about pictures that were given. A picture that is run again brings options of its
-/// own, so what was not given must be told from what is the default.
+/// The picture options that were given. A picture that is run again has stored options of its own,
+/// so an option that was given must be told from a default.
 struct PictureChanges {
     std::optional<std::string> show;
     std::optional<std::string> palette;
@@ -41,35 +41,35 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request);
 struct Options {
     Command command = Command::run;
     std::vector<std::string>
-        scripts;  ///< One, but for `check`, `bench`, `fmt`; none with --resume alone.
+        scripts;  ///< One, except for `check`, `bench` and `fmt`; none with --resume alone.
     Overrides overrides;
     PictureChanges picture;
-    RunRequest run;                          ///< Its `picture` is left at the defaults.
-    SweepRequest sweep;                      ///< Its `picture` and `simulation` too.
-    double limit_seconds = 0;                ///< `--limit-time`; 0: none.
-    std::string dump;                        ///< A dump kind; empty to run.
-    bool timing = false;                     ///< Say where the time went.
+    RunRequest run;                          ///< Its `picture` keeps the defaults.
+    SweepRequest sweep;                      ///< Its `picture` and `simulation` keep the defaults.
+    double limit_seconds = 0;                ///< `--limit-time`; 0 for none.
+    std::string dump;                        ///< The kind of dump; empty to run.
+    bool timing = false;                     ///< Print how the time was spent.
     bool quiet = false;                      ///< Neither progress nor remarks.
-    std::vector<std::string> words;          ///< What `systems` looks for; the system of `new`.
+    std::vector<std::string> words;          ///< What `systems` searches for; the system of `new`.
     std::filesystem::path new_script;        ///< `new -o`
     bool check_only = false;                 ///< `fmt --check`
-    std::vector<std::string> models;         ///< Of `mesh`.
+    std::vector<std::string> models;         ///< Arguments of `mesh`.
     std::optional<CellOptions> cells;        ///< `mesh --cells`.
     std::optional<std::uint32_t> cell_seed;  ///< `mesh --seed`.
-    BenchRequest bench;                      ///< Its `simulation` is left at the defaults.
+    BenchRequest bench;                      ///< Its `simulation` keeps the defaults.
     bool csv = false;                        ///< `bench --csv`
     CompileRequest compile;
     std::filesystem::path object;  ///< `compile -o`
     std::filesystem::path header;  ///< `compile --header`
 };
 
-/// Nothing to do but to print and to leave: --help, --version, wrong use.
+/// Print `text` and leave: --help, --version, wrong use.
 struct Leave {
     int status = 0;
     std::string text;  ///< For standard output if `status` is 0, else for standard error.
 };
 
-/// `program` is what messages call us; `arguments` come without it.
+/// `program` is the program's name in messages; `arguments` are those after it.
 std::variant<Options, Leave> parse_options(const std::string& program,
                                            const std::vector<std::string>& arguments);
 

@@ -1,4 +1,4 @@
-// Lines from a pipe or a file, read in pieces; a last line without its end counts.
+// Lines from a pipe or a file, read in blocks; the last line need not end in a newline.
 #include "app/line_reader.h"
 
 #include <cerrno>

@@ -1,4 +1,4 @@
-// Drawn over itself by carriage return and "erase line"; facts that do not fit are left out.
+// Redraws a line with carriage return and "erase line"; facts that do not fit are left out.
 #include "app/progress_display.h"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ double share_of(const Progress& progress) {
     return static_cast<double>(progress.step) / static_cast<double>(progress.steps);
 }
 
-/// Terminal columns of a text, taken as one for each character: names are letters and digits.
+/// Width of a text in terminal columns, one for each code point.
 int width_of(std::string_view text) {
     return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) {
         return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
@@ -61,7 +61,7 @@ std::string stage_text(const Progress& progress) {
 }  // namespace
 
 std::string clock_time(double seconds) {
-    // More than a thousand hours are no longer counted down.
+    // Longer times are shown as a thousand hours.
     const auto whole = static_cast<std::int64_t>(std::ceil(std::clamp(seconds, 0.0, 3.6e6)));
     const std::int64_t hours = whole / 3600, minutes = whole / 60 % 60;
     if (hours > 0) return fmt::format("{}:{:02}:{:02}", hours, minutes, whole % 60);
@@ -70,10 +70,10 @@ std::string clock_time(double seconds) {
 
 namespace {
 
-/// A bar between what is before it and as many of the facts after it as fit.
+/// `left`, a bar, and as many of `facts` as fit into `columns`.
 std::string fitting_bar(const std::string& left, double share,
                         const std::vector<std::string>& facts, int columns) {
-    // A full line would move the cursor to the next one.
+    // Text in the last column would move the cursor to the next line.
     const int room = columns - 1;
     for (std::size_t count = facts.size(); count > 0; --count) {
         std::string right;
@@ -133,7 +133,7 @@ ProgressDisplay::ProgressDisplay(Kind kind, Output output)
 void ProgressDisplay::show(const Progress& progress) {
     if (kind_ == Kind::none) return;
     if (!progress.doing.empty()) {
-        // Lines are for what has an end in sight; this is over before the first of them.
+        // Lines are only for progress with a known end.
         if (kind_ != Kind::bar || width_of(progress.doing) + 2 >= output_.columns()) return;
         output_.write("\r\x1b[2K" + progress.doing + " …");
         drawn_ = true;
@@ -177,7 +177,7 @@ void ProgressDisplay::clear() {
 void ProgressDisplay::show_line(const Progress& progress) {
     const Time now = output_.now();
     if (progress.stage_done) {
-        // The rate over the whole stage says more than that of its last second.
+        // The rate of the whole stage is steadier than that of the last second.
         const double seconds = std::chrono::duration<double>(now - stage_begun_).count();
         Progress whole = progress;
         whole.steps_per_second =

@@ -1,5 +1,5 @@
-// How far a run is, for the person in front of it: a bar that is drawn anew in a terminal, a line
-// now and then in a pipe or a log.
+// Progress of a run: a bar that is redrawn in a terminal, or now and then a line in a pipe or a
+// log.
 #pragma once
 
 #include "core/run_control.h"
@@ -16,11 +16,11 @@ namespace cascade {
 /// "0:07", "12:34", "3:02:01".
 std::string clock_time(double seconds);
 
-/// One line of at most `columns` columns, without a line end: stage, bar, steps, rate, time left.
+/// One line of at most `columns` columns, without a newline: stage, bar, steps, rate, time left.
 /// What does not fit is left out, the least important first.
 std::string progress_bar(const Progress& progress, int columns);
 
-/// The same of a sweep: "12 of 81 runs", bar, time left.
+/// The bar of a sweep: "12 of 81 runs", bar, time left.
 std::string progress_bar(const SweepProgress& progress, int columns);
 /// "12 of 81 runs, 0:41 left".
 std::string progress_line(const SweepProgress& progress);
@@ -42,7 +42,7 @@ public:
 
     void show(const Progress& progress);
     void show(const SweepProgress& progress);
-    /// Takes the bar away, so that something else can be written. The next show() draws it again.
+    /// Erases the bar, so that other text can be written. The next show() draws it again.
     void clear();
 
 private:
@@ -51,8 +51,8 @@ private:
     Kind kind_;
     Output output_;
     bool drawn_ = false;
-    int stage_ = 0;       ///< The stage that was shown last.
-    bool swept_ = false;  ///< A sweep has been shown.
+    int stage_ = 0;       ///< The stage shown last.
+    bool swept_ = false;  ///< True once a sweep has been shown.
     Time stage_begun_;
     std::int64_t first_step_ = 0;
     Time last_line_;

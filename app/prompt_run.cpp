@@ -1,4 +1,4 @@
-// What the prompt does with a run: starting, stepping, showing, saving.
+// Commands of the prompt that concern the run: start, step, show, save.
 #include "app/prompt_session.h"
 
 #include "app/commands.h"
@@ -17,7 +17,7 @@ namespace cascade {
 
 namespace {
 
-/// Have two stages the same species, so that the fields of one can go on in the other?
+/// True if two stages have the same species, so that the fields of one can continue in the other.
 bool same_species(const System& first, const System& second) {
     std::vector<std::string> names[2];
     for (const Quantity& quantity : first.quantities) {
@@ -29,7 +29,7 @@ bool same_species(const System& first, const System& second) {
     return names[0] == names[1];
 }
 
-/// Are two domains the same cells of a model, or both no model?
+/// True if two domains are the same cells of a model, or neither is on a model.
 bool same_cells(const std::shared_ptr<const ModelCells>& first,
                 const std::shared_ptr<const ModelCells>& second) {
     if (!first || !second) return !first && !second;
@@ -37,7 +37,7 @@ bool same_cells(const std::shared_ptr<const ModelCells>& first,
            first->cells.areas == second->cells.areas && first->cells.ends == second->cells.ends;
 }
 
-/// A run that the user sees and can stop.
+/// A run with a progress display that Ctrl-C stops.
 struct WatchedRun {
     RunControl control;
     ProgressDisplay display;
@@ -55,7 +55,7 @@ struct WatchedRun {
     WatchedRun& operator=(const WatchedRun&) = delete;
 };
 
-/// The cells of a model may take a while.
+/// Creates a simulation, showing that the cells of a model are made, which may take a while.
 Result<std::unique_ptr<Simulation>> create_simulation(Script& script, SimulationOptions options,
                                                       Console& console) {
     WatchedRun watched(console);
@@ -73,8 +73,8 @@ std::vector<Field> copies(const std::vector<Field>& fields) {
 
 }  // namespace
 
-/// A simulation of a changed script that goes on where the present one is. Parameters are computed
-/// anew; species and steps are kept for the first stages that are alike.
+/// A simulation of a changed script that continues from the present one: parameters are computed
+/// anew; species and steps are kept for the leading stages with equal species.
 Result<std::unique_ptr<Simulation>> PromptSession::carry_over(Script& script) const {
     auto created = create_simulation(script, options_, console_);
     if (!created) return created;
@@ -108,7 +108,7 @@ bool PromptSession::has_something_to_run() {
     return false;
 }
 
-/// Makes one with the first stage started, if there is none.
+/// Creates the simulation and starts its first stage, unless there is one. False if that failed.
 bool PromptSession::make_simulation() {
     if (simulation_) return true;
     if (!has_something_to_run()) return false;
@@ -116,7 +116,7 @@ bool PromptSession::make_simulation() {
     Result<void> started;
     if (simulation) started = (*simulation)->start_stage(0);
     if (!simulation || !started) {
-        tell_faults(*script_);
+        print_errors(*script_);
         script_->diagnostics = {};
         fail(simulation ? started.error() : simulation.error());
         return false;
@@ -147,7 +147,7 @@ void PromptSession::run(const std::string& count) {
     if (good && show_after_run_) show("");
 }
 
-/// Goes on for so many steps, from stage to stage. False where a run failed.
+/// Takes `steps` steps, from stage to stage. False if a run failed.
 bool PromptSession::advance(std::int64_t steps) {
     WatchedRun watched(console_);
     for (std::uint32_t k = 0; k < script_->stage_count() && steps > 0; ++k) {
@@ -196,7 +196,7 @@ void PromptSession::show(const std::string& expression) {
     request.show = expression;
     auto painter = Painter::create(*script_, request);
     if (!painter) {
-        tell_faults(*script_);
+        print_errors(*script_);
         script_->diagnostics = {};
         return;
     }

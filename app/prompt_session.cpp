@@ -13,12 +13,12 @@
 
 namespace cascade {
 
-/// A line that begins with a colon.
+/// A command, which begins with a colon.
 struct PromptSession::Command {
     std::string_view name;
     std::string_view argument;
     std::string_view about;
-    void (PromptSession::*action)(const std::string& argument);  ///< Null to leave.
+    void (PromptSession::*action)(const std::string& argument);  ///< Null for `:quit`.
 };
 
 std::span<const PromptSession::Command> PromptSession::commands() {
@@ -65,7 +65,7 @@ bool PromptSession::take(const std::string& line) {
     if (pending_.empty()) {
         const std::string_view words = trim(line);
         if (words.starts_with(":")) return obey(words);
-        // What other prompts take; none of it is a statement of the language.
+        // Words that other prompts accept; none of them is a statement of the language.
         if (words == "help" || words == "?") return obey(":help");
         if (words == "quit" || words == "exit") return obey(":quit");
         if (says_nothing(line)) return true;
@@ -87,7 +87,7 @@ void PromptSession::fail(const Failure& failure) {
     console_.fail(failure);
 }
 
-void PromptSession::tell_faults(const Script& script) {
+void PromptSession::print_errors(const Script& script) {
     has_failed_ = has_failed_ || script.diagnostics.has_errors();
     console_.say(script.messages(console_.error().colour));
 }
@@ -104,7 +104,7 @@ bool PromptSession::obey(std::string_view line) {
         if (argument.empty() && !command.argument.empty() && command.argument[0] != '[') {
             fail({fmt::format("{} takes {}", name, command.argument), ""});
         } else if (!argument.empty() && command.argument.empty()) {
-            fail({fmt::format("{} takes nothing behind it", name), ""});
+            fail({fmt::format("{} takes no argument", name), ""});
         } else {
             (this->*command.action)(argument);
         }
@@ -124,27 +124,27 @@ void PromptSession::add_text(const std::string& text) {
     change(load_script(script_->name, script_->text + text, script_->folder, script_->overrides));
 }
 
-/// Takes over a script and what has been computed of the one before, if it is right.
+/// Takes over a changed script if it has no errors, and continues the simulation with it.
 bool PromptSession::change(Script changed) {
     const std::string messages = changed.messages(console_.error().colour);
     if (!changed.program) {
-        tell_faults(changed);
+        print_errors(changed);
         return false;
     }
     if (messages != last_warnings_) console_.say(messages);
     auto script = std::make_unique<Script>(std::move(changed));
-    script->diagnostics = {};  // Said; from now on only new faults count.
+    script->diagnostics = {};  // They are printed; from now on only new errors count.
     std::unique_ptr<Simulation> simulation;
     if (simulation_) {
         auto carried = carry_over(*script);
         if (!carried) {
-            tell_faults(*script);
+            print_errors(*script);
             fail(carried.error());
             return false;
         }
         simulation = std::move(*carried);
     }
-    // The old simulation refers to the old script and must go first.
+    // The old simulation refers to the old script, so it must be destroyed first.
     simulation_ = std::move(simulation);
     script_ = std::move(script);
     last_warnings_ = messages;
@@ -166,7 +166,7 @@ void PromptSession::load(const std::string& path) {
         const Script& read = file->script;
         file->script = load_script(read.name, read.text + "\n", read.folder, read.overrides);
     }
-    // Another script begins at its start, whatever its stages are called.
+    // A script that is loaded starts anew, even if its stages have the names of the old ones.
     std::unique_ptr<Simulation> before = std::move(simulation_);
     if (!change(std::move(file->script))) {
         simulation_ = std::move(before);
@@ -182,7 +182,7 @@ void PromptSession::load_saved(const std::string& folder) {
         return;
     }
     if (!saved->program) {
-        tell_faults(*saved);
+        print_errors(*saved);
         return;
     }
     auto script = std::make_unique<Script>(std::move(*saved));
@@ -203,7 +203,7 @@ void PromptSession::set(const std::string& assignment) {
         fail({"there is no script yet", ""});
         return;
     }
-    // The last one of a name wins, so those before it need not be remembered.
+    // The last setting of a name wins, so earlier ones need not be kept.
     const auto name = [](std::string_view text) {
         text = text.substr(0, text.find('='));
         const std::size_t begin = text.find_first_not_of(" \t");

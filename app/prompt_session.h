@@ -15,29 +15,28 @@
 
 namespace cascade {
 
-/// Takes lines, as from a LineReader. A line that is wrong changes nothing: neither the script nor
-/// the fields. One that is right is kept; what has been computed is kept too, as far as the stages
-/// are the same.
+/// Takes the lines of a LineReader. A line with an error changes neither the script nor the fields.
+/// Otherwise it is kept, and so are the computed values of all stages that it does not change.
 class PromptSession {
 public:
     /// `show_after_run`: a picture after each :run, for terminals.
     PromptSession(const SimulationOptions& options, Console& console, bool show_after_run);
     ~PromptSession();
 
-    /// Handles one line. False when the user wants to leave.
+    /// Handles one line. False when the user leaves.
     bool take(const std::string& line);
-    /// Ctrl-C: drops a block that has been begun.
+    /// Drops an unfinished block (Ctrl-C).
     void drop_pending() { pending_.clear(); }
-    /// No more lines come: what is pending is checked as it is.
+    /// End of input: checks an unfinished block as it is.
     void end();
 
-    /// What to write before the next line: its number in the script.
+    /// The prompt for the next line: its number in the script.
     std::string prompt() const;
-    /// Names with which a line can go on, for completion.
+    /// Names that can follow at the end of `line`, for completion.
     std::vector<std::string> names(const std::string& line) const;
-    /// Has a line been wrong, or a run failed?
+    /// True once a line had an error or a run failed.
     bool has_failed() const { return has_failed_; }
-    /// As :load does.
+    /// Loads a script, a picture or a saved folder, as :load does.
     void load(const std::string& path);
 
 private:
@@ -65,22 +64,22 @@ private:
     void list_stages(const std::string&);
     void save(const std::string& folder);
     void tell_place();
-    /// Are all steps of all stages taken?
+    /// True if all stages have taken all their steps.
     bool is_over() const;
     void tell_over();
     void remark(const std::string& words);
 
-    // What is wrong (prompt_session.cpp).
+    // Errors (prompt_session.cpp).
     void fail(const Failure& failure);
-    void tell_faults(const Script& script);
+    void print_errors(const Script& script);
 
     SimulationOptions options_;
     Console& console_;
     bool show_after_run_;
-    std::string pending_;  ///< The first lines of a block, not yet complete.
+    std::string pending_;  ///< The first lines of an unfinished block.
     std::string last_warnings_;
     bool has_failed_ = false;
-    std::unique_ptr<Script> script_;          ///< Always right; null until something was typed.
+    std::unique_ptr<Script> script_;          ///< Without errors; null until something was typed.
     std::unique_ptr<Simulation> simulation_;  ///< Refers to *script_.
 };
 

@@ -1,5 +1,4 @@
-// Counts brackets and looks at the last character, outside of comments and quotes; nothing is
-// parsed.
+// Counts brackets and looks at the last character, outside of comments and strings; does not parse.
 #include "app/prompt_text.h"
 
 #include <algorithm>
@@ -27,7 +26,7 @@ bool ends_in_operator(std::string_view text) {
                        [&](std::string_view word) { return ends_in_word(text, word); });
 }
 
-/// Where a line's comment begins; its size where there is none. Texts in quotes end with the line.
+/// Position of a line's comment, or its size. Strings end with the line.
 std::size_t comment_begin(std::string_view line) {
     bool quoted = false;
     for (std::size_t k = 0; k < line.size(); ++k) {
@@ -37,7 +36,7 @@ std::size_t comment_begin(std::string_view line) {
     return line.size();
 }
 
-/// Opening brackets of a line less its closing ones.
+/// The number of opening brackets of a line less that of closing ones.
 long open_brackets(std::string_view line) {
     long open = 0;
     bool quoted = false;
@@ -70,7 +69,7 @@ bool is_complete(std::string_view text) {
         if (!line.empty()) last = line;
         text.remove_prefix(std::min(end + 1, text.size()));
     }
-    // With a bracket too many the parser shall speak.
+    // With a closing bracket too many the parser is to report the error.
     return open <= 0 && !ends_in_operator(last);
 }
 
@@ -93,7 +92,7 @@ Completion complete_word(std::string_view line, std::vector<std::string> names) 
     choices.erase(std::unique(choices.begin(), choices.end()), choices.end());
     if (choices.empty()) return completion;
 
-    // Of a sorted list the first and the last differ soonest.
+    // In sorted order the first and the last have the shortest common beginning.
     const std::string& first = choices.front();
     const std::string& last = choices.back();
     std::size_t common = word.size();

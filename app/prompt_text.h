@@ -1,5 +1,5 @@
-// What the prompt must know of lines before the parser sees them: is one complete, and how may a
-// word go on?
+// What the prompt must know about lines before they are parsed: whether one is complete, and how
+// the word at its end can continue.
 #pragma once
 
 #include <string>
@@ -8,24 +8,24 @@
 
 namespace cascade {
 
-/// False while a bracket is open, or the last line ends in a comma or an operator: more must come.
-/// Brackets in comments and in texts in quotes do not count.
+/// False while a bracket is open, or the last line ends in a comma or an operator. Comments and
+/// strings do not count.
 bool is_complete(std::string_view text);
 
 /// True for blank lines and comments.
 bool says_nothing(std::string_view line);
 
-/// How the word at the end of a line can go on.
+/// How the word at the end of a line can continue.
 struct Completion {
     std::string insert;                ///< What all choices have in common after the word.
-    std::vector<std::string> choices;  ///< In order, without repetition.
+    std::vector<std::string> choices;  ///< Sorted, without repetition.
 };
 
-/// A word is of letters, digits and _; a ':' at the begin of the line belongs to it. Where only one
-/// name is left a space is put after it.
+/// A word is made of letters, digits and _; a ':' at the start of the line belongs to it. A space
+/// follows if there is only one choice.
 Completion complete_word(std::string_view line, std::vector<std::string> names);
 
-/// A text without white space at its ends.
+/// `text` without white space at both ends.
 std::string_view trim(std::string_view text);
 
 }  // namespace cascade

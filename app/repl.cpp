@@ -1,4 +1,4 @@
-// The loop: a line editor at a terminal, plain lines from a pipe, which sets the exit status.
+// The loop of `cascade repl`: a line editor at a terminal, plain lines from a pipe.
 #include "app/repl.h"
 
 #include "app/exit_status.h"
@@ -18,9 +18,9 @@ int repl_command(const Options& options, Console& console) {
                                        [&](const std::string& line) { return session.names(line); })
                     : make_plain_reader(STDIN_FILENO);
     if (at_terminal) stay_on_interrupt();
-    if (at_terminal) console.say("Cascade: ':help' lists what can be typed, Ctrl-D leaves.\n");
+    if (at_terminal) console.say("Cascade: ':help' lists the commands, Ctrl-D leaves.\n");
     if (!options.scripts.empty()) session.load(options.scripts[0]);
-    // At a terminal whoever typed a wrong line has seen what was wrong.
+    // Errors set the status only for a pipe: at a terminal the user has seen them.
     const auto status = [&] {
         return !at_terminal && session.has_failed() ? exit_status::wrong_line
                                                     : exit_status::success;

@@ -1,4 +1,4 @@
-// `cascade run`: a script, its progress and what came of it.
+// `cascade run`: loads the script, shows progress, and reports what was written.
 
 #include "app/commands.h"
 #include "app/exit_status.h"
@@ -19,7 +19,7 @@ namespace cascade {
 
 namespace {
 
-/// The script that is run, and the picture options that it brings.
+/// The script to run, and the picture options that it brings.
 std::optional<LoadedFile> load_for_run(const Options& options, const Console& console) {
     if (options.run.resume.empty()) return load(options.scripts[0], options.overrides, console);
     std::optional<LoadedFile> given;
@@ -36,7 +36,7 @@ std::optional<LoadedFile> load_for_run(const Options& options, const Console& co
     if (given) {
         saved->file = given->script.file;
         if (given->script.text != saved->text) {
-            console.fail({fmt::format("{} has another text than the script of the run saved in {}",
+            console.fail({fmt::format("{} differs from the script of the run saved in {}",
                                       options.scripts[0], options.run.resume.string()),
                           "a saved run goes on with its own script: leave SCRIPT out"});
             return std::nullopt;
@@ -45,14 +45,14 @@ std::optional<LoadedFile> load_for_run(const Options& options, const Console& co
     const auto edited = find_edited_script(options.run.resume, saved->name, saved->text);
     if (!given && edited) {
         console.warn(
-            fmt::format("{} has another text than the saved run, which goes on with its own; what "
-                        "that reads is looked for in {} and where --allow-read says",
+            fmt::format("{} differs from the script of the saved run, which goes on with its own; "
+                        "files are looked for in {} and where --allow-read says",
                         edited->string(), options.run.resume.string()));
     }
     return LoadedFile{std::move(*saved), ""};
 }
 
-/// Names what was written; the many pictures of --frames in one line.
+/// Prints what was written; the pictures of --frames as one line.
 void tell_written(const RunReport& report, const RunRequest& request, Console& console) {
     std::size_t frames = 0;
     for (const auto& path : report.written) {
@@ -69,7 +69,7 @@ void tell_written(const RunReport& report, const RunRequest& request, Console& c
     }
 }
 
-/// What a field does not have (an even one has no wavelength) is a dash.
+/// Prints the measures; one that does not exist (a uniform field has no wavelength) is a dash.
 void print_features(const measure::Features& features, Console& console) {
     const auto values = measure::to_array(features);
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -99,7 +99,7 @@ int tell(const RunReport& report, const Options& options, int signal, bool limit
     }
     if (report.status != RunStatus::cancelled) return exit_status::success;
     const char* const written =
-        report.has_begun ? "what there is has been written" : "nothing has been written";
+        report.has_begun ? "the results so far have been written" : "nothing has been written";
     if (limit_reached) {
         console.say(fmt::format("cascade: the limit of {} is reached at {}; {}\n",
                                 describe_duration(options.limit_seconds), report.where, written));
@@ -132,7 +132,7 @@ int run_command(const Options& options, Console& console) {
     if (!options.dump.empty()) return dump_command(script, options.dump, console);
     console.say(script.messages(console.error().colour));
     if (!script.program) return exit_status::wrong_script;
-    script.diagnostics = {};  // Warnings have been said.
+    script.diagnostics = {};  // Warnings have been printed.
 
     RunRequest request = options.run;
     if (!file->picture_options.empty()) {

@@ -1,4 +1,4 @@
-// `cascade sweep`: a script with many values, its progress and what came of it.
+// `cascade sweep`: runs a script with many values, shows progress, and reports what was written.
 
 #include "app/commands.h"
 #include "app/exit_status.h"
@@ -53,7 +53,7 @@ int tell(const SweepReport& report, const Options& options, int signal, bool lim
     return exit_status::failed_run;
 }
 
-/// What is to be varied: as the options say, else as the sheet does that is given for a script.
+/// What to vary: the options, else what the sheet of an earlier sweep that is given varied.
 Result<std::vector<Variation>> variations(const Options& options, const LoadedFile& file) {
     if (!options.sweep.varied.empty()) return options.sweep.varied;
     std::vector<Variation> varied;
@@ -102,8 +102,8 @@ int sweep_command(const Options& options, Console& console) {
     if (report) {
         return tell(*report, options, std::max(interrupt.signal(), 2), limit.reached(), console);
     }
-    if (const auto& faults = report.error().faults) {
-        console.say(faults->messages(console.error().colour));
+    if (const auto& errors = report.error().faults) {
+        console.say(errors->messages(console.error().colour));
         return exit_status::wrong_script;
     }
     console.fail(report.error().failure);

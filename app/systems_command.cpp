@@ -1,4 +1,4 @@
-// `cascade systems` and `cascade new`: what there is to begin with.
+// `cascade systems` and `cascade new`: the systems of the library and of scripts.
 #include "app/commands.h"
 
 #include "app/exit_status.h"
@@ -21,15 +21,15 @@ namespace cascade {
 namespace {
 
 const System* find_system(const Script& script, std::string_view name) {
-    const System* found = nullptr;  // The script's own takes the place of the library's.
+    const System* found = nullptr;  // A system of the script hides one of the library.
     for (const System& system : script.program->systems) {
         if (system.name == name && (found == nullptr || !system.built_in)) found = &system;
     }
     return found;
 }
 
-/// What a system says of itself, its equations, species, parameters and settings. Systems that
-/// `script` lacks are those of the library.
+/// Prints description, equations, species, parameters and settings of a system. Systems that
+/// `script` lacks are looked up in the library.
 void print_system(std::string_view title, const ast::Script& script, const Sources& sources,
                   std::string_view name, const LibraryText* text, Console& console) {
     console.print(fmt::format("{}\n", title));
@@ -51,13 +51,13 @@ void print_system(const Script& script, const System& system, Console& console) 
                  script.tree, script.sources, system.name, text, console);
 }
 
-/// One line of a list, cut where a terminal ends.
+/// A line of a list, cut at the terminal's width.
 void print_line(std::string_view name, std::string_view about, Console& console) {
     std::string line = fmt::format("{:<24} {}", name, about);
     const auto columns = static_cast<std::size_t>(console.out().columns());
     if (console.out().is_terminal && line.size() > columns) {
         std::size_t end = columns > 2 ? columns - 2 : 0;
-        while (end > 0 && (line[end] & 0xc0) == 0x80) --end;  // Not inside a character.
+        while (end > 0 && (line[end] & 0xc0) == 0x80) --end;  // Never inside a character.
         line = line.substr(0, end) + "…";
     }
     console.print(line + "\n");
@@ -76,7 +76,7 @@ Failure unknown_system(std::string_view name) {
                          : fmt::format("did you mean '{}'?", near)};
 }
 
-/// Those of the library in which all words are found.
+/// Systems of the library that contain all `words`.
 std::vector<std::string> matches(const std::vector<std::string>& words) {
     std::vector<std::string> names;
     for (const LibraryText& text : library_texts()) {
@@ -99,8 +99,8 @@ bool is_script_path(const std::string& word) {
 
 namespace {
 
-/// Of a word that no system mentions: which ones mention its longest beginning, of four letters or
-/// more.
+/// A hint for a word that no system contains: the systems that contain its longest beginning of at
+/// least four letters.
 std::string hint_by_beginning(const std::string& word) {
     constexpr std::size_t fewest_letters = 4, most_named = 6;
     for (std::size_t letters = word.size(); letters-- > fewest_letters;) {

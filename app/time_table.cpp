@@ -1,4 +1,4 @@
-// Each part's time is read once before drawing, since the account goes on while the table is made.
+// Each time is read once before drawing, since the account keeps running meanwhile.
 #include "app/time_table.h"
 
 #include "core/counted.h"
@@ -92,7 +92,7 @@ std::string remark_on_kernels(const KernelCounts& kernels) {
 }  // namespace
 
 std::string time_table(TimeAccount& account, bool bars) {
-    // Time goes on while the table is made, so each part is looked at once.
+    // Time passes while the table is made, so each part is read once.
     std::vector<double> seconds_of_parts;
     for (const Part& part : parts) seconds_of_parts.push_back(account.seconds(part.what));
     const double everything =

@@ -7,8 +7,8 @@
 
 namespace cascade {
 
-/// Where the time of a run went: a line for each part with its share of everything, for each stage
-/// where there are several; with bars after the shares if `bars`. Ends with a line end.
+/// How the time of a run was spent: a line for each part with its share of the total, one for each
+/// stage if there are several; with bars if `bars`. Ends with a newline.
 std::string time_table(TimeAccount& account, bool bars);
 
 }  // namespace cascade

@@ -54,14 +54,14 @@ run 0 run --resume half -q -o resumed.png
 run 0 run --resume half -q --save all
 cmp all/small.b.npy kept/small.b.npy || fail "a resumed run has other bits"
 run 2 run explodes.cascade --resume half
-says err 'has another text than the script of the run saved in half'
+says err 'differs from the script of the run saved in half'
 run 2 run --resume half --set small.ka=1/50
 says err '--steps, --until-stage and --allow-read can change, and --mesh'
 run 0 run --resume half -o resumed.png
 grep -q 'another text' err && fail "the script of the saved run is as it was"
 mkdir edited && cp -r half edited/half && sed 's/^/ /' spots.cascade >edited/spots.cascade
 (cd edited && "$CASCADE" run --resume half -o resumed.png >../out 2>../err) || fail "an edited script stops the resumed run"
-says err 'spots.cascade has another text than the saved run, which goes on with its own'
+says err 'spots.cascade differs from the script of the saved run, which goes on with its own'
 cmp -s edited/resumed.png resumed.png || fail "an edited script changes the resumed run"
 
 # Wrong scripts: 2, and nothing is written.

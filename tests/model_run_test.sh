@@ -184,7 +184,7 @@ says err "'2' is not a number from -1 to 1"
 run 64 $model --bump nan
 says err "'nan' is not a number from -1 to 1"
 run 64 $model --up w
-says err "'w' is none of x, y, z"
+says err "'w' is not one of x, y, z"
 run 64 $model --bake 9000
 says err "whole number from 1 to 8192"
 

@@ -43,9 +43,9 @@ TEST(BenchTable, SaysWhatBounds) {
     EXPECT_THAT(bound_sentence(stage_at(2)), HasSubstr("nearest is arithmetic"));
     StageBench few = stage_at(0.8);
     few.most_threads = 2;
-    EXPECT_THAT(bound_sentence(few), HasSubstr("of 2 threads 1 took the steps"));
+    EXPECT_THAT(bound_sentence(few), HasSubstr("1 of 2 threads took the steps"));
     few.is_native = false;
-    EXPECT_THAT(bound_sentence(few), HasSubstr("the interpreter takes the steps"));
+    EXPECT_THAT(bound_sentence(few), HasSubstr("steps are interpreted"));
     EXPECT_EQ(bound_sentence(StageBench()), "");
     StageBench tiled = stage_at(0.8);
     tiled.stepping.sweeps_at_once = 16;
