@@ -256,12 +256,13 @@ std::string Configuration::name() const {
 
 std::vector<Configuration> configurations_of(const ScriptCase& script) {
     const BackendKind fastest = has_jit() ? BackendKind::jit : BackendKind::interpreter;
+    if (!script.is_interpreted && !has_jit()) return {};
     if (script.is_only_checked() || script.runs_once) {
         return {{fastest, script.is_single ? Precision::single : Precision::binary64, 3}};
     }
     std::vector<Configuration> configurations;
     for (const BackendKind backend : {BackendKind::interpreter, BackendKind::jit}) {
-        if (backend == BackendKind::jit && !has_jit()) continue;
+        if (backend == BackendKind::jit ? !has_jit() : !script.is_interpreted) continue;
         for (const int threads : {1, 3}) {
             if (script.is_single) configurations.push_back({backend, Precision::single, threads});
             if (script.is_double) configurations.push_back({backend, Precision::binary64, threads});

@@ -108,6 +108,8 @@ void Reader::instruct(const std::string& words) {
         current().is_double = false;
     } else if (words == "double only") {
         current().is_single = false;
+    } else if (words == "compiled only") {
+        current().is_interpreted = false;
     } else if (words.starts_with("expect ")) {
         ++current().expectations;
         expect(trimmed(words.substr(7)));

@@ -34,7 +34,7 @@ struct ScriptCase {
     std::string name;  ///< Empty where the file is one script.
     std::string text;  ///< On the lines that it has in the file.
     std::vector<std::string> sets;
-    bool runs_once = false, is_single = true, is_double = true;
+    bool runs_once = false, is_single = true, is_double = true, is_interpreted = true;
     std::vector<Message> messages;                    ///< About the text.
     std::vector<std::string> warnings;                ///< Patterns, of the run.
     std::optional<std::vector<std::string>> remarks;  ///< Patterns; none: nothing is expected.
