@@ -1,8 +1,6 @@
 // Loads the module of the code generator.
 #include "jit/generator.h"
 
-#include "jit/processor.h"
-
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -11,7 +9,7 @@ namespace cascade {
 namespace {
 
 Result<const CodeGenerator*> load_generator() {
-    // Never unloaded: code that it loaded may be in use until the end.
+    // Never unloaded: threads may compile until the program ends.
     void* module = ::dlopen(CASCADE_LLVM_MODULE, RTLD_LAZY | RTLD_LOCAL);
     if (!module) {
         const char* reason = ::dlerror();
@@ -33,6 +31,17 @@ Result<const CodeGenerator*> load_generator() {
 Result<const CodeGenerator*> code_generator() {
     static const Result<const CodeGenerator*> generator = load_generator();
     return generator;
+}
+
+Result<void> check_options(const JitOptions& options) {
+    const int lanes = options.lanes;
+    if (lanes != 0 && lanes != 4 && lanes != 8 && lanes != 16) {
+        return failure(fmt::format("no vectors of {} cells", lanes), "4, 8 or 16");
+    }
+    if (options.optimise < 0 || options.optimise > 3) {
+        return failure(fmt::format("no optimisation level {}", options.optimise), "0 to 3");
+    }
+    return {};
 }
 
 std::string llvm_identity() {
@@ -58,10 +67,10 @@ Result<std::string> dump_assembly(const CellKernel& kernel, Stencil stencil,
 }
 
 Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, Stencil stencil,
-                                                 const std::string& target) {
+                                                 const std::string& cpu) {
     const auto generator = code_generator();
     if (!generator) return tl::unexpected(generator.error());
-    return (*generator)->compile_object(content, stencil, target);
+    return (*generator)->compile_object(content, stencil, cpu);
 }
 
 std::vector<std::string> known_targets() {

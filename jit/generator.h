@@ -1,9 +1,8 @@
 // The code generator: LLVM behind a table of functions.
 //
-// Internal to jit/. libLLVM takes four times as long to load as a small run takes, so everything
-// that needs it is a module, `libcascade_llvm.so`, which is loaded when code must be made that no
-// cache has. It is found as shared libraries are, by the paths that the program, or libcascade, was
-// linked with.
+// Internal to jit/. Loading libLLVM takes longer than a small run, so everything that needs it is a
+// module, `libcascade_llvm.so`, which is loaded when a kernel is asked for that no cache has. It is
+// found as shared libraries are, by the paths that the program, or libcascade, was linked with.
 #pragma once
 
 #include "jit/code_image.h"
@@ -14,32 +13,35 @@
 
 namespace cascade {
 
-/// What the module gives. All may be called from several threads; options have been checked.
+/// The functions of the module. They may be called by several threads; options have been checked.
 struct CodeGenerator {
-    /// Code of the kernel.
+    /// Machine code of a kernel for this processor.
     Result<CodeImage> (*compile)(const CellKernel& kernel, const KernelShape& shape, int optimise);
     // The functions of jit/jit.h.
     Result<std::string> (*dump_llvm)(const CellKernel&, Stencil, const JitOptions&);
     Result<std::string> (*dump_assembly)(const CellKernel&, Stencil, const JitOptions&);
     Result<std::vector<std::uint8_t>> (*compile_object)(const ObjectContent&, Stencil,
-                                                        const std::string& target);
+                                                        const std::string& cpu);
     std::vector<std::string> (*known_targets)();
     std::string (*describe)();
 };
 
-/// Loads the module if that was not done. Fails where there is none, or one of another build.
+/// Loads the module at the first call. Fails if there is none, or one of another build.
 Result<const CodeGenerator*> code_generator();
 
-/// The name of the module's only symbol: a function that takes the `code_version` of whoever asks
-/// and gives the table, or null if its own is another.
+/// The name of the module's only symbol: a function that takes the caller's `code_version` and
+/// returns the table, or null if the module's own version is another.
 inline constexpr const char* generator_symbol = "cascade_code_generator";
 using GeneratorEntry = const CodeGenerator*(const char* version);
 
-/// Differs where the same kernel may get other code: a hash of the sources of this room and of ir/,
-/// and LLVM's version.
+/// Builds that may make other code of the same kernel have other versions: a hash of the sources of
+/// this room and of ir/, and of LLVM's version.
 const char* code_version();
 
-/// Differs when the library of LLVM on this machine was replaced. Empty if that is not known.
+/// Fails on options that are out of range.
+Result<void> check_options(const JitOptions& options);
+
+/// Changes when the machine's library of LLVM is replaced. Empty if that is not known.
 std::string llvm_identity();
 
 }  // namespace cascade

@@ -17,15 +17,15 @@ struct JitOptions {
     int lanes = 0;     ///< Cells of binary32 per vector: 4, 8 or 16 (half as many of binary64);
                        ///< 0 takes the host's widest.
     int optimise = 2;  ///< 0 … 3, of LLVM's code generator.
-    /// Compiled kernels are kept in this folder and found there by later processes; empty: none.
-    /// One that cannot be used, for whatever reason, is as good as none.
+    /// Compiled kernels are kept in this folder and found there by later processes; empty: nowhere.
+    /// A folder that cannot be used is treated as none.
     std::filesystem::path cache = {};
 };
 
-/// A backend whose kernels are machine code of this process. Fails on options out of range. Its
-/// compile() may be called from several threads, which compile different kernels at the same time,
-/// and fails where LLVM cannot be loaded, if the host is not supported, and on kernels of more than
-/// 20,000 instructions (about; a Laplacian counts for more); the interpreter can run those.
+/// A backend whose kernels are machine code in this process. Fails on options out of range. Its
+/// compile() may be called by several threads, which compile different kernels at the same time. It
+/// fails if LLVM cannot be loaded or does not support the host, and on kernels of more than about
+/// 20,000 instructions (a Laplacian counts for more), which the interpreter can run.
 Result<std::unique_ptr<Backend>> make_jit(const JitOptions& options = {});
 
 /// The LLVM IR that the kernel's code is generated from (`--dump llvm`), or its assembly
@@ -55,25 +55,33 @@ struct ObjectContent {
     std::vector<NamedNumbers> numbers = {};
 };
 
-/// The bytes of a relocatable object file for the CPU `target`, as LLVM names it ("x86-64-v3",
-/// "znver4"; "" is the host). Each kernel becomes a function
+/// Kernels as a relocatable object file for the CPU `cpu`, as LLVM names it ("x86-64-v3", "znver4";
+/// "" is the host): the bytes of the file. Each kernel becomes a function, in kernels of binary64
+/// with double for float:
 ///
 ///     void NAME(const float *const *fields, const unsigned char *const *masks,
 ///               const float *uniforms, float *const *results,
-///               int64_t width, int64_t stride, int64_t row_begin, int64_t row_end, int64_t
-///               is_near);
+///               int64_t width, int64_t stride, int64_t row_begin, int64_t row_end,
+///               int64_t is_near);
 ///
-/// (`is_near` is not 0 where all fields are in a near cache, so that nothing need be fetched ahead;
-/// for grids of several slices `int64_t slice_rows, int64_t slice` come after: row j of slice k is
-/// then row k * slice_rows + j, slice_rows is the height plus 2, and a call stays in one slice)
-/// (of kernels of binary64 with double for float) that computes rows [row_begin, row_end): the same
-/// code and ABI as the JIT's own kernels. It calls nothing. Planes are laid out as in PlaneLayout:
-/// pointers are to cell (0, 0), of numbers aligned to 64 bytes and of masks to 16; `stride` is a
-/// multiple of 16 elements, with 16 or more before and after each row; `width` is at least 1. The
-/// bits are those of a run if the processor flushes denormal inputs and results meanwhile (FTZ and
-/// DAZ on x86). Kernels for linked cells are refused.
+/// It computes the rows [row_begin, row_end) by the same code as the JIT, and calls nothing.
+///
+/// - `fields`, `masks`, `uniforms` and `results` have an entry for each slot of the kernel.
+/// Pointers
+///   are to cell (0, 0) of planes in the layout of PlaneLayout, aligned to 64 bytes where they hold
+///   numbers and to 16 where they are masks.
+/// - `width` is the number of cells in a row, at least 1. `stride` is the number of elements from a
+///   row to the next, a multiple of 16; 16 elements or more lie before and after the cells of a
+///   row.
+/// - `is_near` is 0, or 1 if all fields are in a near cache and need no prefetches.
+/// - Kernels for grids of several slices have two more arguments, `int64_t slice_rows` and
+///   `int64_t slice`. Row j of slice k is then row k * slice_rows + j, where slice_rows is the
+///   height plus 2, and all rows of a call lie in the slice `slice`.
+///
+/// The bits are those of a run if the processor flushes denormal inputs and results meanwhile (FTZ
+/// and DAZ on x86). Fails on kernels for linked cells, names that are none in C, and unknown CPUs.
 Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, Stencil stencil,
-                                                 const std::string& target);
+                                                 const std::string& cpu);
 
 /// CPU names that `--target` accepts for this machine's architecture.
 std::vector<std::string> known_targets();

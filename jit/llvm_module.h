@@ -12,7 +12,7 @@ Result<std::string> dump_llvm(const CellKernel& kernel, Stencil stencil, const J
 Result<std::string> dump_assembly(const CellKernel& kernel, Stencil stencil,
                                   const JitOptions& options);
 Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, Stencil stencil,
-                                                 const std::string& target);
+                                                 const std::string& cpu);
 std::vector<std::string> known_targets();
 std::string describe();
 

@@ -79,15 +79,4 @@ std::string kinds_of_cores(const std::string& cpuinfo) {
     return fmt::format("{}", fmt::join(kinds, "|"));
 }
 
-Result<void> check_options(const JitOptions& options) {
-    const int lanes = options.lanes;
-    if (lanes != 0 && lanes != 4 && lanes != 8 && lanes != 16) {
-        return failure(fmt::format("no vectors of {} cells", lanes), "4, 8 or 16");
-    }
-    if (options.optimise < 0 || options.optimise > 3) {
-        return failure(fmt::format("no optimisation level {}", options.optimise), "0 to 3");
-    }
-    return {};
-}
-
 }  // namespace cascade

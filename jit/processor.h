@@ -3,9 +3,6 @@
 // Internal to jit/. All that can be told without LLVM, which takes longer to load than a small run.
 #pragma once
 
-#include "core/result.h"
-#include "jit/jit.h"
-
 #include <string>
 
 namespace cascade {
@@ -20,8 +17,5 @@ std::string host_identity();
 /// The same of an ARM processor, from the text of Linux's /proc/cpuinfo, by which LLVM knows it:
 /// maker, part, variant, revision and features of each kind of core.
 std::string kinds_of_cores(const std::string& cpuinfo);
-
-/// Fails on options that are out of range.
-Result<void> check_options(const JitOptions& options);
 
 }  // namespace cascade
