@@ -1,8 +1,8 @@
-// Metadata that tells LLVM which accesses cannot meet.
+// Metadata that tells LLVM which accesses cannot overlap.
 //
-// Internal to jit/. Results overlap neither each other nor inputs that are read at neighbours; one
-// that is read in the own cell only may be a result, and its accesses are not marked. The planes'
-// pointers come from tables, so that no attribute of an argument could say it.
+// Internal to jit/. Results overlap neither each other nor inputs that are read at neighbours. An
+// input that is read in the cell itself only may be a result, too, so its accesses are not marked.
+// Pointers to planes come from tables, so no attribute of an argument can tell LLVM this.
 #pragma once
 
 #include <llvm/IR/LLVMContext.h>

@@ -1,9 +1,9 @@
-// Vectors that the next execution of a loop needs again: they stay in registers.
+// Loop-carried vectors: what one iteration of a loop leaves in registers for the next.
 //
 // Internal to jit/.
 #pragma once
 
-#include "jit/emit_body.h"
+#include "jit/kernel_sources.h"
 
 #include <llvm/ADT/STLFunctionalExtras.h>
 
@@ -13,17 +13,18 @@ namespace cascade {
 
 class CarriedVectors {
 public:
-    /// `header` is the first block of the loop and `outside` writes in the one before it.
+    /// `header` is the first block of the loop; `outside` writes to the block before it.
     CarriedVectors(llvm::BasicBlock& header, Builder& outside)
         : header_(header), outside_(outside) {}
 
-    /// Of a field: what the execution before this one has given, or, in the first, what `first`
-    /// makes before the loop.
+    /// A field's vector from the iteration before this one, or, in the first iteration, the one
+    /// that `first` writes before the loop.
     llvm::Value* take(std::uint32_t slot, llvm::function_ref<llvm::Value*(Builder& outside)> first);
-    /// What the next execution takes; after take().
+    /// The vector for the next iteration; after take().
     void give(std::uint32_t slot, llvm::Value* vector);
     llvm::Value* given(std::uint32_t slot) { return carried_[slot].next; }
-    /// Closes the loop, which is entered from `before` and goes back from `latch`.
+    /// Completes the phi nodes of the loop, which is entered from `before` and repeated from
+    /// `latch`.
     void close(llvm::BasicBlock* before, llvm::BasicBlock* latch);
 
 private:

@@ -16,10 +16,10 @@
 namespace cascade {
 namespace {
 
-/// Keeps what LLVM has to say about a module; without a handler it prints that and may exit.
-class Complaints : public llvm::DiagnosticHandler {
+/// Collects LLVM's errors; without a handler it prints them and may exit.
+class ErrorCollector : public llvm::DiagnosticHandler {
 public:
-    explicit Complaints(std::string& text) : text_(text) {}
+    explicit ErrorCollector(std::string& text) : text_(text) {}
 
     bool handleDiagnostics(const llvm::DiagnosticInfo& info) override {
         if (info.getSeverity() == llvm::DS_Error) {
@@ -35,7 +35,7 @@ private:
 };
 
 std::size_t size_of(const CellKernel& kernel) {
-    constexpr std::size_t loads_of_laplacian = 10;  // In time that they take, not in number.
+    constexpr std::size_t loads_of_laplacian = 10;  // By the time that they take.
     constexpr std::size_t loads_of_neighbour = 2;
     std::size_t size = kernel.code.size();
     for (const Instruction& instruction : kernel.code) {
@@ -45,16 +45,16 @@ std::size_t size_of(const CellKernel& kernel) {
     return size;
 }
 
-/// Takes a machine's optimisation away while it lives.
-class SimpleGenerator {
+/// Sets a machine's optimisation level, and restores it at its end.
+class ScopedOptLevel {
 public:
-    SimpleGenerator(llvm::TargetMachine& machine, bool is_wanted)
+    ScopedOptLevel(llvm::TargetMachine& machine, llvm::CodeGenOptLevel level)
         : machine_(machine), level_(machine.getOptLevel()) {
-        if (is_wanted) machine_.setOptLevel(llvm::CodeGenOptLevel::None);
+        machine_.setOptLevel(level);
     }
-    ~SimpleGenerator() { machine_.setOptLevel(level_); }
-    SimpleGenerator(const SimpleGenerator&) = delete;
-    SimpleGenerator& operator=(const SimpleGenerator&) = delete;
+    ~ScopedOptLevel() { machine_.setOptLevel(level_); }
+    ScopedOptLevel(const ScopedOptLevel&) = delete;
+    ScopedOptLevel& operator=(const ScopedOptLevel&) = delete;
 
 private:
     llvm::TargetMachine& machine_;
@@ -110,9 +110,10 @@ Result<CodeModule> make_code(const CellKernel& kernel, const KernelShape& shape,
 
 Result<llvm::SmallVector<char, 0>> generate(CodeModule& code, llvm::TargetMachine& machine,
                                             CodeForm form) {
-    const SimpleGenerator level(machine, code.is_large);
-    std::string complaints;
-    code.context->setDiagnosticHandler(std::make_unique<Complaints>(complaints));
+    const ScopedOptLevel level(machine,
+                               code.is_large ? llvm::CodeGenOptLevel::None : machine.getOptLevel());
+    std::string errors;
+    code.context->setDiagnosticHandler(std::make_unique<ErrorCollector>(errors));
     llvm::SmallVector<char, 0> bytes;
     llvm::raw_svector_ostream stream(bytes);
     llvm::legacy::PassManager passes;
@@ -122,7 +123,7 @@ Result<llvm::SmallVector<char, 0>> generate(CodeModule& code, llvm::TargetMachin
         return failure("LLVM cannot write code for this processor");
     }
     passes.run(*code.module);
-    if (!complaints.empty()) return failure("LLVM refused a kernel: " + complaints);
+    if (!errors.empty()) return failure("LLVM refused a kernel: " + errors);
     return bytes;
 }
 

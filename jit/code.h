@@ -1,8 +1,8 @@
 // From a cell kernel to LLVM IR, and from that to an object file or assembly.
 //
-// Internal to jit/. Objects, dumps and the code that runs in this process all come this way. None
-// of LLVM's passes over the IR is run: the builder of kernels has folded and numbered all values,
-// the skeleton has put them on their levels, and with them the generator writes the same code.
+// Internal to jit/. Objects, dumps and the code that runs in this process are all made here. None
+// of LLVM's passes over the IR is run: the builder of kernels has folded and numbered all values
+// and the skeleton has moved them out of loops, and with such passes the code would be the same.
 #pragma once
 
 #include "core/result.h"
@@ -22,12 +22,12 @@ namespace cascade {
 struct CodeModule {
     std::unique_ptr<llvm::LLVMContext> context;
     std::unique_ptr<llvm::Module> module;
-    bool is_large = false;  ///< Above `largest_optimised_kernel`.
+    bool is_large = false;  ///< A kernel in it is above `largest_optimised_kernel`.
 };
 
-// The sizes of kernels count instructions, and for each Laplacian its loads besides. The time that
-// LLVM's optimising code generator takes grows with the square of it: 0.2 to 0.4 s at this size.
-// Larger kernels get code of the simple generator, whose time grows linearly.
+// The size of a kernel is the number of its instructions and of the loads of its Laplacians. The
+// time of LLVM's optimising code generator grows with the square of the size: 0.2 to 0.4 s at this
+// one. Larger kernels get unoptimised code, whose time grows linearly.
 inline constexpr std::size_t largest_optimised_kernel = 3000;
 
 /// Above this size kernels are refused; it takes up to 1 s to compile.
@@ -37,8 +37,8 @@ inline constexpr std::size_t largest_native_kernel = 20000;
 CodeModule make_module(const llvm::TargetMachine& machine);
 
 /// Adds the kernel as a function `name`. Fails if the kernel is larger than `largest_native_kernel`
-/// or if LLVM finds fault with the code (our own mistake, but one that the caller can survive by
-/// interpreting).
+/// or if LLVM's verifier rejects the code (a mistake of ours, but one after which the caller can
+/// still interpret the kernel).
 Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const KernelShape& shape,
                         const std::string& name, const llvm::TargetMachine& machine);
 

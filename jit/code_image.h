@@ -42,7 +42,7 @@ struct CodeImage {
     std::string bytes;        ///< To lie at a multiple of `alignment`.
     std::uint64_t entry = 0;  ///< Where in the bytes the function begins.
 
-    /// Of a page: code of AArch64 tells apart what lies within pages and what between them.
+    /// A page: instructions of AArch64 take an address as its page and its place in the page.
     static constexpr std::uint64_t alignment = 4096;
 };
 

@@ -60,7 +60,7 @@ private:
         while (!rows.empty()) {
             const std::int64_t slice = rows.begin / layout.height;
             const std::int64_t end = std::min(rows.end, (slice + 1) * layout.height);
-            // From numbers through the cells to numbers of rows in memory.
+            // Numbers of rows in memory count those of the halo, too.
             const std::int64_t halo_rows = slice * (layout.slice_rows() - layout.height);
             function_->template as<VolumeFunction<Number>>()(
                 arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
@@ -91,8 +91,8 @@ private:
 /// A kernel that was compiled or is being compiled.
 using Compiling = std::shared_future<Result<KernelPointer>>;
 
-/// Beyond this many kernels all are forgotten, so that a day at the prompt does not fill memory;
-/// those that somebody holds live on.
+/// Beyond this number of kernels all are forgotten, so that a day at the prompt does not fill
+/// memory; those in use live on.
 constexpr std::size_t most_known = 1024;
 
 class JitBackend final : public Backend {
@@ -113,7 +113,7 @@ public:
         Result<KernelPointer> made = failure("not compiled");
         try {
             made = make(kernel, shape, key);
-        } catch (...) {  // Out of memory, for whoever waits as well.
+        } catch (...) {  // Out of memory; threads that wait learn of it, too.
             forget(key);
             promise.set_exception(std::current_exception());
             throw;
@@ -145,7 +145,7 @@ public:
     }
 
 private:
-    /// What is known without waiting; null of a kernel that is being made.
+    /// What is known of a kernel without waiting; null while it is being made.
     std::optional<Result<KernelPointer>> find_known(const std::string& key) {
         const std::lock_guard lock(mutex_);
         const auto found = known_.find(key);
@@ -159,8 +159,8 @@ private:
         if (known_.size() >= most_known) known_.clear();
     }
 
-    /// What others made or are making of this kernel; or nothing, and `promise` is what others will
-    /// wait for.
+    /// The kernel that another thread has made or is making. If there is none, others wait for
+    /// `promise` from now on.
     std::optional<Compiling> find_or_announce(const std::string& key,
                                               std::promise<Result<KernelPointer>>& promise) {
         const std::lock_guard lock(mutex_);
@@ -191,7 +191,7 @@ private:
         });
     }
 
-    /// Code that an earlier process made; null where there is none.
+    /// Code that an earlier process made; null if there is none.
     std::unique_ptr<LoadedFunction> load_kept(const std::string& file_key) {
         const auto image = cache_.find(file_key);
         if (!image) return nullptr;

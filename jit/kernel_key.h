@@ -9,11 +9,11 @@
 
 namespace cascade {
 
-/// Of the kernel itself (not of its names) and its shape.
+/// The part of a key that a kernel, without its names, and its shape decide.
 std::string kernel_key(const CellKernel& kernel, const KernelShape& shape);
 
-/// Of all else: this build, LLVM, the processor, how much is optimised. Empty where one of them is
-/// not known, so that nothing may be kept for later processes.
+/// The part that all else decides: this build, LLVM, the processor, the optimisation level. Empty
+/// if one of them is not known, so that nothing may be kept for later processes.
 std::string environment_key(int optimise);
 
 }  // namespace cascade

@@ -11,7 +11,7 @@ namespace cascade {
 struct KernelShape {
     Stencil stencil = Stencil::plane;
     int lanes = 16;  ///< Cells per vector: 4, 8 or 16; half as many of kernels of binary64.
-    // What the processor is good at: see tuned() in jit/target_machine.h.
+    // What the processor has and is fast at: see tuned() in jit/target_machine.h.
     bool has_multiply_add = false;  ///< Of one rounding, in one instruction.
     bool is_short_of_loads = false;
     bool has_rounding = false;  ///< To whole numbers, in one instruction.

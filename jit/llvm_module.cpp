@@ -1,4 +1,4 @@
-// The module's one symbol, and the machines that code is made by.
+// The module's one symbol, and the target machines that make code.
 #include "jit/llvm_module.h"
 
 #include "jit/code.h"
@@ -16,10 +16,11 @@ namespace cascade {
 namespace llvm_module {
 namespace {
 
-/// Machines that nobody uses just now. One serves one thread at a time, and making it takes a
-/// part of the time that a kernel takes.
+/// Target machines that are not in use. One serves one thread at a time, and making one takes a
+/// good part of the time that a kernel takes.
 class IdleMachines {
 public:
+    /// Null if there is none of this optimisation level.
     std::unique_ptr<llvm::TargetMachine> take(int optimise) {
         const std::lock_guard lock(mutex_);
         const auto found = std::find_if(machines_.begin(), machines_.end(),
@@ -39,29 +40,29 @@ private:
     std::vector<std::pair<int, std::unique_ptr<llvm::TargetMachine>>> machines_;
 };
 
-IdleMachines& idle_machines() {
-    static IdleMachines machines;
-    return machines;
+Result<CodeImage> compile_on(llvm::TargetMachine& machine, const CellKernel& kernel,
+                             const KernelShape& shape) {
+    constexpr const char* name = "kernel";
+    auto code = make_code(kernel, shape, name, machine);
+    if (!code) return tl::unexpected(code.error());
+    const auto object = generate(*code, machine, CodeForm::object);
+    if (!object) return tl::unexpected(object.error());
+    return link_image({object->data(), object->size()}, name);
 }
 
 }  // namespace
 
 Result<CodeImage> compile(const CellKernel& kernel, const KernelShape& shape, int optimise) {
-    auto machine = idle_machines().take(optimise);
+    static IdleMachines idle;
+    auto machine = idle.take(optimise);
     if (!machine) {
         auto target = choose_target("", {0, optimise});
         if (!target) return tl::unexpected(target.error());
         machine = std::move(target->machine);
     }
-    auto code = make_code(kernel, shape, "kernel", *machine);
-    if (!code) {
-        idle_machines().give_back(optimise, std::move(machine));
-        return tl::unexpected(code.error());
-    }
-    const auto object = generate(*code, *machine, CodeForm::object);
-    idle_machines().give_back(optimise, std::move(machine));
-    if (!object) return tl::unexpected(object.error());
-    return link_image({object->data(), object->size()}, "kernel");
+    auto image = compile_on(*machine, kernel, shape);
+    idle.give_back(optimise, std::move(machine));
+    return image;
 }
 
 std::string describe() {

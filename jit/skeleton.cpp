@@ -1,4 +1,4 @@
-// Row and column loops, loads of own cells and stores.
+// The loops over rows and vectors, loads from the cells themselves, and stores.
 #include "jit/skeleton.h"
 
 namespace cascade {
@@ -27,7 +27,7 @@ void KernelFrame::prefetch(Builder& builder, Value* address) const {
                             {address, word(0), word(3), word(1)});  // To read, to L1, data.
 }
 
-// Loaded once, before the loops. `table` is the number of the argument.
+// `table` is the number of the argument.
 Value* KernelFrame::plane(unsigned table, std::size_t slot) {
     Value*& address = planes_[{table, slot}];
     if (!address) {
@@ -56,7 +56,7 @@ void CarriedVectors::close(llvm::BasicBlock* before, llvm::BasicBlock* latch) {
     }
 }
 
-Value* CellLane::field(std::uint32_t slot) {
+Value* CellSources::field(std::uint32_t slot) {
     Value*& value = loads_[slot];
     if (!value) {
         llvm::Type* number = frame_.number();
@@ -68,7 +68,7 @@ Value* CellLane::field(std::uint32_t slot) {
     return value;
 }
 
-Value* CellLane::mask(std::uint32_t slot) {
+Value* CellSources::mask(std::uint32_t slot) {
     llvm::Type* byte = builder_.getInt8Ty();
     Value* address = builder_.CreateInBoundsGEP(byte, frame_.mask_plane(slot), element_);
     llvm::LoadInst* bytes =
@@ -76,9 +76,9 @@ Value* CellLane::mask(std::uint32_t slot) {
     return builder_.CreateIsNotNull(frame_.aliases().mark(bytes, 0));
 }
 
-Value* CellLane::cell_column() {
+Value* CellSources::cell_column() {
     llvm::Type* word = frame_.word();
-    Value* first = builder_.CreateTrunc(builder_.CreateSub(element_, place_.row_start), word);
+    Value* first = builder_.CreateTrunc(builder_.CreateSub(element_, vector_.row_start), word);
     std::vector<llvm::Constant*> counts;
     for (int lane = 0; lane < frame_.lanes(); ++lane) {
         counts.push_back(llvm::ConstantInt::get(word, static_cast<unsigned>(lane)));
@@ -86,14 +86,14 @@ Value* CellLane::cell_column() {
     return builder_.CreateAdd(frame_.splat(builder_, first), llvm::ConstantVector::get(counts));
 }
 
-void CellLane::store(std::size_t result, Value* number) {
+void CellSources::store(std::size_t result, Value* number) {
     Value* address =
         builder_.CreateInBoundsGEP(frame_.number(), frame_.result_plane(result), element_);
     frame_.aliases().mark(
         builder_.CreateAlignedStore(number, address, alignment(frame_.vector_bytes())), result + 1);
 }
 
-Value* KernelLoops::OuterLane::cell_row() {
+Value* KernelLoops::OuterSources::cell_row() {
     Value* row = row_;
     if (frame_.has_slices()) {
         Value* first = builder_.CreateMul(frame_.slice(), frame_.slice_rows());
@@ -102,104 +102,104 @@ Value* KernelLoops::OuterLane::cell_row() {
     return word(row);
 }
 
-Value* KernelLoops::OuterLane::cell_slice() {
+Value* KernelLoops::OuterSources::cell_slice() {
     return word(frame_.has_slices() ? frame_.slice() : builder_.getInt64(0));
 }
 
-Value* KernelLoops::OuterLane::word(Value* count) {
+Value* KernelLoops::OuterSources::word(Value* count) {
     return frame_.splat(builder_, builder_.CreateTrunc(count, frame_.word()));
 }
 
 KernelLoops::KernelLoops(KernelFrame& frame)
     : frame_(frame),
-      levels_(levels_of(frame.kernel())),
-      lane_(frame, frame.builder(), nullptr),
-      scope_(frame.kernel(), levels_, Level::call, frame.builder(), lane_, frame.shape(), nullptr) {
-    scope_.emit();
+      body_(body_of(frame.kernel(), frame.shape(), frame.builder())),
+      sources_(frame, frame.builder(), nullptr),
+      scope_(body_, LoopLevel::call, frame.builder(), sources_, nullptr) {
+    emit_body(scope_);
 }
 
-void KernelLoops::rows(Builder& place, Cells cells) {
+void KernelLoops::rows(Builder& builder, WriteVector write_vector) {
     llvm::BasicBlock* test = frame_.new_block("rows");
     llvm::BasicBlock* start = frame_.new_block("row");
     llvm::BasicBlock* next = frame_.new_block("row_done");
     llvm::BasicBlock* after = frame_.new_block("rows_done");
-    llvm::BasicBlock* before = place.GetInsertBlock();
-    place.CreateBr(test);
+    llvm::BasicBlock* before = builder.GetInsertBlock();
+    builder.CreateBr(test);
 
-    place.SetInsertPoint(test);
-    // The number of the first row is said at once: LLVM takes a number that comes from nowhere for
-    // not 0.
-    llvm::PHINode* row = place.CreatePHI(place.getInt64Ty(), 2, "row");
+    builder.SetInsertPoint(test);
+    // The first row is added at once: LLVM takes a phi node without incoming values for a number
+    // that is not 0.
+    llvm::PHINode* row = builder.CreatePHI(builder.getInt64Ty(), 2, "row");
     row->addIncoming(frame_.row_begin(), before);
-    place.CreateCondBr(place.CreateICmpSLT(row, frame_.row_end()), start, after);
+    builder.CreateCondBr(builder.CreateICmpSLT(row, frame_.row_end()), start, after);
 
-    place.SetInsertPoint(start);
-    columns(row, place, next, cells);
+    builder.SetInsertPoint(start);
+    columns(row, builder, next, write_vector);
 
-    place.SetInsertPoint(next);
-    Value* below = place.CreateNSWAdd(row, place.getInt64(1));
-    place.CreateBr(test);
+    builder.SetInsertPoint(next);
+    Value* below = builder.CreateNSWAdd(row, builder.getInt64(1));
+    builder.CreateBr(test);
     row->addIncoming(below, next);
-    place.SetInsertPoint(after);
+    builder.SetInsertPoint(after);
 }
 
-// `place` is in the block before the columns, which is where the values of a row go. It stays
-// open while they come: LLVM's folding follows jumps, and cannot bear to find an empty block.
-void KernelLoops::columns(Value* row, Builder& place, llvm::BasicBlock* next, Cells cells) {
-    llvm::BasicBlock* vector = frame_.new_block("cells");
-    Value* start = place.CreateNSWMul(row, frame_.stride(), "row_start");
-    Value* end = place.CreateNSWAdd(start, frame_.width());
-    OuterLane row_lane(frame_, place, row);
-    BodyScope row_scope(frame_.kernel(), levels_, Level::row, place, row_lane, frame_.shape(),
-                        &scope_);
-    row_scope.emit();
+// `outside` writes the values of the row to the block before the loop over its vectors. That block
+// gets its terminator last: values are still added to it while the loop is written, and LLVM's
+// folder, which follows jumps, fails at a block that is empty.
+void KernelLoops::columns(Value* row, Builder& outside, llvm::BasicBlock* next,
+                          WriteVector write_vector) {
+    llvm::BasicBlock* loop = frame_.new_block("cells");
+    Value* start = outside.CreateNSWMul(row, frame_.stride(), "row_start");
+    Value* end = outside.CreateNSWAdd(start, frame_.width());
+    OuterSources row_sources(frame_, outside, row);
+    BodyScope row_scope(body_, LoopLevel::row, outside, row_sources, &scope_);
+    emit_body(row_scope);
 
-    Builder inner(vector, frame_.folder());
+    Builder inner(loop, frame_.folder());
     llvm::PHINode* element = inner.CreatePHI(inner.getInt64Ty(), 2, "element");
-    CarriedVectors carried(*vector, place);
-    cells({row, start, element, &carried}, inner, row_scope);
+    CarriedVectors carried(*loop, outside);
+    write_vector({row, start, element, &carried}, inner, row_scope);
     Value* after = inner.CreateNSWAdd(element, inner.getInt64(frame_.lanes()));
-    inner.CreateCondBr(inner.CreateICmpSLT(after, end), vector, next);
-    element->addIncoming(start, place.GetInsertBlock());
+    inner.CreateCondBr(inner.CreateICmpSLT(after, end), loop, next);
+    element->addIncoming(start, outside.GetInsertBlock());
     element->addIncoming(after, inner.GetInsertBlock());
-    carried.close(place.GetInsertBlock(), inner.GetInsertBlock());
-    place.CreateBr(vector);
+    carried.close(outside.GetInsertBlock(), inner.GetInsertBlock());
+    outside.CreateBr(loop);
 }
 
-void KernelLoops::body(CellLane& lane, Builder& builder, BodyScope& row_scope) {
-    const CellKernel& kernel = frame_.kernel();
-    BodyScope scope(kernel, levels_, Level::cell, builder, lane, frame_.shape(), &row_scope);
-    scope.emit();
-    for (std::size_t result = 0; result < kernel.results.size(); ++result) {
-        lane.store(result, scope.number(kernel.results[result]));
-    }
+void KernelLoops::body(CellSources& cells, Builder& builder, BodyScope& row_scope) {
+    BodyScope scope(body_, LoopLevel::cell, builder, cells, &row_scope);
+    emit_body(scope);
+    const std::vector<ValueId>& results = body_.kernel.results;
+    for (std::size_t k = 0; k < results.size(); ++k) cells.store(k, scope.number(results[k]));
 }
 
 llvm::Function* build_function(
     llvm::Module& module, const CellKernel& kernel, const KernelShape& shape,
-    const std::string& name, llvm::ArrayRef<llvm::Type*> further,
-    llvm::function_ref<void(KernelFrame& frame, KernelLoops& loops, Builder& place)> loops) {
+    const std::string& name, llvm::ArrayRef<llvm::Type*> extra,
+    llvm::function_ref<void(KernelFrame& frame, KernelLoops& loops, Builder& builder)>
+        write_loops) {
     llvm::LLVMContext& context = module.getContext();
     llvm::Type* pointer = llvm::PointerType::getUnqual(context);
     llvm::Type* count = llvm::Type::getInt64Ty(context);
     std::vector<llvm::Type*> arguments{pointer, pointer, pointer, pointer,
                                        count,   count,   count,   count};
-    arguments.insert(arguments.end(), further.begin(), further.end());
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
     auto* type = llvm::FunctionType::get(llvm::Type::getVoidTy(context), arguments, false);
     auto* function = llvm::Function::Create(type, llvm::GlobalValue::ExternalLinkage, name, module);
     function->setDoesNotThrow();
 
-    // What is needed once goes to the end of the first block while the loops after it are built;
-    // like all blocks that are written to, it is closed last.
+    // What is computed once goes to the end of the first block while the loops after it are built,
+    // so that block gets its terminator last.
     llvm::BasicBlock* entry = llvm::BasicBlock::Create(context, "entry", function);
     llvm::BasicBlock* begin = llvm::BasicBlock::Create(context, "begin", function);
     const llvm::InstSimplifyFolder folder(module.getDataLayout());
     Builder entry_builder(entry, folder);
     KernelFrame frame(*function, kernel, shape, entry_builder);
-    KernelLoops kernel_loops(frame);
+    KernelLoops loops(frame);
 
     Builder builder(begin, folder);
-    loops(frame, kernel_loops, builder);
+    write_loops(frame, loops, builder);
     entry_builder.CreateBr(begin);
     return function;
 }

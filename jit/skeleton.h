@@ -1,9 +1,9 @@
 // What the functions of all kernels have in common: their arguments, the loops over rows and over
-// the vectors of a row, loads of own cells and stores. What cells read of others is the lanes' of
-// skeleton_grid.cpp and skeleton_linked.cpp.
+// the vectors of a row, loads from the cells themselves, and stores. What a cell reads of other
+// cells is in skeleton_grid.cpp and skeleton_linked.cpp.
 //
-// Internal to jit/*.cpp. All functions begin with these arguments, of kernels of binary64 with
-// double for float:
+// Internal to jit/*.cpp. The first arguments of all functions (double for float in kernels of
+// binary64):
 //
 //     const float *const *fields, const unsigned char *const *masks,
 //     const float *uniforms, float *const *results,
@@ -33,10 +33,10 @@ inline llvm::Align alignment(int bytes) { return llvm::Align(static_cast<std::ui
 
 constexpr int cache_line = 64;  ///< Bytes.
 
-/// What all rows and vectors share: the arguments, the planes' addresses and the way to reach them.
+/// What all rows and vectors share: the arguments and the addresses of planes.
 class KernelFrame {
 public:
-    /// `builder` writes before the loops.
+    /// `builder` writes to the block before the loops.
     KernelFrame(llvm::Function& function, const CellKernel& kernel, const KernelShape& shape,
                 Builder& builder)
         : function_(function),
@@ -61,15 +61,15 @@ public:
     llvm::Value* stride() { return function_.getArg(5); }
     llvm::Value* row_begin() { return function_.getArg(6); }
     llvm::Value* row_end() { return function_.getArg(7); }
-    /// One of those after the arguments that all functions have, from 0 on.
-    llvm::Value* further_argument(unsigned number) {
+    /// An argument after those that all functions have, counted from 0.
+    llvm::Value* extra_argument(unsigned number) {
         return function_.getArg(shared_arguments + number);
     }
     // Of grids (skeleton_grid.h).
-    llvm::Value* is_near() { return further_argument(0); }
+    llvm::Value* is_near() { return extra_argument(0); }
     bool has_slices() const { return stencil().z; }
-    llvm::Value* slice_rows() { return further_argument(1); }
-    llvm::Value* slice() { return further_argument(2); }
+    llvm::Value* slice_rows() { return extra_argument(1); }
+    llvm::Value* slice() { return extra_argument(2); }
 
     // Addresses of planes, loaded once.
     llvm::Value* field_plane(std::size_t slot) { return plane(0, slot); }
@@ -83,14 +83,15 @@ public:
         return builder.CreateVectorSplat(static_cast<unsigned>(lanes()), element);
     }
 
-    /// Says that no result is written to the field that is read, where that is so.
+    /// Tells LLVM that no result is written to the field that is read, where that is so.
     template <typename Load>
     Load* mark(Load* load, std::uint32_t slot) const {
         return kernel_.reads_neighbours(slot) ? aliases_.mark(load, 0) : load;
     }
 
     llvm::Value* uniform(std::size_t slot);
-    /// A variable of the module that nobody changes; the code generator does not know that.
+    /// A constant that is loaded from a variable of the module: LLVM does not know that nobody
+    /// writes to it.
     llvm::Value* hidden(std::uint64_t word);
 
     /// Asks for a cache line that will be read. Any address will do: a prefetch never faults.
@@ -116,21 +117,21 @@ private:
     std::map<std::pair<unsigned, std::size_t>, llvm::Value*> planes_;
 };
 
-/// Where the cells of a vector lie. All planes share one layout, so an element number serves them
-/// all: an access is a plane's address plus this number, which is an addressing mode of the
-/// processor.
-struct VectorPlace {
+/// The vector of cells that one execution of the innermost loop computes. All planes share one
+/// layout, so an element number serves them all: an access is a plane's address plus this number,
+/// which is an addressing mode of the processor.
+struct CellVector {
     llvm::Value* row = nullptr;         ///< Its number.
-    llvm::Value* row_start = nullptr;   ///< Element number of its first cell.
-    llvm::Value* element = nullptr;     ///< Of the vector's first cell.
-    CarriedVectors* carried = nullptr;  ///< Between this vector and the next.
+    llvm::Value* row_start = nullptr;   ///< Element number of the row's first cell.
+    llvm::Value* element = nullptr;     ///< Element number of the vector's first cell.
+    CarriedVectors* carried = nullptr;  ///< From this vector to the next.
 };
 
-/// The vector of cells of one execution of the innermost loop: what its own cells hold.
-class CellLane : public Lane {
+/// What the cells of a vector read of themselves, and their results.
+class CellSources : public Sources {
 public:
-    CellLane(KernelFrame& frame, Builder& builder, const VectorPlace& place)
-        : frame_(frame), builder_(builder), place_(place), element_(opaque(place.element)) {}
+    CellSources(KernelFrame& frame, Builder& builder, const CellVector& vector)
+        : frame_(frame), builder_(builder), vector_(vector), element_(opaque(vector.element)) {}
 
     llvm::Value* field(std::uint32_t slot) override;
     llvm::Value* mask(std::uint32_t slot) override;
@@ -138,40 +139,39 @@ public:
     void store(std::size_t result, llvm::Value* number);
 
 protected:
-    // Hides from LLVM's strength reduction how an element number came about. It would replace base
-    // plus number by one pointer for each plane and row, run out of registers and load the pointers
-    // from the stack again and again (1.2 to 1.5 times slower with five species).
+    // Hides from LLVM's strength reduction how an element number was computed. It would replace
+    // base plus number by one pointer for each plane and row, run out of registers and load the
+    // pointers from the stack again and again (1.2 to 1.5 times slower with five species).
     llvm::Value* opaque(llvm::Value* element) { return builder_.CreateFreeze(element); }
 
     KernelFrame& frame_;
     Builder& builder_;
-    VectorPlace place_;
-    llvm::Value* element_;  ///< Of the vector's first cell.
+    CellVector vector_;
+    llvm::Value* element_;  ///< The vector's, made opaque.
 
 private:
     std::map<std::uint32_t, llvm::Value*> loads_;
 };
 
-/// Builds loops around the bodies of cells.
+/// Builds the loops around the body of a kernel.
 class KernelLoops {
 public:
-    /// The vector at a place: makes a lane, emits the body, and leaves `builder` in an open block.
-    using Cells =
-        llvm::function_ref<void(const VectorPlace& place, Builder& builder, BodyScope& row_scope)>;
+    /// Writes what is computed for a vector. `builder` is left in a block without a terminator.
+    using WriteVector =
+        llvm::function_ref<void(const CellVector& vector, Builder& builder, BodyScope& row_scope)>;
 
     explicit KernelLoops(KernelFrame& frame);
 
-    /// All rows, one after the other. The code begins where `place` writes and leaves it after
-    /// the loop.
-    void rows(Builder& place, Cells cells);
-    /// All values of the cells, and their results stored.
-    void body(CellLane& lane, Builder& builder, BodyScope& row_scope);
+    /// A loop over all rows. It begins where `builder` writes, which goes on after it.
+    void rows(Builder& builder, WriteVector write_vector);
+    /// All values of a vector of cells, and the stores of its results.
+    void body(CellSources& cells, Builder& builder, BodyScope& row_scope);
 
 private:
-    /// What the cells of a call and of a row have in common.
-    class OuterLane final : public Lane {
+    /// What all cells of a call, or of a row, have in common.
+    class OuterSources final : public Sources {
     public:
-        OuterLane(KernelFrame& frame, Builder& builder, llvm::Value* row)
+        OuterSources(KernelFrame& frame, Builder& builder, llvm::Value* row)
             : frame_(frame), builder_(builder), row_(row) {}
 
         llvm::Value* uniform(std::uint32_t slot) override { return frame_.uniform(slot); }
@@ -184,22 +184,24 @@ private:
 
         KernelFrame& frame_;
         Builder& builder_;
-        llvm::Value* row_;  ///< Null before the rows.
+        llvm::Value* row_;  ///< Null before the loops.
     };
 
-    void columns(llvm::Value* row, Builder& place, llvm::BasicBlock* next, Cells cells);
+    void columns(llvm::Value* row, Builder& outside, llvm::BasicBlock* next,
+                 WriteVector write_vector);
 
     KernelFrame& frame_;
-    std::vector<Level> levels_;
-    OuterLane lane_;
+    Body body_;
+    OuterSources sources_;
     BodyScope scope_;
 };
 
-/// Adds a function to `module`, whose data layout is already that of the target: the arguments that
-/// all have and `further` ones, and what `loops` writes, which ends with a return.
+/// Adds a function to `module`, whose data layout is already that of the target. It has the
+/// arguments that all functions have, those of the types `extra`, and what `write_loops` writes,
+/// which ends with a return.
 llvm::Function* build_function(
     llvm::Module& module, const CellKernel& kernel, const KernelShape& shape,
-    const std::string& name, llvm::ArrayRef<llvm::Type*> further,
-    llvm::function_ref<void(KernelFrame& frame, KernelLoops& loops, Builder& place)> loops);
+    const std::string& name, llvm::ArrayRef<llvm::Type*> extra,
+    llvm::function_ref<void(KernelFrame& frame, KernelLoops& loops, Builder& builder)> write_loops);
 
 }  // namespace cascade

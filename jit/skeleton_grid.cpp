@@ -17,57 +17,57 @@ namespace {
 
 using llvm::Value;
 
-// Rows of at least this width are computed while the rows after them are prefetched. On narrower
-// ones the processor sees far enough ahead by itself, and prefetching costs 5 to 10 %. Vectors of
-// half a cache line prefetch each line twice, which pays only for planes that leave the caches.
+// While a row of at least this width is computed, the next one is prefetched. On narrower rows the
+// processor looks far enough ahead by itself, and prefetching costs 5 to 10 %. Vectors of half a
+// cache line prefetch each line twice, which pays only for planes that do not fit into the caches.
 std::int64_t least_width_to_prefetch(int vector_bytes) {
     return vector_bytes == cache_line ? 128 : 1024;
 }
 
-// Kernels up to this size get a loop without prefetching, for narrow planes and for what is in a
-// near cache; in larger ones the prefetches cost nothing that could be noticed, and compiling the
-// loop twice would.
+// Kernels up to this size get a second loop without prefetching, for narrow planes and for fields
+// in a near cache. In larger kernels prefetches cost nothing that could be measured, while
+// compiling the loop twice would take time.
 constexpr std::size_t largest_twofold_kernel = 64;
 
-/// Elements from a row to others, computed once.
-class RowSteps {
+/// Numbers of elements from a row to other rows, computed once.
+class RowOffsets {
 public:
-    explicit RowSteps(KernelFrame& frame) : frame_(frame) {}
+    explicit RowOffsets(KernelFrame& frame) : frame_(frame) {}
 
     /// To the row that is `rows` rows and `slices` slices away.
     Value* to(int rows, int slices) {
-        Value*& step = steps_[{rows, slices}];
-        if (!step) {
+        Value*& offset = offsets_[{rows, slices}];
+        if (!offset) {
             Builder& builder = frame_.builder();
             Value* count = builder.getInt64(rows);
             if (slices != 0) {
                 Value* across = builder.CreateMul(frame_.slice_rows(), builder.getInt64(slices));
                 count = builder.CreateAdd(across, count);
             }
-            step = builder.CreateMul(frame_.stride(), count);
+            offset = builder.CreateMul(frame_.stride(), count);
         }
-        return step;
+        return offset;
     }
 
-    /// To the row that is `rows` rows below; to the own one where what is there is near already,
-    /// for fetching it would drive out what is to be read sooner.
+    /// To the row that is `rows` rows below, if the fields are not in a near cache; else 0, since
+    /// what is fetched would drive out what is read sooner.
     Value* ahead(int rows) {
-        Value*& step = ahead_[rows];
-        if (!step) {
+        Value*& offset = ahead_[rows];
+        if (!offset) {
             Builder& builder = frame_.builder();
             Value* is_far = builder.CreateICmpEQ(frame_.is_near(), builder.getInt64(0));
-            step = builder.CreateSelect(is_far, to(rows, 0), builder.getInt64(0));
+            offset = builder.CreateSelect(is_far, to(rows, 0), builder.getInt64(0));
         }
-        return step;
+        return offset;
     }
 
 private:
     KernelFrame& frame_;
-    std::map<std::pair<int, int>, Value*> steps_;
+    std::map<std::pair<int, int>, Value*> offsets_;
     std::map<int, Value*> ahead_;
 };
 
-/// What a vector of cells reads: a field, and how many rows, columns and slices away.
+/// What a vector of cells reads: a field, and the numbers of rows, columns and slices to it.
 using Reading = std::tuple<std::uint32_t, int, int, int>;
 
 /// All that a kernel reads, each once.
@@ -93,16 +93,16 @@ std::set<Reading> readings_of(const CellKernel& kernel, Stencil stencil) {
     return readings;
 }
 
-// Kernels of more operations than this for each vector that they read have time for their loads:
+// Kernels with more operations than this for each vector that they read have time for their loads:
 // with 4.4 (chemotaxis) shifting cost 3 %, with 3 and fewer it saves 2 to 8 %.
 constexpr std::size_t most_operations_a_load = 4;
 
-// Each takes a register from the loop.
+// Each takes one register of the loop.
 constexpr std::size_t most_shifted_fields = 8;
 
-/// The fields whose eastern neighbours are shifted together from the own vector and the next one,
-/// which the loop then has already when it comes there. The western ones are loaded: shifted as
-/// well, they would take the time of two more operations from the same units that compute.
+/// The fields whose eastern neighbours are shifted together from this vector and the next one,
+/// which stays in a register until the loop comes there. The western neighbours are loaded:
+/// shifting them, too, would take two more operations of the units that compute.
 std::set<std::uint32_t> shifted_fields(const KernelFrame& frame) {
     std::set<std::uint32_t> fields;
     if (!frame.shape().is_short_of_loads || frame.vector_bytes() != cache_line) return fields;
@@ -125,11 +125,12 @@ std::set<std::uint32_t> shifted_fields(const KernelFrame& frame) {
 /// What a loop over rows fetches for the next one.
 enum class Fetching { nothing, ahead, unless_near };
 
-class GridLane final : public CellLane {
+/// What cells of a grid read.
+class GridSources final : public CellSources {
 public:
-    GridLane(KernelFrame& frame, Builder& builder, const VectorPlace& place, RowSteps& steps,
-             const std::set<std::uint32_t>& shifted)
-        : CellLane(frame, builder, place), steps_(steps), shifted_(shifted) {
+    GridSources(KernelFrame& frame, Builder& builder, const CellVector& vector, RowOffsets& offsets,
+                const std::set<std::uint32_t>& shifted)
+        : CellSources(frame, builder, vector), offsets_(offsets), shifted_(shifted) {
         elements_[{0, 0}] = element_;
     }
 
@@ -141,7 +142,7 @@ public:
 private:
     Value* element(int row, int slice = 0) {
         Value*& moved = elements_[{row, slice}];
-        if (!moved) moved = opaque(builder_.CreateAdd(element_, steps_.to(row, slice)));
+        if (!moved) moved = opaque(builder_.CreateAdd(element_, offsets_.to(row, slice)));
         return moved;
     }
 
@@ -150,38 +151,38 @@ private:
     Value* east(std::uint32_t slot);
     Value* without_own(Value* sum, Value* own);
 
-    RowSteps& steps_;
+    RowOffsets& offsets_;
     const std::set<std::uint32_t>& shifted_;
-    std::map<std::uint32_t, Value*> carried_;  ///< Own vectors of shifted fields.
+    std::map<std::uint32_t, Value*> carried_;  ///< Of shifted fields: what the cells hold.
     /// By row and slice, counted from the vector's own.
     std::map<std::pair<int, int>, Value*> elements_;
     std::map<Reading, Value*> loads_;
     std::map<int, Value*> fetched_;  ///< By row, unless near.
 };
 
-Value* GridLane::load(Builder& builder, std::uint32_t slot, Value* element, int column) const {
+Value* GridSources::load(Builder& builder, std::uint32_t slot, Value* element, int column) const {
     llvm::Type* number = frame_.number();
-    Value* place = builder.CreateAdd(element, builder.getInt64(column));
-    Value* address = builder.CreateInBoundsGEP(number, frame_.field_plane(slot), place);
+    Value* beside = builder.CreateAdd(element, builder.getInt64(column));
+    Value* address = builder.CreateInBoundsGEP(number, frame_.field_plane(slot), beside);
     const bool is_aligned = column % frame_.lanes() == 0;
     const int bytes = is_aligned ? frame_.vector_bytes() : frame_.number_bytes();
     return frame_.mark(
         builder.CreateAlignedLoad(frame_.vector_of(number), address, alignment(bytes)), slot);
 }
 
-Value* GridLane::field(std::uint32_t slot) {
-    if (!shifted_.contains(slot)) return CellLane::field(slot);
+Value* GridSources::field(std::uint32_t slot) {
+    if (!shifted_.contains(slot)) return CellSources::field(slot);
     Value*& own = carried_[slot];
     if (!own) {
-        own = place_.carried->take(slot, [&](Builder& outside) {
-            return load(outside, slot, place_.row_start, 0);
+        own = vector_.carried->take(slot, [&](Builder& outside) {
+            return load(outside, slot, vector_.row_start, 0);
         });
-        place_.carried->give(slot, load(builder_, slot, element_, frame_.lanes()));
+        vector_.carried->give(slot, load(builder_, slot, element_, frame_.lanes()));
     }
     return own;
 }
 
-Value* GridLane::beside(std::uint32_t slot, int row, int column, int slice) {
+Value* GridSources::beside(std::uint32_t slot, int row, int column, int slice) {
     if (row == 0 && column == 0 && slice == 0) return field(slot);
     Value*& value = loads_[{slot, row, column, slice}];
     if (!value) {
@@ -193,15 +194,15 @@ Value* GridLane::beside(std::uint32_t slot, int row, int column, int slice) {
     return value;
 }
 
-Value* GridLane::east(std::uint32_t slot) {
+Value* GridSources::east(std::uint32_t slot) {
     Value* own = field(slot);
     llvm::SmallVector<int, 16> lanes;
     for (int lane = 1; lane <= frame_.lanes(); ++lane) lanes.push_back(lane);
-    return builder_.CreateShuffleVector(own, place_.carried->given(slot), lanes);
+    return builder_.CreateShuffleVector(own, vector_.carried->given(slot), lanes);
 }
 
 // The order of the sums is the specification's: ((((N + S) + E) + W) + U) + D.
-Value* GridLane::laplacian(std::uint32_t slot) {
+Value* GridSources::laplacian(std::uint32_t slot) {
     const Stencil stencil = frame_.stencil();
     Value* sum = nullptr;
     const auto add = [&](Value* number) { sum = sum ? builder_.CreateFAdd(sum, number) : number; };
@@ -220,10 +221,10 @@ Value* GridLane::laplacian(std::uint32_t slot) {
     return without_own(sum, field(slot));
 }
 
-// The sum minus 2, 4 or 6 times the own value. 2 and 4 times a number are exact but for overflow,
-// so that one rounding is as good as two; the specification has one, and gives numbers whose
-// fourfold would overflow the same way on all processors. Sixfold is rounded.
-Value* GridLane::without_own(Value* sum, Value* own) {
+// The sum minus 2, 4 or 6 times the cell's own value. 2 and 4 times a number are exact but for
+// overflow, so one rounding gives the same as two; the specification asks for one, also where the
+// multiple overflows, so that all processors agree. 6 times a number is rounded.
+Value* GridSources::without_own(Value* sum, Value* own) {
     llvm::Type* type = own->getType();
     const auto number = [&](double value) { return llvm::ConstantFP::get(type, value); };
     const double count = 2.0 * frame_.stencil().axes();
@@ -243,62 +244,62 @@ Value* GridLane::without_own(Value* sum, Value* own) {
                                  builder_.CreateFMul(part, number(count)), subtract());
 }
 
-Value* GridLane::neighbour(Neighbour at) {
+Value* GridSources::neighbour(Neighbour at) {
     const Stencil stencil = frame_.stencil();
     return beside(at.slot, stencil.y ? at.dy : 0, stencil.x ? at.dx : 0, stencil.z ? at.dz : 0);
 }
 
-// The place may lie after the plane.
-void GridLane::prefetch(std::uint32_t slot, int rows, Fetching fetching) {
-    Value* place = nullptr;
+// The address may lie beyond the plane.
+void GridSources::prefetch(std::uint32_t slot, int rows, Fetching fetching) {
+    Value* ahead = nullptr;
     if (fetching == Fetching::ahead) {
-        place = element(rows);
+        ahead = element(rows);
     } else {
         Value*& fetched = fetched_[rows];
-        if (!fetched) fetched = opaque(builder_.CreateAdd(element_, steps_.ahead(rows)));
-        place = fetched;
+        if (!fetched) fetched = opaque(builder_.CreateAdd(element_, offsets_.ahead(rows)));
+        ahead = fetched;
     }
-    frame_.prefetch(builder_, builder_.CreateGEP(frame_.number(), frame_.field_plane(slot), place));
+    frame_.prefetch(builder_, builder_.CreateGEP(frame_.number(), frame_.field_plane(slot), ahead));
 }
 
-/// All rows, with or without what the next row will be the first to touch: its own cells, or those
-/// below it.
-void build_rows(KernelFrame& frame, KernelLoops& loops, RowSteps& steps,
-                const std::set<std::uint32_t>& shifted, Fetching fetching, Builder& place) {
+/// All rows, with or without prefetches of what the next row will be the first to read: its own
+/// cells, or, of fields that are read at neighbours, those below it.
+void build_rows(KernelFrame& frame, KernelLoops& loops, RowOffsets& offsets,
+                const std::set<std::uint32_t>& shifted, Fetching fetching, Builder& builder) {
     const CellKernel& kernel = frame.kernel();
-    loops.rows(place, [&](const VectorPlace& at, Builder& builder, BodyScope& row_scope) {
-        GridLane lane(frame, builder, at, steps, shifted);
-        loops.body(lane, builder, row_scope);
+    loops.rows(builder, [&](const CellVector& vector, Builder& inner, BodyScope& row_scope) {
+        GridSources cells(frame, inner, vector, offsets, shifted);
+        loops.body(cells, inner, row_scope);
         if (fetching == Fetching::nothing) return;
         for (std::uint32_t slot = 0; slot < kernel.field_names.size(); ++slot) {
-            lane.prefetch(slot, kernel.reads_neighbours(slot) ? 2 : 1, fetching);
+            cells.prefetch(slot, kernel.reads_neighbours(slot) ? 2 : 1, fetching);
         }
     });
-    place.CreateRetVoid();
+    builder.CreateRetVoid();
 }
 
-/// Writes the loops where `place` is, one or two ways.
-void build_loops(KernelFrame& frame, KernelLoops& loops, Builder& place) {
-    RowSteps steps(frame);
+/// The loops, once or twice.
+void build_loops(KernelFrame& frame, KernelLoops& loops, Builder& builder) {
+    RowOffsets offsets(frame);
     const std::set<std::uint32_t> shifted = shifted_fields(frame);
     const int bytes = frame.vector_bytes();
     const bool may_prefetch = frame.stencil().x && frame.stencil().y && bytes >= cache_line / 2;
     if (!may_prefetch || frame.kernel().code.size() > largest_twofold_kernel) {
         const bool prefetch = may_prefetch && bytes == cache_line;
-        build_rows(frame, loops, steps, shifted,
-                   prefetch ? Fetching::unless_near : Fetching::nothing, place);
+        build_rows(frame, loops, offsets, shifted,
+                   prefetch ? Fetching::unless_near : Fetching::nothing, builder);
         return;
     }
     llvm::BasicBlock* wide = frame.new_block("wide");
     llvm::BasicBlock* narrow = frame.new_block("narrow");
-    Value* least = place.getInt64(least_width_to_prefetch(bytes));
-    Value* is_far = place.CreateICmpEQ(frame.is_near(), place.getInt64(0));
-    place.CreateCondBr(place.CreateAnd(place.CreateICmpSGE(frame.width(), least), is_far), wide,
-                       narrow);
+    Value* least = builder.getInt64(least_width_to_prefetch(bytes));
+    Value* is_far = builder.CreateICmpEQ(frame.is_near(), builder.getInt64(0));
+    builder.CreateCondBr(builder.CreateAnd(builder.CreateICmpSGE(frame.width(), least), is_far),
+                         wide, narrow);
     for (llvm::BasicBlock* block : {wide, narrow}) {
-        place.SetInsertPoint(block);
-        build_rows(frame, loops, steps, shifted,
-                   block == wide ? Fetching::ahead : Fetching::nothing, place);
+        builder.SetInsertPoint(block);
+        build_rows(frame, loops, offsets, shifted,
+                   block == wide ? Fetching::ahead : Fetching::nothing, builder);
     }
 }
 
@@ -306,9 +307,9 @@ void build_loops(KernelFrame& frame, KernelLoops& loops, Builder& place) {
 
 llvm::Function* build_grid_function(llvm::Module& module, const CellKernel& kernel,
                                     const KernelShape& shape, const std::string& name) {
-    const std::vector<llvm::Type*> further(shape.stencil.z ? 3 : 1,
-                                           llvm::Type::getInt64Ty(module.getContext()));
-    return build_function(module, kernel, shape, name, further, build_loops);
+    const std::vector<llvm::Type*> extra(shape.stencil.z ? 3 : 1,
+                                         llvm::Type::getInt64Ty(module.getContext()));
+    return build_function(module, kernel, shape, name, extra, build_loops);
 }
 
 }  // namespace cascade

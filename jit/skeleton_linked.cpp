@@ -21,7 +21,7 @@ using llvm::Value;
 using SumKey = std::pair<Op, std::uint64_t>;
 SumKey key_of(const Instruction& instruction) { return {instruction.op, instruction.payload}; }
 
-/// Where the arrays of a LinkTable stand among the further arguments.
+/// Where the arrays of a LinkTable stand among the extra arguments.
 enum Array : unsigned { starts, targets, weights, gradient_x, gradient_y, gradient_z, array_count };
 
 /// What a sum multiplies the differences by.
@@ -40,7 +40,7 @@ constexpr auto slice_cells = static_cast<std::uint64_t>(LinkTable<float>::slice_
 class LinkEntry {
 public:
     /// `link` is the number of the vector's first link; `cells` have loaded their own values.
-    LinkEntry(KernelFrame& frame, Builder& builder, Value* link, CellLane& cells)
+    LinkEntry(KernelFrame& frame, Builder& builder, Value* link, CellSources& cells)
         : frame_(frame), builder_(builder), link_(link), cells_(cells) {}
 
     /// What it adds to a sum.
@@ -55,14 +55,14 @@ private:
     void load_targets();
     Value* numbers(unsigned array);
     Value* address(unsigned array, llvm::Type* element, int lane = 0) {
-        Value* place = builder_.CreateAdd(link_, builder_.getInt64(lane));
-        return builder_.CreateInBoundsGEP(element, frame_.further_argument(array), place);
+        Value* link = builder_.CreateAdd(link_, builder_.getInt64(lane));
+        return builder_.CreateInBoundsGEP(element, frame_.extra_argument(array), link);
     }
 
     KernelFrame& frame_;
     Builder& builder_;
     Value* link_;
-    CellLane& cells_;
+    CellSources& cells_;
     std::map<unsigned, Value*> numbers_;                    ///< By array.
     std::map<std::uint32_t, Value*> fields_, differences_;  ///< By slot.
     std::vector<Value*> targets_;                           ///< By lane.
@@ -109,25 +109,24 @@ Value* LinkEntry::at_targets(std::uint32_t slot) {
     if (targets_.empty()) load_targets();
     value = llvm::PoisonValue::get(frame_.vector_of(frame_.number()));
     for (std::size_t lane = 0; lane < targets_.size(); ++lane) {
-        Value* place =
+        Value* address =
             builder_.CreateInBoundsGEP(frame_.number(), frame_.field_plane(slot), targets_[lane]);
         llvm::LoadInst* load =
-            builder_.CreateAlignedLoad(frame_.number(), place, alignment(frame_.number_bytes()));
+            builder_.CreateAlignedLoad(frame_.number(), address, alignment(frame_.number_bytes()));
         value = builder_.CreateInsertElement(value, frame_.aliases().mark(load, 0), lane);
     }
     return value;
 }
 
-// Links are the most of what a step reads: a million cells take 0.91 to 0.96 of the time, cells
-// that fit into the cache the same. The place may lie after the arrays.
+// Most of what a step reads are links: with prefetches a million cells take 0.91 to 0.96 of the
+// time, cells that fit into the cache the same. The addresses may lie beyond the arrays.
 void LinkEntry::prefetch_ahead() {
     constexpr int entries = 16;
     const auto prefetch = [&](unsigned array, llvm::Type* element) {
-        Value* place =
+        Value* link =
             builder_.CreateAdd(link_,
                                builder_.getInt64(entries * static_cast<std::int64_t>(slice_cells)));
-        frame_.prefetch(builder_,
-                        builder_.CreateGEP(element, frame_.further_argument(array), place));
+        frame_.prefetch(builder_, builder_.CreateGEP(element, frame_.extra_argument(array), link));
     };
     prefetch(targets, builder_.getInt32Ty());
     for (const auto& [array, value] : numbers_) prefetch(array, frame_.number());
@@ -144,10 +143,11 @@ Value* LinkEntry::numbers(unsigned array) {
     return value;
 }
 
-class LinkedLane final : public CellLane {
+/// What linked cells read.
+class LinkedSources final : public CellSources {
 public:
-    LinkedLane(KernelFrame& frame, Builder& builder, const VectorPlace& place)
-        : CellLane(frame, builder, place) {
+    LinkedSources(KernelFrame& frame, Builder& builder, const CellVector& vector)
+        : CellSources(frame, builder, vector) {
         for (const Instruction& instruction : frame.kernel().code) {
             if (is_link_sum(instruction.op)) sums_.emplace(key_of(instruction), nullptr);
         }
@@ -166,7 +166,7 @@ private:
 };
 
 /// Loads what the loop needs of the cells themselves before it.
-void LinkedLane::load_own() {
+void LinkedSources::load_own() {
     for (const auto& [key, value] : sums_) {
         const Flow flow = Flow::with(key.second);
         field(flow.of);
@@ -175,9 +175,9 @@ void LinkedLane::load_own() {
 }
 
 /// The number of the first link of a slice.
-Value* LinkedLane::start_of(Value* slice) {
+Value* LinkedSources::start_of(Value* slice) {
     llvm::Type* index = builder_.getInt32Ty();
-    Value* address = builder_.CreateInBoundsGEP(index, frame_.further_argument(starts), slice);
+    Value* address = builder_.CreateInBoundsGEP(index, frame_.extra_argument(starts), slice);
     llvm::LoadInst* entry =
         frame_.aliases().mark(builder_.CreateAlignedLoad(index, address, alignment(4)), 0);
     return builder_.CreateMul(builder_.CreateZExt(entry, builder_.getInt64Ty()),
@@ -185,13 +185,13 @@ Value* LinkedLane::start_of(Value* slice) {
 }
 
 /// Writes the loop, and goes on after it. A slice may have no entries.
-void LinkedLane::add_up() {
+void LinkedSources::add_up() {
     load_own();
     const auto count = [&](std::uint64_t number) { return builder_.getInt64(number); };
     Value* slices = builder_.CreateUDiv(builder_.CreateAdd(frame_.width(), count(slice_cells - 1)),
                                         count(slice_cells));
-    Value* column = builder_.CreateSub(element_, place_.row_start);
-    Value* slice = builder_.CreateAdd(builder_.CreateMul(place_.row, slices),
+    Value* column = builder_.CreateSub(element_, vector_.row_start);
+    Value* slice = builder_.CreateAdd(builder_.CreateMul(vector_.row, slices),
                                       builder_.CreateUDiv(column, count(slice_cells)));
     Value* lane = builder_.CreateAnd(column, count(slice_cells - 1));
     Value* first = builder_.CreateAdd(start_of(slice), lane);
@@ -233,16 +233,16 @@ void LinkedLane::add_up() {
 
 llvm::Function* build_linked_function(llvm::Module& module, const CellKernel& kernel,
                                       const KernelShape& shape, const std::string& name) {
-    const std::vector<llvm::Type*> further(array_count,
-                                           llvm::PointerType::getUnqual(module.getContext()));
-    return build_function(module, kernel, shape, name, further,
-                          [](KernelFrame& frame, KernelLoops& loops, Builder& place) {
-                              loops.rows(place, [&](const VectorPlace& at, Builder& builder,
-                                                    BodyScope& row_scope) {
-                                  LinkedLane lane(frame, builder, at);
-                                  loops.body(lane, builder, row_scope);
+    const std::vector<llvm::Type*> extra(array_count,
+                                         llvm::PointerType::getUnqual(module.getContext()));
+    return build_function(module, kernel, shape, name, extra,
+                          [](KernelFrame& frame, KernelLoops& loops, Builder& builder) {
+                              loops.rows(builder, [&](const CellVector& vector, Builder& inner,
+                                                      BodyScope& row_scope) {
+                                  LinkedSources cells(frame, inner, vector);
+                                  loops.body(cells, inner, row_scope);
                               });
-                              place.CreateRetVoid();
+                              builder.CreateRetVoid();
                           });
 }
 

@@ -15,15 +15,15 @@
 
 namespace cascade {
 
-/// A machine and how many cells its vectors hold.
+/// A target machine and the number of cells in its vectors.
 struct TargetChoice {
     std::unique_ptr<llvm::TargetMachine> machine;
     int lanes = 0;
 };
 
-/// The machine for a CPU of this machine's architecture, by LLVM's name for it; "" is the host with
-/// all its features. Lanes are as asked for, or as wide as the CPU has them. Options are in
-/// range; fails on a CPU that LLVM does not know.
+/// The target machine for a CPU of the host's architecture, by LLVM's name; "" is the host with all
+/// its features. The number of lanes is the one that `options` asks for, or that of the CPU's
+/// widest vectors. Options are in range; fails on a CPU that LLVM does not know.
 Result<TargetChoice> choose_target(const std::string& cpu, const JitOptions& options);
 
 /// Floats in the widest vector that this CPU computes with: 4, 8 or 16.
@@ -32,18 +32,18 @@ int widest_lanes(const llvm::TargetMachine& machine);
 /// Whether a * b + c with one rounding is an instruction.
 bool has_multiply_add(const llvm::TargetMachine& machine);
 
-/// Whether shifting two vectors together costs less than a load that lies across two cache lines.
+/// Whether shifting two vectors together costs less than a load across two cache lines.
 /// Zen 4 loads 64 bytes a cycle and 32 a cycle across lines, while it shifts and computes 64.
 bool is_short_of_loads(const llvm::TargetMachine& machine);
 
 /// Whether rounding to whole numbers, ties to even, is an instruction.
 bool has_rounding(const llvm::TargetMachine& machine);
 
-/// The same shape with what this processor is good at.
+/// The same shape with what this processor has and is fast at.
 KernelShape tuned(KernelShape shape, const llvm::TargetMachine& machine);
 
-/// Sets what a function must say for the processor's features to be used, and for the arithmetic
-/// of the specification: strict, with denormals flushed to zero of the same sign.
+/// Sets the attributes by which LLVM uses the processor's features, and the arithmetic of the
+/// specification: strict, with denormals flushed to zero of the same sign.
 void set_target(llvm::Function& function, const llvm::TargetMachine& machine, int vector_bytes);
 
 /// Name of the host's CPU as LLVM knows it.

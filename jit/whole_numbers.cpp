@@ -1,54 +1,67 @@
-// Rounding to whole numbers and scaling by powers of two: instructions where the processor has
-// them, and the sequences of ir/word_operations.h elsewhere, with the same bits.
-#include "jit/emit_body.h"
+// Rounding to whole numbers, and scaling by powers of two.
+#include "jit/whole_numbers.h"
 
 #include <llvm/IR/IntrinsicsX86.h>
 
 #include <cmath>
 
 namespace cascade {
+namespace {
 
-llvm::Value* BodyScope::rounded_to_even(ValueId a) {
-    if (shape_.has_rounding) {
-        return builder_.CreateUnaryIntrinsic(llvm::Intrinsic::roundeven, operand(a));
+/// In all lanes, with the rounding of the environment.
+llvm::Value* scaled_by_instruction(BodyScope& scope, llvm::Value* a, llvm::Value* b) {
+    const Body& body = scope.body();
+    Builder& builder = scope.builder();
+    const bool is_single = body.kernel.precision == Precision::single;
+    const auto instruction = is_single ? llvm::Intrinsic::x86_avx512_mask_scalef_ps_512
+                                       : llvm::Intrinsic::x86_avx512_mask_scalef_pd_512;
+    constexpr unsigned current_rounding = 4;
+    const auto lanes = static_cast<unsigned>(body.shape.lanes);
+    llvm::Value* all = llvm::ConstantInt::getAllOnesValue(builder.getIntNTy(lanes));
+    return builder.CreateIntrinsic(instruction, {},
+                                   {a, b, a, all, builder.getInt32(current_rounding)});
+}
+
+}  // namespace
+
+llvm::Value* rounded_to_even(BodyScope& scope, ValueId a) {
+    const Body& body = scope.body();
+    Builder& builder = scope.builder();
+    llvm::Value* number = scope.operand(a);
+    if (body.shape.has_rounding) {
+        return builder.CreateUnaryIntrinsic(llvm::Intrinsic::roundeven, number);
     }
-    const auto constant = [&](double value) { return llvm::ConstantFP::get(number_type_, value); };
-    llvm::Constant* all_whole = constant(std::ldexp(1.0, format_.fraction_bits));
-    llvm::Value* number = operand(a);
-    llvm::Value* size = builder_.CreateUnaryIntrinsic(llvm::Intrinsic::fabs, number);
-    llvm::Value* rounded = builder_.CreateFSub(builder_.CreateFAdd(size, all_whole), all_whole);
+    llvm::Constant* all_whole =
+        llvm::ConstantFP::get(body.number_type, std::ldexp(1.0, body.format.fraction_bits));
+    llvm::Value* size = builder.CreateUnaryIntrinsic(llvm::Intrinsic::fabs, number);
+    llvm::Value* rounded = builder.CreateFSub(builder.CreateFAdd(size, all_whole), all_whole);
     llvm::Value* with_sign =
-        builder_.CreateBinaryIntrinsic(llvm::Intrinsic::copysign, rounded, number);
-    return builder_.CreateSelect(builder_.CreateFCmpOLT(size, all_whole), with_sign, number);
+        builder.CreateBinaryIntrinsic(llvm::Intrinsic::copysign, rounded, number);
+    return builder.CreateSelect(builder.CreateFCmpOLT(size, all_whole), with_sign, number);
 }
 
 // The number that is added is hidden: LLVM would drop a factor of 1, which flushes, and compute a
 // product of known factors without flushing it.
-llvm::Value* BodyScope::scaled_by_power(ValueId a, ValueId b) {
-    const bool is_widest = shape_.lanes * format_.bits == 512;
-    if (shape_.has_scaling && is_widest) return scaled_by_instruction(number(a), number(b));
-    const double whole = std::ldexp(1.5, format_.fraction_bits) + 2 * format_.bias;
-    llvm::Value* added = hidden(word_of(whole, kernel_.precision));
-    llvm::Value* sum = builder_.CreateBitCast(builder_.CreateFAdd(number(b), added), bits_type_);
-    llvm::Value* half = builder_.CreateLShr(sum, word_splat(1));
+llvm::Value* scaled_by_power(BodyScope& scope, ValueId a, ValueId b) {
+    const Body& body = scope.body();
+    const WordFormat format = body.format;
+    Builder& builder = scope.builder();
+    const bool is_widest = body.shape.lanes * format.bits == 512;
+    if (body.shape.has_scaling && is_widest) {
+        return scaled_by_instruction(scope, scope.number(a), scope.number(b));
+    }
+    const double whole = std::ldexp(1.5, format.fraction_bits) + 2 * format.bias;
+    llvm::Value* added = scope.hidden(word_of(whole, body.kernel.precision));
+    llvm::Value* sum =
+        builder.CreateBitCast(builder.CreateFAdd(scope.number(b), added), body.bits_type);
+    llvm::Value* half = builder.CreateLShr(sum, body.bits(1));
     const auto power = [&](llvm::Value* exponent) {
-        const auto bits = static_cast<std::uint64_t>(format_.fraction_bits);
-        return builder_.CreateBitCast(builder_.CreateShl(exponent, word_splat(bits)), number_type_);
+        const auto bits = static_cast<std::uint64_t>(format.fraction_bits);
+        return builder.CreateBitCast(builder.CreateShl(exponent, body.bits(bits)),
+                                     body.number_type);
     };
-    return builder_.CreateFMul(builder_.CreateFMul(number(a), power(half)),
-                               power(builder_.CreateSub(sum, half)));
-}
-
-// All lanes, rounded as the environment says.
-llvm::Value* BodyScope::scaled_by_instruction(llvm::Value* a, llvm::Value* b) {
-    const bool is_single = kernel_.precision == Precision::single;
-    const auto instruction = is_single ? llvm::Intrinsic::x86_avx512_mask_scalef_ps_512
-                                       : llvm::Intrinsic::x86_avx512_mask_scalef_pd_512;
-    constexpr unsigned current_rounding = 4;
-    llvm::Value* all =
-        llvm::ConstantInt::getAllOnesValue(builder_.getIntNTy(static_cast<unsigned>(shape_.lanes)));
-    return builder_.CreateIntrinsic(instruction, {},
-                                    {a, b, a, all, builder_.getInt32(current_rounding)});
+    return builder.CreateFMul(builder.CreateFMul(scope.number(a), power(half)),
+                              power(builder.CreateSub(sum, half)));
 }
 
 }  // namespace cascade
