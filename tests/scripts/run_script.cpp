@@ -18,9 +18,12 @@ namespace cascade::testing {
 
 namespace {
 
-/// One native backend for all runs, so that equal kernels are compiled once.
-std::shared_ptr<TieredBackend> native_stepper() {
-    static const auto stepper = make_stepper({}).value();
+/// One native backend for all runs with vectors of a width, so that equal kernels are compiled
+/// once.
+std::shared_ptr<TieredBackend> native_stepper(int lanes) {
+    static std::map<int, std::shared_ptr<TieredBackend>> steppers;
+    auto& stepper = steppers[lanes];
+    if (!stepper) stepper = make_stepper({BackendKind::jit, lanes, 0}).value();
     return stepper;
 }
 
@@ -48,8 +51,10 @@ Run load(const ScriptCase& script, const std::filesystem::path& folder,
 
 /// Runs every stage to its end, or to a failure.
 void Run::start(const Configuration& configuration) {
-    SimulationOptions options{configuration.backend, 0, configuration.threads};
-    if (configuration.backend == BackendKind::jit) options.stepper = native_stepper();
+    // Vectors of 4 cells on one thread, of 16 on several.
+    const int lanes = configuration.threads == 1 ? 4 : 16;
+    SimulationOptions options{configuration.backend, lanes, configuration.threads};
+    if (configuration.backend == BackendKind::jit) options.stepper = native_stepper(lanes);
     RunControl control;
     control.warn = [&](const std::string& warning) { warnings.push_back(warning); };
     options.control = &control;

@@ -1,5 +1,5 @@
-// Stages that start on coarser grids: as good a pattern as of a fine run, what each grid starts
-// with, and where a run may be stopped.
+// Stages that start on coarser grids: as good a pattern as of a fine run, and where a run may be
+// stopped. What each grid starts with is in tests/scripts/steps.
 #include "resumed_run.h"
 
 #include "measure/spectrum.h"
@@ -7,14 +7,9 @@
 #include "solvers/field_norms.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-
-#include <cmath>
 
 namespace cascade {
 namespace {
-
-using ::testing::HasSubstr;
 
 struct Ran {
     Script script;
@@ -80,72 +75,6 @@ TEST(CoarseStart, GrowsAsGoodAPattern) {
     EXPECT_EQ(coarse.reported,
               (std::vector<std::string>{"s, cells 4 times as wide: 28000",
                                         "s, cells 2 times as wide: 7000", "s: 1750"}));
-}
-
-// What diffuses alone is the same on all grids: the straight line between two sides.
-TEST(CoarseStart, SidesAndLengthsStayTheSame) {
-    const Ran ran = run_text(
-        "system heat { u: 0; u' = lap(u); u.left: fixed(1); u.right: flux(1/8) }\n"
-        "stage s: heat { start: coarse(4); iterations: 400; speed: 0.4 }\n"
-        "domain { grid: 32, 1; boundary: noflux; spacing: 1 }");
-    const Field& u = ran.simulation->state(0).species[0];
-    for (std::int64_t i = 0; i < 32; ++i) {
-        EXPECT_NEAR(u.at(i, 0), 1 + (static_cast<double>(i) + 0.5) / 8, 5e-3);
-    }
-    const Ran longer = run_text(
-        "system heat { u: 0; u' = lap(u); u.left: fixed(1); u.right: flux(1/8) }\n"
-        "stage s: heat { solver: imex; start: coarse(8); duration: 200; speed: 5 }\n"
-        "domain { grid: 32, 1; boundary: noflux; spacing: 1 }");
-    for (std::int64_t i = 0; i < 32; ++i) {
-        EXPECT_NEAR(longer.simulation->state(0).species[0].at(i, 0),
-                    1 + (static_cast<double>(i) + 0.5) / 8, 2e-3);
-    }
-}
-
-TEST(CoarseStart, ReadsEarlierStagesAndKeepsFrozenCells) {
-    const Ran ran = run_text(
-        "system still { u: x; k: 1; u' = k * 0 }\n"
-        "system grow { u: 0; base: 0; u' = base }\n"
-        "stage first: still { iterations: 1 }\n"
-        "stage second: grow { start: coarse(2); iterations: 2; frozen: x > 0.7; base: first.u; u: "
-        "5 * x }\n"
-        "domain { grid: 16, 8 }");
-    const Field& u = ran.simulation->state(1).species[0];
-    const auto x = [](std::int64_t i) { return (static_cast<float>(i) + 0.5f) / 16; };
-    // Eight steps on the coarse grid and two here, of what is linear in x but for the periodic
-    // sides.
-    EXPECT_NEAR(u.at(6, 3), 5 * x(6) + 10 * x(6), 1e-5);
-    EXPECT_EQ(u.at(14, 3), 5 * x(14));
-}
-
-TEST(CoarseStart, SameBitsOnEveryBackendAndThread) {
-    if (!has_jit()) GTEST_SKIP() << "no native code in this build";
-    const std::string text =
-        "stage s: turing_spots { start: coarse(4); iterations: 20; ka: 1/80; frozen: x > 0.9 }\n"
-        "domain { grid: 96, 64; boundary: noflux }";
-    const Ran expected = run_text(text);
-    const Ran found = run_text(text, {BackendKind::jit, 16, 3});
-    EXPECT_EQ(moments_of_difference(found.simulation->state(0).species[1],
-                                    expected.simulation->state(0).species[1])
-                  .root_mean_square,
-              0);
-}
-
-TEST(CoarseStart, ABlowUpSaysOnWhichGrid) {
-    const Ran ran = run_text(
-        "system burst { u: 1; u' = u^2 }\nstage s: burst { start: coarse(2); iterations: 300 }\n"
-        "domain { grid: 8, 8 }");
-    EXPECT_THAT(ran.failure, HasSubstr("(on the grid with cells 2 times as wide)"));
-}
-
-TEST(CoarseStart, ThreeDimensions) {
-    const Ran ran = run_text(
-        "system decay { u: 1 + x + y + z; u' = -u }\n"
-        "stage s: decay { start: coarse(2); iterations: 4; speed: 0.01 }\n"
-        "domain { grid: 8, 8, 8; boundary: noflux }");
-    const float x = 3.5f / 8;
-    EXPECT_NEAR(ran.simulation->state(0).species[0].at(3, 3, 3), (1 + 3 * x) * std::pow(0.99, 20),
-                1e-5);
 }
 
 class CoarseStartRun : public ResumedRunTest {};
