@@ -8,6 +8,7 @@
 #    .cpp, .h, .def, .sh or CMake file or anywhere in a .md file. It names a file, a file without its
 #    ending (.h, .cpp, .def, .md, .sh), or a folder; * stands for any letters. Words with a part in
 #    capitals, as in examples/NAME.png, are placeholders.
+# 3. A word `Suite.Test` of spec/promises.md names a test, where * stands for any letters.
 set -u
 cd "${SOURCE:-$(dirname "${BASH_SOURCE[0]}")/..}" || exit 1
 
@@ -46,6 +47,15 @@ missing() {
     done
 }
 
+# Prints those of the lines "Suite.Test" that no test is called.
+missing_tests() {
+    local name
+    while IFS= read -r name; do
+        grep -qrE "^TEST(_F|_P)?\(${name%%.*}, ${name#*.}\)" --include='*_test.cpp' tests ||
+            echo "spec/promises.md: there is no test $name"
+    done
+}
+
 list() { find "$@" -type f -not -path '*/node_modules/*'; }
 
 # shellcheck disable=SC2086  # One word for each folder.
@@ -61,7 +71,8 @@ list() { find "$@" -type f -not -path '*/node_modules/*'; }
         } | paths_in | sort -u
     )
 }
-broken=$(without_opening "${sources[@]}"; missing <<<"$named")
+promised=$(grep -oE '`[A-Z][A-Za-z]+\.[A-Z*][A-Za-z]*`' spec/promises.md | tr -d '`' | sed 's/\*/[A-Za-z]*/')
+broken=$(without_opening "${sources[@]}"; missing <<<"$named"; missing_tests <<<"$promised")
 
 # A rule that nothing can break would not be noticed: these must be found, and nothing else.
 made_up=$(mktemp -d)
@@ -71,7 +82,8 @@ printf '// Checks.\n#include "core/check.h"\n' >"$made_up/good.cpp"
 found=$(without_opening "$made_up"/*.cpp | grep -c 'bad\.cpp')
 found+=$(printf 'a.h:1: %s\n' 'see core/no_such_file, core/check and core/check.h.' \
     'build/core/no, docs/nothing.md, lang/systems/NAME.cascade, ir/*.def' | paths_in | missing | grep -c .)
-if [ "$found" != 12 ] || [ "${#sources[@]}" -lt 700 ] || [ "$(grep -c . <<<"$named")" -lt 300 ]; then
+found+=$(printf 'Sources.%s\n' ThatIsNoTest | missing_tests | grep -c 'no test')
+if [ "$found" != 121 ] || [ "$(grep -c . <<<"$promised")" -lt 5 ] || [ "${#sources[@]}" -lt 700 ] || [ "$(grep -c . <<<"$named")" -lt 300 ]; then
     echo "the check itself does not work ($found; ${#sources[@]} files, $(grep -c . <<<"$named") paths)"
     exit 1
 fi
