@@ -103,6 +103,19 @@ TEST(CodeImage, ObjectsOfAllOperationsAreLinked) {
     }
 }
 
+TEST(CodeImage, UnoptimisedObjectsOfLargeKernelsAreLinked) {
+    RandomKernelOptions options;
+    options.operations = 3000;
+    options.results = 150;
+    options.composed_percent = 60;
+    const CellKernel kernel = random_kernel(100, options);
+    ASSERT_GT(kernel.code.size(), largest_optimised_kernel);
+    for (const auto& machine : {machine_of_this_host(), machine_of_aarch64()}) {
+        const auto image = link_image(object_of(kernel, *machine), "kernel");
+        EXPECT_TRUE(image) << image.error().message;
+    }
+}
+
 TEST(CodeImage, CodeOfAarch64FindsItsConstants) {
     const auto machine = machine_of_aarch64();
     const auto image = link_image(object_of(kernel_with_constants(), *machine), "kernel");
