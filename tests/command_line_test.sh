@@ -96,7 +96,7 @@ says err 'did you mean --palette?'
 run 64 fly
 
 # --dump of every stage; a wrong script has tokens and a tree.
-for stage in tokens ast program ir; do
+for stage in tokens ast program graph ir; do
     run 0 check spots.cascade --dump "$stage"
     [ -s out ] && [ ! -s err ] || fail "--dump $stage"
 done

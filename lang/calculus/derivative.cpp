@@ -3,7 +3,7 @@
 #include "lang/calculus/derivative.h"
 
 #include "core/check.h"
-#include "lang/calculus/flat_rates.h"
+#include "lang/calculus/algebra.h"
 #include "lang/calculus/slopes.h"
 
 #include <algorithm>
@@ -17,13 +17,13 @@ namespace {
 
 /// The slopes by a species of all parts of the rates. Empty where there is no rule for one that a
 /// rate needs, and where they are too many.
-std::optional<std::vector<Slopes>> slopes_of(FlatRates& rates, SlopeRules& rules,
-                                             std::uint32_t species) {
-    std::vector<Slopes> slopes;
-    slopes.reserve(rates.part_count());
-    for (PartId id = 0; id < rates.part_count(); ++id) {
+std::optional<IdVector<NodeId, Slopes>> slopes_of(FlatRates& rates, SlopeRules& rules,
+                                                  std::uint32_t species) {
+    IdVector<NodeId, Slopes> slopes;
+    slopes.reserve(rates.count);
+    for (const NodeId id : ids_below<NodeId>(rates.count)) {
         auto slope = rules.slopes_of(id, species, slopes);
-        if (!slope || rates.builder().size() > most_calculus_parts) return std::nullopt;
+        if (!slope || rates.algebra.size() > most_calculus_nodes) return std::nullopt;
         slopes.push_back(std::move(*slope));
     }
     return slopes;
@@ -33,32 +33,32 @@ std::optional<std::vector<Slopes>> slopes_of(FlatRates& rates, SlopeRules& rules
 /// a species.
 class LineBound {
 public:
-    explicit LineBound(FormulaBuilder& builder)
-        : builder_(builder), zero_(builder.number(0)), whole_(zero_), others_(zero_), own_(zero_) {}
+    explicit LineBound(Algebra& algebra)
+        : algebra_(algebra), zero_(algebra.number(0)), whole_(zero_), others_(zero_), own_(zero_) {}
 
     void add(const Slope& slope, bool is_own_species) {
-        const PartId size = builder_.absolute(slope.own);
-        whole_ = builder_.add(whole_, builder_.add(size, slope.far));
-        others_ = builder_.add(others_, slope.other);
+        const NodeId size = algebra_.magnitude(slope.own);
+        whole_ = algebra_.sum(whole_, algebra_.sum(size, slope.far));
+        others_ = algebra_.sum(others_, slope.other);
         if (is_own_species) {
             own_ = slope.own;
         } else {
-            others_ = builder_.add(others_, size);
+            others_ = algebra_.sum(others_, size);
         }
         if (slope.diffusion.empty()) return;
         (is_own_species ? own_diffusion_ : cross_diffusion_).push_back(slope.diffusion);
     }
 
-    PartId whole() const { return whole_; }
+    NodeId whole() const { return whole_; }
     /// Without the growth of waves.
-    PartId at_rest() { return builder_.add(builder_.absolute(own_), others_); }
+    NodeId at_rest() { return algebra_.sum(algebra_.magnitude(own_), others_); }
     bool has_cross_diffusion() const { return !cross_diffusion_.empty(); }
 
     /// What waves of all lengths grow by at most, or the reaction alone.
-    PartId reaction() {
-        PartId most = builder_.absolute(own_);
-        for (const double x : lengths()) most = builder_.maximum(most, growth(x));
-        return builder_.add(most, others_);
+    NodeId reaction() {
+        NodeId most = algebra_.magnitude(own_);
+        for (const double x : lengths()) most = algebra_.maximum(most, growth(x));
+        return algebra_.sum(most, others_);
     }
 
 private:
@@ -76,49 +76,49 @@ private:
         return lengths;
     }
 
-    PartId growth(double x) {
-        PartId sum = own_;
-        for (const auto& each : own_diffusion_) sum = builder_.add(sum, factor(each, x));
+    NodeId growth(double x) {
+        NodeId sum = own_;
+        for (const auto& each : own_diffusion_) sum = algebra_.sum(sum, factor(each, x));
         for (const auto& each : cross_diffusion_) {
-            sum = builder_.add(sum, builder_.absolute(factor(each, x)));
+            sum = algebra_.sum(sum, algebra_.magnitude(factor(each, x)));
         }
         return sum;
     }
 
     /// Σ coefficients[k] (−x)^(k+1), by Horner's scheme.
-    PartId factor(const std::vector<PartId>& coefficients, double x) {
-        const PartId minus_x = builder_.number(-x);
-        PartId sum = zero_;
+    NodeId factor(const std::vector<NodeId>& coefficients, double x) {
+        const NodeId minus_x = algebra_.number(-x);
+        NodeId sum = zero_;
         for (std::size_t k = coefficients.size(); k-- > 0;) {
-            sum = builder_.multiply(minus_x, builder_.add(coefficients[k], sum));
+            sum = algebra_.product(minus_x, algebra_.sum(coefficients[k], sum));
         }
         return sum;
     }
 
-    FormulaBuilder& builder_;
-    PartId zero_, whole_, others_, own_;
-    std::vector<std::vector<PartId>> own_diffusion_, cross_diffusion_;
+    Algebra& algebra_;
+    NodeId zero_, whole_, others_, own_;
+    std::vector<std::vector<NodeId>> own_diffusion_, cross_diffusion_;
 };
 
-PartId largest(FormulaBuilder& builder, const std::vector<PartId>& parts) {
-    PartId most = parts[0];
-    for (const PartId part : parts) most = builder.maximum(most, part);
+NodeId largest(Algebra& algebra, const std::vector<NodeId>& parts) {
+    NodeId most = parts[0];
+    for (const NodeId part : parts) most = algebra.maximum(most, part);
     return most;
 }
 
 /// The largest value of a part over the domain.
-Formula over_domain(FormulaBuilder& builder, PartId part) {
-    return builder.formula(builder.is_number(part) ? part
-                                                   : builder.call(Function::domain_max, {part}));
+Formula over_domain(Algebra& algebra, NodeId part) {
+    return algebra.formula(algebra.is_number(part) ? part
+                                                   : algebra.call(Function::domain_max, {part}));
 }
 
 /// The matrix of slopes, by rate and species, as its rows and its columns.
 class SlopeMatrix {
 public:
-    SlopeMatrix(FormulaBuilder& builder, std::size_t species)
-        : builder_(builder),
-          rows_(species, LineBound(builder)),
-          columns_(species, LineBound(builder)) {}
+    SlopeMatrix(Algebra& algebra, std::size_t species)
+        : algebra_(algebra),
+          rows_(species, LineBound(algebra)),
+          columns_(species, LineBound(algebra)) {}
 
     void add(const Slope& slope, std::size_t of, std::size_t by) {
         rows_[of].add(slope, of == by);
@@ -128,31 +128,31 @@ public:
 
     bool jumps() const { return jumps_; }
 
-    PartId whole() {
-        std::vector<PartId> parts;
+    NodeId whole() {
+        std::vector<NodeId> parts;
         for (LineBound& row : rows_) parts.push_back(row.whole());
-        return largest(builder_, parts);
+        return largest(algebra_, parts);
     }
 
     /// A matrix has the eigenvalues of its transpose: where one species drags another along, as
     /// bait does cells, its column may say less growth than the other's row.
-    PartId reaction() {
-        const PartId by_rows = growth_in(rows_);
+    NodeId reaction() {
+        const NodeId by_rows = growth_in(rows_);
         const auto crosses = [](const LineBound& row) { return row.has_cross_diffusion(); };
         if (std::none_of(rows_.begin(), rows_.end(), crosses)) return by_rows;
-        std::vector<PartId> parts{growth_in(columns_)};
+        std::vector<NodeId> parts{growth_in(columns_)};
         for (LineBound& row : rows_) parts.push_back(row.at_rest());
-        return builder_.call(Function::min, {by_rows, largest(builder_, parts)});
+        return algebra_.call(Function::min, {by_rows, largest(algebra_, parts)});
     }
 
 private:
-    PartId growth_in(std::vector<LineBound>& lines) {
-        std::vector<PartId> parts;
+    NodeId growth_in(std::vector<LineBound>& lines) {
+        std::vector<NodeId> parts;
         for (LineBound& line : lines) parts.push_back(line.reaction());
-        return largest(builder_, parts);
+        return largest(algebra_, parts);
     }
 
-    FormulaBuilder& builder_;
+    Algebra& algebra_;
     std::vector<LineBound> rows_, columns_;
     bool jumps_ = false;
 };
@@ -162,10 +162,10 @@ private:
 std::optional<Formula> rate_derivative(const Program& program, std::uint32_t stage,
                                        std::uint32_t of, std::uint32_t by) {
     FlatRates rates(program.system_of(stage));
-    SlopeRules rules(rates.builder(), program, nullptr);
+    SlopeRules rules(rates.algebra, program, nullptr);
     const auto slopes = slopes_of(rates, rules, by);
     if (!slopes) return std::nullopt;
-    return rates.builder().formula((*slopes)[rates.rate(of)][0].own);
+    return rates.algebra.formula((*slopes)[rates.rate(of)][0].own);
 }
 
 std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_t stage,
@@ -173,13 +173,13 @@ std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_
     CHECK(!program.domain.model || model, "a bound on a model depends on its cells");
     const System& system = program.system_of(stage);
     FlatRates rates(system);
-    FormulaBuilder& builder = rates.builder();
-    SlopeRules rules(builder, program, model);
+    Algebra& algebra = rates.algebra;
+    SlopeRules rules(algebra, program, model);
     std::vector<std::uint32_t> species;
     for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
         if (system.is_species(item)) species.push_back(item);
     }
-    SlopeMatrix matrix(builder, species.size());
+    SlopeMatrix matrix(algebra, species.size());
     for (std::size_t by = 0; by < species.size(); ++by) {
         const auto slopes = slopes_of(rates, rules, species[by]);
         if (!slopes) return std::nullopt;
@@ -187,9 +187,9 @@ std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_
             matrix.add((*slopes)[rates.rate(species[of])][0], of, by);
         }
     }
-    const PartId whole = matrix.whole(), reaction = matrix.reaction();
-    if (builder.size() > most_calculus_parts) return std::nullopt;
-    return JacobianBound{over_domain(builder, whole), over_domain(builder, reaction),
+    const NodeId whole = matrix.whole(), reaction = matrix.reaction();
+    if (algebra.size() > most_calculus_nodes) return std::nullopt;
+    return JacobianBound{over_domain(algebra, whole), over_domain(algebra, reaction),
                          matrix.jumps()};
 }
 

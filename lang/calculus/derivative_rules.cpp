@@ -7,27 +7,27 @@ namespace {
 
 /// Formulas of a rule, written as they are on paper.
 struct Term {
-    FormulaBuilder* builder;
-    PartId id;
+    Algebra* algebra;
+    NodeId id;
 
-    Term call(Function function) const { return {builder, builder->call(function, {id})}; }
+    Term call(Function function) const { return {algebra, algebra->call(function, {id})}; }
     Term call(Function function, Term b) const {
-        return {builder, builder->call(function, {id, b.id})};
+        return {algebra, algebra->call(function, {id, b.id})};
     }
-    Term number(double value) const { return {builder, builder->number(value)}; }
+    Term number(double value) const { return {algebra, algebra->number(value)}; }
 };
-Term operator+(Term a, Term b) { return {a.builder, a.builder->add(a.id, b.id)}; }
-Term operator-(Term a, Term b) { return {a.builder, a.builder->subtract(a.id, b.id)}; }
-Term operator*(Term a, Term b) { return {a.builder, a.builder->multiply(a.id, b.id)}; }
-Term operator/(Term a, Term b) { return {a.builder, a.builder->divide(a.id, b.id)}; }
-Term operator-(Term a) { return {a.builder, a.builder->negate(a.id)}; }
+Term operator+(Term a, Term b) { return {a.algebra, a.algebra->sum(a.id, b.id)}; }
+Term operator-(Term a, Term b) { return {a.algebra, a.algebra->difference(a.id, b.id)}; }
+Term operator*(Term a, Term b) { return {a.algebra, a.algebra->product(a.id, b.id)}; }
+Term operator/(Term a, Term b) { return {a.algebra, a.algebra->quotient(a.id, b.id)}; }
+Term operator-(Term a) { return {a.algebra, a.algebra->negative(a.id)}; }
 Term operator<(Term a, Term b) { return a.call(Function::less, b); }
 Term operator>(Term a, Term b) { return a.call(Function::greater, b); }
 Term square(Term a) { return a * a; }
-Term power(Term a, Term b) { return {a.builder, a.builder->power(a.id, b.id)}; }
+Term power(Term a, Term b) { return a.call(Function::power, b); }
 Term where(Term condition, Term then, Term otherwise) {
-    FormulaBuilder& builder = *condition.builder;
-    return {&builder, builder.choose(condition.id, then.id, otherwise.id)};
+    return {condition.algebra,
+            condition.algebra->call(Function::if_, {condition.id, then.id, otherwise.id})};
 }
 Term sqrt(Term a) { return a.call(Function::sqrt); }
 Term cbrt(Term a) { return a.call(Function::cbrt); }
@@ -57,9 +57,9 @@ std::optional<Term> smooth_step_slope(Term a, Term b, Term v, std::size_t n) {
     return where(inside, v.number(6) * p * (one - p) / (b - a), zero);
 }
 
-std::optional<Term> slope_of(FormulaBuilder& builder, const Node& call, std::size_t n) {
-    const Term a{&builder, call.operands[0]}, b{&builder, call.operands[1]};
-    const Term c{&builder, call.operands[2]};
+std::optional<Term> slope_of(Algebra& algebra, const Node& call, std::size_t n) {
+    const Term a{&algebra, call.operands[0]}, b{&algebra, call.operands[1]};
+    const Term c{&algebra, call.operands[2]};
     const Term zero = a.number(0), one = a.number(1);
     switch (call.function) {
         // clang-format off
@@ -74,9 +74,9 @@ std::optional<Term> slope_of(FormulaBuilder& builder, const Node& call, std::siz
 
 }  // namespace
 
-std::optional<PartId> partial_derivative(FormulaBuilder& builder, const Node& call, std::size_t n) {
-    const Node copy = call;  // It may be one of the builder's, whose list grows.
-    const auto slope = slope_of(builder, copy, n);
+std::optional<NodeId> partial_derivative(Algebra& algebra, const Node& call, std::size_t n) {
+    const Node copy = call;  // It may be one of the algebra's, whose list grows.
+    const auto slope = slope_of(algebra, copy, n);
     if (!slope) return std::nullopt;
     return slope->id;
 }

@@ -1,7 +1,7 @@
 // The rules of calculus, one call at a time (internal to derivative.cpp).
 #pragma once
 
-#include "lang/program/formula_builder.h"
+#include "lang/calculus/algebra.h"
 
 #include <cstddef>
 #include <optional>
@@ -10,6 +10,6 @@ namespace cascade {
 
 /// ∂(the call)/∂(its operand n), where its function has a rule for it. Operators of derivatives
 /// have none here: lang/calculus/slopes.h.
-std::optional<PartId> partial_derivative(FormulaBuilder& builder, const Node& call, std::size_t n);
+std::optional<NodeId> partial_derivative(Algebra& algebra, const Node& call, std::size_t n);
 
 }  // namespace cascade

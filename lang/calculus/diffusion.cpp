@@ -2,7 +2,7 @@
 #include "lang/calculus/diffusion.h"
 
 #include "lang/calculus/derivative_rules.h"
-#include "lang/calculus/flat_rates.h"
+#include "lang/calculus/algebra.h"
 #include "lang/program/nodes_of_rates.h"
 
 #include <algorithm>
@@ -16,21 +16,20 @@ namespace {
 
 /// How a part changes with the species: itself, then the operators of DiffusionTerms.
 struct Operators {
-    PartId own = 0;
-    DiffusionTerms<PartId> terms{};
+    NodeId own;
+    DiffusionTerms<NodeId> terms{};
 };
 
 class Linearisation {
 public:
     Linearisation(FlatRates& rates, std::uint32_t species)
-        : rates_(rates), builder_(rates.builder()), species_(species), zero_(builder_.number(0)) {}
+        : rates_(rates), algebra_(rates.algebra), species_(species), zero_(algebra_.number(0)) {}
 
     /// The operators of all parts; fewer where they become too many.
-    std::vector<Operators> run() && {
-        found_.reserve(rates_.part_count());
-        for (PartId id = 0; id < rates_.part_count() && builder_.size() < most_calculus_parts;
-             ++id) {
-            found_.push_back(operators_of(id));
+    IdVector<NodeId, Operators> run() && {
+        found_.reserve(rates_.count);
+        while (found_.size() < rates_.count && algebra_.size() < most_calculus_nodes) {
+            found_.push_back(operators_of(found_.next()));
         }
         return std::move(found_);
     }
@@ -43,15 +42,15 @@ private:
         return none;
     }
     bool is_nothing(const Operators& operators) const {
-        const auto is_zero = [&](PartId id) { return builder_.is_number(id, 0); };
+        const auto is_zero = [&](NodeId id) { return algebra_.is_number(id, 0); };
         return is_zero(operators.own) &&
                std::all_of(operators.terms.begin(), operators.terms.end(), is_zero);
     }
 
-    Operators operators_of(PartId id) {
-        const Node node = builder_[id];
+    Operators operators_of(NodeId id) {
+        const Node node = algebra_[id];
         Operators result = nothing();
-        if (node.kind == NodeKind::own && node.index == species_) result.own = builder_.number(1);
+        if (node.kind == NodeKind::own && node.index == species_) result.own = algebra_.number(1);
         if (node.kind != NodeKind::call) return result;
         const Derivative derivative = derivative_of(node.function);
         if (derivative.order == 2 && !derivative.is_mixed()) {
@@ -65,22 +64,22 @@ private:
             default: break;
         }
         const bool is_vector = node.type == ValueType::vector;
-        for (std::size_t n = 0; n < operand_count(node); ++n) {
-            const PartId operand = node.operands[n];
+        for (std::size_t n = 0; n < node.operand_count; ++n) {
+            const NodeId operand = node.operands[n];
             // The change of a factor times a gradient is a drift.
-            if (is_vector && builder_[operand].type != ValueType::vector) continue;
+            if (is_vector && algebra_[operand].type != ValueType::vector) continue;
             if (is_nothing(found_[operand])) continue;
-            const auto partial = partial_derivative(builder_, node, n);
+            const auto partial = partial_derivative(algebra_, node, n);
             if (!partial) continue;
             add(result, *partial, found_[operand]);
         }
         return result;
     }
 
-    void add(Operators& sum, PartId factor, const Operators& operators) {
-        if (builder_[factor].type != ValueType::number) return;
-        const auto add_one = [&](PartId& to, PartId term) {
-            to = builder_.add(to, builder_.multiply(factor, term));
+    void add(Operators& sum, NodeId factor, const Operators& operators) {
+        if (algebra_[factor].type != ValueType::number) return;
+        const auto add_one = [&](NodeId& to, NodeId term) {
+            to = algebra_.sum(to, algebra_.product(factor, term));
         };
         add_one(sum.own, operators.own);
         for (std::size_t k = 0; k < diffusion_terms; ++k) add_one(sum.terms[k], operators.terms[k]);
@@ -104,29 +103,22 @@ private:
     /// (a22 + |a12|) dyy: the symbol of dxy is no larger than the mean of those of dxx and dyy.
     Operators directed(const Node& node) {
         Operators result = nothing();
-        const PartId own = found_[node.operands[0]].own;
-        if (builder_.is_number(own, 0)) return result;
-        const auto square = [&](PartId a) { return builder_.multiply(a, a); };
-        const PartId along = square(node.operands[1]), across = square(node.operands[2]);
-        const PartId cosine = builder_.call(Function::cos, {node.operands[3]});
-        const PartId sine = builder_.call(Function::sin, {node.operands[3]});
-        const auto mixed = [&](PartId a, PartId b) {
-            return builder_.add(builder_.multiply(a, square(cosine)),
-                                builder_.multiply(b, square(sine)));
-        };
-        const PartId a12 = builder_.absolute(
-            builder_.multiply(builder_.subtract(along, across), builder_.multiply(sine, cosine)));
-        const auto factor = [&](PartId a) { return builder_.multiply(builder_.add(a, a12), own); };
-        result.terms[laplacian_powers] = factor(mixed(along, across));
-        result.terms[laplacian_powers + 1] = factor(mixed(across, along));
+        const NodeId own = found_[node.operands[0]].own;
+        if (algebra_.is_number(own, 0)) return result;
+        const auto [a11, mixed, a22] =
+            tensor_entries(algebra_, node.operands[1], node.operands[2], node.operands[3]);
+        const NodeId a12 = algebra_.magnitude(mixed);
+        const auto factor = [&](NodeId a) { return algebra_.product(algebra_.sum(a, a12), own); };
+        result.terms[laplacian_powers] = factor(a11);
+        result.terms[laplacian_powers + 1] = factor(a22);
         return result;
     }
 
     FlatRates& rates_;
-    FormulaBuilder& builder_;
+    Algebra& algebra_;
     std::uint32_t species_;
-    PartId zero_;
-    std::vector<Operators> found_;
+    NodeId zero_;
+    IdVector<NodeId, Operators> found_;
 };
 
 }  // namespace
@@ -138,15 +130,15 @@ std::vector<SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t
         if (!system.is_species(item)) continue;
         SpeciesDiffusion& of_species = result.emplace_back();
         FlatRates rates(system);
-        const std::vector<Operators> found = Linearisation(rates, item).run();
-        if (rates.rate(item) >= found.size()) continue;
+        const IdVector<NodeId, Operators> found = Linearisation(rates, item).run();
+        if (rates.rate(item) >= found.next()) continue;
         for (std::size_t k = 0; k < diffusion_terms; ++k) {
-            FormulaBuilder& builder = rates.builder();
-            PartId factor = found[rates.rate(item)].terms[k];
-            if (builder.is_number(factor, 0)) continue;
+            Algebra& algebra = rates.algebra;
+            NodeId factor = found[rates.rate(item)].terms[k];
+            if (algebra.is_number(factor, 0)) continue;
             const bool is_even_power = k < laplacian_powers && k % 2 == 1;
-            if (is_even_power) factor = builder.negate(factor);
-            Formula formula = builder.formula(factor);
+            if (is_even_power) factor = algebra.negative(factor);
+            Formula formula = algebra.formula(factor);
             if (!holds_in(formula, is_draw)) of_species[k] = std::move(formula);
         }
     }

@@ -11,7 +11,7 @@
 namespace cascade {
 /// Can it make a NaN of finite numbers?
 bool LostNumbers::makes_nan(const Node& node) const {
-    const auto second = [&]() -> const Node& { return flat_.builder()[node.operands[1]]; };
+    const auto second = [&]() -> const Node& { return flat_.algebra[node.operands[1]]; };
     switch (info(node.function).behaviour) {
         case Behaviour::plain:
         case Behaviour::jumps:
@@ -26,15 +26,15 @@ bool LostNumbers::makes_nan(const Node& node) const {
 }
 
 void LostNumbers::know_all_parts() {
-    for (PartId id = static_cast<PartId>(may_be_nan_.size()); id < flat_.builder().size(); ++id) {
-        const Node& node = flat_.builder()[id];
+    while (may_be_nan_.size() < flat_.algebra.size()) {
+        const Node& node = flat_.algebra[may_be_nan_.next()];
         bool may = false, is_of_file = false;
         if (node.kind == NodeKind::call) {
             may = makes_nan(node);
             is_of_file = reads_file(node.function);
-            for (std::size_t n = 0; n < operand_count(node); ++n) {
-                may = may || may_be_nan_[node.operands[n]];
-                is_of_file = is_of_file || reads_file_[node.operands[n]];
+            for (const NodeId operand : node.reads()) {
+                may = may || may_be_nan_[operand];
+                is_of_file = is_of_file || reads_file_[operand];
             }
             // A comparison is 0 or 1, whatever is compared.
             may = may && !is_of_file && !is_comparison(node.function);
@@ -44,18 +44,18 @@ void LostNumbers::know_all_parts() {
     }
 }
 
-bool LostNumbers::is_random(PartId root) const {
-    return holds_in(flat_.builder().formula(root), is_draw);
+bool LostNumbers::is_random(NodeId root) const {
+    return holds_in(flat_.algebra.formula(root), is_draw);
 }
 
 /// Finds the comparisons of a formula and the conditions under which they matter. It does not
 /// recurse, however deep a formula is.
 class LostNumbers::Search {
 public:
-    Search(FormulaBuilder& builder, const std::vector<bool>& may_be_nan)
-        : builder_(builder), may_be_nan_(may_be_nan), seen_(may_be_nan.size(), false) {}
+    Search(Algebra& algebra, const IdVector<NodeId, bool>& may_be_nan)
+        : algebra_(algebra), may_be_nan_(may_be_nan), seen_(may_be_nan.size(), false) {}
 
-    void find_comparisons(PartId root) {
+    void find_comparisons(NodeId root) {
         visit_later(root, none);
         while (!waiting_.empty() && found_.size() < most_found) {
             const auto [id, guard] = waiting_.back();
@@ -63,7 +63,7 @@ public:
             visit(id, guard);
         }
     }
-    void find_whole(PartId root) {
+    void find_whole(NodeId root) {
         if (may_be_nan_[root]) add(root, none);
     }
     std::vector<LostNumber> found() && { return std::move(found_); }
@@ -75,29 +75,29 @@ private:
 
     /// A part that must not be 0, or that must be, and the guards around it.
     struct Guard {
-        PartId part = 0;
+        NodeId part;
         bool is_zero = false;
         std::size_t around = none;
         std::size_t depth = 1;
     };
 
-    std::size_t inside(std::size_t guard, PartId part, bool is_zero) {
+    std::size_t inside(std::size_t guard, NodeId part, bool is_zero) {
         const std::size_t depth = guard == none ? 1 : guards_[guard].depth + 1;
         guards_.push_back({part, is_zero, guard, depth});
         return guards_.size() - 1;
     }
 
     /// What is read twice is looked at once.
-    void visit_later(PartId id, std::size_t guard) {
+    void visit_later(NodeId id, std::size_t guard) {
         if (seen_[id] || (guard != none && guards_[guard].depth > most_guards)) return;
         seen_[id] = true;
         waiting_.emplace_back(id, guard);
     }
 
-    void visit(PartId id, std::size_t guard) {
-        const Node node = builder_[id];
+    void visit(NodeId id, std::size_t guard) {
+        const Node node = algebra_[id];
         if (node.kind != NodeKind::call) return;
-        const PartId first = node.operands[0], second = node.operands[1];
+        const NodeId first = node.operands[0], second = node.operands[1];
         switch (node.function) {
             case Function::if_:
                 visit_later(first, guard);
@@ -115,42 +115,42 @@ private:
                 return;
             default: break;
         }
-        for (std::size_t n = 0; n < operand_count(node); ++n) {
-            const PartId operand = node.operands[n];
+        for (const NodeId operand : node.reads()) {
             if (is_comparison(node.function) && may_be_nan_[operand]) add(operand, guard);
             visit_later(operand, guard);
         }
     }
 
-    void add(PartId id, std::size_t guard) {
-        PartId lost = builder_.call(Function::not_equal, {id, id});
+    void add(NodeId id, std::size_t guard) {
+        NodeId lost = algebra_.call(Function::not_equal, {id, id});
         for (; guard != none; guard = guards_[guard].around) {
             const Function holds = guards_[guard].is_zero ? Function::equal : Function::not_equal;
-            lost = builder_.call(Function::logical_and,
+            lost = algebra_.call(Function::logical_and,
                                  {lost,
-                                  builder_.call(holds, {guards_[guard].part, builder_.number(0)})});
+                                  algebra_.call(holds, {guards_[guard].part, algebra_.number(0)})});
         }
-        found_.push_back({builder_.formula(lost), builder_[id].span});
+        found_.push_back({algebra_.formula(lost), algebra_[id].span});
     }
 
-    FormulaBuilder& builder_;
-    const std::vector<bool>& may_be_nan_;
-    std::vector<bool> seen_;
-    std::vector<std::pair<PartId, std::size_t>> waiting_;  ///< Parts and their guards.
+    Algebra& algebra_;
+    const IdVector<NodeId, bool>& may_be_nan_;
+    IdVector<NodeId, bool> seen_;
+    std::vector<std::pair<NodeId, std::size_t>> waiting_;  ///< Parts and their guards.
     std::vector<Guard> guards_;
     std::vector<LostNumber> found_;
 };
 
-std::vector<LostNumber> LostNumbers::in_comparisons(PartId root) {
+std::vector<LostNumber> LostNumbers::in_comparisons(NodeId root) {
     know_all_parts();
     if (is_random(root)) return {};
-    Search search(flat_.builder(), may_be_nan_);
+    Search search(flat_.algebra, may_be_nan_);
     search.find_comparisons(root);
     return std::move(search).found();
 }
 
 std::vector<LostNumber> LostNumbers::in_comparisons(const Formula& formula) {
-    return formula.nodes.empty() ? std::vector<LostNumber>() : in_comparisons(flat_.add(formula));
+    return formula.nodes.empty() ? std::vector<LostNumber>()
+                                 : in_comparisons(flat_.flattening.add(formula));
 }
 
 std::vector<LostNumber> LostNumbers::in_rate(std::uint32_t item) {
@@ -158,10 +158,10 @@ std::vector<LostNumber> LostNumbers::in_rate(std::uint32_t item) {
 }
 
 std::vector<LostNumber> LostNumbers::as_whole(const Formula& formula) {
-    const PartId root = flat_.add(formula);
+    const NodeId root = flat_.flattening.add(formula);
     know_all_parts();
     if (is_random(root)) return {};
-    Search search(flat_.builder(), may_be_nan_);
+    Search search(flat_.algebra, may_be_nan_);
     search.find_whole(root);
     return std::move(search).found();
 }

@@ -1,8 +1,7 @@
 // Where a NaN is lost on its way through a formula, so that no value of a species ever shows it.
 #pragma once
 
-#include "lang/calculus/flat_rates.h"
-#include "lang/program/program.h"
+#include "lang/calculus/algebra.h"
 
 #include <cstdint>
 #include <vector>
@@ -34,13 +33,13 @@ public:
 
 private:
     class Search;
-    std::vector<LostNumber> in_comparisons(PartId root);
-    bool is_random(PartId root) const;
+    std::vector<LostNumber> in_comparisons(NodeId root);
+    bool is_random(NodeId root) const;
     void know_all_parts();
     bool makes_nan(const Node& node) const;
 
     FlatRates flat_;
-    std::vector<bool> may_be_nan_, reads_file_;  ///< By part.
+    IdVector<NodeId, bool> may_be_nan_, reads_file_;
 };
 
 }  // namespace cascade

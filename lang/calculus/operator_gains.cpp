@@ -13,19 +13,16 @@ bool SlopeRules::has_axis(std::size_t axis) const {
     return axis == 0 ? stencil.x : axis == 1 ? stencil.y : stencil.z;
 }
 
-PartId SlopeRules::metric(MetricPlane plane) {
-    Node node;
-    node.kind = NodeKind::metric;
-    node.index = static_cast<std::uint32_t>(plane);
-    return builder_.part(node);
+NodeId SlopeRules::metric(MetricPlane plane) {
+    return algebra_.leaf(NodeKind::metric, static_cast<std::uint32_t>(plane));
 }
 
 /// 2 / h: a difference across a face counts both cells. On a surface times what Ṽ⁻¹ makes of it;
 /// the second direction has parts of columns and of rows.
-PartId SlopeRules::gradient_gain(std::size_t axis) {
+NodeId SlopeRules::gradient_gain(std::size_t axis) {
     // A gradient and a divergence are a Laplacian, whose parts are those of three axes.
     if (links_) return number(std::sqrt(2 * *links_ / 3));
-    const PartId plane = number(2 / grid_.spacing);
+    const NodeId plane = number(2 / grid_.spacing);
     if (!has_metric_) return plane;
     const auto size = [&](MetricPlane entry) { return magnitude(metric(entry)); };
     if (axis == 0) return product(plane, size(MetricPlane::inverse_11));
@@ -34,15 +31,15 @@ PartId SlopeRules::gradient_gain(std::size_t axis) {
 
 /// The largest factor of an operator that makes all waves decay. Of lap: neighbours count 1 each
 /// and the cell as much as all of them; of a tensor its trace counts (see times_tensor).
-std::optional<PartId> SlopeRules::diffusion_gain(const Node& node) {
+std::optional<NodeId> SlopeRules::diffusion_gain(const Node& node) {
     const double along_axis = 4 / (grid_.spacing * grid_.spacing);
     switch (node.function) {
         case Function::lap: {
             // Gershgorin: the cell counts as much as its neighbours together.
             if (links_) return number(2 * *links_);
             if (!has_metric_) return number(along_axis * grid_.stencil().axes());
-            const PartId trace = sum(metric(MetricPlane::flow_11), metric(MetricPlane::flow_22));
-            return product(number(4), builder_.divide(trace, metric(MetricPlane::area)));
+            const NodeId trace = sum(metric(MetricPlane::flow_11), metric(MetricPlane::flow_22));
+            return product(number(4), algebra_.quotient(trace, metric(MetricPlane::area)));
         }
         case Function::diffuse: break;
         default: {
@@ -51,22 +48,22 @@ std::optional<PartId> SlopeRules::diffusion_gain(const Node& node) {
             return decays ? std::optional(number(along_axis)) : std::nullopt;
         }
     }
-    const PartId a1 = node.operands[1], a2 = node.operands[2];
+    const NodeId a1 = node.operands[1], a2 = node.operands[2];
     if (!has_metric_) {
         return product(number(along_axis), sum(product(a1, a1), product(a2, a2)));
     }
     // The trace of Ṽ⁻¹ A Ṽ⁻ᵀ.
-    const auto [a11, a12, a22] = tensor_entries(a1, a2, node.operands[3]);
-    const PartId p = metric(MetricPlane::inverse_11), q = metric(MetricPlane::inverse_12);
-    const PartId r = metric(MetricPlane::inverse_22);
-    const PartId in_columns =
+    const auto [a11, a12, a22] = tensor_entries(algebra_, a1, a2, node.operands[3]);
+    const NodeId p = metric(MetricPlane::inverse_11), q = metric(MetricPlane::inverse_12);
+    const NodeId r = metric(MetricPlane::inverse_22);
+    const NodeId in_columns =
         sum(product(product(p, p), a11),
             sum(product(product(number(2), product(p, q)), a12), product(product(q, q), a22)));
     return product(number(4), sum(in_columns, product(product(r, r), a22)));
 }
 
 /// Of the other operators, and of aggregates.
-std::optional<PartId> SlopeRules::other_gain(const Node& node) {
+std::optional<NodeId> SlopeRules::other_gain(const Node& node) {
     const double h = grid_.spacing;
     const Derivative derivative = derivative_of(node.function);
     if (derivative.order == 1) {
@@ -78,61 +75,50 @@ std::optional<PartId> SlopeRules::other_gain(const Node& node) {
     return number(adds ? static_cast<double>(grid_.cell_count()) : 1);
 }
 
-/// a11, a12 and a22 of tensor(a1, a2, theta).
-std::array<PartId, 3> SlopeRules::tensor_entries(PartId a1, PartId a2, PartId theta) {
-    const PartId along = product(a1, a1), across = product(a2, a2);
-    const PartId cosine = builder_.call(Function::cos, {theta});
-    const PartId sine = builder_.call(Function::sin, {theta});
-    const PartId cosine2 = product(cosine, cosine), sine2 = product(sine, sine);
-    return {sum(product(along, cosine2), product(across, sine2)),
-            product(builder_.subtract(along, across), product(sine, cosine)),
-            sum(product(along, sine2), product(across, cosine2))};
-}
-
-PartId SlopeRules::derivative(PartId of, std::size_t axis) {
-    if (builder_.is_number(of) || !has_axis(axis)) return zero_;
+NodeId SlopeRules::derivative(NodeId of, std::size_t axis) {
+    if (algebra_.is_number(of) || !has_axis(axis)) return zero_;
     constexpr std::array functions{Function::dx, Function::dy, Function::dz};
-    return builder_.call(functions[axis], {of});
+    return algebra_.call(functions[axis], {of});
 }
 
 /// A vector's components at the cell itself. Operands come before what reads them, so that they
 /// have been noted.
-void SlopeRules::note_components(PartId vector, const Node& node) {
+void SlopeRules::note_components(NodeId vector, const Node& node) {
     if (!components_.contains(vector)) components_.emplace(vector, components_of(node));
 }
 
-std::array<PartId, 3> SlopeRules::components_of(const Node& node) {
-    const PartId a = node.operands[0], b = node.operands[1];
+std::array<NodeId, 3> SlopeRules::components_of(const Node& node) {
+    const NodeId a = node.operands[0], b = node.operands[1];
     const auto each = [&](const auto& make) {
-        return std::array<PartId, 3>{make(std::size_t{0}), make(std::size_t{1}),
+        return std::array<NodeId, 3>{make(std::size_t{0}), make(std::size_t{1}),
                                      make(std::size_t{2})};
     };
-    const auto of = [&](PartId vector, std::size_t axis) { return components_.at(vector)[axis]; };
-    const bool by_tensor = builder_[a].type == ValueType::tensor;
+    const auto of = [&](NodeId vector, std::size_t axis) { return components_.at(vector)[axis]; };
+    const bool by_tensor = algebra_[a].type == ValueType::tensor;
     switch (node.function) {
         case Function::grad: return each([&](auto axis) { return derivative(a, axis); });
         case Function::vector:
-            return each([&](auto axis) {
-                return axis < operand_count(node) ? node.operands[axis] : zero_;
-            });
-        case Function::negate: return each([&](auto axis) { return builder_.negate(of(a, axis)); });
+            return each(
+                [&](auto axis) { return axis < node.operand_count ? node.operands[axis] : zero_; });
+        case Function::negate:
+            return each([&](auto axis) { return algebra_.negative(of(a, axis)); });
         case Function::add: return each([&](auto axis) { return sum(of(a, axis), of(b, axis)); });
         case Function::subtract:
-            return each([&](auto axis) { return builder_.subtract(of(a, axis), of(b, axis)); });
+            return each([&](auto axis) { return algebra_.difference(of(a, axis), of(b, axis)); });
         case Function::divide:
-            return each([&](auto axis) { return builder_.divide(of(a, axis), b); });
+            return each([&](auto axis) { return algebra_.quotient(of(a, axis), b); });
         case Function::multiply: break;
         default: CHECK(false, "every vector has components");
     }
     if (!by_tensor) {
-        const bool is_first = builder_[a].type == ValueType::vector;
+        const bool is_first = algebra_[a].type == ValueType::vector;
         return each([&](auto axis) {
             return is_first ? product(of(a, axis), b) : product(a, of(b, axis));
         });
     }
-    const Node tensor = builder_[a];
+    const Node tensor = algebra_[a];
     const auto [a11, a12, a22] =
-        tensor_entries(tensor.operands[0], tensor.operands[1], tensor.operands[2]);
+        tensor_entries(algebra_, tensor.operands[0], tensor.operands[1], tensor.operands[2]);
     return {sum(product(a11, of(b, 0)), product(a12, of(b, 1))),
             sum(product(a12, of(b, 0)), product(a22, of(b, 1))), zero_};
 }

@@ -7,18 +7,18 @@
 
 namespace cascade {
 
-SlopeRules::SlopeRules(FormulaBuilder& builder, const Program& program, const ModelFacts* model)
-    : builder_(builder),
+SlopeRules::SlopeRules(Algebra& algebra, const Program& program, const ModelFacts* model)
+    : algebra_(algebra),
       grid_(model ? model->grid : program.domain.grid),
       has_metric_(program.domain.surface && program.domain.surface->has_metric),
       links_(model ? std::optional(model->largest_weight) : std::nullopt),
-      zero_(builder.number(0)) {}
+      zero_(algebra.number(0)) {}
 
 bool SlopeRules::is_zero(const Slope& slope) const {
     return slope.own == zero_ && slope.far == zero_ && !slope.jumps;
 }
 
-PartId SlopeRules::all_of(const Slope& slope) { return sum(magnitude(slope.own), slope.far); }
+NodeId SlopeRules::all_of(const Slope& slope) { return sum(magnitude(slope.own), slope.far); }
 
 void SlopeRules::add(Slope& sum_so_far, const Slope& slope) {
     sum_so_far.own = sum(sum_so_far.own, slope.own);
@@ -33,49 +33,49 @@ void SlopeRules::add(Slope& sum_so_far, const Slope& slope) {
     }
 }
 
-Slope SlopeRules::scaled(const Slope& slope, PartId factor) {
-    const PartId size = magnitude(factor);
+Slope SlopeRules::scaled(const Slope& slope, NodeId factor) {
+    const NodeId size = magnitude(factor);
     Slope result{product(slope.own, factor),
                  product(slope.far, size),
                  {},
                  product(slope.other, size),
                  slope.jumps};
-    for (const PartId each : slope.diffusion) result.diffusion.push_back(product(each, factor));
+    for (const NodeId each : slope.diffusion) result.diffusion.push_back(product(each, factor));
     return result;
 }
 
 /// After an operator of diffusion, or half of one: a gradient or a divergence.
-Slope SlopeRules::through_diffusion(const Slope& slope, PartId gain) {
+Slope SlopeRules::through_diffusion(const Slope& slope, NodeId gain) {
     Slope result = zero();
     result.jumps = slope.jumps;
     result.far = product(gain, all_of(slope));
     result.other = product(gain, slope.other);
     result.diffusion.push_back(product(gain, slope.own));
-    for (const PartId each : slope.diffusion) result.diffusion.push_back(product(gain, each));
+    for (const NodeId each : slope.diffusion) result.diffusion.push_back(product(gain, each));
     return result;
 }
 
-Slope SlopeRules::through_other(const Slope& slope, PartId gain) {
-    const PartId far = product(gain, all_of(slope));
+Slope SlopeRules::through_other(const Slope& slope, NodeId gain) {
+    const NodeId far = product(gain, all_of(slope));
     return {zero_, far, {}, far, slope.jumps};
 }
 
 /// A factor's slope in a product that goes to faces: what of it is diffusion there cannot be told.
-Slope SlopeRules::as_other(const Slope& slope, PartId factor) {
-    const PartId far = product(slope.far, magnitude(factor));
+Slope SlopeRules::as_other(const Slope& slope, NodeId factor) {
+    const NodeId far = product(slope.far, magnitude(factor));
     return {product(slope.own, factor), far, {}, far, slope.jumps};
 }
 
-std::optional<Slopes> SlopeRules::slopes_of(PartId id, std::uint32_t species,
-                                            const std::vector<Slopes>& before) {
-    const Node node = builder_[id];
+std::optional<Slopes> SlopeRules::slopes_of(NodeId id, std::uint32_t species,
+                                            const IdVector<NodeId, Slopes>& before) {
+    const Node node = algebra_[id];
     Slopes slopes{zero(), zero(), zero()};
     if (node.kind == NodeKind::own && node.index == species) slopes[0].own = number(1);
     if (node.kind != NodeKind::call) return slopes;
     if (node.type == ValueType::vector) note_components(id, node);
     bool depends = false;
-    for (std::size_t n = 0; n < operand_count(node); ++n) {
-        for (const Slope& slope : before[node.operands[n]]) depends |= !is_zero(slope);
+    for (const NodeId operand : node.reads()) {
+        for (const Slope& slope : before[operand]) depends |= !is_zero(slope);
     }
     if (node.type == ValueType::tensor) {
         // A tensor that turns with a species has no rule.
@@ -90,7 +90,8 @@ std::optional<Slopes> SlopeRules::slopes_of(PartId id, std::uint32_t species,
     return slopes;
 }
 
-std::optional<Slope> SlopeRules::of_number(const Node& node, const std::vector<Slopes>& before) {
+std::optional<Slope> SlopeRules::of_number(const Node& node,
+                                           const IdVector<NodeId, Slopes>& before) {
     const Slopes& first = before[node.operands[0]];
     switch (node.function) {
         case Function::div: return of_divergence(first);
@@ -108,12 +109,13 @@ std::optional<Slope> SlopeRules::of_number(const Node& node, const std::vector<S
     return by_partials(node, before);
 }
 
-std::optional<Slope> SlopeRules::by_partials(const Node& node, const std::vector<Slopes>& before) {
+std::optional<Slope> SlopeRules::by_partials(const Node& node,
+                                             const IdVector<NodeId, Slopes>& before) {
     Slope slope = zero();
-    for (std::size_t n = 0; n < operand_count(node); ++n) {
+    for (std::size_t n = 0; n < node.operand_count; ++n) {
         const Slope& inner = before[node.operands[n]][0];
         if (is_zero(inner)) continue;
-        const auto partial = partial_derivative(builder_, node, n);
+        const auto partial = partial_derivative(algebra_, node, n);
         if (!partial) return std::nullopt;
         add(slope, scaled(inner, *partial));
         slope.jumps |= jumps_by(node.function, n);
@@ -127,22 +129,22 @@ Slope SlopeRules::of_squared_gradient(const Node& node, const Slope& inner) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!has_axis(axis)) continue;
         // A central difference reads as far as two faces and has half the gain of one.
-        const PartId along = magnitude(derivative(node.operands[0], axis));
+        const NodeId along = magnitude(derivative(node.operands[0], axis));
         add(slope, through_other(inner, product(along, gradient_gain(axis))));
     }
     return slope;
 }
 
 /// Upwind, v (c − W) / h: diffusion of the gain −2 |v| / h, and waves of |v| / h.
-Slope SlopeRules::of_advection(const Node& node, const std::vector<Slopes>& before) {
-    const std::size_t velocities = operand_count(node) - 1;
-    const PartId carried = node.operands[velocities];
+Slope SlopeRules::of_advection(const Node& node, const IdVector<NodeId, Slopes>& before) {
+    const std::size_t velocities = node.operand_count - 1;
+    const NodeId carried = node.operands[velocities];
     Slope slope = zero();
     Node by_change = node;
     bool velocity_changes = false;
-    PartId speed = zero_;
+    NodeId speed = zero_;
     for (std::size_t axis = 0; axis < velocities; ++axis) {
-        const PartId velocity = node.operands[axis];
+        const NodeId velocity = node.operands[axis];
         const Slope& change = before[velocity][0];
         by_change.operands[axis] = change.own;
         velocity_changes |= change.own != zero_;
@@ -151,10 +153,10 @@ Slope SlopeRules::of_advection(const Node& node, const std::vector<Slopes>& befo
                             derivative(carried, axis)));
         speed = sum(speed, product(magnitude(velocity), gradient_gain(axis)));
     }
-    if (velocity_changes) slope.own = builder_.part(by_change);
+    if (velocity_changes) slope.own = algebra_.add(by_change);
     const Slope& inner = before[carried][0];
     Slope carries = through_diffusion(inner, speed);
-    for (PartId& each : carries.diffusion) each = builder_.negate(each);
+    for (NodeId& each : carries.diffusion) each = algebra_.negative(each);
     carries.other = sum(carries.other, product(number(0.5), carries.far));
     add(slope, carries);
     return slope;
@@ -175,7 +177,7 @@ Slope SlopeRules::of_divergence(const Slopes& flux) {
         changes |= along.own != zero_;
         slope.jumps |= along.jumps;
         if (!has_axis(axis)) continue;
-        const PartId gain = gradient_gain(axis);
+        const NodeId gain = gradient_gain(axis);
         slope.far = sum(slope.far, product(gain, all_of(along)));
         slope.other =
             sum(slope.other,
@@ -189,11 +191,12 @@ Slope SlopeRules::of_divergence(const Slopes& flux) {
     }
     // On a model components make no flux: that of the cell itself is bounded as those of neighbours
     // are.
-    if (changes && !links_) slope.own = builder_.call(Function::div, {builder_.part(vector)});
+    if (changes && !links_) slope.own = algebra_.call(Function::div, {algebra_.add(vector)});
     return slope;
 }
 
-std::optional<Slopes> SlopeRules::of_vector(const Node& node, const std::vector<Slopes>& before) {
+std::optional<Slopes> SlopeRules::of_vector(const Node& node,
+                                            const IdVector<NodeId, Slopes>& before) {
     Slopes slopes{zero(), zero(), zero()};
     const auto operand = [&](std::size_t n) -> const Slopes& { return before[node.operands[n]]; };
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -203,7 +206,7 @@ std::optional<Slopes> SlopeRules::of_vector(const Node& node, const std::vector<
                 slopes[axis] = through_diffusion(operand(0)[0], gradient_gain(axis));
                 break;
             case Function::vector:
-                if (axis < operand_count(node)) {
+                if (axis < node.operand_count) {
                     slopes[axis] = as_other(operand(axis)[0], number(1));
                 }
                 break;
@@ -222,20 +225,21 @@ std::optional<Slopes> SlopeRules::of_vector(const Node& node, const std::vector<
     return slopes;
 }
 
-std::optional<Slopes> SlopeRules::of_product(const Node& node, const std::vector<Slopes>& before) {
-    PartId vector = node.operands[0], factor = node.operands[1];
-    if (builder_[vector].type == ValueType::tensor) {
+std::optional<Slopes> SlopeRules::of_product(const Node& node,
+                                             const IdVector<NodeId, Slopes>& before) {
+    NodeId vector = node.operands[0], factor = node.operands[1];
+    if (algebra_[vector].type == ValueType::tensor) {
         return times_tensor(vector, before[factor]);
     }
-    if (builder_[vector].type != ValueType::vector) std::swap(vector, factor);
+    if (algebra_[vector].type != ValueType::vector) std::swap(vector, factor);
     const bool divides = node.function == Function::divide;
-    const PartId by = divides ? builder_.divide(number(1), factor) : factor;
+    const NodeId by = divides ? algebra_.quotient(number(1), factor) : factor;
     Slopes slopes{zero(), zero(), zero()};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!has_axis(axis)) continue;
         slopes[axis] = scaled(before[vector][axis], by);
-        PartId value = components_.at(vector)[axis];
-        if (divides) value = builder_.negate(product(value, product(by, by)));
+        NodeId value = components_.at(vector)[axis];
+        if (divides) value = algebra_.negative(product(value, product(by, by)));
         add(slopes[axis], as_other(before[factor][0], value));
     }
     return slopes;
@@ -244,10 +248,10 @@ std::optional<Slopes> SlopeRules::of_product(const Node& node, const std::vector
 /// Of a gradient the diagonal is enough: p² a11 + q² a22 + 2 p q √(1 − p²) √(1 − q²) a12 is the
 /// symbol of div(A grad e) in units of 4/h², p and q being sines; it is never above a11 + a22 where
 /// a12² ≤ a11 a22.
-Slopes SlopeRules::times_tensor(PartId tensor, const Slopes& flux) {
-    const Node node = builder_[tensor];
+Slopes SlopeRules::times_tensor(NodeId tensor, const Slopes& flux) {
+    const Node node = algebra_[tensor];
     const auto [a11, a12, a22] =
-        tensor_entries(node.operands[0], node.operands[1], node.operands[2]);
+        tensor_entries(algebra_, node.operands[0], node.operands[1], node.operands[2]);
     Slopes slopes{scaled(flux[0], a11), scaled(flux[1], a22), zero()};
     const bool is_gradient = !has_metric_ && flux[0].own == zero_ && flux[1].own == zero_ &&
                              flux[0].other == zero_ && flux[1].other == zero_;

@@ -8,7 +8,7 @@
 // may grow.
 #pragma once
 
-#include "lang/program/formula_builder.h"
+#include "lang/calculus/algebra.h"
 #include "lang/program/models.h"
 
 #include <array>
@@ -21,16 +21,16 @@ namespace cascade {
 
 /// The change of a number, or of one component of a vector at the faces.
 struct Slope {
-    PartId own = 0;  ///< The derivative by the cell's own value, without operators.
+    NodeId own;  ///< The derivative by the cell's own value, without operators.
     /// Σ of the magnitudes of the derivatives through operators and aggregates, by all cells: no
     /// wave is multiplied by more. Never below 0.
-    PartId far = 0;
+    NodeId far;
     /// What of it is diffusion: diffusion[k] is the coefficient of (−x)^(k+1). Of a vector's
     /// component [k] is the factor of the gradient of what would be (−x)^k, so that its divergence
     /// has the same coefficients.
-    std::vector<PartId> diffusion;
+    std::vector<NodeId> diffusion;
     /// The magnitude of what is not: waves that travel, mixed derivatives, aggregates.
-    PartId other = 0;
+    NodeId other;
     /// Does it jump where the species passes a threshold? No derivative knows of it.
     bool jumps = false;
 };
@@ -40,53 +40,52 @@ using Slopes = std::array<Slope, 3>;
 class SlopeRules {
 public:
     /// `model` may be null where nothing beyond the own cell is asked for.
-    SlopeRules(FormulaBuilder& builder, const Program& program, const ModelFacts* model);
+    SlopeRules(Algebra& algebra, const Program& program, const ModelFacts* model);
 
     /// The slopes of part `id` by species item `species`, given those of all parts before it. Empty
     /// where the part depends on the species and there is no rule for it.
-    std::optional<Slopes> slopes_of(PartId id, std::uint32_t species,
-                                    const std::vector<Slopes>& before);
+    std::optional<Slopes> slopes_of(NodeId id, std::uint32_t species,
+                                    const IdVector<NodeId, Slopes>& before);
 
 private:
     Slope zero() const { return {zero_, zero_, {}, zero_, false}; }
     bool is_zero(const Slope& slope) const;
-    PartId all_of(const Slope& slope);
+    NodeId all_of(const Slope& slope);
     void add(Slope& sum, const Slope& slope);
-    Slope scaled(const Slope& slope, PartId factor);
-    Slope through_diffusion(const Slope& slope, PartId gain);
-    Slope through_other(const Slope& slope, PartId gain);
-    Slope as_other(const Slope& slope, PartId factor);
+    Slope scaled(const Slope& slope, NodeId factor);
+    Slope through_diffusion(const Slope& slope, NodeId gain);
+    Slope through_other(const Slope& slope, NodeId gain);
+    Slope as_other(const Slope& slope, NodeId factor);
 
-    std::optional<Slope> of_number(const Node& node, const std::vector<Slopes>& before);
-    std::optional<Slope> by_partials(const Node& node, const std::vector<Slopes>& before);
+    std::optional<Slope> of_number(const Node& node, const IdVector<NodeId, Slopes>& before);
+    std::optional<Slope> by_partials(const Node& node, const IdVector<NodeId, Slopes>& before);
     Slope of_squared_gradient(const Node& node, const Slope& inner);
-    Slope of_advection(const Node& node, const std::vector<Slopes>& before);
+    Slope of_advection(const Node& node, const IdVector<NodeId, Slopes>& before);
     Slope of_divergence(const Slopes& flux);
-    std::optional<Slopes> of_vector(const Node& node, const std::vector<Slopes>& before);
-    std::optional<Slopes> of_product(const Node& node, const std::vector<Slopes>& before);
-    Slopes times_tensor(PartId tensor, const Slopes& flux);
+    std::optional<Slopes> of_vector(const Node& node, const IdVector<NodeId, Slopes>& before);
+    std::optional<Slopes> of_product(const Node& node, const IdVector<NodeId, Slopes>& before);
+    Slopes times_tensor(NodeId tensor, const Slopes& flux);
 
     // Gains of operators, which the surface changes, and values of vectors.
-    std::optional<PartId> diffusion_gain(const Node& node);
-    std::optional<PartId> other_gain(const Node& node);
-    PartId gradient_gain(std::size_t axis);  ///< Of the derivative along a direction, by faces.
-    PartId metric(MetricPlane plane);
-    std::array<PartId, 3> tensor_entries(PartId a1, PartId a2, PartId theta);
-    void note_components(PartId vector, const Node& node);
-    std::array<PartId, 3> components_of(const Node& node);
-    PartId derivative(PartId of, std::size_t axis);
-    PartId magnitude(PartId of) { return builder_.absolute(of); }
-    PartId number(double value) { return builder_.number(value); }
-    PartId sum(PartId a, PartId b) { return builder_.add(a, b); }
-    PartId product(PartId a, PartId b) { return builder_.multiply(a, b); }
+    std::optional<NodeId> diffusion_gain(const Node& node);
+    std::optional<NodeId> other_gain(const Node& node);
+    NodeId gradient_gain(std::size_t axis);  ///< Of the derivative along a direction, by faces.
+    NodeId metric(MetricPlane plane);
+    void note_components(NodeId vector, const Node& node);
+    std::array<NodeId, 3> components_of(const Node& node);
+    NodeId derivative(NodeId of, std::size_t axis);
+    NodeId magnitude(NodeId of) { return algebra_.magnitude(of); }
+    NodeId number(double value) { return algebra_.number(value); }
+    NodeId sum(NodeId a, NodeId b) { return algebra_.sum(a, b); }
+    NodeId product(NodeId a, NodeId b) { return algebra_.product(a, b); }
     bool has_axis(std::size_t axis) const;
 
-    FormulaBuilder& builder_;
+    Algebra& algebra_;
     const Grid& grid_;
     bool has_metric_;
     std::optional<double> links_;  ///< The largest sum of weights of a cell's links, on a model.
-    PartId zero_;
-    std::unordered_map<PartId, std::array<PartId, 3>> components_;  ///< Of vectors seen so far.
+    NodeId zero_;
+    std::unordered_map<NodeId, std::array<NodeId, 3>> components_;  ///< Of vectors seen so far.
 };
 
 }  // namespace cascade

@@ -1,7 +1,7 @@
 // Marks parts bottom-up, then takes the largest ones that depend on nothing but time.
 #include "lang/calculus/time_parts.h"
 
-#include "lang/calculus/flat_rates.h"
+#include "lang/calculus/algebra.h"
 
 #include <algorithm>
 
@@ -15,7 +15,7 @@ struct Kind {
     bool reads_time = false;  ///< and `t` among them.
 };
 
-Kind kind_of(const Node& node, const std::vector<Kind>& before, const Program& program,
+Kind kind_of(const Node& node, const IdVector<NodeId, Kind>& before, const Program& program,
              std::uint32_t stage) {
     const bool is_time =
         node.kind == NodeKind::builtin && static_cast<Builtin>(node.index) == Builtin::t;
@@ -30,9 +30,9 @@ Kind kind_of(const Node& node, const std::vector<Kind>& before, const Program& p
     Kind kind{!info(function).is_aggregate && !is_random(function) && !varies_by_cell(function) &&
                   !differentiates(function) && node.type == ValueType::number,
               false};
-    for (std::size_t n = 0; n < operand_count(node); ++n) {
-        kind.is_of_time = kind.is_of_time && before[node.operands[n]].is_of_time;
-        kind.reads_time = kind.reads_time || before[node.operands[n]].reads_time;
+    for (const NodeId operand : node.reads()) {
+        kind.is_of_time = kind.is_of_time && before[operand].is_of_time;
+        kind.reads_time = kind.reads_time || before[operand].reads_time;
     }
     return kind;
 }
@@ -42,24 +42,24 @@ Kind kind_of(const Node& node, const std::vector<Kind>& before, const Program& p
 std::vector<Formula> parts_of_time(const Program& program, std::uint32_t stage) {
     const System& system = program.system_of(stage);
     FlatRates rates(system);
-    std::vector<Kind> kinds;
-    std::vector<PartId> found;
-    const auto note = [&](PartId id) {
+    IdVector<NodeId, Kind> kinds;
+    std::vector<NodeId> found;
+    const auto note = [&](NodeId id) {
         const bool is_wanted = kinds[id].is_of_time && kinds[id].reads_time;
         if (is_wanted && std::find(found.begin(), found.end(), id) == found.end())
             found.push_back(id);
     };
-    for (PartId id = 0; id < rates.part_count(); ++id) {
-        const Node& node = rates.builder()[id];
+    for (const NodeId id : ids_below<NodeId>(rates.count)) {
+        const Node& node = rates.algebra[id];
         kinds.push_back(kind_of(node, kinds, program, stage));
         if (node.kind != NodeKind::call || kinds[id].is_of_time) continue;
-        for (std::size_t n = 0; n < operand_count(node); ++n) note(node.operands[n]);
+        for (const NodeId operand : node.reads()) note(operand);
     }
     for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
         if (system.is_species(item)) note(rates.rate(item));
     }
     std::vector<Formula> parts;
-    for (const PartId id : found) parts.push_back(rates.builder().formula(id));
+    for (const NodeId id : found) parts.push_back(rates.algebra.formula(id));
     return parts;
 }
 

@@ -54,7 +54,7 @@ void ExpressionChecker::visit(const ast::Call& call) {
 void ExpressionChecker::take_surface_value(Function function, const ast::Call& call) {
     SurfaceValue value{function, {}};
     for (std::uint32_t k = 0; k < call.argument_count; ++k) {
-        const std::uint32_t part = part_of(script_.arguments[call.first_argument + k]);
+        const NodeId part = part_of(script_.arguments[call.first_argument + k]);
         if (parts_[part].faulty) parts_.back().faulty = true;
         if (parts_.back().faulty) return;
         if (parts_[part].constant && !(std::abs(parts_[part].value) <= largest_of_points)) {
@@ -197,7 +197,7 @@ void ExpressionChecker::apply(Function function, const Operands& operands, std::
     fold_constants(node);
 }
 
-void ExpressionChecker::need(std::uint32_t part, ValueType type) {
+void ExpressionChecker::need(NodeId part, ValueType type) {
     const Node& operand = formula_.nodes[part];
     if (operand.type == type || parts_.back().faulty) return;
     if (type == ValueType::text) {
@@ -226,10 +226,10 @@ void ExpressionChecker::check_types(const Node& node) {
             break;
         default: break;
     }
-    for (std::size_t i = 0; i < node.operand_count; ++i) need(operands[i], ValueType::number);
+    for (const NodeId operand : node.reads()) need(operand, ValueType::number);
 }
 
-void ExpressionChecker::check_choice(Node& node, std::uint32_t a, std::uint32_t b) {
+void ExpressionChecker::check_choice(Node& node, NodeId a, NodeId b) {
     const ValueType type = formula_.nodes[a].type;
     const bool is_chosen = type == ValueType::number || type == ValueType::colour;
     if ((type != formula_.nodes[b].type || !is_chosen) && !parts_.back().faulty) {
@@ -268,7 +268,7 @@ void ExpressionChecker::check_angle(const Node& node) {
     const bool is_stripe = node.function == Function::stripe && node.operand_count == 3;
     if (node.function != Function::diffuse && node.function != Function::tensor && !is_stripe)
         return;
-    const std::uint32_t last = node.operands[node.operand_count - 1u];
+    const NodeId last = node.operands[node.operand_count - 1u];
     const Part& angle = parts_[last];
     const bool is_odd = angle.constant && std::abs(angle.value) > 2 * std::numbers::pi &&
                         angle.value == std::floor(angle.value);

@@ -5,54 +5,26 @@
 
 namespace cascade::checking {
 
-namespace {
-
-/// Leaves out the parts that the part `root` does not need, directly or through others, so that it
-/// becomes the last one.
-Formula keep_needed(const Formula& formula, std::uint32_t root) {
-    std::vector<bool> needed(root + 1, false);
-    needed[root] = true;
-    for (std::uint32_t part = root + 1; part-- > 0;) {
-        const Node& node = formula.nodes[part];
-        if (!needed[part] || node.kind != NodeKind::call) continue;
-        for (std::size_t i = 0; i < node.operand_count; ++i) needed[node.operands[i]] = true;
-    }
-    Formula kept;
-    std::vector<std::uint32_t> places(root + 1, 0);
-    for (std::uint32_t part = 0; part <= root; ++part) {
-        if (!needed[part]) continue;
-        places[part] = static_cast<std::uint32_t>(kept.nodes.size());
-        Node node = formula.nodes[part];
-        for (std::size_t i = 0; i < node.operand_count; ++i) {
-            node.operands[i] = places[node.operands[i]];
-        }
-        kept.nodes.push_back(node);
-    }
-    return kept;
-}
-
-}  // namespace
-
 std::optional<CheckedExpression> ExpressionChecker::run() {
     const std::uint32_t count = expression_.root - expression_.first + 1;
     formula_.nodes.reserve(count);
     parts_.reserve(count);
     find_text_places();
     bool faulty = false;
-    for (std::uint32_t part = 0; part < count; ++part) {
+    for (const NodeId part : ids_below<NodeId>(count)) {
         Node node;
         node.span = expr(part).span;
         formula_.nodes.push_back(node);
         parts_.emplace_back();
-        if (expanded_ != nullptr) work_.call = expanded_->calls[part];
+        if (expanded_ != nullptr) work_.call = expanded_->calls[part.index()];
         std::visit([this](const auto& kind) { visit(kind); }, expr(part).node);
         faulty = faulty || parts_.back().faulty;
     }
     work_.call = std::nullopt;
     if (faulty) return std::nullopt;
-    const std::uint32_t root = expanded_ != nullptr ? expanded_->root : count - 1;
+    const NodeId root(expanded_ != nullptr ? expanded_->root : count - 1);
     CheckedExpression checked;
-    checked.formula = expanded_ != nullptr ? keep_needed(formula_, root) : std::move(formula_);
+    checked.formula = expanded_ != nullptr ? formula_of(formula_.nodes, root) : std::move(formula_);
     if (parts_[root].constant) checked.constant = parts_[root].value;
     return checked;
 }
@@ -87,7 +59,7 @@ void ExpressionChecker::visit(const ast::Text& text) {
     Node& node = formula_.nodes.back();
     node.kind = NodeKind::text;
     node.type = ValueType::text;
-    if (!wants_text_[parts_.size() - 1]) {
+    if (!wants_text_[NodeId(parts_.size() - 1)]) {
         return fault(node.span, "a text can only name a palette or a file",
                      "palette(v, low, high, \"grey\"), field(\"a.npy\")");
     }
@@ -96,7 +68,7 @@ void ExpressionChecker::visit(const ast::Text& text) {
 
 void ExpressionChecker::visit(const ast::Name& name) {
     const Span span = formula_.nodes.back().span;
-    if (wants_text_[parts_.size() - 1]) {
+    if (wants_text_[NodeId(parts_.size() - 1)]) {
         return fault(span, "a text in quotes is expected here", fmt::format("\"{}\"", name.name));
     }
     take(resolve_bare(work_, scope_, name.name, span));

@@ -56,13 +56,13 @@ std::optional<double> check_constant(Workspace& work, const ast::Script& script,
 
 template <typename DepthOfLeaf>
 std::uint32_t check_nesting(Workspace& work, const Formula& formula, const DepthOfLeaf& of_leaf) {
-    std::vector<std::uint32_t> depth;
+    IdVector<NodeId, std::uint32_t> depth;
     depth.reserve(formula.nodes.size());
     for (const Node& node : formula.nodes) {
         std::uint32_t deepest = 0;
         if (node.kind == NodeKind::call) {
-            for (std::size_t k = 0; k < operand_count(node); ++k) {
-                deepest = std::max(deepest, depth[node.operands[k]]);
+            for (const NodeId operand : node.reads()) {
+                deepest = std::max(deepest, depth[operand]);
             }
             const bool adds = differentiates(node.function) || info(node.function).is_aggregate;
             if (adds && deepest++ == most_nested_operators) {

@@ -77,7 +77,7 @@ bool ExpressionChecker::check_vectors(const Node& node) {
 }
 
 /// A derivative of what is made of numbers alone is a slip.
-bool ExpressionChecker::is_same_everywhere(std::uint32_t part) {
+bool ExpressionChecker::is_same_everywhere(NodeId part) {
     if (!parts_[part].constant) return false;
     const Node& node = formula_.nodes.back();
     fault(formula_.nodes[part].span,
@@ -93,9 +93,7 @@ void ExpressionChecker::check_operator(const Node& node) {
         return fault(flux.span, "div takes a vector",
                      "such as grad(e), d * grad(e) or vector(ex, ey)");
     }
-    for (std::size_t k = 0; k < node.operand_count; ++k) {
-        need(node.operands[k], ValueType::number);
-    }
+    for (const NodeId operand : node.reads()) need(operand, ValueType::number);
     if (parts_.back().faulty) return;
     switch (node.function) {
         case Function::vector: formula_.nodes.back().type = ValueType::vector; return;

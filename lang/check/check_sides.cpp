@@ -96,15 +96,13 @@ Span head_of(const ast::Statement& statement) {
 /// t and step reach a side as numbers: what takes the values of many cells, or knows the place of
 /// one, is computed when the stage starts.
 bool is_known_along_side(Workspace& work, const Formula& value) {
-    std::vector<bool> changes;
+    IdVector<NodeId, bool> changes;
     for (const Node& node : value.nodes) {
         bool is_changing = node.kind == NodeKind::builtin &&
                            (node.index == static_cast<std::uint32_t>(Builtin::t) ||
                             node.index == static_cast<std::uint32_t>(Builtin::step));
         if (node.kind == NodeKind::call) {
-            for (std::size_t k = 0; k < operand_count(node); ++k) {
-                if (changes[node.operands[k]]) is_changing = true;
-            }
+            for (const NodeId operand : node.reads()) is_changing |= changes[operand];
             const FunctionInfo& function = info(node.function);
             if (is_changing && (varies_by_cell(node.function) || function.is_aggregate)) {
                 work.diagnostics.error(

@@ -275,17 +275,12 @@ void StageChecker::find_uniform() {
     Stage& target = stage();
     target.uniform.assign(target.items.size(), false);
     std::vector<std::uint32_t> depths(target.items.size());
-    std::vector<bool> varies;
+    IdVector<NodeId, bool> varies;
     for (const std::uint32_t item : target.order) {
-        const std::vector<Node>& nodes = target.items[item].nodes;
         varies.clear();
-        for (const Node& node : nodes) {
+        for (const Node& node : target.items[item].nodes) {
             bool operand_varies = false;
-            if (node.kind == NodeKind::call) {
-                for (std::size_t k = 0; k < operand_count(node); ++k) {
-                    operand_varies = operand_varies || varies[node.operands[k]];
-                }
-            }
+            for (const NodeId operand : node.reads()) operand_varies |= varies[operand];
             varies.push_back(differs_by_cell(node, operand_varies, work_.program, index_));
         }
         target.uniform[item] = !system().is_species(item) && (varies.empty() || !varies.back());

@@ -69,13 +69,13 @@ const Node* reader_of_speed(const Program& program, const Stage& stage) {
 
 /// The first part that makes a formula differ between cells. Operands stand before what reads them.
 const Node* varying_part(const Program& program, std::uint32_t stage, const Formula& formula) {
-    std::vector<const Node*> cause(formula.nodes.size(), nullptr);
-    for (std::size_t part = 0; part < formula.nodes.size(); ++part) {
+    IdVector<NodeId, const Node*> cause(formula.nodes.size(), nullptr);
+    for (const NodeId part : cause.ids()) {
         const Node& node = formula.nodes[part];
         if (differs_by_cell(node, false, program, stage)) cause[part] = &node;
         if (node.kind != NodeKind::call || info(node.function).is_aggregate) continue;
-        for (std::size_t n = 0; n < operand_count(node); ++n) {
-            if (cause[part] == nullptr) cause[part] = cause[node.operands[n]];
+        for (const NodeId operand : node.reads()) {
+            if (cause[part] == nullptr) cause[part] = cause[operand];
         }
     }
     return cause.back();

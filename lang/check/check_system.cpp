@@ -294,16 +294,19 @@ void superpose(Formula& sum, Formula term) {
         sum = std::move(term);
         return;
     }
-    const auto shift = static_cast<std::uint32_t>(sum.nodes.size());
+    const NodeId before = NodeId(sum.nodes.size() - 1);
     for (Node& node : term.nodes) {
-        for (std::uint32_t& operand : node.operands) operand += shift;
+        for (NodeId& operand : node.reads()) {
+            operand = NodeId(operand.index() + before.index() + 1);
+        }
         sum.nodes.push_back(node);
     }
     Node addition;
     addition.kind = NodeKind::call;
     addition.function = Function::add;
     addition.span = sum.nodes.back().span;
-    addition.operands = {shift - 1, static_cast<std::uint32_t>(sum.nodes.size() - 1), 0, 0};
+    addition.operands = {before, NodeId(sum.nodes.size() - 1)};
+    addition.operand_count = 2;
     sum.nodes.push_back(addition);
 }
 

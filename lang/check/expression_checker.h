@@ -41,10 +41,10 @@ public:
     std::optional<CheckedExpression> run();
 
 private:
-    const ast::Expr& expr(std::uint32_t part) const {
-        return script_.expressions[expression_.first + part];
+    const ast::Expr& expr(NodeId part) const {
+        return script_.expressions[expression_.first + part.index()];
     }
-    std::uint32_t part_of(ast::ExprId id) const { return id - expression_.first; }
+    NodeId part_of(ast::ExprId id) const { return NodeId(id - expression_.first); }
     void fault(Span span, std::string message, std::string hint = "") {
         Diagnostic diagnostic{Severity::error, span, std::move(message), std::move(hint), {}};
         add_call(work_, diagnostic);
@@ -73,15 +73,15 @@ private:
     void wrong_count(Function function, std::size_t count);
     bool belongs_here(Function function, Span span);
     void check_types(const Node& node);
-    void check_choice(Node& node, std::uint32_t a, std::uint32_t b);
+    void check_choice(Node& node, NodeId a, NodeId b);
     void check_palette(const Node& node);
     void check_angle(const Node& node);
     void warn(Span span, std::string message, std::string hint);
     void check_lattice(Node& node);
     bool check_vectors(const Node& node);
     void check_operator(const Node& node);
-    bool is_same_everywhere(std::uint32_t part);
-    void need(std::uint32_t part, ValueType type);
+    bool is_same_everywhere(NodeId part);
+    void need(NodeId part, ValueType type);
     void fold_constants(const Node& node);
 
     Workspace& work_;
@@ -91,8 +91,8 @@ private:
     const ast::Script& from_ = script_;  ///< Whose functions can be called.
     const Expanded* expanded_ = nullptr;
     Formula formula_;
-    std::vector<Part> parts_;
-    std::vector<bool> wants_text_;
+    IdVector<NodeId, Part> parts_;
+    IdVector<NodeId, bool> wants_text_;
 };
 
 }  // namespace cascade::checking

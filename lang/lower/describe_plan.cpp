@@ -13,35 +13,33 @@ namespace cascade::lowering {
 
 namespace {
 
-/// Longer formulas are only counted.
-constexpr std::uint32_t most_parts_shown = 60;
+/// What ends further on in a formula is not shown.
+constexpr NodeId longest_shown{60};
 
-/// Parts that nobody has written: those of a tensor, and of operators on a surface.
-std::string describe_made(const PartGraph& graph, const Part& part) {
-    const bool is_round = part.calls(Function::sin) || part.calls(Function::cos);
-    if (is_round && graph[part.operands[0]].formula != nullptr) {
-        return fmt::format("the {} of a direction", part.calls(Function::sin) ? "sine" : "cosine");
+/// What nobody has written: entries of a tensor, and what operators are made of on a surface.
+std::string describe_made(const PlanGraph& graph, const Node& node) {
+    const bool is_sine = node.calls(Function::sin);
+    if ((is_sine || node.calls(Function::cos)) && graph.formula(node.operands[0]) != nullptr) {
+        return fmt::format("the {} of a direction", is_sine ? "sine" : "cosine");
     }
     return "an entry of a tensor";
 }
 
-/// How a part is written, or what it is called.
-std::string name_of(const PartGraph& graph, PartId id) {
+/// How a node is written, or what it is called.
+std::string name_of(const PlanGraph& graph, NodeId id) {
     const std::string& name = graph.name(id);
     if (!name.empty()) return name;
-    const Part& part = graph[id];
-    if (part.calls(Function::if_) && graph[part.operands[0]].node.kind == NodeKind::inside) {
-        return name_of(graph, part.operands[1]) + " inside the mask";
+    const Node& node = graph[id];
+    if (node.calls(Function::if_) && graph[node.operands[0]].kind == NodeKind::inside) {
+        return name_of(graph, node.operands[1]) + " inside the mask";
     }
-    if (part.formula == nullptr) return describe_made(graph, part);
-    if (part.position > most_parts_shown) return "a long expression";
-    Formula formula;
-    const auto& nodes = part.formula->nodes;
-    formula.nodes.assign(nodes.begin(), nodes.begin() + part.position + 1);
-    return print_formula(graph.program(), graph.program().system_of(graph.stage()), formula);
+    if (graph.formula(id) == nullptr) return describe_made(graph, node);
+    if (graph.position(id) > longest_shown) return "a long expression";
+    return print_formula(graph.program(), graph.program().system_of(graph.stage()),
+                         formula_of(graph.formula(id)->nodes, graph.position(id)));
 }
 
-std::string describe_choice(const PartGraph& graph, const PassPlanner::OperandChoice& choice) {
+std::string describe_choice(const PlanGraph& graph, const PassPlanner::OperandChoice& choice) {
     const std::string reader = name_of(graph, choice.reader);
     const std::string operand = name_of(graph, choice.operand);
     if (choice.places == 0) {
@@ -63,9 +61,9 @@ std::string describe_choice(const PartGraph& graph, const PassPlanner::OperandCh
                                         : "computing it again would take longer than reading it");
 }
 
-std::string describe_step_invariant(const PartGraph& graph, PartId id) {
+std::string describe_step_invariant(const PlanGraph& graph, NodeId id) {
     const std::string name = name_of(graph, id);
-    if (graph[id].is_uniform) return fmt::format("{} is computed once: no step changes it", name);
+    if (graph.is_uniform(id)) return fmt::format("{} is computed once: no step changes it", name);
     return fmt::format(
         "{} is computed once and kept in a plane: no step changes it, and computing it "
         "again would take longer than reading it",
@@ -74,7 +72,7 @@ std::string describe_step_invariant(const PartGraph& graph, PartId id) {
 
 }  // namespace
 
-std::string describe(const PartGraph& graph, const PassPlanner& planner, const StepPlan& plan) {
+std::string describe(const PlanGraph& graph, const PassPlanner& planner, const StepPlan& plan) {
     std::string text = counted(plan.passes.size(), "pass");
     if (plan.temporaries > 0) text += ", " + counted(plan.temporaries, "temporary plane");
     if (plan.aggregates > 0) text += ", " + counted(plan.aggregates, "aggregate");
@@ -91,9 +89,8 @@ std::string describe(const PartGraph& graph, const PassPlanner& planner, const S
         text += ": ";
         for (std::size_t k = 0; k < results.size(); ++k) text += (k > 0 ? ", " : "") + results[k];
     }
-    std::vector<std::pair<std::string, std::size_t>>
-        step_invariants;  // And how many parts of one name.
-    for (PartId id = 0; id < graph.size(); ++id) {
+    std::vector<std::pair<std::string, std::size_t>> step_invariants;  // And how many of one name.
+    for (const NodeId id : graph.ids()) {
         if (!planner.is_needed(id) || !planner.is_step_invariant(id)) continue;
         std::string words = describe_step_invariant(graph, id);
         if (step_invariants.empty() || step_invariants.back().first != words)

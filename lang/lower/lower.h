@@ -74,6 +74,10 @@ StepPlan plan_view(const Program& program, std::span<const Formula* const> formu
                    std::uint32_t stage, const PlanOptions& options = {});
 StepPlan plan_view(const Program& program, const Formula& formula, std::uint32_t stage);
 
+/// The expression graphs of every stage after each pass of lowering that changes one, for
+/// `--dump graph`.
+std::string describe_graphs(const Program& program);
+
 /// What the passes of every stage do and why, in words, for `--dump plan`.
 std::string describe_plans(const Program& program);
 

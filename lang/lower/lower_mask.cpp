@@ -9,21 +9,21 @@
 
 namespace cascade::lowering {
 
-ValueId PassLowering::chosen(Offset inside, ValueId value, ValueId otherwise) {
+ValueId NodeValues::chosen(Offset inside, ValueId value, ValueId otherwise) const {
     return builder_.select(assembly_.inside(inside), value, otherwise);
 }
 
 /// The value of the cell that is a step along an axis from the one at `from`, or what stands in.
-ValueId PassLowering::beside(PartId id, Offset from, Offset step) {
+ValueId NodeValues::beside(NodeId id, Offset from, Offset step) const {
     const ValueId value = number_at(id, from + step);
-    if (!graph_.has_mask() || graph_[id].is_uniform) return value;
+    if (!graph_.has_mask() || graph_.is_uniform(id)) return value;
     return chosen(from + step, value, number_at(id, from));
 }
 
 /// The value at an offset from the own cell, or what stands in.
-ValueId PassLowering::beside(PartId id, Offset offset) {
+ValueId NodeValues::beside(NodeId id, Offset offset) const {
     const ValueId value = number_at(id, offset);
-    if (!graph_.has_mask() || graph_[id].is_uniform || offset.is_own()) return value;
+    if (!graph_.has_mask() || graph_.is_uniform(id) || offset.is_own()) return value;
     const ValueId own = number_at(id, {});
     const Offset along_x{offset.dx, 0, 0}, along_y{0, offset.dy, 0}, along_z{0, 0, offset.dz};
     const Offset first = along_x.is_own() ? along_y : along_x;
@@ -35,7 +35,7 @@ ValueId PassLowering::beside(PartId id, Offset offset) {
     return chosen(offset, value, between);
 }
 
-ValueId PassLowering::entry_beside(PartId tensor, std::size_t entry, Offset offset) {
+ValueId NodeValues::entry_beside(NodeId tensor, std::size_t entry, Offset offset) const {
     const ValueId value = at(tensor, offset)[entry];
     if (!graph_.has_mask() || offset.is_own()) return value;
     return chosen(offset, value, at(tensor, {})[entry]);

@@ -6,73 +6,85 @@
 
 namespace cascade::lowering {
 
-/// Where the factor is 1 nothing is multiplied.
-ValueId PassLowering::scaled(ValueId value, double factor) {
-    if (factor == 1) return value;
-    return builder_.multiply(value, builder_.number(factor));
-}
+namespace {
 
-/// The operation `laplacian` reads a plane as it is.
-bool PassLowering::can_read_as_plane(PartId id) const {
-    if (graph_[id].is_uniform) return false;
-    return planner_.is_step_invariant(id) || graph_.is_plane(id) ||
-           (planner_.is_plane_in(id, pass_) && !graph_[id].is_open());
-}
+class Stencils {
+public:
+    Stencils(const PassView& pass, KernelAssembly& assembly, const NodeValues& values)
+        : pass_(pass),
+          graph_(pass.graph),
+          axes_(pass.planner.axes()),
+          assembly_(assembly),
+          builder_(assembly.builder()),
+          values_(values),
+          grid_(graph_.program().domain.grid) {}
 
-/// Of a part that a pass has written, this one or that of the step-invariant parts.
-std::uint32_t PassLowering::slot_of_own_plane(PartId id) {
-    return planner_.is_step_invariant(id)
-               ? assembly_.step_invariant_slot(storage_.step_invariants[id])
-               : assembly_.temporary_slot(storage_.temporary[id]);
-}
+    ValueId stencil(const Node& node);
 
-std::uint32_t PassLowering::slot_of_plane(PartId id) {
-    if (planner_.is_step_invariant(id) || planner_.is_plane_in(id, pass_))
-        return slot_of_own_plane(id);
-    return assembly_.plane_slot(graph_, id);
-}
+private:
+    ValueId over_links(const Node& node);
+    ValueId laplacian(NodeId operand);
+    ValueId difference(NodeId operand, int axis);
+    ValueId second_difference(NodeId operand, int axis);
+    ValueId cross_difference(NodeId operand, int first, int second);
+    ValueId squared_gradient(NodeId operand);
+    ValueId advection(const Node& node);
+    ValueId anisotropic(const Node& node);
 
-ValueId PassLowering::stencil(PartId id) {
-    const Part& part = graph_[id];
-    const PartId operand = part.operands[part.operand_count - 1];
-    if (graph_[operand].is_uniform) return builder_.number(0);
-    if (graph_.is_linked()) return over_links(part);
-    const auto [order, first, second] = derivative_of(part.node.function);
+    std::uint32_t slot_of_plane(NodeId id) { return assembly_.field_slot(pass_.source(id)); }
+    ValueId own(NodeId id) const { return values_.number_at(id, {}); }
+    ValueId beside(NodeId id, Offset offset) const { return values_.beside(id, offset); }
+    ValueId scaled(ValueId value, double factor) const { return values_.scaled(value, factor); }
+
+    const PassView& pass_;
+    const PlanGraph& graph_;
+    const Axes& axes_;
+    KernelAssembly& assembly_;
+    KernelBuilder& builder_;
+    const NodeValues& values_;
+    const Grid& grid_;
+};
+
+ValueId Stencils::stencil(const Node& node) {
+    const NodeId operand = node.reads().back();
+    if (graph_.is_uniform(operand)) return builder_.number(0);
+    if (graph_.is_linked()) return over_links(node);
+    const auto [order, first, second] = derivative_of(node.function);
     if (order == 1) return difference(operand, first);
     if (order == 2 && first == second) return second_difference(operand, first);
     if (order == 2) return cross_difference(operand, first, second);
-    switch (part.node.function) {
+    switch (node.function) {
         case Function::lap: return laplacian(operand);
         case Function::grad2: return squared_gradient(operand);
-        case Function::advect: return advection(part);
-        case Function::diffuse: return anisotropic(part);
+        case Function::advect: return advection(node);
+        case Function::diffuse: return anisotropic(node);
         default: break;
     }
     CHECK(false, "lowering: every operator has its differences");
 }
 
 /// Sums over the links of a cell. |∇e|² is half of the Laplacian of e² less e times that of e.
-ValueId PassLowering::over_links(const Part& part) {
-    const PartId operand = part.operands[part.operand_count - 1];
+ValueId Stencils::over_links(const Node& node) {
+    const NodeId operand = node.reads().back();
     const std::uint32_t slot = slot_of_plane(operand);
-    if (const Derivative derivative = derivative_of(part.node.function); derivative.order == 1) {
+    if (const Derivative derivative = derivative_of(node.function); derivative.order == 1) {
         constexpr std::array gradients{Op::gradient_x, Op::gradient_y, Op::gradient_z};
         return builder_.over_links(gradients[static_cast<std::size_t>(derivative.first)], slot);
     }
-    switch (part.node.function) {
+    switch (node.function) {
         case Function::lap:
-            if (part.operand_count == 1) return builder_.laplacian(slot);
-            return scaled(builder_.link_flow({slot_of_plane(part.operands[0]), slot}), 0.5);
+            if (node.operand_count == 1) return builder_.laplacian(slot);
+            return scaled(builder_.link_flow({slot_of_plane(node.operands[0]), slot}), 0.5);
         case Function::grad2: return scaled(builder_.over_links(Op::link_squares, slot), 0.5);
         default: break;
     }
     CHECK(false, "lowering: operators without a meaning on a model are refused");
 }
 
-/// (((((N + S) + E) + W) + U) + D − 2n·c) / h² of n axes.
-ValueId PassLowering::laplacian(PartId operand) {
+/// (((((N + S) + E) + W) + U) + D − 2n·c) / h² of n axes_.
+ValueId Stencils::laplacian(NodeId operand) {
     const double factor = 1 / (grid_.spacing * grid_.spacing);
-    if (!graph_.has_mask() && can_read_as_plane(operand)) {
+    if (!graph_.has_mask() && pass_.can_read_as_plane(operand)) {
         return scaled(builder_.laplacian(slot_of_plane(operand)), factor);
     }
     std::optional<ValueId> sum;
@@ -80,38 +92,37 @@ ValueId PassLowering::laplacian(PartId operand) {
         const ValueId value = beside(operand, Offset::along(axis, by));
         sum = sum ? builder_.add(*sum, value) : value;
     };
-    const Axes& axes = planner_.axes();
-    if (axes.has(1)) add(1, -1), add(1, 1);
-    if (axes.has(0)) add(0, 1), add(0, -1);
-    if (axes.has(2)) add(2, -1), add(2, 1);
-    const auto neighbours = static_cast<double>(2 * axes.present.size());
-    const ValueId own = builder_.multiply(builder_.number(neighbours), number_at(operand, {}));
+    if (axes_.has(1)) add(1, -1), add(1, 1);
+    if (axes_.has(0)) add(0, 1), add(0, -1);
+    if (axes_.has(2)) add(2, -1), add(2, 1);
+    const auto neighbours = static_cast<double>(2 * axes_.present.size());
+    const ValueId centre = builder_.multiply(builder_.number(neighbours), own(operand));
     // As the operation on a plane rounds it, so that contraction cannot tell which of the two was
     // taken.
-    builder_.keep(own);
-    return scaled(builder_.subtract(*sum, own), factor);
+    builder_.keep(centre);
+    return scaled(builder_.subtract(*sum, centre), factor);
 }
 
 /// (E − W) / 2h.
-ValueId PassLowering::difference(PartId operand, int axis) {
-    if (!planner_.axes().has(axis)) return builder_.number(0);
+ValueId Stencils::difference(NodeId operand, int axis) {
+    if (!axes_.has(axis)) return builder_.number(0);
     const ValueId difference = builder_.subtract(beside(operand, Offset::along(axis, 1)),
                                                  beside(operand, Offset::along(axis, -1)));
     return scaled(difference, 1 / (2 * grid_.spacing));
 }
 
 /// ((E + W) − 2c) / h².
-ValueId PassLowering::second_difference(PartId operand, int axis) {
-    if (!planner_.axes().has(axis)) return builder_.number(0);
+ValueId Stencils::second_difference(NodeId operand, int axis) {
+    if (!axes_.has(axis)) return builder_.number(0);
     const ValueId sum = builder_.add(beside(operand, Offset::along(axis, 1)),
                                      beside(operand, Offset::along(axis, -1)));
-    const ValueId own = builder_.multiply(builder_.number(2), number_at(operand, {}));
-    return scaled(builder_.subtract(sum, own), 1 / (grid_.spacing * grid_.spacing));
+    const ValueId centre = builder_.multiply(builder_.number(2), own(operand));
+    return scaled(builder_.subtract(sum, centre), 1 / (grid_.spacing * grid_.spacing));
 }
 
 /// ((SE + NW) − (NE + SW)) / 4h².
-ValueId PassLowering::cross_difference(PartId operand, int first, int second) {
-    if (!planner_.axes().has(first) || !planner_.axes().has(second)) return builder_.number(0);
+ValueId Stencils::cross_difference(NodeId operand, int first, int second) {
+    if (!axes_.has(first) || !axes_.has(second)) return builder_.number(0);
     const auto corner = [&](int a, int b) {
         return beside(operand, Offset::along(first, a) + Offset::along(second, b));
     };
@@ -121,9 +132,9 @@ ValueId PassLowering::cross_difference(PartId operand, int first, int second) {
 }
 
 /// The sum of the squares of the central differences, x first.
-ValueId PassLowering::squared_gradient(PartId operand) {
+ValueId Stencils::squared_gradient(NodeId operand) {
     std::optional<ValueId> sum;
-    for (const int axis : planner_.axes().present) {
+    for (const int axis : axes_.present) {
         const ValueId along = difference(operand, axis);
         const ValueId square = builder_.multiply(along, along);
         sum = sum ? builder_.add(*sum, square) : square;
@@ -132,16 +143,16 @@ ValueId PassLowering::squared_gradient(PartId operand) {
 }
 
 /// Σ v · (v > 0 ? c − W : E − c) / h: from where it flows.
-ValueId PassLowering::advection(const Part& part) {
-    const std::uint32_t velocities = part.operand_count - 1;
-    const PartId operand = part.operands[velocities];
+ValueId Stencils::advection(const Node& node) {
+    const std::uint32_t velocities = node.operand_count - 1;
+    const NodeId operand = node.operands[velocities];
     std::optional<ValueId> sum;
-    for (const int axis : planner_.axes().present) {
+    for (const int axis : axes_.present) {
         if (static_cast<std::uint32_t>(axis) >= velocities) continue;
-        const ValueId velocity = number_at(part.operands[static_cast<std::size_t>(axis)], {});
-        const ValueId own = number_at(operand, {});
-        const ValueId behind = builder_.subtract(own, beside(operand, Offset::along(axis, -1)));
-        const ValueId ahead = builder_.subtract(beside(operand, Offset::along(axis, 1)), own);
+        const ValueId velocity = own(node.operands[static_cast<std::size_t>(axis)]);
+        const ValueId centre = own(operand);
+        const ValueId behind = builder_.subtract(centre, beside(operand, Offset::along(axis, -1)));
+        const ValueId ahead = builder_.subtract(beside(operand, Offset::along(axis, 1)), centre);
         const ValueId flows_forwards = builder_.apply(Op::less, builder_.number(0), velocity);
         const ValueId term =
             builder_.multiply(velocity, builder_.select(flows_forwards, behind, ahead));
@@ -151,13 +162,20 @@ ValueId PassLowering::advection(const Part& part) {
 }
 
 /// a11 ∂²c/∂x² + a22 ∂²c/∂y² + 2 a12 ∂²c/∂x∂y with y down (Witkin & Kass, eq 7).
-ValueId PassLowering::anisotropic(const Part& part) {
-    const Value& tensor = at(part.operands[0], {});
-    const PartId operand = part.operands[1];
+ValueId Stencils::anisotropic(const Node& node) {
+    const Value& tensor = values_.at(node.operands[0], {});
+    const NodeId operand = node.operands[1];
     const ValueId along_x = builder_.multiply(tensor[0], second_difference(operand, 0));
     const ValueId along_y = builder_.multiply(tensor[2], second_difference(operand, 1));
     const ValueId across = builder_.multiply(tensor[1], cross_difference(operand, 0, 1));
     return builder_.add(builder_.add(along_x, along_y), scaled(across, 2));
+}
+
+}  // namespace
+
+ValueId lower_stencil(const PassView& pass, KernelAssembly& assembly, const NodeValues& values,
+                      NodeId id) {
+    return Stencils(pass, assembly, values).stencil(pass.graph[id]);
 }
 
 }  // namespace cascade::lowering

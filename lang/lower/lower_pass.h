@@ -1,85 +1,110 @@
-// One pass: the parts that it needs, where it needs them, and their instructions (internal to
+// One pass: the nodes that it needs, where it needs them, and their instructions (internal to
 // lowering).
 //
-// Going backwards through the parts it is found at which cells, or for vectors at which faces, each
-// is needed; going forwards they are computed there, each once.
+// Going backwards through the nodes it is found at which cells, or for vectors at which faces, each
+// is needed (pass_needs.cpp); going forwards they are computed there, each once (lower_pass.cpp).
 #pragma once
 
-#include "core/side.h"
-#include "lang/lower/lower_formula.h"
-#include "lang/lower/part_graph.h"
+#include "lang/lower/lower_node.h"
 #include "lang/lower/pass_planner.h"
 
+#include <bit>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace cascade::lowering {
 
-/// Numbers of what parts have become: temporaries of written parts, aggregates of their parts.
+/// Numbers of what nodes have become, by node.
 struct Storage {
-    std::vector<std::uint32_t> temporary;  ///< By part, where it is written.
-    std::vector<std::uint32_t> aggregate;  ///< By part, where it is an aggregate.
-    std::vector<std::uint32_t>
-        step_invariants;  ///< By part, where it is known before the first pass.
+    IdVector<NodeId, std::uint32_t> temporary;       ///< Where it is written.
+    IdVector<NodeId, std::uint32_t> aggregate;       ///< Where it is an aggregate.
+    IdVector<NodeId, std::uint32_t> step_invariant;  ///< Where it is known before the first pass.
 };
 
-class PassLowering {
-public:
-    PassLowering(const PartGraph& graph, const PassPlanner& planner, const Storage& storage,
-                 std::uint32_t pass, KernelAssembly& assembly);
+/// The decisions as one pass sees them.
+struct PassView {
+    const PlanGraph& graph;
+    const PassPlanner& planner;
+    const Storage& storage;
+    std::uint32_t pass = 0;
 
-    /// Computes what these parts need in the own cell.
-    void compute(std::span<const PartId> wanted);
-    /// The value in the own cell of a part that was wanted.
-    const Value& value(PartId id) const { return at(id, Offset{}); }
+    /// Has an earlier pass written it? The planes of open nodes have no halo.
+    bool is_plane_at(NodeId id, Offsets where) const {
+        return planner.is_plane_in(id, pass) && (where == own_cell || !graph.is_open(id));
+    }
+    /// Is it read from its plane, or an aggregate from its number?
+    bool is_source(NodeId id, Offsets where) const {
+        return is_aggregate(graph[id]) || planner.is_step_invariant(id) || is_plane_at(id, where);
+    }
+    /// The operation `laplacian` reads a plane as it is.
+    bool can_read_as_plane(NodeId id) const {
+        return !graph.is_uniform(id) && (planner.is_step_invariant(id) || graph.is_plane(id) ||
+                                         (planner.is_plane_in(id, pass) && !graph.is_open(id)));
+    }
+    /// Where it is read from that is a source or a plane from the start.
+    SlotSource source(NodeId id) const;
+};
+
+using Needs = IdVector<NodeId, std::uint32_t>;
+/// At which offsets (Offsets), or for vectors at which faces (by their numbers), each node is
+/// needed so that these are known in the own cell.
+Needs needs_of(const PassView& pass, std::span<const NodeId> wanted);
+
+/// The values that a pass computes, and reading them around a cell.
+class NodeValues {
+public:
+    NodeValues(const PlanGraph& graph, KernelAssembly& assembly, Needs needs);
+
+    std::uint32_t needs(NodeId id) const { return needs_[id]; }
+    /// By the number of an offset or of a face.
+    Value& slot(NodeId id, std::uint32_t where) { return values_[place(id, where)]; }
+    const Value& at(NodeId id, Offset offset) const {
+        return values_[place(id, graph_.is_uniform(id) ? Offset{}.number() : offset.number())];
+    }
+    ValueId number_at(NodeId id, Offset offset) const { return at(id, offset)[0]; }
+    ValueId face(NodeId id, Face face) const { return values_[place(id, face.number())][0]; }
+
+    // Where not all cells of the grid belong to the domain, others stand in (lower_mask.cpp).
+    /// The value at an offset from the own cell.
+    ValueId beside(NodeId id, Offset offset) const;
+    /// The value in the cell that is a step along an axis from the one at `from`.
+    ValueId beside(NodeId id, Offset from, Offset step) const;
+    ValueId entry_beside(NodeId tensor, std::size_t entry, Offset offset) const;
+    ValueId chosen(Offset inside, ValueId value, ValueId otherwise) const;
+
+    /// Where the factor is 1 nothing is multiplied.
+    ValueId scaled(ValueId value, double factor) const;
 
 private:
-    bool is_plane_at(PartId id, Offsets where) const;
-    bool is_source(PartId id, Offsets where) const;
-    void need(PartId id, std::uint32_t where) { needs_[id] |= where; }
-    void need_operands(PartId id, std::uint32_t where);
-    void need_of_stencil(const Part& part);
-    void need_of_vector(const Part& part, std::uint32_t faces);
-    void need_at_faces(PartId operand, std::uint32_t faces);
-    void make_room();
+    std::size_t place(NodeId id, std::uint32_t where) const;
 
-    void compute_part(PartId id);
-    ValueId source(PartId id);
-    Value plain(PartId id, Offset offset);
-    Value& slot(PartId id, std::uint32_t where);
-    const Value& at(PartId id, Offset offset) const;
-    ValueId number_at(PartId id, Offset offset) const { return at(id, offset)[0]; }
-    ValueId face(PartId id, Face face) const;
+    const PlanGraph& graph_;
+    KernelAssembly& assembly_;
+    KernelBuilder& builder_;
+    Needs needs_;
+    IdVector<NodeId, std::uint32_t> first_;  ///< The first value of a node.
+    std::vector<Value> values_;
+};
 
-    // Reading around a cell of a domain with a mask (lower_mask.cpp).
-    ValueId beside(PartId id, Offset offset);
-    ValueId beside(PartId id, Offset from, Offset step);
-    ValueId chosen(Offset inside, ValueId value, ValueId otherwise);
-    ValueId entry_beside(PartId tensor, std::size_t entry, Offset offset);
+/// The value of an operator in the own cell (lower_operators.cpp).
+ValueId lower_stencil(const PassView& pass, KernelAssembly& assembly, const NodeValues& values,
+                      NodeId id);
 
-    // Operators (lower_operators.cpp).
-    ValueId stencil(PartId id);
-    ValueId over_links(const Part& part);
-    ValueId laplacian(PartId operand);
-    ValueId difference(PartId operand, int axis);
-    ValueId second_difference(PartId operand, int axis);
-    ValueId cross_difference(PartId operand, int first, int second);
-    ValueId squared_gradient(PartId operand);
-    ValueId advection(const Part& part);
-    ValueId anisotropic(const Part& part);
-    ValueId scaled(ValueId value, double factor);
-    bool can_read_as_plane(PartId id) const;
-    std::uint32_t slot_of_plane(PartId id);
-    std::uint32_t slot_of_own_plane(PartId id);
+/// Vectors at faces, and their divergence (lower_vectors.cpp).
+class Fluxes {
+public:
+    Fluxes(const PassView& pass, KernelAssembly& assembly, const NodeValues& values);
 
-    // Vectors (lower_vectors.cpp).
-    ValueId vector_at(PartId id, Face face);
-    ValueId average(PartId id, Face face);
-    ValueId tensor_entry(PartId tensor, std::size_t entry, Face face);
-    ValueId gradient(PartId operand, Face face);
-    ValueId divergence(const Part& part);
-    ValueId through_sides(PartId flux, Face face, ValueId value);
+    ValueId at_face(NodeId vector, Face face) const;
+    ValueId divergence(const Node& node);
+
+private:
+    ValueId average(NodeId id, Face face) const;
+    ValueId tensor_entry(NodeId tensor, std::size_t entry, Face face) const;
+    ValueId gradient(NodeId operand, Face face) const;
+    ValueId through_sides(NodeId flux, Face face, ValueId value);
     /// What decides whether a flux passes the sides of the grid.
     struct Crossing {
         bool goes_across = false;  ///< It may be other than 0 where everything is mirrored.
@@ -88,20 +113,46 @@ private:
     };
     void find_what_crosses_sides();
 
-    const PartGraph& graph_;
-    const PassPlanner& planner_;
-    const Storage& storage_;
-    std::uint32_t pass_;
-    KernelAssembly& assembly_;
+    const PlanGraph& graph_;
+    const Axes& axes_;
     KernelBuilder& builder_;
+    const NodeValues& values_;
     const Grid& grid_;
-    std::vector<std::uint32_t> needs_;  ///< By part: where it is needed.
-    std::vector<std::uint32_t> first_;  ///< By part: its first value.
-    std::vector<Value> values_;
-    std::vector<Crossing> crossings_;  ///< By part; empty until it is asked.
+    IdVector<NodeId, Crossing> crossings_;  ///< Empty until it is asked.
 };
 
-/// Which entry (0: a11, 1: a12, 2: a22) of a tensor lies in a row and column; −1 where it is 0.
-int entry_of_tensor(int row, int column);
+class PassLowering {
+public:
+    /// Computes what these nodes need, and them, in the own cell.
+    PassLowering(const PassView& pass, KernelAssembly& assembly, std::span<const NodeId> wanted);
+
+    /// The value in the own cell of a node that was wanted.
+    const Value& value(NodeId id) const { return values_.at(id, Offset{}); }
+
+private:
+    void compute(NodeId id);
+    Value compute_at(NodeId id, Offset offset);
+
+    PassView pass_;
+    KernelAssembly& assembly_;
+    KernelBuilder& builder_;
+    NodeValues values_;
+    Fluxes fluxes_;
+};
+
+/// Calls visit(offset) for every offset of a set.
+template <typename Visit>
+void for_each_offset(Offsets offsets, const Visit& visit) {
+    for (; offsets != 0; offsets &= offsets - 1) {
+        visit(Offset::of(static_cast<std::uint32_t>(std::countr_zero(offsets))));
+    }
+}
+
+template <typename Visit>
+void for_each_face(std::uint32_t faces, const Visit& visit) {
+    for (; faces != 0; faces &= faces - 1) {
+        visit(Face::of(static_cast<std::uint32_t>(std::countr_zero(faces))));
+    }
+}
 
 }  // namespace cascade::lowering

@@ -1,128 +1,98 @@
 // Functions of the place of a cell, and random ones: shapes, lattices of seeds, noise, draws.
 #include "core/check.h"
-#include "lang/lower/lower_formula.h"
+#include "core/hash.h"
+#include "lang/lower/lower_node.h"
 
-#include <cmath>
+#include <fmt/format.h>
+
+#include <span>
+#include <vector>
 
 namespace cascade::lowering {
 
 namespace {
 
-/// The operands from `first` on, `count` of them.
-std::vector<ValueId> values_of(std::span<const Value> values, std::size_t first,
-                               std::size_t count) {
-    std::vector<ValueId> chosen;
-    for (std::size_t k = first; k < first + count; ++k) {
-        chosen.push_back(values[k][0]);
-    }
-    return chosen;
+/// The key of one occurrence of a random function: FNV-1a of the seed, the stage, the formula's
+/// origin and the number of the occurrence in it, each written as text and ended by a line feed.
+std::uint64_t random_key(std::uint32_t seed, std::string_view stage, std::string_view origin,
+                         std::size_t occurrence) {
+    std::uint64_t key = fnv1a(fmt::format("{}\n", seed));
+    key = fnv1a(fmt::format("{}\n", stage), key);
+    key = fnv1a(fmt::format("{}\n", origin), key);
+    return fnv1a(fmt::format("{}\n", occurrence), key);
+}
+
+/// Every occurrence of a random function in a formula has numbers of its own.
+Draw draw_of(KernelAssembly& assembly, const NodeInCell& in) {
+    const Noise& noise = in.graph.noise(in.id);
+    return {noise.every_step ? assembly.draw_word() : assembly.builder().word(0),
+            random_key(assembly.program().domain.seed,
+                       noise.owner.empty() ? assembly.stage().name : noise.owner, noise.origin,
+                       in.graph.occurrence(in.id))};
 }
 
 }  // namespace
 
-Space KernelAssembly::space() {
-    const Grid& grid = program_.domain.grid;
-    if (program_.domain.model) {
-        const auto along = [&](ModelPlane plane) {
-            return SpaceAxis{of_model(plane), 1, false, true};
-        };
-        return {along(ModelPlane::x), along(ModelPlane::y), along(ModelPlane::z)};
-    }
-    const std::int64_t longest = grid.longest_side();
-    const auto axis = [&](std::int64_t side, ValueId cell, Boundary boundary) {
-        const double length = static_cast<double>(side) / static_cast<double>(longest);
-        return SpaceAxis{coordinate(cell, longest), length, boundary == Boundary::periodic,
-                         side > 1};
-    };
-    return {axis(grid.width, column(), grid.boundary.x), axis(grid.height, row(), grid.boundary.y),
-            axis(grid.depth, slice(), grid.boundary.z)};
-}
-
-/// The draw of a cell, a word of 32 bits. Its hash knows columns and rows; slices other than the
-/// first change the draw.
-ValueId KernelAssembly::draw_of_cell(ValueId draw) {
-    if (program_.domain.model) {
-        builder_.set_cell(of_model(ModelPlane::number));
-        return draw;
-    }
-    if (program_.domain.grid.depth == 1) return draw;
-    const ValueId slice =
-        builder_.apply(Op::bits_multiply, builder_.cell_slice(), builder_.word(0x9e3779b9));
-    return builder_.apply(Op::bits_xor, draw, slice);
-}
-
 /// The last operands of a shape are sizes, those before them its position.
-ValueId KernelAssembly::shape(const Node& node, const Cursor& cursor) {
-    const std::size_t count = operand_count(node);
-    const auto number = [&](std::size_t k) { return cursor.number(node, k); };
-    const auto first = [&](std::size_t n) { return values_of(cursor.values, 0, n); };
-    switch (node.function) {
-        case Function::disc: return disc(builder_, space(), first(count - 1), number(count - 1));
-        case Function::gauss: return gauss(builder_, space(), first(count - 1), number(count - 1));
+ValueId lower_shape(KernelAssembly& assembly, const NodeInCell& in) {
+    KernelBuilder& builder = assembly.builder();
+    const Space space = CellPlace(assembly, in.at).space();
+    const std::size_t count = in.node().operand_count;
+    std::vector<ValueId> values;
+    for (std::size_t k = 0; k < count; ++k) values.push_back(in.number(k));
+    const auto first = [&](std::size_t n) { return std::span(values).first(n); };
+    switch (in.node().function) {
+        case Function::disc: return disc(builder, space, first(count - 1), values[count - 1]);
+        case Function::gauss: return gauss(builder, space, first(count - 1), values[count - 1]);
         case Function::ring:
-            return ring(builder_, space(), first(count - 2), number(count - 2), number(count - 1));
-        case Function::box: {
-            const std::vector<ValueId> size = values_of(cursor.values, count / 2, count / 2);
-            return box(builder_, space(), first(count / 2), size);
-        }
+            return ring(builder, space, first(count - 2), values[count - 2], values[count - 1]);
+        case Function::box:
+            return box(builder, space, first(count / 2), std::span(values).last(count / 2));
         case Function::stripe:
-            if (count == 2) return stripe(builder_, space(), number(0), number(1));
-            return turned_stripe(builder_, space(), number(0), number(1), number(2));
+            if (count == 2) return stripe(builder, space, values[0], values[1]);
+            return turned_stripe(builder, space, values[0], values[1], values[2]);
         default: break;
     }
     CHECK(false, "lowering: every shape has a meaning");
 }
 
-/// Every occurrence of a random function in a formula has numbers of its own.
-ValueId KernelAssembly::random(const Node& node, const Cursor& cursor) {
-    const auto step_word = [&] {
-        return builder_.draw_word(uniform("draw", {SlotSource::Kind::draw, stage_, 0}));
-    };
-    const Draw draw{cursor.noise.every_step ? step_word() : builder_.word(0),
-                    random_key(program_.domain.seed,
-                               cursor.noise.owner.empty() ? stage().name : cursor.noise.owner,
-                               cursor.noise.origin, cursor.occurrences)};
-    const auto number = [&](std::size_t k) { return cursor.number(node, k); };
-    switch (node.function) {
+/// White noise in space and time: of a step of length dt in cells of content h^d it has the
+/// variance strength² / (dt h^d), so that what it adds over a time and an area does not depend on
+/// either.
+ValueId lower_draw(KernelAssembly& assembly, const NodeInCell& in) {
+    KernelBuilder& builder = assembly.builder();
+    CellPlace place(assembly, in.at);
+    const Draw draw = draw_of(assembly, in);
+    const auto normal = [&] { return builder.random_normal(place.draw(draw.word), draw.key); };
+    switch (in.node().function) {
         case Function::random: {
-            const ValueId uniform = builder_.random_symmetric(draw_of_cell(draw.word), draw.key);
-            return builder_.add(number(0), builder_.multiply(number(1), uniform));
+            const ValueId uniform = builder.random_symmetric(place.draw(draw.word), draw.key);
+            return builder.add(in.number(0), builder.multiply(in.number(1), uniform));
         }
         case Function::normal: {
-            const ValueId normal = builder_.random_normal(draw_of_cell(draw.word), draw.key);
-            return builder_.add(number(0), builder_.multiply(number(1), normal));
+            const ValueId deviation = normal();
+            return builder.add(in.number(0), builder.multiply(in.number(1), deviation));
         }
-        case Function::white: return white(number(0), draw);
+        case Function::white: {
+            const ValueId deviation = normal();
+            const ValueId share = builder.multiply(assembly.time_step(in.at), place.content());
+            const ValueId spread = builder.apply(Op::square_root, share);
+            return builder.divide(builder.multiply(in.number(0), deviation), spread);
+        }
         case Function::noise:
-            return smooth_noise(builder_, space(), number(0), static_cast<int>(node.number), draw);
+            return smooth_noise(builder, place.space(), in.number(0),
+                                static_cast<int>(in.node().number), draw);
         case Function::lattice:
         case Function::diamond: {
-            const LatticeKind kind =
-                node.function == Function::diamond ? LatticeKind::diamond : LatticeKind::square;
-            const ValueId jitter = operand_count(node) == 3 ? number(2) : builder_.number(0);
-            return seed_lattice(builder_, space(), kind, number(0), number(1), jitter, draw);
+            const bool is_diamond = in.node().function == Function::diamond;
+            const ValueId jitter = in.node().operand_count == 3 ? in.number(2) : builder.number(0);
+            return seed_lattice(builder, place.space(),
+                                is_diamond ? LatticeKind::diamond : LatticeKind::square,
+                                in.number(0), in.number(1), jitter, draw);
         }
         default: break;
     }
     CHECK(false, "lowering: every random function has a meaning");
-}
-
-/// Its length, area or volume in units.
-ValueId KernelAssembly::cell_content() {
-    if (program_.domain.model) return of_model(ModelPlane::area);
-    const Grid& grid = program_.domain.grid;
-    const int axes = int{grid.width > 1} + int{grid.height > 1} + int{grid.depth > 1};
-    return builder_.number(std::pow(grid.spacing, axes));
-}
-
-/// White noise in space and time: of a step of length dt in cells of content h^d it has the
-/// variance strength² / (dt h^d), so that what it adds over a time and an area does not depend on
-/// either.
-ValueId KernelAssembly::white(ValueId strength, const Draw& draw) {
-    const ValueId normal = builder_.random_normal(draw_of_cell(draw.word), draw.key);
-    const ValueId share = builder_.multiply(time_step(), cell_content());
-    const ValueId spread = builder_.apply(Op::square_root, share);
-    return builder_.divide(builder_.multiply(strength, normal), spread);
 }
 
 }  // namespace cascade::lowering

@@ -9,77 +9,88 @@
 
 namespace cascade::lowering {
 
-ValueId PassLowering::average(PartId id, Face face) {
-    if (graph_[id].is_uniform) return number_at(id, {});
-    return scaled(builder_.add(beside(id, face.cell()), beside(id, face.next())), 0.5);
+Fluxes::Fluxes(const PassView& pass, KernelAssembly& assembly, const NodeValues& values)
+    : graph_(pass.graph),
+      axes_(pass.planner.axes()),
+      builder_(assembly.builder()),
+      values_(values),
+      grid_(graph_.program().domain.grid) {}
+
+ValueId Fluxes::average(NodeId id, Face face) const {
+    if (graph_.is_uniform(id)) return values_.number_at(id, {});
+    return values_.scaled(
+        builder_.add(values_.beside(id, face.cell()), values_.beside(id, face.next())), 0.5);
 }
 
-ValueId PassLowering::tensor_entry(PartId tensor, std::size_t entry, Face face) {
-    if (graph_[tensor].is_uniform) return at(tensor, {})[entry];
-    return scaled(builder_.add(entry_beside(tensor, entry, face.cell()),
-                               entry_beside(tensor, entry, face.next())),
-                  0.5);
+ValueId Fluxes::tensor_entry(NodeId tensor, std::size_t entry, Face face) const {
+    if (graph_.is_uniform(tensor)) return values_.at(tensor, {})[entry];
+    return values_.scaled(builder_.add(values_.entry_beside(tensor, entry, face.cell()),
+                                       values_.entry_beside(tensor, entry, face.next())),
+                          0.5);
 }
 
 /// Across the face (E − c) / h; along it the mean of the central differences of both cells,
 /// ((S − N) + (SE − NE)) / 4h.
-ValueId PassLowering::gradient(PartId operand, Face face) {
-    if (graph_[operand].is_uniform || !planner_.axes().has(face.component)) {
+ValueId Fluxes::gradient(NodeId operand, Face face) const {
+    if (graph_.is_uniform(operand) || !axes_.has(face.component)) {
         return builder_.number(0);
     }
     if (face.component == face.axis) {
-        const ValueId across =
-            builder_.subtract(beside(operand, face.next()), beside(operand, face.cell()));
-        return scaled(across, 1 / grid_.spacing);
+        const ValueId across = builder_.subtract(values_.beside(operand, face.next()),
+                                                 values_.beside(operand, face.cell()));
+        return values_.scaled(across, 1 / grid_.spacing);
     }
     const auto along = [&](Offset cell) {
-        return builder_.subtract(beside(operand, cell, Offset::along(face.component, 1)),
-                                 beside(operand, cell, Offset::along(face.component, -1)));
+        return builder_.subtract(values_.beside(operand, cell, Offset::along(face.component, 1)),
+                                 values_.beside(operand, cell, Offset::along(face.component, -1)));
     };
-    return scaled(builder_.add(along(face.cell()), along(face.next())), 1 / (4 * grid_.spacing));
+    return values_.scaled(builder_.add(along(face.cell()), along(face.next())),
+                          1 / (4 * grid_.spacing));
 }
 
-ValueId PassLowering::vector_at(PartId id, Face where) {
-    const Part& part = graph_[id];
-    const PartId a = part.operands[0];
-    const PartId b = part.operands[part.operand_count - 1];
-    const auto is_vector = [&](PartId operand) {
-        return graph_[operand].node.type == ValueType::vector;
+ValueId Fluxes::at_face(NodeId id, Face where) const {
+    const Node& node = graph_[id];
+    const NodeId a = node.operands[0];
+    const NodeId b = node.reads().back();
+    const auto is_vector = [&](NodeId operand) {
+        return graph_[operand].type == ValueType::vector;
     };
-    switch (part.node.function) {
+    switch (node.function) {
         case Function::grad: return gradient(a, where);
         case Function::vector:
-            if (static_cast<std::uint32_t>(where.component) >= part.operand_count) {
+            if (static_cast<std::uint32_t>(where.component) >= node.operand_count) {
                 return builder_.number(0);
             }
-            return average(part.operands[static_cast<std::size_t>(where.component)], where);
-        case Function::negate: return builder_.apply(Op::negate, face(a, where));
-        case Function::add: return builder_.add(face(a, where), face(b, where));
-        case Function::subtract: return builder_.subtract(face(a, where), face(b, where));
-        case Function::divide: return builder_.divide(face(a, where), average(b, where));
+            return average(node.operands[static_cast<std::size_t>(where.component)], where);
+        case Function::negate: return builder_.apply(Op::negate, values_.face(a, where));
+        case Function::add: return builder_.add(values_.face(a, where), values_.face(b, where));
+        case Function::subtract:
+            return builder_.subtract(values_.face(a, where), values_.face(b, where));
+        case Function::divide: return builder_.divide(values_.face(a, where), average(b, where));
         case Function::multiply: break;
         default: CHECK(false, "lowering: every vector has its faces");
     }
-    if (graph_[a].node.type == ValueType::tensor) {
+    if (graph_[a].type == ValueType::tensor) {
+        if (where.component > 1) return builder_.number(0);
         std::optional<ValueId> sum;
-        for (int column = 0; column < 2; ++column) {
-            const int entry = entry_of_tensor(where.component, column);
-            if (entry < 0) return builder_.number(0);
+        for (const int column : {0, 1}) {
+            // 0 is a11, 1 is a12, 2 is a22.
+            const auto entry = static_cast<std::size_t>(where.component + column);
             const ValueId term =
-                builder_.multiply(tensor_entry(a, static_cast<std::size_t>(entry), where),
-                                  face(b, {where.axis, column, where.side}));
+                builder_.multiply(tensor_entry(a, entry, where),
+                                  values_.face(b, {where.axis, column, where.side}));
             sum = sum ? builder_.add(*sum, term) : term;
         }
         return *sum;
     }
-    if (is_vector(a)) return builder_.multiply(face(a, where), average(b, where));
-    return builder_.multiply(average(a, where), face(b, where));
+    if (is_vector(a)) return builder_.multiply(values_.face(a, where), average(b, where));
+    return builder_.multiply(average(a, where), values_.face(b, where));
 }
 
 /// Nothing flows out of the mask, nor through a side where all species of a flux are mirrored.
 /// Differences across it are 0 by themselves; other vectors, and what a tensor turns out of the
 /// side's direction, are cut off there.
-void PassLowering::find_what_crosses_sides() {
+void Fluxes::find_what_crosses_sides() {
     const Stage& stage = graph_.program().stages[graph_.stage()];
     const System& system = graph_.program().system_of(graph_.stage());
     const SideRules boundary(grid_.boundary);
@@ -94,20 +105,20 @@ void PassLowering::find_what_crosses_sides() {
         if (system.is_species(item)) ++species;
     }
     crossings_.assign(graph_.size(), {});
-    for (PartId id = 0; id < graph_.size(); ++id) {
-        const Part& part = graph_[id];
+    for (const NodeId id : graph_.ids()) {
+        const Node& node = graph_[id];
         Crossing& crossing = crossings_[id];
-        const bool is_vector = part.node.type == ValueType::vector;
-        crossing.goes_across = is_vector && part.calls(Function::vector);
-        if (part.node.kind == NodeKind::own && system.is_species(part.node.index)) {
+        const bool is_vector = node.type == ValueType::vector;
+        crossing.goes_across = is_vector && node.calls(Function::vector);
+        if (node.kind == NodeKind::own && system.is_species(node.index)) {
             crossing.has_species = true;
             for (std::size_t side = 0; side < side_count; ++side) {
-                crossing.is_open[side] = of_item[part.node.index][side] != SideKind::no_flux;
+                crossing.is_open[side] = of_item[node.index][side] != SideKind::no_flux;
             }
         }
-        for (std::uint32_t k = 0; k < part.operand_count; ++k) {
-            const Crossing& operand = crossings_[part.operands[k]];
-            const bool turns = graph_[part.operands[k]].node.type == ValueType::tensor;
+        for (const NodeId read : node.reads()) {
+            const Crossing& operand = crossings_[read];
+            const bool turns = graph_[read].type == ValueType::tensor;
             crossing.goes_across |= is_vector && (operand.goes_across || turns);
             crossing.has_species |= operand.has_species;
             for (std::size_t side = 0; side < side_count; ++side) {
@@ -117,13 +128,13 @@ void PassLowering::find_what_crosses_sides() {
     }
 }
 
-ValueId PassLowering::through_sides(PartId flux, Face face, ValueId value) {
+ValueId Fluxes::through_sides(NodeId flux, Face face, ValueId value) {
     if (crossings_.empty()) find_what_crosses_sides();
     const Crossing& crossing = crossings_[flux];
     if (!crossing.goes_across) return value;
     if (graph_.has_mask()) {
         const Offset other = face.side == 0 ? face.next() : face.cell();
-        value = chosen(other, value, builder_.number(0));
+        value = values_.chosen(other, value, builder_.number(0));
     }
     const std::size_t side = 2 * static_cast<std::size_t>(face.axis) + (face.side == 0 ? 1 : 0);
     const bool is_open = crossing.has_species
@@ -143,20 +154,20 @@ ValueId PassLowering::through_sides(PartId flux, Face face, ValueId value) {
 }
 
 /// Σ (flux after − flux before) / h, x first.
-ValueId PassLowering::divergence(const Part& part) {
-    const PartId flux = part.operands[0];
+ValueId Fluxes::divergence(const Node& node) {
+    const NodeId flux = node.operands[0];
     std::optional<ValueId> sum;
-    for (const int axis : planner_.axes().present) {
+    for (const int axis : axes_.present) {
         std::array<ValueId, 2> through{};
         for (const int side : {0, 1}) {
             const Face at{axis, axis, side};
             ValueId& value = through[static_cast<std::size_t>(side)];
-            value = through_sides(flux, at, face(flux, at));
+            value = through_sides(flux, at, values_.face(flux, at));
         }
         const ValueId term = builder_.subtract(through[0], through[1]);
         sum = sum ? builder_.add(*sum, term) : term;
     }
-    return scaled(sum.value_or(builder_.number(0)), 1 / grid_.spacing);
+    return values_.scaled(sum.value_or(builder_.number(0)), 1 / grid_.spacing);
 }
 
 }  // namespace cascade::lowering

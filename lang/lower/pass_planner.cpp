@@ -1,4 +1,4 @@
-// The planner's decisions: one loop over the parts, operands first.
+// The planner's decisions: one loop over the nodes, operands first.
 #include "lang/lower/pass_planner.h"
 
 #include <algorithm>
@@ -8,12 +8,12 @@ namespace cascade::lowering {
 
 namespace {
 
-bool is_number(const Part& part) { return part.node.type == ValueType::number; }
+bool is_number(const Node& node) { return node.type == ValueType::number; }
 
 }  // namespace
 
-int operations_of(const Part& part) {
-    return part.node.kind == NodeKind::call ? info(part.node.function).cost : 4;
+int operations_of(const Node& node) {
+    return node.kind == NodeKind::call ? info(node.function).cost : 4;
 }
 
 Axes::Axes(const Grid& grid) {
@@ -64,8 +64,8 @@ Offsets with_stand_ins(Offsets offsets) {
     return all;
 }
 
-Offsets stencil_offsets(const Part& stencil, const Axes& axes) {
-    const auto [order, first, second] = derivative_of(stencil.node.function);
+Offsets stencil_offsets(const Node& stencil, const Axes& axes) {
+    const auto [order, first, second] = derivative_of(stencil.function);
     if (order == 1) return axes.pair(first);
     if (order == 2)
         return first == second ? own_cell | axes.pair(first) : axes.diagonal(first, second);
@@ -73,8 +73,8 @@ Offsets stencil_offsets(const Part& stencil, const Axes& axes) {
     return own_cell | axes.pair(0) | axes.pair(1) | axes.diagonal(0, 1);
 }
 
-PassPlanner::PassPlanner(const PartGraph& graph, std::span<const PartId> roots,
-                         Materialise materialise, std::span<const PartId> step_invariants)
+PassPlanner::PassPlanner(const PlanGraph& graph, std::span<const NodeId> roots,
+                         Materialise materialise, std::span<const NodeId> step_invariants)
     : graph_(graph),
       axes_(graph.program().domain.grid),
       materialise_(materialise),
@@ -84,54 +84,54 @@ PassPlanner::PassPlanner(const PartGraph& graph, std::span<const PartId> roots,
       stays_(graph.size(), false),
       pass_(graph.size(), 0),
       beside_(graph.size(), 0) {
-    for (const PartId id : step_invariants) step_invariant_[id] = true;
+    for (const NodeId id : step_invariants) step_invariant_[id] = true;
     mark_needed(roots);
-    for (PartId id = 0; id < graph.size(); ++id) {
+    for (const NodeId id : graph.ids()) {
         if (needed_[id] && !step_invariant_[id]) decide(id);
     }
-    for (const PartId root : roots) pass_count_ = std::max(pass_count_, pass_[root] + 1);
+    for (const NodeId root : roots) pass_count_ = std::max(pass_count_, pass_[root] + 1);
 }
 
-void PassPlanner::mark_needed(std::span<const PartId> roots) {
-    for (const PartId root : roots) needed_[root] = true;
-    for (PartId id = static_cast<PartId>(graph_.size()); id-- > 0;) {
+void PassPlanner::mark_needed(std::span<const NodeId> roots) {
+    for (const NodeId root : roots) needed_[root] = true;
+    for (const NodeId id : graph_.ids_backwards()) {
         if (!needed_[id] || step_invariant_[id]) continue;
-        const Part& part = graph_[id];
-        for (std::uint32_t k = 0; k < part.operand_count; ++k) needed_[part.operands[k]] = true;
+        const Node& node = graph_[id];
+        for (const NodeId operand : node.reads()) needed_[operand] = true;
     }
 }
 
-/// Would computing the part at so many places take more than it is worth? Looks at no more parts
+/// Would computing the node at so many places take more than it is worth? Looks at no more nodes
 /// than that.
-bool PassPlanner::is_expensive(PartId id, std::uint32_t places) const {
+bool PassPlanner::is_expensive(NodeId id, std::uint32_t places) const {
     std::uint32_t cost = 0;
-    std::vector<PartId> seen, open{id};
+    std::vector<NodeId> seen, open{id};
     while (!open.empty()) {
-        const PartId next = open.back();
+        const NodeId next = open.back();
         open.pop_back();
-        if (written_[next] || graph_[next].is_uniform || is_plane(next)) continue;
+        if (written_[next] || graph_.is_uniform(next) || is_plane(next)) continue;
         if (std::find(seen.begin(), seen.end(), next) != seen.end()) continue;
         seen.push_back(next);
-        const Part& part = graph_[next];
-        cost += static_cast<std::uint32_t>(operations_of(part));
+        const Node& node = graph_[next];
+        cost += static_cast<std::uint32_t>(operations_of(node));
         if (cost * places > std::uint32_t{operations_of_writing}) return true;
-        for (std::uint32_t k = 0; k < part.operand_count; ++k) open.push_back(part.operands[k]);
+        for (const NodeId operand : node.reads()) open.push_back(operand);
     }
     return false;
 }
 
-void PassPlanner::decide(PartId id) {
-    const Part& part = graph_[id];
-    const Function function = part.node.function;
-    if (part.node.kind != NodeKind::call) {
+void PassPlanner::decide(NodeId id) {
+    const Node& node = graph_[id];
+    const Function function = node.function;
+    if (node.kind != NodeKind::call) {
         const System& system = graph_.program().system_of(graph_.stage());
-        const bool is_frozen = part.node.kind == NodeKind::own &&
-                               part.node.index == system.frozen_item() && !part.is_uniform;
+        const bool is_frozen = node.kind == NodeKind::own && node.index == system.frozen_item() &&
+                               !graph_.is_uniform(id);
         stays_[id] = is_frozen;
         return;
     }
-    const PartId last = part.operands[part.operand_count - 1];
-    if (info(function).is_aggregate) {
+    const NodeId last = node.reads().back();
+    if (is_aggregate(node)) {
         const bool written = !is_plane(last);
         if (written && !written_[last]) {
             choices_.push_back({last, id, 0, true, true, false});
@@ -140,21 +140,19 @@ void PassPlanner::decide(PartId id) {
         pass_[id] = beside_[id] = written ? pass_[last] + 1 : 0;
         return;
     }
-    const bool differs = !part.is_uniform;
+    const bool differs = !graph_.is_uniform(id);
     if (differs && is_stencil(function) && graph_.is_linked()) {
-        for (std::uint32_t k = 0; k < part.operand_count; ++k)
-            provide_over_links(part.operands[k], id);
+        for (const NodeId operand : node.reads()) provide_over_links(operand, id);
     } else if (differs && is_stencil(function)) {
-        provide(last, reach(stencil_offsets(part, axes_)) & ~own_cell, id);
-    } else if (differs && (part.node.type == ValueType::vector || function == Function::div) &&
+        provide(last, reach(stencil_offsets(node, axes_)) & ~own_cell, id);
+    } else if (differs && (node.type == ValueType::vector || function == Function::div) &&
                !graph_.is_linked()) {
         // Vectors are known at faces, which takes what they are made of in the cells beside.
-        for (std::uint32_t k = 0; k < part.operand_count; ++k) {
-            const PartId operand = part.operands[k];
+        for (const NodeId operand : node.reads()) {
             if (is_number(graph_[operand])) {
                 provide(operand, axes_.crosswise() & ~own_cell, id);
-            } else if (graph_[operand].node.type == ValueType::tensor) {
-                for (const PartId entry : std::span(graph_[operand].operands).first(3)) {
+            } else if (graph_[operand].type == ValueType::tensor) {
+                for (const NodeId entry : graph_[operand].reads()) {
                     provide(entry, axes_.crosswise() & ~own_cell, id);
                 }
             }
@@ -163,73 +161,72 @@ void PassPlanner::decide(PartId id) {
     decide_own(id);
 }
 
-/// When the values of a part are known that is computed from its operands.
-void PassPlanner::decide_own(PartId id) {
-    const Part& part = graph_[id];
-    const Function function = part.node.function;
-    const bool is_vector = part.node.type == ValueType::vector;
-    const bool reads_beside = !part.is_uniform && (is_stencil(function) || is_vector);
-    stays_[id] = !part.is_uniform &&
+/// When the values of a node are known that is computed from its operands.
+void PassPlanner::decide_own(NodeId id) {
+    const Node& node = graph_[id];
+    const Function function = node.function;
+    const bool is_vector = node.type == ValueType::vector;
+    const bool reads_beside = !graph_.is_uniform(id) && (is_stencil(function) || is_vector);
+    stays_[id] = !graph_.is_uniform(id) &&
                  (is_stencil(function) || function == Function::div ||
                   (varies_by_cell(function) && !differentiates(function) && !reads_file(function)));
-    for (std::uint32_t k = 0; k < part.operand_count; ++k) {
-        const PartId operand = part.operands[k];
+    for (std::uint32_t k = 0; k < node.operand_count; ++k) {
+        const NodeId operand = node.operands[k];
         const bool is_moved =
-            reads_beside && (is_vector || k + 1 == part.operand_count || graph_.is_linked());
+            reads_beside && (is_vector || k + 1 == node.operand_count || graph_.is_linked());
         pass_[id] = std::max(pass_[id], pass_[operand]);
-        // Those of open parts are looked for where they are read: more may be written until then.
-        if (!part.is_open() && !graph_[operand].is_open()) {
+        // Those of open nodes are looked for where they are read: more may be written until then.
+        if (!graph_.is_open(id) && !graph_.is_open(operand)) {
             beside_[id] = std::max(beside_[id], pass_beside(operand));
         }
         const bool operand_stays = stays_[operand] && !written_[operand];
-        stays_[id] = stays_[id] || (operand_stays && !part.is_uniform);
+        stays_[id] = stays_[id] || (operand_stays && !graph_.is_uniform(id));
         if (is_moved) pass_[id] = std::max(pass_[id], pass_beside(operand));
     }
     if (is_vector) beside_[id] = pass_[id];
 }
 
-/// Calls visit(part) for the parts, not open, that an open one is made of at neighbours.
+/// Calls visit(node) for the nodes, not open, that an open one is made of at neighbours.
 template <typename Visit>
-void PassPlanner::for_each_closed(PartId open, const Visit& visit) const {
-    std::vector<bool> seen(graph_.size(), false);
-    std::vector<PartId> left{open};
+void PassPlanner::for_each_closed(NodeId open, const Visit& visit) const {
+    IdVector<NodeId, bool> seen(graph_.size(), false);
+    std::vector<NodeId> left{open};
     while (!left.empty()) {
-        const PartId next = left.back();
+        const NodeId next = left.back();
         left.pop_back();
-        if (seen[next] || graph_[next].is_uniform || is_plane(next)) continue;
+        if (seen[next] || graph_.is_uniform(next) || is_plane(next)) continue;
         seen[next] = true;
-        const Part& part = graph_[next];
-        if (!part.is_open()) {
+        const Node& node = graph_[next];
+        if (!graph_.is_open(next)) {
             visit(next);
             continue;
         }
-        for (std::uint32_t k = 0; k < part.operand_count; ++k) left.push_back(part.operands[k]);
+        for (const NodeId operand : node.reads()) left.push_back(operand);
     }
 }
 
 /// When the values of an operand are known that neighbours have.
-std::uint32_t PassPlanner::pass_beside(PartId operand) const {
-    const Part& part = graph_[operand];
+std::uint32_t PassPlanner::pass_beside(NodeId operand) const {
+    const Node& node = graph_[operand];
     std::uint32_t pass = 0;
-    if (part.node.type ==
-        ValueType::tensor) {  // Its entries may have been written for another reader.
-        for (const PartId entry : std::span(part.operands).first(part.operand_count)) {
+    if (node.type == ValueType::tensor) {  // Its entries may have been written for another reader.
+        for (const NodeId entry : node.reads()) {
             pass = std::max(pass, pass_beside(entry));
         }
         return pass;
     }
-    if (part.is_open() && !is_plane(operand)) {
-        for_each_closed(operand, [&](PartId id) { pass = std::max(pass, pass_beside(id)); });
+    if (graph_.is_open(operand) && !is_plane(operand)) {
+        for_each_closed(operand, [&](NodeId id) { pass = std::max(pass, pass_beside(id)); });
         return pass;
     }
     return written_[operand] ? pass_[operand] + 1 : beside_[operand];
 }
 
 /// Makes an operand known at neighbours: by a plane, or by computing it there.
-void PassPlanner::provide(PartId operand, Offsets offsets, PartId reader) {
+void PassPlanner::provide(NodeId operand, Offsets offsets, NodeId reader) {
     const auto places = static_cast<std::uint32_t>(std::popcount(offsets));
-    if (places == 0 || graph_[operand].is_uniform || is_plane(operand)) return;
-    if (graph_[operand].is_open()) return provide_open(operand, offsets, reader);
+    if (places == 0 || graph_.is_uniform(operand) || is_plane(operand)) return;
+    if (graph_.is_open(operand)) return provide_open(operand, offsets, reader);
     OperandChoice choice{operand, reader, places, false, stays_[operand], false};
     const bool wants = materialise_ == Materialise::always ||
                        (materialise_ == Materialise::when_cheaper && is_expensive(operand, places));
@@ -239,16 +236,16 @@ void PassPlanner::provide(PartId operand, Offsets offsets, PartId reader) {
 }
 
 /// Sums over links read planes.
-void PassPlanner::provide_over_links(PartId operand, PartId reader) {
-    if (graph_[operand].is_uniform || is_plane(operand)) return;
+void PassPlanner::provide_over_links(NodeId operand, NodeId reader) {
+    if (graph_.is_uniform(operand) || is_plane(operand)) return;
     written_[operand] = true;
     choices_.push_back({operand, reader, 0, true, true, false});
 }
 
-/// Computes an operand at neighbours from the parts that have planes, or can have them.
-void PassPlanner::provide_open(PartId operand, Offsets offsets, PartId reader) {
+/// Computes an operand at neighbours from the nodes that have planes, or can have them.
+void PassPlanner::provide_open(NodeId operand, Offsets offsets, NodeId reader) {
     const auto places = static_cast<std::uint32_t>(std::popcount(offsets));
-    for_each_closed(operand, [&](PartId id) { provide(id, offsets, reader); });
+    for_each_closed(operand, [&](NodeId id) { provide(id, offsets, reader); });
     choices_.push_back({operand, reader, places, false, false, true});
 }
 

@@ -1,7 +1,7 @@
-// Which parts of formulas are computed in which pass (internal to lowering).
+// Which nodes of formulas are computed in which pass (internal to lowering).
 #pragma once
 
-#include "lang/lower/part_graph.h"
+#include "lang/lower/plan_graph.h"
 #include "lang/lower/step_plan.h"
 
 #include <cstdint>
@@ -74,10 +74,10 @@ struct Axes {
 };
 
 /// The offsets at which a stencil reads its last operand; the own cell is among them.
-Offsets stencil_offsets(const Part& stencil, const Axes& axes);
+Offsets stencil_offsets(const Node& stencil, const Axes& axes);
 
-/// About how many operations of a kernel a part takes, its operands being known.
-int operations_of(const Part& part);
+/// About how many operations of a kernel a node takes, its operands being known.
+int operations_of(const Node& node);
 
 /// The number of operations on a cell that take a core as long as writing a plane and reading it
 /// back (about twelve bytes of traffic a cell).
@@ -85,33 +85,33 @@ inline constexpr int operations_of_writing = 40;
 /// Reading a plane alone is a third of that traffic.
 inline constexpr int operations_of_reading = operations_of_writing / 3;
 
-/// The decisions about the parts of a graph.
+/// The decisions about the nodes of a graph.
 class PassPlanner {
 public:
-    /// `roots` are needed in the own cell, in the last pass. `step_invariants` parts are known
+    /// `roots` are needed in the own cell, in the last pass. `step_invariants` nodes are known
     /// before the first: those that vary lie in planes.
-    PassPlanner(const PartGraph& graph, std::span<const PartId> roots, Materialise materialise,
-                std::span<const PartId> step_invariants = {});
+    PassPlanner(const PlanGraph& graph, std::span<const NodeId> roots, Materialise materialise,
+                std::span<const NodeId> step_invariants = {});
 
     std::uint32_t pass_count() const { return pass_count_; }
-    bool is_needed(PartId part) const { return needed_[part]; }
+    bool is_needed(NodeId node) const { return needed_[node]; }
     /// Is it one of those that are known before the first pass?
-    bool is_step_invariant(PartId part) const { return step_invariant_[part]; }
-    /// Is the part written to a temporary plane?
-    bool is_written(PartId part) const { return written_[part]; }
-    /// The pass in which it can first be computed in the own cell; a written part is computed then.
-    std::uint32_t pass_of(PartId part) const { return pass_[part]; }
+    bool is_step_invariant(NodeId node) const { return step_invariant_[node]; }
+    /// Is the node written to a temporary plane?
+    bool is_written(NodeId node) const { return written_[node]; }
+    /// The pass in which it can first be computed in the own cell; a written node is computed then.
+    std::uint32_t pass_of(NodeId node) const { return pass_[node]; }
     /// Is it read from a plane in `pass`?
-    bool is_plane_in(PartId part, std::uint32_t pass) const {
-        return written_[part] && pass_[part] < pass;
+    bool is_plane_in(NodeId node, std::uint32_t pass) const {
+        return written_[node] && pass_[node] < pass;
     }
     /// How an operand is provided at the neighbours at which its reader needs it.
     struct OperandChoice {
-        PartId operand = 0, reader = 0;
+        NodeId operand, reader;
         std::uint32_t places = 0;  ///< The largest number of neighbours.
         bool is_written = false;   ///< To a plane; else it is recomputed there.
         bool is_forced = false;    ///< It cannot be recomputed.
-        bool is_open = false;      ///< It has to be: see Part::is_open.
+        bool is_open = false;      ///< It has to be: see PlanGraph::is_open.
     };
     /// Of all operands that are no planes and vary, in order of their readers.
     const std::vector<OperandChoice>& choices() const { return choices_; }
@@ -122,26 +122,27 @@ public:
     }
 
 private:
-    void mark_needed(std::span<const PartId> roots);
-    void decide(PartId id);
-    void decide_own(PartId id);
-    std::uint32_t pass_beside(PartId operand) const;
-    void provide(PartId operand, Offsets offsets, PartId reader);
-    void provide_over_links(PartId operand, PartId reader);
-    void provide_open(PartId operand, Offsets offsets, PartId reader);
+    void mark_needed(std::span<const NodeId> roots);
+    void decide(NodeId id);
+    void decide_own(NodeId id);
+    std::uint32_t pass_beside(NodeId operand) const;
+    void provide(NodeId operand, Offsets offsets, NodeId reader);
+    void provide_over_links(NodeId operand, NodeId reader);
+    void provide_open(NodeId operand, Offsets offsets, NodeId reader);
     template <typename Visit>
-    void for_each_closed(PartId open, const Visit& visit) const;
-    bool is_plane(PartId id) const { return step_invariant_[id] || graph_.is_plane(id); }
-    bool is_expensive(PartId id, std::uint32_t places) const;
+    void for_each_closed(NodeId open, const Visit& visit) const;
+    bool is_plane(NodeId id) const { return step_invariant_[id] || graph_.is_plane(id); }
+    bool is_expensive(NodeId id, std::uint32_t places) const;
 
-    const PartGraph& graph_;
+    const PlanGraph& graph_;
     Axes axes_;
     Materialise materialise_;
     std::uint32_t pass_count_ = 1;
-    std::vector<bool> needed_, written_, step_invariant_;
-    std::vector<bool> stays_;            ///< Cannot be computed for a neighbour.
-    std::vector<std::uint32_t> pass_;    ///< The first in which the own cell's value is known …
-    std::vector<std::uint32_t> beside_;  ///< … and the values of neighbours, planes being read.
+    IdVector<NodeId, bool> needed_, written_, step_invariant_;
+    IdVector<NodeId, bool> stays_;          ///< Cannot be computed for a neighbour.
+    IdVector<NodeId, std::uint32_t> pass_;  ///< The first in which the own cell's value is known …
+    IdVector<NodeId, std::uint32_t>
+        beside_;  ///< … and the values of neighbours, planes being read.
     std::vector<OperandChoice> choices_;
 };
 

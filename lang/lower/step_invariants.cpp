@@ -1,4 +1,4 @@
-// Readers first for where parts are needed, operands first for the network of costs, readers first
+// Readers first for where nodes are needed, operands first for the network of costs, readers first
 // again for what has to be known in a step.
 #include "lang/lower/step_invariants.h"
 
@@ -13,88 +13,78 @@ namespace cascade::lowering {
 
 namespace {
 
-bool is_aggregate(const Part& part) {
-    return part.node.kind == NodeKind::call && info(part.node.function).is_aggregate;
-}
-
 /// Does it take operations of each cell that a plane could save?
-bool is_costly(const PartGraph& graph, PartId id) {
-    return graph[id].is_step_invariant && !graph[id].is_uniform && !graph.is_plane(id);
+bool is_costly(const PlanGraph& graph, NodeId id) {
+    return graph.is_step_invariant(id) && !graph.is_uniform(id) && !graph.is_plane(id);
 }
 
-template <typename Visit>
-void for_each_operand(const Part& part, const Visit& visit) {
-    for (std::uint32_t k = 0; k < part.operand_count; ++k) visit(part.operands[k]);
-}
-
-/// The parts for which is_chosen(part) holds that can be reached by parts for which it does not.
+/// The nodes for which is_chosen(node) holds that can be reached by nodes for which it does not.
 template <typename Chosen>
-std::vector<PartId> first_reached(const PartGraph& graph, std::span<const PartId> roots,
+std::vector<NodeId> first_reached(const PlanGraph& graph, std::span<const NodeId> roots,
                                   const Chosen& is_chosen) {
-    std::vector<bool> needed(graph.size(), false);
-    std::vector<PartId> parts;
-    for (const PartId root : roots) needed[root] = true;
-    for (PartId id = static_cast<PartId>(graph.size()); id-- > 0;) {
+    IdVector<NodeId, bool> needed(graph.size(), false);
+    std::vector<NodeId> nodes;
+    for (const NodeId root : roots) needed[root] = true;
+    for (const NodeId id : graph.ids_backwards()) {
         if (!needed[id]) continue;
         if (is_chosen(id)) {
-            parts.push_back(id);
+            nodes.push_back(id);
         } else {
-            for_each_operand(graph[id], [&](PartId operand) { needed[operand] = true; });
+            for (const NodeId operand : graph[id].reads()) needed[operand] = true;
         }
     }
-    std::reverse(parts.begin(), parts.end());
-    return parts;
+    std::reverse(nodes.begin(), nodes.end());
+    return nodes;
 }
 
 class Chooser {
 public:
-    Chooser(const PartGraph& graph, std::span<const PartId> roots)
+    Chooser(const PlanGraph& graph, std::span<const NodeId> roots)
         : graph_(graph),
           roots_(roots),
           axes_(graph.program().domain.grid),
           places_(graph.size(), 0),
           number_(graph.size(), 0) {}
 
-    std::vector<PartId> choose() {
-        for (const PartId root : roots_) places_[root] = 1;
-        for (PartId id = static_cast<PartId>(graph_.size()); id-- > 0;) {
+    std::vector<NodeId> choose() {
+        for (const NodeId root : roots_) places_[root] = 1;
+        for (const NodeId id : graph_.ids_backwards()) {
             if (places_[id] > 0) need_operands(id);
         }
-        for (PartId id = 0; id < graph_.size(); ++id) {
+        for (const NodeId id : graph_.ids()) {
             if (places_[id] > 0 && is_costly(graph_, id)) add_to_network(id);
         }
-        for (const PartId root : roots_) want(root);
-        for (PartId id = 0; id < graph_.size(); ++id) {
-            if (places_[id] == 0 || graph_[id].is_step_invariant) continue;
-            for_each_operand(graph_[id], [&](PartId operand) { want(operand); });
+        for (const NodeId root : roots_) want(root);
+        for (const NodeId id : graph_.ids()) {
+            if (places_[id] == 0 || graph_.is_step_invariant(id)) continue;
+            for (const NodeId operand : graph_[id].reads()) want(operand);
         }
-        return first_reached(graph_, roots_, [&](PartId id) {
-            const bool is_number = graph_[id].is_step_invariant && is_aggregate(graph_[id]);
+        return first_reached(graph_, roots_, [&](NodeId id) {
+            const bool is_number = graph_.is_step_invariant(id) && is_aggregate(graph_[id]);
             return is_number || (is_costly(graph_, id) && cut_.is_kept(number_[id]));
         });
     }
 
 private:
-    /// An operator along an axis of one cell reads nothing, but its operand is a part all the same.
-    void need(PartId id, std::uint32_t places) {
+    /// An operator along an axis of one cell reads nothing, but its operand is a node all the same.
+    void need(NodeId id, std::uint32_t places) {
         places_[id] = std::max({places_[id], places, std::uint32_t{1}});
     }
 
-    /// A part that is computed in every step needs its operands in the own cell, or around it.
-    void need_operands(PartId id) {
-        const Part& part = graph_[id];
-        const bool is_operator = part.node.kind == NodeKind::call && !part.is_uniform;
-        const bool at_faces = is_operator && part.node.type == ValueType::vector;
-        for (std::uint32_t k = 0; k < part.operand_count; ++k) {
+    /// A node that is computed in every step needs its operands in the own cell, or around it.
+    void need_operands(NodeId id) {
+        const Node& node = graph_[id];
+        const bool is_operator = node.kind == NodeKind::call && !graph_.is_uniform(id);
+        const bool at_faces = is_operator && node.type == ValueType::vector;
+        for (std::uint32_t k = 0; k < node.operand_count; ++k) {
             // What lasts is computed wherever its reader is.
-            std::uint32_t places = part.is_step_invariant ? places_[id] : 1;
+            std::uint32_t places = graph_.is_step_invariant(id) ? places_[id] : 1;
             if (at_faces) {
                 places = count(axes_.crosswise());
-            } else if (is_operator && is_stencil(part.node.function) &&
-                       k + 1 == part.operand_count) {
-                places = count(stencil_offsets(part, axes_));
+            } else if (is_operator && is_stencil(node.function) && k + 1 == node.operand_count) {
+                places = count(stencil_offsets(node, axes_));
             }
-            need(part.operands[k], places);
+            need(node.operands[k], places);
         }
     }
 
@@ -102,40 +92,41 @@ private:
         return static_cast<std::uint32_t>(std::popcount(offsets));
     }
 
-    void add_to_network(PartId id) {
-        const Part& part = graph_[id];
-        const bool can_be_kept = part.node.type == ValueType::number && !part.is_open();
+    void add_to_network(NodeId id) {
+        const Node& node = graph_[id];
+        const bool can_be_kept = node.type == ValueType::number && !graph_.is_open(id);
         std::vector<std::uint32_t> operands;
-        for_each_operand(graph_[id], [&](PartId operand) {
+        for (const NodeId operand : node.reads()) {
             if (is_costly(graph_, operand)) operands.push_back(number_[operand]);
-        });
+        }
         number_[id] = cut_.add(can_be_kept ? operations_of_reading : MinimumCut::unlimited,
-                               operations_of(part) * places_[id], operands);
+                               operations_of(node) * places_[id], operands);
     }
 
-    void want(PartId id) {
+    void want(NodeId id) {
         if (is_costly(graph_, id)) cut_.want(number_[id]);
     }
 
-    const PartGraph& graph_;
-    std::span<const PartId> roots_;
+    const PlanGraph& graph_;
+    std::span<const NodeId> roots_;
     Axes axes_;
     MinimumCut cut_;
-    std::vector<std::uint32_t> places_;  ///< At how many cells a part is needed, about; 0: nowhere.
-    std::vector<std::uint32_t> number_;  ///< In the network, of costly parts.
+    IdVector<NodeId, std::uint32_t>
+        places_;  ///< At how many cells a node is needed, about; 0: nowhere.
+    IdVector<NodeId, std::uint32_t> number_;  ///< In the network, of costly nodes.
 };
 
 }  // namespace
 
-std::vector<PartId> step_invariant_parts(const PartGraph& graph, std::span<const PartId> roots) {
+std::vector<NodeId> step_invariant_nodes(const PlanGraph& graph, std::span<const NodeId> roots) {
     return Chooser(graph, roots).choose();
 }
 
-std::vector<PartId> largest_step_invariants(const PartGraph& graph, std::span<const PartId> roots) {
-    return first_reached(graph, roots, [&](PartId id) {
-        const Part& part = graph[id];
-        if (!part.is_step_invariant || part.node.type != ValueType::number) return false;
-        return is_aggregate(part) || is_costly(graph, id);
+std::vector<NodeId> largest_step_invariants(const PlanGraph& graph, std::span<const NodeId> roots) {
+    return first_reached(graph, roots, [&](NodeId id) {
+        const Node& node = graph[id];
+        if (!graph.is_step_invariant(id) || node.type != ValueType::number) return false;
+        return is_aggregate(node) || is_costly(graph, id);
     });
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 /// A part to be written inside an operator that needs at least this precedence.
 struct Part {
-    std::uint32_t node = 0;
+    NodeId node;
     int least = 0;
 };
 
@@ -27,7 +27,7 @@ public:
         : program_(program), system_(system), formula_(formula), stage_(stage) {}
 
     std::string run() {
-        push(Part{static_cast<std::uint32_t>(formula_.nodes.size() - 1), 0});
+        push(Part{NodeId(formula_.nodes.size() - 1), 0});
         while (!stack_.empty()) {
             const Item item = stack_.back();
             stack_.pop_back();
@@ -63,7 +63,7 @@ private:
         if (brackets) text_ += "(";
         if (brackets) push(std::string_view(")"));
         const std::string_view spelling = info(node.function).spelling;
-        if (operand_count(node) == 1) {
+        if (node.operand_count == 1) {
             text_ += spelling;
             if (node.function == Function::logical_not) text_ += " ";
             push(Part{node.operands[0], own});
@@ -91,7 +91,7 @@ private:
         text_ += info(node.function).spelling;
         text_ += "(";
         push(std::string_view(")"));
-        for (std::size_t i = operand_count(node); i > 0; --i) {
+        for (std::size_t i = node.operand_count; i > 0; --i) {
             push(Part{node.operands[i - 1], 0});
             if (i > 1) push(std::string_view(", "));
         }
@@ -113,9 +113,9 @@ private:
                 return text_of(program_.literals->surface_values()[node.index]);
             case NodeKind::definition: return system_.definitions[node.index].name;
             case NodeKind::rate: return system_.quantities[node.index].name + "'";
-            case NodeKind::metric:
-            case NodeKind::model:
-            case NodeKind::inside:
+            case NodeKind::metric: return std::string(metric_names[node.index]);
+            case NodeKind::model: return std::string(model_names[node.index]);
+            case NodeKind::inside: return "(inside)";
             case NodeKind::call: break;
         }
         return "";

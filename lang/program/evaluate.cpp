@@ -4,12 +4,12 @@
 #include "core/check.h"
 #include "lang/program/fold.h"
 
-#include <vector>
+#include <algorithm>
 
 namespace cascade {
 
 double evaluate(const Formula& formula, const BuiltinValues& builtins) {
-    std::vector<double> values;
+    IdVector<NodeId, double> values;
     values.reserve(formula.nodes.size());
     for (const Node& node : formula.nodes) {
         switch (node.kind) {
@@ -17,9 +17,8 @@ double evaluate(const Formula& formula, const BuiltinValues& builtins) {
             case NodeKind::builtin: values.push_back(builtins[node.index]); break;
             case NodeKind::call: {
                 std::array<double, most_operands> operands{};
-                for (std::size_t k = 0; k < operand_count(node); ++k) {
-                    operands[k] = values[node.operands[k]];
-                }
+                std::ranges::transform(node.reads(), operands.begin(),
+                                       [&](NodeId operand) { return values[operand]; });
                 const auto value = fold(node.function, operands);
                 CHECK(value, "a formula of a place is made of functions of numbers");
                 values.push_back(*value);

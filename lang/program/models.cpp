@@ -102,6 +102,28 @@ std::string_view word_of(ModelShape shape) {
     return "";
 }
 
+std::optional<ModelPlane> model_plane_of(Builtin builtin) {
+    switch (builtin) {
+        case Builtin::x: return ModelPlane::x;
+        case Builtin::y: return ModelPlane::y;
+        case Builtin::z: return ModelPlane::z;
+        case Builtin::sx: return ModelPlane::sx;
+        case Builtin::sy: return ModelPlane::sy;
+        case Builtin::sz: return ModelPlane::sz;
+        case Builtin::nx: return ModelPlane::nx;
+        case Builtin::ny: return ModelPlane::ny;
+        case Builtin::nz: return ModelPlane::nz;
+        case Builtin::curvature: return ModelPlane::curvature;
+        case Builtin::curvature_mean: return ModelPlane::curvature_mean;
+        case Builtin::curvature_gauss: return ModelPlane::curvature_gauss;
+        case Builtin::curvature_high: return ModelPlane::curvature_high;
+        case Builtin::curvature_low: return ModelPlane::curvature_low;
+        case Builtin::t:
+        case Builtin::step: break;
+    }
+    return std::nullopt;
+}
+
 bool has_meaning_on_domain(const Program& program, const Formula& formula,
                            Diagnostics& diagnostics) {
     if (program.domain.model) return has_meaning_on_model(formula, diagnostics);

@@ -26,6 +26,9 @@ std::optional<ModelShape> shape_named(std::string_view word);
 /// The word for a shape in scripts; empty for a file.
 std::string_view word_of(ModelShape shape);
 
+/// The plane that has a built-in value on a model; nothing of t and step.
+std::optional<ModelPlane> model_plane_of(Builtin builtin);
+
 /// Adds an error for every function of a formula that has no meaning on the domain, such as second
 /// derivatives by name on a model and distances along it on a plane; true where there is none.
 bool has_meaning_on_domain(const Program& program, const Formula& formula,

@@ -7,10 +7,22 @@
 
 namespace cascade {
 
-std::size_t operand_count(const Node& call) {
-    const Arity arity = info(call.function).arity;
-    return std::max(static_cast<std::size_t>(call.operand_count),
-                    static_cast<std::size_t>(arity.least));
+Formula formula_of(const Nodes& nodes, NodeId root) {
+    std::vector<bool> needed(root.index() + 1, false);
+    needed[root.index()] = true;
+    for (std::size_t k = needed.size(); k-- > 0;) {
+        if (!needed[k]) continue;
+        for (const NodeId operand : nodes[NodeId(k)].reads()) needed[operand.index()] = true;
+    }
+    Formula formula;
+    IdVector<NodeId, NodeId> place(needed.size());
+    for (const NodeId id : place.ids()) {
+        if (!needed[id.index()]) continue;
+        place[id] = formula.nodes.next();
+        Node& node = formula.nodes.emplace_back(nodes[id]);
+        for (NodeId& operand : node.reads()) operand = place[operand];
+    }
+    return formula;
 }
 
 std::uint32_t Literals::number_of(const std::string& text) {

@@ -4,6 +4,7 @@
 
 #include "core/axis.h"
 #include "core/grid.h"
+#include "core/id.h"
 #include "core/precision.h"
 #include "core/side.h"
 #include "core/source.h"
@@ -15,6 +16,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +32,9 @@ enum class MetricPlane : std::uint8_t {
 };
 // clang-format on
 inline constexpr std::size_t metric_plane_count = 7;
+/// In dumps. No name of the language begins with a bracket.
+inline constexpr std::array<std::string_view, metric_plane_count> metric_names{
+    "(metric 11)", "(metric 12)", "(metric 22)", "(area)", "(flow 11)", "(flow 12)", "(flow 22)"};
 
 /// What kernels read of the cells of a model, a plane each (run/domain/model_cells.h).
 // clang-format off
@@ -46,6 +51,11 @@ enum class ModelPlane : std::uint8_t {
 };
 // clang-format on
 inline constexpr std::size_t model_plane_count = 16;
+// clang-format off
+inline constexpr std::array<std::string_view, model_plane_count> model_names{
+    "(number)", "(area)", "(x)", "(y)", "(z)", "(sx)", "(sy)", "(sz)", "(nx)", "(ny)", "(nz)",
+    "(curvature)", "(curvature_mean)", "(curvature_high)", "(curvature_low)", "(curvature_gauss)"};
+// clang-format on
 /// Is the plane made only for those who read it?
 constexpr bool is_made_when_read(ModelPlane plane) { return plane >= ModelPlane::curvature_mean; }
 
@@ -66,7 +76,12 @@ enum class NodeKind : std::uint8_t {
 
 enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };
 
-/// A part of a formula. Operands are positions in the same formula, before this one.
+/// The place of a node in its formula or graph.
+using NodeId = Id<struct NodeTag>;
+using Operands = std::array<NodeId, most_operands>;
+
+/// A node of a formula or of an expression graph. Operands are nodes of the same list, before this
+/// one.
 struct Node {
     NodeKind kind = NodeKind::number;
     Function function = Function::add;
@@ -76,7 +91,12 @@ struct Node {
     std::uint32_t index = 0;
     std::uint32_t stage = 0;
     Operands operands{};
-    std::uint8_t operand_count = 0;  ///< Of a call that may have more or fewer; see operand_count.
+    std::uint8_t operand_count = 0;
+
+    /// The operands that there are.
+    std::span<const NodeId> reads() const { return {operands.data(), operand_count}; }
+    std::span<NodeId> reads() { return {operands.data(), operand_count}; }
+    bool calls(Function called) const { return kind == NodeKind::call && function == called; }
 };
 
 /// Does the node draw random numbers?
@@ -84,13 +104,21 @@ inline bool is_draw(const Node& node) {
     return node.kind == NodeKind::call && is_random(node.function);
 }
 
-/// How many operands a call has.
-std::size_t operand_count(const Node& call);
+/// Is the node an aggregate over the domain?
+inline bool is_aggregate(const Node& node) {
+    return node.kind == NodeKind::call && info(node.function).is_aggregate;
+}
 
-/// A checked expression: parts in order, the whole last. Never empty.
+using Nodes = IdVector<NodeId, Node>;
+
+/// A checked expression: nodes in order, the whole last. Never empty.
 struct Formula {
-    std::vector<Node> nodes;
+    Nodes nodes;
 };
+
+/// The formula whose whole is `root`: of a list of nodes those that it needs, directly or through
+/// others, in their order.
+Formula formula_of(const Nodes& nodes, NodeId root);
 
 /// The values that make sense for a parameter, `in low .. high step s`.
 struct ParameterRange {

@@ -56,7 +56,6 @@ constexpr Arity groups_of(int size, int after = 0) {
 
 /// The most values that a function takes.
 inline constexpr std::size_t most_operands = 6;
-using Operands = std::array<std::uint32_t, most_operands>;
 
 struct FunctionInfo {
     std::string_view spelling;

@@ -18,8 +18,9 @@ namespace cascade {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> kinds = {"tokens", "ast", "equations", "tex", "program",
-                                                   "plan",   "ir",  "llvm",      "asm"};
+constexpr std::array<std::string_view, 10> kinds = {"tokens",  "ast",   "equations", "tex",
+                                                    "program", "graph", "plan",      "ir",
+                                                    "llvm",    "asm"};
 
 /// Steps are shown as they are taken.
 constexpr PlanOptions as_run{Materialise::when_cheaper, false, true};
@@ -94,7 +95,7 @@ Result<std::string> dump_code([[maybe_unused]] const Program& program,
     return text;
 #else
     return failure("this build has no native compiler",
-                   "tokens, ast, program, plan and ir can be shown");
+                   "tokens, ast, program, graph, plan and ir can be shown");
 #endif
 }
 
@@ -109,6 +110,7 @@ Result<std::string> dump(const Script& script, std::string_view kind) {
     if (kind == "program") return print_program(*script.program);
     if (kind == "equations") return dump_equations(script, Notation::unicode);
     if (kind == "tex") return dump_equations(script, Notation::tex);
+    if (kind == "graph") return describe_graphs(*script.program);
     if (kind == "plan") return describe_plans(*script.program);
     if (kind == "ir") return dump_ir(*script.program);
     return dump_code(*script.program, kind == "asm");

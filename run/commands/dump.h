@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// tokens, ast, equations, tex, program, ir, llvm, asm.
+/// tokens, ast, equations, tex, program, graph, plan, ir, llvm, asm.
 std::span<const std::string_view> dump_kinds();
 
 /// The dump of a loaded script. tokens and ast work for a wrong script too.

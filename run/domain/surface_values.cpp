@@ -3,7 +3,6 @@
 #include "run/domain/surface_values.h"
 
 #include "core/near_name.h"
-#include "lang/lower/part_graph.h"
 #include "lang/program/models.h"
 #include "surface/curvature.h"
 #include "surface/distance.h"
@@ -94,7 +93,7 @@ void SurfaceValues::make(std::span<const Formula* const> formulas,
                     make_value(program_.literals->surface_values()[node.index], cancel);
             }
             if (node.kind != NodeKind::builtin) continue;
-            const auto read = lowering::model_plane_of(static_cast<Builtin>(node.index));
+            const auto read = model_plane_of(static_cast<Builtin>(node.index));
             if (read && is_made_when_read(*read)) (void)plane(*read);
         }
     }

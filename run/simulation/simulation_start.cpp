@@ -24,9 +24,10 @@ std::vector<Formula> written_areas(const Program& program) {
             }
             Formula area;
             Node call = node;
-            for (std::uint32_t k = 0; k < operand_count(node); ++k) {
-                area.nodes.push_back(formula->nodes[node.operands[k]]);
-                call.operands[k] = k;
+            for (NodeId& operand : call.reads()) {
+                const Node& number = formula->nodes[operand];
+                operand = area.nodes.next();
+                area.nodes.push_back(number);
             }
             const bool is_known =
                 std::all_of(area.nodes.begin(), area.nodes.end(),

@@ -71,12 +71,12 @@ TEST(CheckProgram, SettingsOfSystemsAndStages) {
     EXPECT_EQ(stages[1].interval, 30);
     EXPECT_EQ(only_number(stages[1].items[3]), 0.5);
     ASSERT_EQ(stages[1].show.nodes.size(), 1u);
-    EXPECT_EQ(stages[1].show.nodes[0].index, 1u);
+    EXPECT_EQ(stages[1].show.nodes.front().index, 1u);
     EXPECT_EQ(stages[2].iterations, 7);
     EXPECT_EQ(stages[2].interval, 1);
     EXPECT_EQ(stages[3].iterations, 1000);
     EXPECT_EQ(stages[3].interval, 100);
-    EXPECT_EQ(stages[3].show.nodes[0].index, 2u) << "the first species";
+    EXPECT_EQ(stages[3].show.nodes.front().index, 2u) << "the first species";
 }
 
 TEST(CheckProgram, OrderOfItems) {

@@ -1,0 +1,54 @@
+// Numbers that name one thing of a kind, and lists that are read by them: an id of one kind is no
+// id of another, nor a plain number.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <ranges>
+#include <vector>
+
+namespace cascade {
+
+/// `Tag` is a type that only tells kinds apart: `using NodeId = Id<struct NodeTag>`.
+template <typename Tag>
+class Id {
+public:
+    constexpr Id() = default;
+    constexpr explicit Id(std::size_t index) : index_(static_cast<std::uint32_t>(index)) {}
+    constexpr std::uint32_t index() const { return index_; }
+    friend constexpr auto operator<=>(Id, Id) = default;
+
+private:
+    std::uint32_t index_ = 0;
+};
+
+/// The ids from 0 up to a number.
+template <typename Key>
+auto ids_below(std::size_t count) {
+    return std::views::iota(std::size_t{0}, count) |
+           std::views::transform([](std::size_t index) { return Key(index); });
+}
+
+/// A list whose places are ids.
+template <typename Key, typename Value>
+class IdVector : public std::vector<Value> {
+public:
+    using Base = std::vector<Value>;
+    using Base::Base;
+
+    typename Base::reference operator[](Key id) { return Base::operator[](id.index()); }
+    typename Base::const_reference operator[](Key id) const { return Base::operator[](id.index()); }
+    /// The id of what is added next.
+    Key next() const { return Key(Base::size()); }
+    auto ids() const { return ids_below<Key>(Base::size()); }
+    auto ids_backwards() const { return ids() | std::views::reverse; }
+};
+
+}  // namespace cascade
+
+template <typename Tag>
+struct std::hash<cascade::Id<Tag>> {
+    std::size_t operator()(cascade::Id<Tag> id) const noexcept { return id.index(); }
+};

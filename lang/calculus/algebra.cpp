@@ -1,0 +1,70 @@
+// What is simplified, function by function.
+#include "lang/calculus/algebra.h"
+
+#include "lang/program/fold.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace cascade {
+
+/// What is known without computing anything.
+std::optional<NodeId> Algebra::simpler(Function function, const Operands& operands) {
+    const auto [a, b, c] = std::array{operands[0], operands[1], operands[2]};
+    const Node& first = (*this)[a];
+    switch (function) {
+        case Function::add:
+            if (is_number(a, 0)) return b;
+            if (is_number(b, 0)) return a;
+            break;
+        case Function::subtract:
+            if (is_number(b, 0)) return a;
+            if (is_number(a, 0)) return negative(b);
+            if (a == b) return number(0);
+            break;
+        case Function::multiply:
+            if (is_number(a, 0) || is_number(b, 0)) return number(0);
+            if (is_number(a, 1)) return b;
+            if (is_number(b, 1)) return a;
+            break;
+        case Function::divide:
+            if (is_number(a, 0) || is_number(b, 1)) return a;
+            break;
+        case Function::negate:
+            if (first.calls(Function::negate)) return first.operands[0];
+            break;
+        case Function::abs:
+            if (first.calls(Function::abs)) return a;
+            if (first.calls(Function::negate)) return magnitude(first.operands[0]);
+            break;
+        case Function::power:
+            if (is_number(b, 0)) return number(1);
+            if (is_number(b, 1)) return a;
+            break;
+        case Function::max:
+            if (a == b) return a;
+            break;
+        case Function::if_:
+            if (b == c) return b;
+            break;
+        default: break;
+    }
+    return std::nullopt;
+}
+
+NodeId Algebra::call(Function function, std::initializer_list<NodeId> operands, ValueType type) {
+    Operands all{};
+    std::array<double, most_operands> values{};
+    std::copy(operands.begin(), operands.end(), all.begin());
+    if (const auto known = simpler(function, all)) return *known;
+    std::size_t numbers = 0;
+    for (const NodeId operand : operands) {
+        if (is_number(operand)) values[numbers++] = (*this)[operand].number;
+    }
+    const auto value = numbers == operands.size() ? fold(function, values) : std::nullopt;
+    if (value && std::isfinite(*value)) return number(*value);
+    return ExpressionGraph::call(function, operands, type);
+}
+
+}  // namespace cascade

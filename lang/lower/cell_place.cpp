@@ -1,0 +1,103 @@
+// Places are computed from the numbers of columns, rows and slices; those of a model's cells lie in
+// planes.
+#include "lang/lower/cell_place.h"
+
+#include "core/check.h"
+
+#include <cmath>
+
+namespace cascade::lowering {
+
+/// The column, row or slice: beyond a side that of the opposite cell, or of the cell at the side.
+ValueId CellPlace::number(int axis) {
+    const Grid& grid = assembly_.program().domain.grid;
+    const std::array sides{grid.width, grid.height, grid.depth};
+    const std::array boundaries{grid.boundary.x, grid.boundary.y, grid.boundary.z};
+    const auto k = static_cast<std::size_t>(axis);
+    const ValueId cell = axis == 0   ? builder_.cell_column()
+                         : axis == 1 ? builder_.cell_row()
+                                     : builder_.cell_slice();
+    const int by = axis == 0 ? at_.dx : axis == 1 ? at_.dy : at_.dz;
+    if (by == 0) return cell;
+    const std::int64_t first = 0, last = sides[k] - 1;
+    const std::int64_t at_side = by > 0 ? last : first;
+    const std::int64_t opposite = by > 0 ? first : last;
+    const ValueId moved =
+        builder_.apply(by > 0 ? Op::bits_add : Op::bits_subtract, cell, builder_.word(1));
+    const ValueId is_at_side = builder_.apply(Op::equal, builder_.apply(Op::bits_to_number, cell),
+                                              builder_.number(static_cast<double>(at_side)));
+    const std::int64_t beyond = boundaries[k] == Boundary::periodic ? opposite : at_side;
+    return builder_.select(is_at_side, builder_.word(static_cast<std::uint32_t>(beyond)), moved);
+}
+
+/// Cell centres: (i + 1/2) / side.
+ValueId CellPlace::coordinate(int axis, std::int64_t side) {
+    const ValueId number = builder_.apply(Op::bits_to_number, this->number(axis));
+    const ValueId centre = builder_.add(number, builder_.number(0.5));
+    const ValueId place = builder_.divide(centre, builder_.number(static_cast<double>(side)));
+    builder_.keep(place);  // Where a cell lies is one number everywhere.
+    return place;
+}
+
+ValueId CellPlace::builtin(Builtin builtin) {
+    const Grid& grid = assembly_.program().domain.grid;
+    switch (builtin) {
+        case Builtin::x: return coordinate(0, grid.longest_side());
+        case Builtin::y: return coordinate(1, grid.longest_side());
+        case Builtin::z: return coordinate(2, grid.longest_side());
+        case Builtin::sx: return coordinate(0, grid.width);
+        case Builtin::sy: return coordinate(1, grid.height);
+        case Builtin::sz: return coordinate(2, grid.depth);
+        case Builtin::t: return assembly_.time(at_);
+        case Builtin::step: return assembly_.step();
+        // A plane lies flat, and looks up.
+        case Builtin::nx:
+        case Builtin::ny:
+        case Builtin::curvature:
+        case Builtin::curvature_mean:
+        case Builtin::curvature_gauss:
+        case Builtin::curvature_high:
+        case Builtin::curvature_low: return builder_.number(0);
+        case Builtin::nz: return builder_.number(1);
+    }
+    CHECK(false, "lowering: every built-in value has a meaning");
+}
+
+Space CellPlace::space() {
+    if (assembly_.program().domain.model) {
+        const auto along = [&](ModelPlane plane) {
+            return SpaceAxis{of_model(plane), 1, false, true};
+        };
+        return {along(ModelPlane::x), along(ModelPlane::y), along(ModelPlane::z)};
+    }
+    const Grid& grid = assembly_.program().domain.grid;
+    const std::int64_t longest = grid.longest_side();
+    const auto along = [&](int axis, std::int64_t side, Boundary boundary) {
+        const double length = static_cast<double>(side) / static_cast<double>(longest);
+        return SpaceAxis{coordinate(axis, longest), length, boundary == Boundary::periodic,
+                         side > 1};
+    };
+    return {along(0, grid.width, grid.boundary.x), along(1, grid.height, grid.boundary.y),
+            along(2, grid.depth, grid.boundary.z)};
+}
+
+ValueId CellPlace::content() {
+    if (assembly_.program().domain.model) return of_model(ModelPlane::area);
+    const Grid& grid = assembly_.program().domain.grid;
+    const int axes = int{grid.width > 1} + int{grid.height > 1} + int{grid.depth > 1};
+    return builder_.number(std::pow(grid.spacing, axes));
+}
+
+/// The hash of a draw knows columns and rows; slices other than the first change the draw.
+ValueId CellPlace::draw(ValueId draw) {
+    if (assembly_.program().domain.model) {
+        builder_.set_cell(of_model(ModelPlane::number));
+        return draw;
+    }
+    if (assembly_.program().domain.grid.depth == 1) return draw;
+    const ValueId slice =
+        builder_.apply(Op::bits_multiply, builder_.cell_slice(), builder_.word(0x9e3779b9));
+    return builder_.apply(Op::bits_xor, draw, slice);
+}
+
+}  // namespace cascade::lowering

@@ -1,0 +1,35 @@
+// Where a cell is: what functions of the place are made of (internal to lowering).
+#pragma once
+
+#include "ir/space.h"
+#include "lang/lower/kernel_assembly.h"
+
+namespace cascade::lowering {
+
+/// The place of the cell at an offset.
+class CellPlace {
+public:
+    CellPlace(KernelAssembly& assembly, Offset at)
+        : assembly_(assembly), builder_(assembly.builder()), at_(at) {}
+
+    ValueId builtin(Builtin builtin);
+    ValueId of_model(ModelPlane plane) {
+        return assembly_.field({SlotSource::Kind::model, 0, static_cast<std::uint32_t>(plane)},
+                               at_);
+    }
+    Space space();
+    /// The length, area or volume of the cell in units.
+    ValueId content();
+    /// The draw of the cell, a word of 32 bits.
+    ValueId draw(ValueId draw);
+
+private:
+    ValueId number(int axis);
+    ValueId coordinate(int axis, std::int64_t side);
+
+    KernelAssembly& assembly_;
+    KernelBuilder& builder_;
+    Offset at_;
+};
+
+}  // namespace cascade::lowering

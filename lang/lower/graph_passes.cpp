@@ -1,0 +1,147 @@
+// The walk that all passes share, and the small passes.
+#include "lang/lower/graph_passes.h"
+
+#include <limits>
+
+namespace cascade::lowering {
+
+namespace {
+
+/// tensor(a1, a2, theta) is made of its entries, and diffuse takes one.
+class Tensors : public GraphPass {
+    using GraphPass::GraphPass;
+
+    NodeId tensor(NodeId a1, NodeId a2, NodeId theta) {
+        const auto [a11, a12, a22] = tensor_entries(graph(), a1, a2, theta);
+        return graph().call(Function::tensor, {a11, a12, a22}, ValueType::tensor);
+    }
+
+    NodeId image_of(const Node& node) override {
+        const auto& [a, b, c, d, e, f] = node.operands;
+        if (node.calls(Function::tensor)) return tensor(a, b, c);
+        if (!node.calls(Function::diffuse)) return keep(node);
+        Node diffuse = node;
+        diffuse.operands = {tensor(b, c, d), a};
+        diffuse.operand_count = 2;
+        return keep(diffuse);
+    }
+};
+
+/// lap(a, e) of an a that is the same in all cells is a * lap(e).
+class EvenWeights : public GraphPass {
+public:
+    EvenWeights(const Expressions& from, const PassContext& context)
+        : GraphPass(from, context), is_uniform_(uniform_nodes(from.graph, context)) {}
+
+private:
+    NodeId image_of(const Node& node) override {
+        const bool is_weighted = node.calls(Function::lap) && node.operand_count == 2;
+        if (!is_weighted || !is_uniform_[old()[at()].operands[0]]) return keep(node);
+        return times(node.operands[0], graph().call(Function::lap, {node.operands[1]}));
+    }
+
+    IdVector<NodeId, bool> is_uniform_;
+};
+
+/// Where cells have areas, those count.
+class Areas : public GraphPass {
+    using GraphPass::GraphPass;
+
+    NodeId image_of(const Node& node) override {
+        const bool is_mean = node.calls(Function::domain_mean);
+        if (!is_mean && !node.calls(Function::domain_sum)) return keep(node);
+        const NodeId area =
+            context().has_model()
+                ? graph().leaf(NodeKind::model, static_cast<std::uint32_t>(ModelPlane::area))
+                : graph().leaf(NodeKind::metric, static_cast<std::uint32_t>(MetricPlane::area));
+        const auto sum = [&](NodeId of) { return graph().call(Function::domain_sum, {of}); };
+        const NodeId integral = sum(times(node.operands[0], area));
+        return is_mean ? graph().call(Function::divide, {integral, sum(area)}) : integral;
+    }
+};
+
+/// An aggregate over the domain takes outside of the mask what changes nothing.
+class MaskedAggregates : public GraphPass {
+    using GraphPass::GraphPass;
+
+    NodeId image_of(const Node& node) override {
+        if (!is_aggregate(node)) return keep(node);
+        const bool adds =
+            node.function == Function::domain_sum || node.function == Function::domain_mean;
+        const Node& of = graph()[node.operands[0]];
+        const bool is_item = of.kind == NodeKind::own || of.kind == NodeKind::earlier;
+        // Items that vary are 0 there.
+        if (adds && is_item && differs_by_cell(of, false, context().program, context().stage)) {
+            return keep(node);
+        }
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const bool is_least = node.function == Function::domain_min;
+        Node masked = node;
+        masked.operands[0] =
+            graph().call(Function::if_, {graph().leaf(NodeKind::inside), node.operands[0],
+                                         graph().number(adds       ? 0
+                                                        : is_least ? infinity
+                                                                   : -infinity)});
+        return keep(masked);
+    }
+};
+
+}  // namespace
+
+Expressions GraphPass::run() {
+    const auto needed = needed_by(from_.graph, from_.roots);
+    images_.resize(needed.size());
+    for (const NodeId id : needed.ids()) {
+        if (!needed[id]) continue;
+        Node node = from_.graph[id];
+        for (NodeId& operand : node.reads()) operand = images_[operand];
+        at_ = id;
+        images_[id] = image_of(node);
+    }
+    for (const NodeId root : from_.roots) to_.roots.push_back(images_[root]);
+    for (const auto& [id, name] : from_.names) {
+        if (needed[id]) to_.names.emplace_back(images_[id], name);
+    }
+    to_.origins = from_.origins;
+    return std::move(to_);
+}
+
+IdVector<NodeId, bool> needed_by(const ExpressionGraph& graph, const std::vector<NodeId>& roots) {
+    IdVector<NodeId, bool> needed(graph.size(), false);
+    for (const NodeId root : roots) needed[root] = true;
+    for (const NodeId id : needed.ids_backwards()) {
+        if (!needed[id]) continue;
+        for (const NodeId operand : graph[id].reads()) needed[operand] = true;
+    }
+    return needed;
+}
+
+IdVector<NodeId, bool> uniform_nodes(const ExpressionGraph& graph, const PassContext& context) {
+    IdVector<NodeId, bool> is_uniform;
+    is_uniform.reserve(graph.size());
+    for (const Node& node : graph.nodes()) {
+        bool operand_differs = false;
+        for (const NodeId operand : node.reads()) operand_differs |= !is_uniform[operand];
+        is_uniform.push_back(
+            !differs_by_cell(node, operand_differs, context.program, context.stage));
+    }
+    return is_uniform;
+}
+
+Expressions write_out_tensors(const Expressions& from, const PassContext& context) {
+    return Tensors(from, context).run();
+}
+
+Expressions take_out_even_weights(const Expressions& from, const PassContext& context) {
+    return EvenWeights(from, context).run();
+}
+
+Expressions weigh_by_areas(const Expressions& from, const PassContext& context) {
+    return Areas(from, context).run();
+}
+
+Expressions leave_out_masked_cells(const Expressions& from, const PassContext& context) {
+    return MaskedAggregates(from, context).run();
+}
+
+}  // namespace cascade::lowering

@@ -1,0 +1,98 @@
+// The passes of lowering, each of which makes one expression graph of another (internal to
+// lowering).
+//
+// lower_expressions.cpp has the list. After the last pass a graph knows of cells, planes and links
+// alone: what a surface, a model or a mask changes about an operator is written out.
+#pragma once
+
+#include "lang/program/flatten.h"
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace cascade::lowering {
+
+/// The expressions of a plan on their way through the passes.
+struct Expressions {
+    ExpressionGraph graph;
+    std::vector<NodeId> roots;  ///< The values that are asked for.
+    std::vector<Origin> origins;
+    /// What a user calls the values of definitions and rates; the first name of a node counts.
+    std::vector<std::pair<NodeId, std::string>> names;
+};
+
+/// The cells that expressions are about.
+enum class Extent : std::uint8_t {
+    domain,  ///< Those inside the mask, where there is one.
+    grid,    ///< All, whatever the mask.
+};
+
+/// What passes know besides the graph.
+struct PassContext {
+    const Program& program;
+    std::uint32_t stage = 0;
+    Extent extent = Extent::domain;
+
+    bool has_metric() const { return program.domain.surface && program.domain.surface->has_metric; }
+    bool has_model() const { return program.domain.model.has_value(); }
+    /// Are there cells of the grid that are no part of the domain?
+    bool has_mask() const { return program.domain.mask && extent == Extent::domain; }
+};
+
+/// A pass goes through the nodes that roots need, operands first, and makes something of each in a
+/// new graph.
+class GraphPass {
+public:
+    GraphPass(const Expressions& from, const PassContext& context)
+        : from_(from), context_(context) {}
+    virtual ~GraphPass() = default;
+
+    Expressions run();
+
+protected:
+    /// What becomes of a node whose operands are those of the new graph already.
+    virtual NodeId image_of(const Node& node) = 0;
+    /// The node as it is, where it was written.
+    NodeId keep(const Node& node) { return graph().add(node, from_.graph.written(at_)); }
+
+    ExpressionGraph& graph() { return to_.graph; }
+    const PassContext& context() const { return context_; }
+    /// The node of the old graph whose image is made.
+    NodeId at() const { return at_; }
+    const ExpressionGraph& old() const { return from_.graph; }
+    NodeId image(NodeId old) const { return images_[old]; }
+
+    NodeId times(NodeId a, NodeId b) { return graph().call(Function::multiply, {a, b}); }
+    NodeId sum_of_products(NodeId a, NodeId b, NodeId c, NodeId d) {
+        return graph().call(Function::add, {times(a, b), times(c, d)});
+    }
+
+private:
+    const Expressions& from_;
+    PassContext context_;
+    Expressions to_;
+    NodeId at_;
+    IdVector<NodeId, NodeId> images_;
+};
+
+// The passes, in order; see lower_expressions.cpp.
+Expressions write_out_tensors(const Expressions& from, const PassContext& context);
+Expressions lay_on_surface(const Expressions& from, const PassContext& context);
+Expressions spread_over_links(const Expressions& from, const PassContext& context);
+Expressions take_out_even_weights(const Expressions& from, const PassContext& context);
+Expressions weigh_by_areas(const Expressions& from, const PassContext& context);
+Expressions leave_out_masked_cells(const Expressions& from, const PassContext& context);
+
+/// The nodes that a list of them needs, directly or through others.
+IdVector<NodeId, bool> needed_by(const ExpressionGraph& graph, const std::vector<NodeId>& roots);
+
+/// Which nodes are the same in all cells.
+IdVector<NodeId, bool> uniform_nodes(const ExpressionGraph& graph, const PassContext& context);
+
+/// The difference across a side, for a derivative `value` along its outward unit normal: on a
+/// surface cells have lengths. Of surfaces whose rows and columns meet at right angles there.
+NodeId across_side(ExpressionGraph& graph, const PassContext& context, NodeId value, Side side);
+
+}  // namespace cascade::lowering

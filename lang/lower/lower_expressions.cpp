@@ -1,0 +1,122 @@
+// The list of passes from flat formulas to what cells compute.
+#include "lang/lower/lower_expressions.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+namespace cascade::lowering {
+
+namespace {
+
+bool always(const PassContext&) { return true; }
+bool has_metric(const PassContext& context) { return context.has_metric(); }
+bool has_model(const PassContext& context) { return context.has_model(); }
+bool has_areas(const PassContext& context) { return context.has_metric() || context.has_model(); }
+bool has_mask(const PassContext& context) { return context.has_mask(); }
+
+bool is_tensor(const Node& node) {
+    return node.calls(Function::tensor) || node.calls(Function::diffuse);
+}
+bool is_operator(const Node& node) {
+    return node.kind == NodeKind::call && differentiates(node.function);
+}
+bool is_of_cell(const Node& node) { return is_operator(node) || node.kind == NodeKind::builtin; }
+
+/// Before the first pass definitions and rates have been replaced by what they stand for
+/// (lang/program/flatten.h), and equal expressions are one node.
+constexpr std::array passes{
+    // A tensor's operands are its entries a11, a12 and a22; diffuse has two: a tensor and what is
+    // differentiated.
+    PassInfo{"tensors", always, is_tensor, write_out_tensors},
+    // lap, grad2 and derivatives along the surface are differences along columns and rows times
+    // planes of the metric; vectors are what flows through faces, not what points along the
+    // surface.
+    PassInfo{"surface", has_metric, is_operator, lay_on_surface},
+    // Places and normals are planes of the model. There are no vectors: what div took is a sum of
+    // lap(weight, e).
+    PassInfo{"links", has_model, is_of_cell, spread_over_links},
+    // The weight of lap(weight, e) differs from cell to cell.
+    PassInfo{"weights", has_model, is_operator, take_out_even_weights},
+    // Sums and means over the domain count cells by their areas; there is no mean but a quotient
+    // of sums.
+    PassInfo{"areas", has_areas, is_aggregate, weigh_by_areas},
+    // What aggregates take has no effect on them outside of the mask.
+    PassInfo{"mask", has_mask, is_aggregate, leave_out_masked_cells},
+};
+
+Expressions with_roots(Expressions expressions, const Flattening& flattening,
+                       std::vector<NodeId> roots) {
+    expressions.roots = std::move(roots);
+    expressions.origins = flattening.origins();
+    expressions.names = flattening.names();
+    return expressions;
+}
+
+}  // namespace
+
+Expressions flat_start(const Program& program, std::uint32_t stage,
+                       std::span<const std::uint32_t> items) {
+    Expressions flat;
+    Flattening flattening(flat.graph);
+    std::vector<NodeId> roots;
+    for (const std::uint32_t item : items) {
+        const std::string name(program.system_of(stage).item_name(item));
+        roots.push_back(flattening.add(program.stages[stage].items[item], {name, false}));
+        flattening.set_item(item, roots.back());
+    }
+    return with_roots(std::move(flat), flattening, std::move(roots));
+}
+
+Expressions flat_step(const Program& program, std::uint32_t stage) {
+    const System& system = program.system_of(stage);
+    Expressions flat;
+    Flattening flattening(flat.graph);
+    std::vector<NodeId> roots;
+    flattening.add_rates(system);
+    for (const std::uint32_t item : system.rate_order) roots.push_back(flattening.rate(item));
+    for (const Invariant& each : system.invariants) roots.push_back(flattening.add(each.bound));
+    return with_roots(std::move(flat), flattening, std::move(roots));
+}
+
+Expressions flat_formulas(std::span<const Formula* const> formulas, const Noise& noise) {
+    Expressions flat;
+    Flattening flattening(flat.graph);
+    std::vector<NodeId> roots;
+    for (const Formula* formula : formulas) roots.push_back(flattening.add(*formula, noise));
+    return with_roots(std::move(flat), flattening, std::move(roots));
+}
+
+std::span<const PassInfo> graph_passes() { return passes; }
+
+Expressions lower_expressions(Expressions flat, const PassContext& context,
+                              const PassWatch& watch) {
+    if (watch) watch("flatten", flat);
+    for (const PassInfo& pass : passes) {
+        if (!pass.is_about(context) || !std::ranges::any_of(flat.graph.nodes(), pass.changes)) {
+            continue;
+        }
+        flat = pass.run(flat, context);
+        if (watch) watch(pass.name, flat);
+    }
+    return flat;
+}
+
+void watch_lowering(const Program& program, const LoweringWatch& watch) {
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        const PassContext context{program, k};
+        const std::array view{&program.stages[k].show};
+        const auto lower = [&](std::string_view what, Expressions flat) {
+            lower_expressions(std::move(flat), context,
+                              [&](std::string_view pass, const Expressions& after) {
+                                  watch(context, what, pass, after);
+                              });
+        };
+        lower("starting values", flat_start(program, k, program.stages[k].order));
+        lower("one step", flat_step(program, k));
+        if (!view[0]->nodes.empty()) lower("picture", flat_formulas(view));
+    }
+}
+
+}  // namespace cascade::lowering

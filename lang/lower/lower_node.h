@@ -1,0 +1,38 @@
+// Nodes of an expression graph to instructions, each from the values of its operands (internal to
+// lowering).
+#pragma once
+
+#include "lang/lower/cell_place.h"
+#include "lang/lower/plan_graph.h"
+
+#include <array>
+
+namespace cascade::lowering {
+
+/// A value in a cell: a number in the first place, or three of a colour or a tensor.
+using Value = std::array<ValueId, 3>;
+
+/// A node in the cell at an offset.
+struct NodeInCell {
+    const PlanGraph& graph;
+    NodeId id;
+    Offset at;
+    std::array<Value, most_operands> values{};  ///< Of its operands.
+
+    const Node& node() const { return graph[id]; }
+    const Node& operand(std::size_t k) const { return graph[node().operands[k]]; }
+    ValueId number(std::size_t k) const { return values[k][0]; }
+};
+
+/// The value of a node that is no operator and no vector.
+Value lower_node(KernelAssembly& assembly, const NodeInCell& node);
+
+/// Where the value of a node lies that is a plane from the start (PlanGraph::is_plane).
+SlotSource plane_source(const PlanGraph& graph, NodeId id);
+
+// Kinds of calls.
+Value lower_palette(KernelAssembly& assembly, const NodeInCell& node);
+ValueId lower_shape(KernelAssembly& assembly, const NodeInCell& node);
+ValueId lower_draw(KernelAssembly& assembly, const NodeInCell& node);
+
+}  // namespace cascade::lowering

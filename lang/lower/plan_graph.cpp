@@ -1,0 +1,165 @@
+// What is known of a node follows from what is known of its operands.
+//
+// What stands beyond the sides of the grid (spec/domain.md, "Beyond the sides"): a species is there
+// what its sides say, a function what it makes of its operands there. So lap(f(u)) + lap(g) is
+// lap(f(u) + g), also at the sides. What is mirrored: the values of operators, what is drawn or
+// drawn as a shape, parameters, files.
+#include "lang/lower/plan_graph.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace cascade::lowering {
+
+namespace {
+
+using Axes3 = std::array<Beyond, 3>;
+
+Beyond beyond_of(Boundary boundary) {
+    return boundary == Boundary::periodic ? Beyond::periodic : Beyond::mirrored;
+}
+
+Axes3 beyond_of(const Boundaries& boundary) {
+    return {beyond_of(boundary.x), beyond_of(boundary.y), beyond_of(boundary.z)};
+}
+
+/// Both sides of an axis are periodic or neither is.
+Beyond beyond_of(SideKind first, SideKind second) {
+    if (takes_value(first) || takes_value(second)) return Beyond::itself;
+    return first == SideKind::periodic ? Beyond::periodic : Beyond::mirrored;
+}
+
+/// Of an item of a stage that varies.
+Axes3 beyond_of_item(const Program& program, std::uint32_t stage, std::uint32_t item) {
+    const System& system = program.system_of(stage);
+    const auto& sides = program.stages[stage].sides;
+    if (sides.empty() || !system.is_species(item)) return beyond_of(program.domain.grid.boundary);
+    std::size_t species = 0;
+    for (std::uint32_t before = 0; before < item; ++before)
+        species += system.is_species(before) ? 1 : 0;
+    Axes3 beyond{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        beyond[axis] = beyond_of(sides[species][2 * axis].kind, sides[species][2 * axis + 1].kind);
+    }
+    return beyond;
+}
+
+/// Of a function of two parts.
+Beyond together(Beyond a, Beyond b) {
+    if (a == Beyond::anything || a == b) return b;
+    return b == Beyond::anything ? a : Beyond::itself;
+}
+
+}  // namespace
+
+PlanGraph::PlanGraph(Expressions expressions, const PassContext& context,
+                     Invariance step_invariants)
+    : expressions_(std::move(expressions)), context_(context) {
+    const auto is_uniform = uniform_nodes(expressions_.graph, context_);
+    facts_.reserve(is_uniform.size());
+    for (const NodeId id : is_uniform.ids()) {
+        const Node& node = (*this)[id];
+        facts_.push_back({is_uniform[id], is_step_invariant(node, step_invariants),
+                          beyond(node, is_uniform[id])});
+    }
+    names_.insert(expressions_.names.begin(), expressions_.names.end());
+}
+
+/// Parameters keep the values that they have when the stage starts, and earlier stages are over.
+bool PlanGraph::is_step_invariant(const Node& node, Invariance what) const {
+    switch (node.kind) {
+        case NodeKind::own:
+            return what == Invariance::state ||
+                   !program().system_of(stage()).is_species(node.index);
+        case NodeKind::builtin: {
+            const auto builtin = static_cast<Builtin>(node.index);
+            return builtin != Builtin::t && builtin != Builtin::step;
+        }
+        default: break;
+    }
+    if (is_draw(node) && what != Invariance::state) return false;
+    return std::ranges::all_of(node.reads(),
+                               [&](NodeId operand) { return facts_[operand].is_step_invariant; });
+}
+
+std::array<Beyond, 3> PlanGraph::beyond(const Node& node, bool is_uniform) const {
+    const Grid& grid = program().domain.grid;
+    Axes3 beyond{};
+    if (is_uniform) return beyond;
+    if (node.kind == NodeKind::own) {
+        beyond = beyond_of_item(program(), stage(), node.index);
+    } else if (node.kind == NodeKind::earlier) {
+        beyond = beyond_of_item(program(), node.stage, node.index);
+    } else if (node.kind != NodeKind::call) {
+        beyond = beyond_of(grid.boundary);
+    } else {
+        const Axes3 usual = beyond_of(grid.boundary);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (const NodeId operand : node.reads()) {
+                beyond[axis] = together(beyond[axis], facts_[operand].beyond[axis]);
+            }
+            // Operators, shapes, draws, files: periodic where everything in them is.
+            if (!varies_by_cell(node.function)) continue;
+            if (beyond[axis] == Beyond::anything) beyond[axis] = usual[axis];
+            if (beyond[axis] == Beyond::itself) beyond[axis] = Beyond::mirrored;
+        }
+    }
+    const Stencil stencil = grid.stencil();
+    if (!stencil.x) beyond[0] = Beyond::anything;
+    if (!stencil.y) beyond[1] = Beyond::anything;
+    if (!stencil.z) beyond[2] = Beyond::anything;
+    return beyond;
+}
+
+bool PlanGraph::is_open(NodeId id) const {
+    return std::ranges::count(facts_[id].beyond, Beyond::itself) > 0;
+}
+
+Boundaries PlanGraph::boundary(NodeId id) const {
+    const auto along = [&](std::size_t axis, Boundary usual) {
+        switch (facts_[id].beyond[axis]) {
+            case Beyond::periodic: return Boundary::periodic;
+            case Beyond::mirrored: return Boundary::no_flux;
+            default: return usual;
+        }
+    };
+    const Boundaries& usual = program().domain.grid.boundary;
+    return {along(0, usual.x), along(1, usual.y), along(2, usual.z)};
+}
+
+bool PlanGraph::is_plane(NodeId id) const {
+    const Node& node = (*this)[id];
+    if (is_uniform(id)) return false;
+    switch (node.kind) {
+        case NodeKind::own: return node.index != program().system_of(stage()).frozen_item();
+        case NodeKind::earlier:
+        case NodeKind::metric:
+        case NodeKind::surface_value:
+        case NodeKind::model: return true;
+        case NodeKind::call: return reads_file(node.function);
+        default: return false;
+    }
+}
+
+const std::string& PlanGraph::name(NodeId id) const {
+    static const std::string none;
+    const auto found = names_.find(id);
+    return found == names_.end() ? none : found->second;
+}
+
+const Formula* PlanGraph::formula(NodeId id) const {
+    const std::uint32_t formula = expressions_.graph.written(id).formula;
+    return formula == Written::nowhere ? nullptr : expressions_.origins[formula].formula;
+}
+
+const Noise& PlanGraph::noise(NodeId id) const {
+    return expressions_.origins[expressions_.graph.written(id).formula].noise;
+}
+
+std::size_t PlanGraph::occurrence(NodeId id) const {
+    const auto first = formula(id)->nodes.begin();
+    return static_cast<std::size_t>(
+        std::count_if(first, first + position(id).index() + 1, is_draw));
+}
+
+}  // namespace cascade::lowering

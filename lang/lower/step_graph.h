@@ -1,0 +1,24 @@
+// The expressions of a stage's step, lowered (internal to lowering).
+#pragma once
+
+#include "lang/lower/plan_builder.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cascade::lowering {
+
+/// All formulas of a stage's step: every plan of it numbers their nodes alike.
+struct StepGraph {
+    PlanGraph graph;
+    std::vector<NodeId> rates;            ///< By item.
+    std::vector<NodeId> bounds;           ///< By invariant.
+    std::vector<NodeId> step_invariants;  ///< What is computed once.
+
+    StepGraph(const Program& program, std::uint32_t stage, const PlanOptions& options);
+};
+
+/// The items that are species, in their order.
+std::vector<std::uint32_t> species_items(const System& system);
+
+}  // namespace cascade::lowering

@@ -1,0 +1,202 @@
+// The plans of sweeps: what a form says of the rates and inputs of every species.
+#include "core/check.h"
+#include "lang/lower/lower.h"
+#include "lang/lower/step_graph.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+using namespace lowering;
+
+/// The results of a sweep: what its form says of the rates and inputs of every species.
+class SweepEmitter {
+public:
+    SweepEmitter(const Program& program, std::uint32_t stage, const SweepForm& form)
+        : program_(program), stage_(stage), form_(form), system_(program.system_of(stage)) {
+        const std::vector<std::uint32_t> all = species_items(system_);
+        species_ = all;
+        if (!form.species.empty()) {
+            species_.clear();
+            for (const std::uint32_t number : form.species) species_.push_back(all[number]);
+        }
+    }
+
+    StepPlan plan(const PlanOptions& options) {
+        const StepGraph step(program_, stage_, options);
+        rates_ = step.rates;
+        std::vector<NodeId> wanted;
+        for (const std::uint32_t item : system_.rate_order) {
+            if (!is_written(item)) continue;
+            if (form_.uses_rates() || (form_.holds && is_bounded(item)))
+                wanted.push_back(rates_[item]);
+        }
+        for (std::size_t k = 0; k < system_.invariants.size(); ++k) {
+            if (!is_written(system_.invariants[k].species)) continue;
+            bounds_.push_back({&system_.invariants[k], step.bounds[k]});
+            wanted.push_back(step.bounds[k]);
+        }
+        const std::vector<std::uint32_t> slots = species_items(system_);
+        PlanBuilder builder(
+            {step.graph, wanted, options, true, slots, step.step_invariants, program_.domain.fast});
+        for (const SweepOutput& output : form_.outputs) emit(builder, output);
+        StepPlan plan = std::move(builder).finish();
+        for (std::size_t o = 0; o < form_.outputs.size(); ++o) {
+            plan.results.insert(plan.results.end(), species_.begin(), species_.end());
+        }
+        return plan;
+    }
+
+private:
+    bool is_bounded(std::uint32_t item) const {
+        return std::any_of(system_.invariants.begin(), system_.invariants.end(),
+                           [&](const Invariant& invariant) { return invariant.species == item; });
+    }
+
+    bool is_written(std::uint32_t item) const {
+        return std::find(species_.begin(), species_.end(), item) != species_.end();
+    }
+
+    /// A species in an input, in the own cell. Formulas read input 0.
+    ValueId input(PlanBuilder& plan, std::uint32_t input, std::uint32_t item) const {
+        if (input == 0) return plan.last_pass().field({SlotSource::Kind::item, stage_, item});
+        return plan.last_pass().field({SlotSource::Kind::input, input, item});
+    }
+
+    ValueId base(PlanBuilder& plan, std::uint32_t item) const {
+        return input(plan, form_.base_input, item);
+    }
+
+    ValueId term(PlanBuilder& plan, const SweepTerm& term, SweepOutput::Kind kind,
+                 std::uint32_t item) const {
+        KernelBuilder& builder = plan.last_pass().builder();
+        ValueId value{};
+        switch (term.source) {
+            case SweepTerm::Source::value: value = input(plan, term.input, item); break;
+            case SweepTerm::Source::difference:
+                value = builder.subtract(input(plan, term.input, item), base(plan, item));
+                break;
+            case SweepTerm::Source::rate:
+                value = plan.value(rates_[item])[0];
+                // A method that puts a step together from rates, or filters them, would otherwise
+                // let a held cell pull at others.
+                if (kind != SweepOutput::Kind::change) break;
+                if (const auto held = is_held(plan, item)) {
+                    value = builder.select(*held, builder.number(0), value);
+                }
+                break;
+        }
+        switch (term.weight) {
+            case SweepTerm::Weight::one: return value;
+            case SweepTerm::Weight::speed:
+                return builder.multiply(plan.last_pass().item(system_.speed_item()), value);
+            case SweepTerm::Weight::coefficient:
+                return builder.multiply(plan.last_pass().uniform(
+                                            {SlotSource::Kind::coefficient, 0, term.coefficient}),
+                                        value);
+        }
+        CHECK(false, "lowering: every weight has a meaning");
+    }
+
+    void emit(PlanBuilder& plan, const SweepOutput& output) const {
+        KernelBuilder& builder = plan.last_pass().builder();
+        std::vector<ValueId> next(system_.quantities.size());
+        for (const std::uint32_t item : species_) {
+            std::optional<ValueId> sum;
+            for (const SweepTerm& each : output.terms) {
+                const ValueId value = term(plan, each, output.kind, item);
+                sum = sum ? builder.add(*sum, value) : value;
+            }
+            CHECK(sum, "lowering: an output has terms");
+            next[item] = *sum;
+        }
+        if (output.kind == SweepOutput::Kind::state) {
+            if (form_.holds) hold(plan, next);
+            clamp(plan, next);
+        }
+        const bool freezes = !program_.stages[stage_].uniform[system_.frozen_item()];
+        for (const std::uint32_t item : species_) {
+            if (freezes) {
+                const ValueId kept =
+                    output.kind == SweepOutput::Kind::state ? base(plan, item) : builder.number(0);
+                next[item] =
+                    builder.select(plan.last_pass().item(system_.frozen_item()), kept, next[item]);
+            }
+            plan.result(system_.quantities[item].name, plan.last_pass().within_mask(next[item], 0));
+        }
+    }
+
+    void hold(PlanBuilder& plan, std::vector<ValueId>& next) const {
+        for (const std::uint32_t item : species_) {
+            if (const auto held = is_held(plan, item)) {
+                next[item] = plan.last_pass().builder().select(*held, base(plan, item), next[item]);
+            }
+        }
+    }
+
+    /// Invariants in order of writing.
+    void clamp(PlanBuilder& plan, std::vector<ValueId>& next) const {
+        KernelBuilder& builder = plan.last_pass().builder();
+        for (const auto& [invariant, part] : bounds_) {
+            const ValueId bound = plan.value(part)[0];
+            ValueId& value = next[invariant->species];
+            value = invariant->at_least ? builder.clamp_below(value, bound)
+                                        : builder.clamp_above(value, bound);
+        }
+    }
+
+    /// Does a value stand at a bound in input 0, which its rate would carry it beyond? Empty where
+    /// nothing bounds it.
+    std::optional<ValueId> is_held(PlanBuilder& plan, std::uint32_t item) const {
+        KernelBuilder& builder = plan.last_pass().builder();
+        const ValueId zero = builder.number(0);
+        std::optional<ValueId> held;
+        for (const auto& [invariant, part] : bounds_) {
+            if (invariant->species != item) continue;
+            const bool at_least = invariant->at_least;
+            const ValueId bound = plan.value(part)[0];
+            const ValueId value = input(plan, 0, item), rate = plan.value(rates_[item])[0];
+            const auto less = [&](Op op, ValueId low, ValueId high) {
+                return at_least ? builder.apply(op, low, high) : builder.apply(op, high, low);
+            };
+            const ValueId is_here =
+                builder.apply(Op::logical_and, less(Op::less_equal, value, bound),
+                              less(Op::less, rate, zero));
+            held = held ? builder.apply(Op::logical_or, *held, is_here) : is_here;
+        }
+        return held;
+    }
+
+    const Program& program_;
+    std::uint32_t stage_;
+    const SweepForm& form_;
+    const System& system_;
+    std::vector<std::uint32_t> species_;                       ///< Items that are written.
+    std::vector<NodeId> rates_;                                ///< By item.
+    std::vector<std::pair<const Invariant*, NodeId>> bounds_;  ///< Of species that are written.
+};
+
+}  // namespace
+
+SweepForm euler_form() {
+    SweepForm form;
+    const SweepTerm value{SweepTerm::Source::value, 0, SweepTerm::Weight::one, 0};
+    const SweepTerm change{SweepTerm::Source::rate, 0, SweepTerm::Weight::speed, 0};
+    form.outputs.push_back({SweepOutput::Kind::state, {value, change}});
+    return form;
+}
+
+StepPlan plan_sweep(const Program& program, std::uint32_t stage, const SweepForm& form,
+                    const PlanOptions& options) {
+    return SweepEmitter(program, stage, form).plan(options);
+}
+
+StepPlan plan_step(const Program& program, std::uint32_t stage, const PlanOptions& options) {
+    return plan_sweep(program, stage, euler_form(), options);
+}
+
+}  // namespace cascade

@@ -1,0 +1,92 @@
+// Nodes are found again by a hash of all that tells one from another.
+#include "lang/program/expression_graph.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace cascade {
+
+namespace {
+
+std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
+    return (hash ^ word) * 0x100000001b3ULL ^ (hash >> 29);
+}
+
+std::uint64_t hash_of(const Node& node) {
+    std::uint64_t hash = 0xcbf29ce484222325ULL;
+    hash = mix(hash, static_cast<std::uint64_t>(node.kind) << 8 |
+                         static_cast<std::uint64_t>(node.function));
+    hash = mix(hash, std::bit_cast<std::uint64_t>(node.number));
+    hash = mix(hash, std::uint64_t{node.index} << 32 | node.stage);
+    for (const NodeId operand : node.reads()) hash = mix(hash, operand.index());
+    return hash;
+}
+
+bool is_same(const Node& a, const Node& b) {
+    return a.kind == b.kind && a.function == b.function && a.type == b.type && a.index == b.index &&
+           a.stage == b.stage &&
+           std::bit_cast<std::uint64_t>(a.number) == std::bit_cast<std::uint64_t>(b.number) &&
+           std::ranges::equal(a.reads(), b.reads());
+}
+
+}  // namespace
+
+void ExpressionGraph::make_room() {
+    known_.assign(std::max<std::size_t>(64, 2 * known_.size()), std::nullopt);
+    for (const NodeId id : nodes_.ids()) {
+        std::size_t place = hash_of(nodes_[id]) & (known_.size() - 1);
+        while (known_[place]) place = (place + 1) & (known_.size() - 1);
+        known_[place] = id;
+    }
+}
+
+NodeId ExpressionGraph::add(const Node& node, Written written) {
+    if (2 * nodes_.size() >= known_.size()) make_room();
+    std::size_t place = hash_of(node) & (known_.size() - 1);
+    for (; known_[place]; place = (place + 1) & (known_.size() - 1)) {
+        const NodeId id = *known_[place];
+        if (is_same(nodes_[id], node) && (!is_draw(node) || written_[id] == written)) return id;
+    }
+    known_[place] = nodes_.next();
+    nodes_.push_back(Node(node));  // It may be one of this graph.
+    written_.push_back(written);
+    return *known_[place];
+}
+
+NodeId ExpressionGraph::number(double value) {
+    Node node;
+    node.number = value;
+    return add(node);
+}
+
+NodeId ExpressionGraph::leaf(NodeKind kind, std::uint32_t index) {
+    Node node;
+    node.kind = kind;
+    node.index = index;
+    return add(node);
+}
+
+NodeId ExpressionGraph::call(Function function, std::initializer_list<NodeId> operands,
+                             ValueType type) {
+    Node node;
+    node.kind = NodeKind::call;
+    node.function = function;
+    node.type = type;
+    std::copy(operands.begin(), operands.end(), node.operands.begin());
+    node.operand_count = static_cast<std::uint8_t>(operands.size());
+    return add(node);
+}
+
+TensorEntries tensor_entries(ExpressionGraph& graph, NodeId a1, NodeId a2, NodeId theta) {
+    const auto times = [&](NodeId a, NodeId b) { return graph.call(Function::multiply, {a, b}); };
+    const NodeId along = times(a1, a1), across = times(a2, a2);
+    const NodeId cosine = graph.call(Function::cos, {theta});
+    const NodeId sine = graph.call(Function::sin, {theta});
+    const NodeId cosine2 = times(cosine, cosine), sine2 = times(sine, sine);
+    const NodeId a11 = graph.call(Function::add, {times(along, cosine2), times(across, sine2)});
+    const NodeId a22 = graph.call(Function::add, {times(along, sine2), times(across, cosine2)});
+    const NodeId mixed = times(sine, cosine);
+    return {a11, times(graph.call(Function::subtract, {along, across}), mixed), a22};
+}
+
+}  // namespace cascade

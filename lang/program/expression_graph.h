@@ -1,0 +1,70 @@
+// Expressions as one graph: equal ones are one node (hash-consing), and operands come before what
+// reads them.
+//
+// Whatever works on the formulas of a system as a whole works on such a graph: calculus, which
+// simplifies as it goes (lang/calculus/algebra.h), and the passes of lowering, each of which makes
+// one graph of another (lang/lower/graph_passes.h).
+#pragma once
+
+#include "lang/program/program.h"
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <vector>
+
+namespace cascade {
+
+/// Where a node was written: in which of the formulas that a graph was made of, and where in it.
+struct Written {
+    static constexpr std::uint32_t nowhere = UINT32_MAX;
+    std::uint32_t formula = nowhere;  ///< Of nodes that a rule has made.
+    NodeId position;
+
+    friend bool operator==(const Written&, const Written&) = default;
+};
+
+class ExpressionGraph {
+public:
+    ExpressionGraph() = default;
+    ExpressionGraph(const ExpressionGraph&) = default;
+    ExpressionGraph(ExpressionGraph&&) = default;
+    ExpressionGraph& operator=(const ExpressionGraph&) = default;
+    ExpressionGraph& operator=(ExpressionGraph&&) = default;
+    virtual ~ExpressionGraph() = default;
+
+    /// The node that equals this one, or a new one. Its operands are nodes of this graph. Draws of
+    /// random numbers are equal if they were written in the same place.
+    NodeId add(const Node& node, Written written = {});
+    NodeId number(double value);
+    /// A node without operands: an item of the stage, a plane of the metric or of a model.
+    NodeId leaf(NodeKind kind, std::uint32_t index = 0);
+    virtual NodeId call(Function function, std::initializer_list<NodeId> operands,
+                        ValueType type = ValueType::number);
+
+    const Node& operator[](NodeId id) const { return nodes_[id]; }
+    const Nodes& nodes() const { return nodes_; }
+    std::size_t size() const { return nodes_.size(); }
+    Written written(NodeId id) const { return written_[id]; }
+    bool is_number(NodeId id) const { return nodes_[id].kind == NodeKind::number; }
+    bool is_number(NodeId id, double value) const {
+        return is_number(id) && nodes_[id].number == value;
+    }
+
+private:
+    void make_room();
+
+    Nodes nodes_;
+    IdVector<NodeId, Written> written_;
+    /// Where a node is, by its hash, or the next free place; a power of two of them.
+    std::vector<std::optional<NodeId>> known_;
+};
+
+/// The entries a11, a12 and a22 of A = R(θ) diag(a1², a2²) Rᵀ(θ), y down (Witkin & Kass, eq 6; its
+/// direction [cos θ, sin θ] and the sign of its a12 agree when y points down).
+struct TensorEntries {
+    NodeId a11, a12, a22;
+};
+TensorEntries tensor_entries(ExpressionGraph& graph, NodeId a1, NodeId a2, NodeId theta);
+
+}  // namespace cascade

@@ -1,0 +1,48 @@
+// One loop over the nodes of each formula.
+#include "lang/program/flatten.h"
+
+#include "core/check.h"
+#include "lang/program/dependencies.h"
+
+#include <utility>
+
+namespace cascade {
+
+NodeId Flattening::add(const Formula& formula, Noise noise) {
+    CHECK(!formula.nodes.empty(), "a checked formula has nodes");
+    const auto number = static_cast<std::uint32_t>(origins_.size());
+    origins_.push_back({&formula, std::move(noise)});
+    IdVector<NodeId, NodeId> places;
+    places.reserve(formula.nodes.size());
+    for (Node node : formula.nodes) {
+        const auto known = items_.find(node.index);
+        if (node.kind == NodeKind::definition) {
+            places.push_back(definitions_.at(node.index));
+        } else if (node.kind == NodeKind::rate) {
+            places.push_back(rates_.at(node.index));
+        } else if (node.kind == NodeKind::own && known != items_.end()) {
+            places.push_back(known->second);
+        } else {
+            for (NodeId& operand : node.reads()) operand = places[operand];
+            places.push_back(graph_.add(node, {number, places.next()}));
+        }
+    }
+    return places.back();
+}
+
+void Flattening::add_rates(const System& system) {
+    const auto definition_count = static_cast<std::uint32_t>(system.definitions.size());
+    for (const std::uint32_t value : topological_order(step_dependencies(system)).order) {
+        if (value < definition_count) {
+            const auto& [name, span, formula] = system.definitions[value];
+            definitions_[value] = add(formula, {name, true});
+            names_.emplace_back(definitions_[value], name);
+        } else if (const std::uint32_t item = value - definition_count; system.is_species(item)) {
+            const std::string name = system.quantities[item].name + "'";
+            rates_[item] = add(system.rates[item], {name, true});
+            names_.emplace_back(rates_[item], name);
+        }
+    }
+}
+
+}  // namespace cascade

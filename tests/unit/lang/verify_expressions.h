@@ -1,0 +1,148 @@
+// What every expression graph is, and what each pass of lowering promises of it.
+#pragma once
+
+#include "lang/lower/lower_expressions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cascade::lowering {
+
+/// The pass, or one after it, has been.
+inline bool is_past(std::string_view pass, std::string_view now) {
+    const auto passes = graph_passes();
+    const auto at = [&](std::string_view name) {
+        return std::ranges::find(passes, name, &PassInfo::name);
+    };
+    return now != "flatten" && at(pass) <= at(now);
+}
+
+class Verifier {
+public:
+    Verifier(const Expressions& expressions, const PassContext& context, std::string_view pass)
+        : graph_(expressions.graph), context_(context), pass_(pass) {}
+
+    /// What is wrong with a node; empty where nothing is.
+    std::string fault(NodeId id) const {
+        const Node& node = graph_[id];
+        for (const NodeId operand : node.reads()) {
+            if (operand >= id) return "an operand does not come before its reader";
+        }
+        if (!may_exist(node)) return "nodes of this kind do not exist here";
+        if (node.kind != NodeKind::call) {
+            return node.operand_count == 0 ? "" : "only calls have operands";
+        }
+        if (!has_arity(node)) return "it has the wrong number of operands";
+        if (node.type != type_of(node)) return "its type is not that of its operands";
+        if (!takes_types(node)) return "an operand has the wrong type";
+        return is_aggregate(node) && !is_masked(node) ? "it takes cells outside of the mask" : "";
+    }
+
+private:
+    bool is_past(std::string_view pass) const { return lowering::is_past(pass, pass_); }
+    ValueType type(const Node& node, std::size_t k) const { return graph_[node.operands[k]].type; }
+
+    bool may_exist(const Node& node) const {
+        switch (node.kind) {
+            case NodeKind::definition:
+            case NodeKind::rate: return false;
+            case NodeKind::metric: return context_.has_metric();
+            case NodeKind::model: return context_.has_model();
+            case NodeKind::inside: return is_past("mask");
+            case NodeKind::builtin: {
+                const auto builtin = static_cast<Builtin>(node.index);
+                const bool is_place = builtin != Builtin::t && builtin != Builtin::step;
+                return !is_place || !context_.has_model() || !is_past("links");
+            }
+            case NodeKind::call: break;
+            default: return true;
+        }
+        if (node.calls(Function::domain_mean) && is_past("areas")) {
+            return !context_.has_metric() && !context_.has_model();
+        }
+        const bool is_flux = node.type == ValueType::vector || node.calls(Function::div);
+        return !is_flux || !context_.has_model() || !is_past("links");
+    }
+
+    bool has_arity(const Node& node) const {
+        if (node.calls(Function::diffuse) && is_past("tensors")) return node.operand_count == 2;
+        const bool is_weighted = node.calls(Function::lap) && node.operand_count == 2;
+        if (is_weighted) return context_.has_model() && is_past("links");
+        return info(node.function).arity.takes(node.operand_count);
+    }
+
+    ValueType type_of(const Node& node) const {
+        switch (node.function) {
+            case Function::grad:
+            case Function::vector: return ValueType::vector;
+            case Function::tensor: return ValueType::tensor;
+            case Function::rgb:
+            case Function::palette: return ValueType::colour;
+            default: break;
+        }
+        const FunctionKind kind = info(node.function).kind;
+        const bool passes_on = kind == FunctionKind::arithmetic || kind == FunctionKind::choice;
+        for (std::size_t k = 0; passes_on && k < node.operand_count; ++k) {
+            const bool is_colour = type(node, k) == ValueType::colour;
+            if (is_colour || type(node, k) == ValueType::vector) return type(node, k);
+        }
+        return ValueType::number;
+    }
+
+    bool takes_types(const Node& node) const {
+        const FunctionKind kind = info(node.function).kind;
+        for (std::size_t k = 0; k < node.operand_count; ++k) {
+            const ValueType type = this->type(node, k);
+            bool fits = type == ValueType::number;
+            if (node.calls(Function::div)) fits = type == ValueType::vector;
+            if (kind == FunctionKind::text) fits = type == ValueType::text;
+            if (node.calls(Function::palette) && k == 3) fits = type == ValueType::text;
+            if (node.calls(Function::diffuse) && k == 0 && is_past("tensors")) {
+                fits = type == ValueType::tensor;
+            }
+            if (node.calls(Function::multiply) && k == 0) fits |= type == ValueType::tensor;
+            if (node.type == ValueType::vector && kind == FunctionKind::arithmetic) {
+                fits |= type == ValueType::vector;
+            }
+            if (kind == FunctionKind::choice) fits |= type == node.type;
+            if (!fits) return false;
+        }
+        return true;
+    }
+
+    bool is_masked(const Node& node) const {
+        if (!context_.has_mask() || !is_past("mask")) return true;
+        const Node& of = graph_[node.operands[0]];
+        const bool is_item = of.kind == NodeKind::own || of.kind == NodeKind::earlier;
+        return is_item ||
+               (of.calls(Function::if_) && graph_[of.operands[0]].kind == NodeKind::inside);
+    }
+
+    const ExpressionGraph& graph_;
+    PassContext context_;
+    std::string_view pass_;
+};
+
+/// What is wrong with a graph after a pass, in words; empty where nothing is. Operands come before
+/// their readers, no two nodes are equal, types and numbers of operands fit, and there is no node
+/// that passes so far have replaced.
+inline std::string verify(const Expressions& expressions, const PassContext& context,
+                          std::string_view pass) {
+    const ExpressionGraph& graph = expressions.graph;
+    const auto needed = needed_by(graph, expressions.roots);
+    const Verifier verifier(expressions, context, pass);
+    for (const NodeId id : needed.ids()) {
+        const std::string fault = needed[id] ? verifier.fault(id) : "";
+        if (!fault.empty()) return fmt::format("%{}: {}", id.index(), fault);
+    }
+    ExpressionGraph again;
+    for (const NodeId id : needed.ids()) {
+        if (again.add(graph[id], graph.written(id)) != id) {
+            return fmt::format("%{}: another node is the same", id.index());
+        }
+    }
+    return "";
+}
+
+}  // namespace cascade::lowering
