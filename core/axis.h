@@ -1,4 +1,4 @@
-// The axes of space, and the turn that brings one of them upright.
+// The axes of space, and the rotation that makes one of them point upwards.
 #pragma once
 
 #include "core/vector3.h"
@@ -15,10 +15,10 @@ enum class Axis : std::uint8_t { x, y, z };
 
 inline constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 
-/// "x", "y" or "z".
+/// The name "x", "y" or "z".
 constexpr std::string_view name_of(Axis axis) { return axis_names[static_cast<std::size_t>(axis)]; }
 
-/// The axis of that name; nothing for other words.
+/// The axis of that name; nothing if there is none.
 constexpr std::optional<Axis> axis_of_name(std::string_view name) {
     for (std::size_t k = 0; k < axis_names.size(); ++k) {
         if (axis_names[k] == name) return static_cast<Axis>(k);
@@ -26,9 +26,9 @@ constexpr std::optional<Axis> axis_of_name(std::string_view name) {
     return std::nullopt;
 }
 
-/// `v` turned with the space around it, so that the axis `up` becomes y. Coordinates change places
-/// and signs and nothing else: no bit is lost. What looks along −y while z is upwards looks along z
-/// then, as programs that model with z upwards and glTF, which has y upwards, agree.
+/// Rotates `v` so that the axis `up` becomes y. The rotation only permutes coordinates and changes
+/// signs, so no bit is lost. With z up, the direction −y becomes z: the convention of programs that
+/// model with z up and export glTF, which has y up.
 template <typename Number>
 constexpr BasicVector3<Number> turned_upright(BasicVector3<Number> v, Axis up) {
     switch (up) {
@@ -39,7 +39,7 @@ constexpr BasicVector3<Number> turned_upright(BasicVector3<Number> v, Axis up) {
     return v;
 }
 
-/// The way back: turned_from_upright(turned_upright(v, up), up) is v.
+/// The inverse of turned_upright.
 template <typename Number>
 constexpr BasicVector3<Number> turned_from_upright(BasicVector3<Number> v, Axis up) {
     switch (up) {

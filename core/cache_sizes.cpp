@@ -1,5 +1,5 @@
-// The sizes of caches. hwloc knows them too, but takes longer to say so (15 ms and more) than a
-// small run takes altogether; sysconf() is wrong on some processors.
+// The sizes of the caches, read from sysfs. hwloc offers them too, but needs 15 ms and more, which
+// is longer than a whole small run; sysconf() is wrong on some processors.
 #include "core/cache_sizes.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first word of a file; empty where there is none.
+/// The first word of a file; empty if there is no such file.
 std::string word_in(const fs::path& path) {
     std::ifstream file(path);
     std::string word;
@@ -20,7 +20,7 @@ std::string word_in(const fs::path& path) {
     return word;
 }
 
-/// "1024K", "32M" or "1G" in bytes; 0 for anything else.
+/// The bytes of "1024K", "32M" or "1G"; 0 for anything else.
 std::int64_t bytes_of(const std::string& size) {
     std::istringstream text(size);
     std::int64_t number = 0;
@@ -36,7 +36,7 @@ std::int64_t bytes_of(const std::string& size) {
     }
 }
 
-/// How many numbers a list as "0-3,8-11" has; at least 1.
+/// The number of integers in a list such as "0-3,8-11"; at least 1.
 std::int64_t count_of(const std::string& list) {
     std::istringstream text(list);
     std::int64_t count = 0, first = 0, last = 0;

@@ -1,4 +1,4 @@
-// How much the processor's caches hold.
+// The sizes of the processor's caches.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace cascade {
 
-/// Where Linux describes the caches of the first processor (cacheinfo in sysfs).
+/// The folder in which Linux describes the caches of the first processor (cacheinfo in sysfs).
 inline constexpr const char* described_caches = "/sys/devices/system/cpu/cpu0/cache";
 
-/// A cache of data as one processor sees it.
+/// A data cache of one processor.
 struct CacheLevel {
     int number = 1;  ///< 1 is the first level.
     std::int64_t bytes = 0;
@@ -19,19 +19,18 @@ struct CacheLevel {
     friend bool operator==(const CacheLevel&, const CacheLevel&) = default;
 };
 
-/// The caches of data, nearest first, that a folder such as `described_caches` describes; none
-/// where it describes none. What it says of a cache that cannot be, such as a size of no bytes, is
-/// passed over.
+/// The data caches that a folder such as `described_caches` describes, from the first level
+/// outwards. Caches with impossible values, such as a size of 0, are left out.
 std::vector<CacheLevel> cache_levels(const std::filesystem::path& folder = described_caches);
 
-/// Bytes of each cache that one thread may take for itself where all that share it are at work.
+/// Bytes of each cache that one thread may use while all processors that share the cache are busy.
 struct CacheSizes {
     std::int64_t second = std::int64_t{1} << 20;
     std::int64_t third = std::int64_t{4} << 20;  ///< At least `second`.
 
-    /// By `cache_levels`; those above for what they do not say.
+    /// Sizes by `cache_levels`; a level that it lacks keeps the default above.
     static CacheSizes described_in(const std::filesystem::path& folder);
-    /// Those of this machine, read once.
+    /// The sizes of this machine, read once.
     static const CacheSizes& here();
 };
 

@@ -1,4 +1,4 @@
-// What happens when Cascade itself is wrong.
+// Failure of a CHECK.
 #include "core/check.h"
 
 #include <cstdio>

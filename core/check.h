@@ -1,9 +1,9 @@
-// CHECK states what must hold if Cascade itself is right. It is not for users' mistakes.
+// CHECK states what holds unless Cascade itself has a bug. It is not for users' mistakes.
 #pragma once
 
 namespace cascade {
 
-/// Prints place, condition and explanation to the error stream and aborts.
+/// Prints the location, the condition and the explanation to the error stream and aborts.
 [[noreturn]] void check_failed(const char* file, int line, const char* condition, const char* why);
 
 }  // namespace cascade

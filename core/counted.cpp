@@ -1,4 +1,4 @@
-// Nouns take -s or -es; irregular plurals are given by the caller.
+// Numbers with nouns, for messages.
 #include "core/counted.h"
 
 #include "core/with_commas.h"

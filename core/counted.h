@@ -1,4 +1,4 @@
-// Counts of things, for people.
+// Numbers with nouns, for messages.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 
 namespace cascade {
 
-/// "1 face was", "1,234 faces were".
+/// "1 face was", "1,234 faces were", with the caller's singular and plural.
 std::string counted(std::int64_t count, std::string_view one, std::string_view many);
-/// "1 step", "2 passes": of a noun whose plural ends in s, or in es after an s.
+/// "1 step", "2 passes": the plural ends in -s, or in -es after an s.
 std::string counted(std::int64_t count, std::string_view noun);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// File descriptors of POSIX systems.
+// POSIX file descriptors.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// A file descriptor that closes itself. A negative number is none.
+/// Closes a file descriptor in its destructor. A negative number means none.
 class Descriptor {
 public:
     explicit Descriptor(int number) : number_(number) {}
@@ -18,19 +18,19 @@ public:
 
     bool is_open() const { return number_ >= 0; }
     int number() const { return number_; }
-    /// Leaves the closing to the caller.
+    /// Gives up ownership: the caller closes it.
     int release() { return std::exchange(number_, -1); }
-    /// Closing can be the moment at which a network file system reports a full disk.
+    /// Returns false on an error: a network file system may report a full disk only on closing.
     bool close();
 
 private:
     int number_;
 };
 
-/// Returns 0 or the error. A write may take a part only.
+/// Writes all bytes, in several calls if need be. Returns 0 or the error number.
 int write_all(const Descriptor& file, std::string_view bytes);
 
-/// The names in an open folder, in any order; none where it cannot be read.
+/// The names in an open folder, in any order; none if it cannot be read.
 std::vector<std::string> names_in(const Descriptor& folder);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Collecting diagnostics.
+// Collection of diagnostics.
 #include "core/diagnostics.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ void Diagnostics::add(Diagnostic diagnostic) {
 std::vector<Diagnostic> Diagnostics::sorted() const {
     std::vector<std::size_t> order(list_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto key = [this](std::size_t k) {  // At one place, the one that was added first.
+    const auto key = [this](std::size_t k) {  // Equal positions keep the order of insertion.
         const Span& span = list_[k].span;
         return std::make_tuple(span.source, span.begin, span.end, k);
     };

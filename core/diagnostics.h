@@ -1,7 +1,7 @@
-// Diagnostics: what is wrong with a user's text, as values.
+// Diagnostics: errors and warnings about a user's text, as values.
 //
-// Stages of the front end add to a Diagnostics and go on; nothing is printed by them. One file,
-// render_diagnostics.cpp, knows what a message looks like.
+// The stages of the front end add to a Diagnostics and continue; they print nothing. Only
+// render_diagnostics.cpp knows the layout of a message.
 #pragma once
 
 #include "core/source.h"
@@ -18,14 +18,14 @@ namespace cascade {
 
 enum class Severity { error, warning };
 
-/// A second place, or a remark without a place, that explains a diagnostic.
+/// A second location, or a remark without a location, that explains a diagnostic.
 struct Note {
     std::optional<Span> span;
     std::string message;
 };
 
-/// One fault. `message` is a clause without a full stop; `hint` says what to write instead (may be
-/// empty) and is drawn after the underlined words.
+/// One error or warning. `message` is a clause without a full stop; `hint` (may be empty) says what
+/// to write instead and is drawn after the underlined words.
 struct Diagnostic {
     Severity severity = Severity::error;
     Span span;
@@ -34,9 +34,9 @@ struct Diagnostic {
     std::vector<Note> notes;
 };
 
-/// Collects the diagnostics of one program. The same message at the same place is kept once. Of a
-/// text that is no script at all only the first `most_kept` of a severity are kept; the others are
-/// counted.
+/// The diagnostics of one program. A message that repeats at the same location is kept once. At
+/// most `most_kept` of each severity are kept, further ones are only counted: a text that is no
+/// script at all has very many.
 class Diagnostics {
 public:
     static constexpr std::size_t most_kept = 10'000;
@@ -50,7 +50,7 @@ public:
     std::size_t error_count() const { return error_count_; }
     std::size_t warning_count() const { return warning_count_; }
 
-    /// In order of source and position, as a reader meets them.
+    /// Sorted by source and position.
     std::vector<Diagnostic> sorted() const;
 
 private:
@@ -62,7 +62,7 @@ private:
 
 struct RenderStyle {
     bool colour = false;    ///< ANSI colours, for a terminal.
-    std::size_t most = 50;  ///< So many diagnostics are drawn; the rest is counted in a line.
+    std::size_t most = 50;  ///< Diagnostics to draw; the others are counted in one last line.
 };
 
 /// Draws one diagnostic:
@@ -75,7 +75,7 @@ struct RenderStyle {
 /// Long lines are cut around the span, control characters are replaced, tabs keep their width.
 std::string render(const Diagnostic& diagnostic, const Sources& sources, const RenderStyle& style);
 
-/// Draws all of them in order, each ending in a line end.
+/// Draws all of them, sorted; each ends in a line end.
 std::string render(const Diagnostics& diagnostics, const Sources& sources,
                    const RenderStyle& style);
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Opens again when a signal arrives first. The mode counts only where a file is made.
+/// open(), repeated when a signal interrupts it. `mode` only matters when a file is created.
 int open_file(const fs::path& path, int flags, mode_t mode = 0) {
     int number = -1;
     do {
@@ -30,8 +30,8 @@ fs::path folder_of(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// Where a write to this path ends: behind symbolic links, also one to a file not made yet. A
-/// cycle of links is left to the system to complain about.
+/// The target of a write to `path`: follows symbolic links, including one to a file that does not
+/// exist yet. A cycle of links is left for the system to report.
 fs::path behind_links(const fs::path& path) {
     fs::path target = path;
     std::error_code error;
@@ -43,8 +43,8 @@ fs::path behind_links(const fs::path& path) {
     return target;
 }
 
-/// As write_all, of a file that was opened without waiting. A signal that this process handles ends
-/// the wait: whoever interrupts a run does not wait for the reader of its pipe.
+/// write_all for a descriptor opened with O_NONBLOCK. A signal that this process handles ends the
+/// wait, so that Ctrl-C does not wait for the reader of a pipe.
 int write_all_waiting(const Descriptor& file, std::string_view bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(file.number(), bytes.data(), bytes.size());
@@ -61,7 +61,7 @@ int write_all_waiting(const Descriptor& file, std::string_view bytes) {
     return 0;
 }
 
-/// Pipes and devices are written in place: renaming over them would replace them.
+/// Writes to a pipe or device in place, because a rename would replace it.
 Result<void> write_in_place(const fs::path& path, std::string_view bytes) {
     Descriptor file(open_file(path, O_WRONLY | O_NONBLOCK));
     if (!file.is_open() && errno == ENXIO) {
@@ -75,13 +75,13 @@ Result<void> write_in_place(const fs::path& path, std::string_view bytes) {
     return {};
 }
 
-/// Writes a new file, or one in place of that with this status. Returns 0 or the error.
+/// Writes a new file that replaces the one with status `replaced`, if any. Returns 0 or the error.
 int replace(const fs::path& target, std::string_view bytes, const struct stat* replaced) {
     const Descriptor folder(open_folder(folder_of(target)));
     if (!folder.is_open()) return errno;
     TemporaryFile temporary(folder);
     if (const int error = temporary.error()) return error;
-    // A file that is replaced keeps its permissions; refusing is no reason to lose the data.
+    // A replaced file keeps its permissions if possible; failing to is no reason to lose the data.
     if (replaced) (void)::fchmod(temporary.file().number(), replaced->st_mode & 07777);
     if (const int error = temporary.write(bytes)) return error;
     return temporary.rename_to(target.filename().string());
@@ -119,7 +119,7 @@ Result<void> check_writable(const fs::path& path) {
                                    folder_of(target).string()),
                        "make the folder first");
     }
-    // Trying is the only sure answer: permissions, read-only disks and quotas all have a say.
+    // Only a trial is sure: permissions, read-only disks and quotas all matter.
     const Descriptor folder(open_folder(folder_of(target)));
     if (!folder.is_open()) return cannot("write", path.string(), errno);
     const TemporaryFile temporary(folder, 0600);

@@ -1,4 +1,4 @@
-// Files: whole reads and atomic writes with clear reasons for failure.
+// Reading whole files and writing them atomically.
 #pragma once
 
 #include "core/result.h"
@@ -12,36 +12,36 @@
 
 namespace cascade {
 
-/// The whole file. Fails on a directory, a missing or unreadable file, one above `largest` bytes
-/// (the size is looked at before reading).
+/// The content of a file. Fails on a folder, on a missing or unreadable file, and on a file of more
+/// than `largest` bytes, which is checked before reading.
 Result<std::string> read_file(const std::filesystem::path& path, std::uint64_t largest);
 
-/// The first bytes of a file, at most `count`. Nothing of what cannot be opened and of pipes and
-/// devices, which give their bytes once.
+/// The first bytes of a file, at most `count`. Empty if it cannot be opened, and for pipes and
+/// devices, whose bytes can be read only once.
 std::string first_bytes(const std::filesystem::path& path, std::size_t count);
 
-/// The whole of what is a file itself: links, pipes and devices are refused, without waiting.
+/// The content of a regular file. Refuses symbolic links, pipes and devices, without waiting.
 Result<std::string> read_plain_file(const std::filesystem::path& path, std::uint64_t largest);
 
-/// The same with links followed. Messages call the file `name`; empty: as in `path`.
+/// read_plain_file, but follows symbolic links. Messages call the file `name`, or `path` if empty.
 Result<std::string> read_linked_file(const std::filesystem::path& path, std::uint64_t largest,
                                      std::string_view name = "");
 
-/// The same of a file below `folder`. `file` is relative, has no "..", and no part of it may be a
-/// symbolic link: nothing outside of the folder is opened, whatever happens to names meanwhile.
+/// read_plain_file for a file below `folder`: `file` is relative, has no "..", and no part of it
+/// may be a symbolic link. Nothing outside of the folder is opened even if names change meanwhile.
 Result<std::string> read_file_below(const std::filesystem::path& folder,
                                     const std::filesystem::path& file, std::uint64_t largest,
                                     std::string_view name);
 
-/// Writes beside the target and renames over it, so that no half-written file is ever seen; the
-/// temporary file is removed on failure. A full disk is a Failure.
+/// Writes a temporary file in the same folder and renames it over the target, so that a
+/// half-written file is never seen. On failure, such as a full disk, the temporary file is removed.
 Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Makes a folder and those above it, where they are missing.
+/// Creates a folder and its missing parents.
 Result<void> make_folder(const std::filesystem::path& folder);
 
-/// Can a file of this path be written? Looks without leaving anything behind: the folder exists and
-/// is writable, the path is no directory.
+/// Checks that a file can be written at `path`, and leaves nothing behind: the folder exists and is
+/// writable, and `path` is no folder.
 Result<void> check_writable(const std::filesystem::path& path);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// What a failed system call on a file becomes in words (internal to core/).
+// Messages for failed system calls on files (internal to core/).
 #pragma once
 
 #include "core/printable.h"
@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// "cannot read 'NAME': No such file or directory", of an error number.
+/// "cannot read 'NAME': No such file or directory", for an error number.
 inline tl::unexpected<Failure> cannot(std::string_view verb, std::string_view name, int error) {
     std::string hint;
     if (error == ENOSPC || error == EDQUOT) hint = "free some space and run it again";

@@ -1,4 +1,4 @@
-// Sets the control register of the processor's floating-point unit.
+// Sets the control register of the floating-point unit.
 #include "core/floating_point.h"
 
 #if defined(__x86_64__)
@@ -31,7 +31,7 @@ unsigned long long spec_control(unsigned long long control) {
 
 #else
 
-constexpr unsigned long long flush_to_zero = 1ull << 24;  // Of inputs and results.
+constexpr unsigned long long flush_to_zero = 1ull << 24;  // Flushes inputs and results.
 constexpr unsigned long long rounding_bits = 3ull << 22;  // 0 rounds to nearest even.
 
 unsigned long long read_control() {

@@ -1,11 +1,11 @@
-// The floating-point environment that all arithmetic of cells runs in.
+// The floating-point environment of all arithmetic on cells.
 #pragma once
 
 namespace cascade {
 
-/// While it lives, this thread reads denormal numbers as zero and rounds denormal results to zero
-/// (the sign is kept), rounding to nearest even: the one environment of the spec's numerics. Every
-/// executor, the folding of constants included, works inside one.
+/// While an object of this class lives, its thread reads denormal numbers as zero and rounds
+/// denormal results to zero (keeping the sign), and rounds to nearest even. All execution of
+/// kernels and all constant folding happens in this environment, which the spec prescribes.
 class FlushDenormals {
 public:
     FlushDenormals();

@@ -1,6 +1,5 @@
-// Links are followed before a path is compared with the granted folders; the file is then opened
-// below its folder by core/open_below, so that a name that changes in between cannot lead
-// elsewhere.
+// Links are resolved before a path is compared with the granted folders. The file is then opened
+// below its folder by core/open_below, so that a name that changes in between leads nowhere else.
 #include "core/granted_files.h"
 
 #include "core/file.h"
@@ -18,17 +17,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A path with its links followed as far as it exists.
+/// The path with symbolic links resolved as far as it exists.
 fs::path real_path(const fs::path& path, std::error_code& error) {
     const fs::path absolute = fs::absolute(path, error);
     return error ? fs::path() : fs::weakly_canonical(absolute, error);
 }
 
-/// What leads from `folder` to `file`, both with links followed; nothing where it does not lie
-/// below.
+/// The path from `folder` to `file`, both resolved; nothing if `file` is not below `folder`.
 std::optional<fs::path> way_down(const fs::path& folder, const fs::path& file) {
     auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
-    // A folder written with a slash at its end ends in an empty name.
+    // A folder written with a trailing slash ends in an empty name.
     if (end != folder.end() && end->empty()) ++end;
     if (end != folder.end() || rest == file.end()) return std::nullopt;
     fs::path way;
@@ -36,7 +34,7 @@ std::optional<fs::path> way_down(const fs::path& folder, const fs::path& file) {
     return way;
 }
 
-/// Does a name stay in the folder it is relative to, as it is written?
+/// Whether a name, as written, stays inside the folder that it is relative to.
 bool stays_inside(const std::string& name) {
     const fs::path path = fs::path(name).lexically_normal();
     return path.is_relative() && *path.begin() != "..";

@@ -1,5 +1,4 @@
-// Which files a script, a model, a picture or a saved run may name, and the only way to their
-// bytes.
+// Reading of the files that a script, a model, a picture or a saved run may name.
 #pragma once
 
 #include "core/result.h"
@@ -20,27 +19,27 @@ struct ReadAccess {
     friend bool operator==(const ReadAccess&, const ReadAccess&) = default;
 };
 
-/// Reads files by the names that other files give them. Nobody else opens such a name, and no path
-/// leaves this class, so that nothing is opened that was not looked at.
+/// Reads files by the names that other files give them. All such reads go through this class and no
+/// path leaves it, so that every file opened has been checked.
 class GrantedFiles {
 public:
-    /// Names are relative to `folder`, and what lies below it may be read. `owner` is whose folder
-    /// it is, in messages: "script".
+    /// Names are relative to `folder`, and every file below it may be read. Messages name its
+    /// `owner`.
     GrantedFiles(std::filesystem::path folder, ReadAccess access,
                  std::string_view owner = "script");
 
-    /// Nothing may be read.
+    /// Grants nothing.
     static GrantedFiles none();
 
-    /// The same grants for names that are relative to the folder of `file`, itself such a name:
-    /// those in a model are relative to the model.
+    /// The same grants for names relative to the folder of `file`, which is such a name itself: the
+    /// names in a model are relative to the model.
     GrantedFiles beside(const std::string& file) const;
 
-    /// All that a plain file holds. It is looked for in the folder, and if it is not there and
-    /// `name` is relative, in the folders of `--allow-read`, by the name and by its last part.
-    /// Symbolic links are followed; a file that lies, with them followed, below none of the folders
-    /// is refused in the same words whether it exists or not. Fails too on folders, pipes and
-    /// devices, on what cannot be read, and on more than `largest` bytes.
+    /// The content of a regular file. A relative name is looked up in the folder, then in each
+    /// folder of `--allow-read`, by the whole name and by its last part. Symbolic links are
+    /// followed. A file that then lies below none of the granted folders is refused with the same
+    /// message whether it exists or not. Fails also on folders, pipes, devices, unreadable files,
+    /// and more than `largest` bytes.
     Result<std::string> read(const std::string& name, std::uint64_t largest) const;
 
 private:
@@ -48,8 +47,8 @@ private:
     Result<std::string> read_at(const std::filesystem::path& path, const std::string& name,
                                 std::uint64_t largest, bool& is_missing) const;
 
-    std::filesystem::path base_;                ///< Names are relative to it.
-    std::vector<std::filesystem::path> roots_;  ///< The folder of the owner first.
+    std::filesystem::path base_;                ///< Names are relative to this folder.
+    std::vector<std::filesystem::path> roots_;  ///< The owner's folder comes first.
     bool everything_ = false;
     std::string owner_;
 };

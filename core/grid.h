@@ -1,4 +1,4 @@
-// The grid of cells and how a field of it lies in memory.
+// The grid of cells and the memory layout of a field on it.
 #pragma once
 
 #include <algorithm>
@@ -6,13 +6,13 @@
 
 namespace cascade {
 
-/// What a cell at the side of the grid sees beyond it, where no species says otherwise.
+/// What a cell at a side of the grid sees beyond it, unless a species says otherwise.
 enum class Boundary {
-    periodic,  ///< The cell of the opposite side.
-    no_flux,   ///< Itself: nothing flows through the side.
+    periodic,  ///< The cell at the opposite side.
+    no_flux,   ///< The cell itself: nothing flows through the side.
 };
 
-/// The boundary along each axis; one for all converts.
+/// The boundary along each axis. Converts from one boundary for all axes.
 struct Boundaries {
     Boundary x = Boundary::periodic;
     Boundary y = Boundary::periodic;
@@ -27,21 +27,20 @@ struct Boundaries {
     friend bool operator==(const Boundaries&, const Boundaries&) = default;
 };
 
-/// Which neighbours cells have: those along the axes of more than one cell. An axis of one cell has
-/// no neighbours along it, so a grid of W × 1 or 1 × H cells is one-dimensional. The order of a
-/// Laplacian's sum is ((((N + S) + E) + W) + U) + D − 2·axes·c, without the absent pairs.
+/// The neighbours of a cell: those along the axes of more than one cell. An axis of one cell has no
+/// neighbours along it, so a grid of W × 1 or 1 × H cells is one-dimensional. A Laplacian is summed
+/// as ((((N + S) + E) + W) + U) + D − 2·axes·c, without the absent pairs.
 struct Stencil {
     bool x = true;   ///< W and E, the columns before and after.
     bool y = true;   ///< N and S, the rows above and below.
     bool z = false;  ///< U and D, the slices before and after.
-    /// Others than those along axes: a list of links says which (core/links.h).
+    /// Neighbours are given by a list of links instead of the axes (core/links.h).
     bool links = false;
 
-    /// The usual ones by name.
     static const Stencil row, column, plane, volume, linked;
 
     constexpr int axes() const { return int{x} + int{y} + int{z}; }
-    /// A number for each stencil, 0 to 8.
+    /// A distinct number for each stencil, 0 to 8.
     constexpr unsigned number() const {
         return unsigned{x} + 2u * unsigned{y} + 4u * unsigned{z} + 8u * unsigned{links};
     }
@@ -54,7 +53,7 @@ inline constexpr Stencil Stencil::plane{true, true, false};
 inline constexpr Stencil Stencil::volume{true, true, true};
 inline constexpr Stencil Stencil::linked{false, false, false, true};
 
-/// Cells along the axes.
+/// The number of cells along each axis.
 struct GridSize {
     std::int64_t width = 1;
     std::int64_t height = 1;
@@ -70,12 +69,12 @@ struct Grid {
     Boundaries boundary = {};
     std::int64_t depth = 1;
     double spacing = 1;  ///< In the user's unit of length; above 0.
-    /// Cells are no squares but those of a surface, row after row; the last row may be filled up.
+    /// The cells are those of a surface, row after row; padding cells may fill the last row.
     bool linked = false;
 
     std::int64_t cell_count() const { return width * height * depth; }
     std::int64_t longest_side() const { return std::max({width, height, depth}); }
-    /// A grid of one cell has the stencil of a row, whose two neighbours are the cell itself.
+    /// A grid of one cell has the stencil of a row; both neighbours are the cell itself.
     Stencil stencil() const {
         if (linked) return Stencil::linked;
         return {width > 1 || (height == 1 && depth == 1), height > 1, depth > 1};
@@ -83,15 +82,14 @@ struct Grid {
     friend bool operator==(const Grid&, const Grid&) = default;
 };
 
-/// How a plane of elements lies in memory: slices one after the other, in each `height` rows with
-/// one halo row above and below. A row starts on a multiple of `row_pad` elements and has `row_pad`
-/// elements before and at least `row_pad` after it, so that a vector may be read or written at the
-/// end of a row without touching another row's cells. Columns −1 and `width`, rows −1 and `height`
-/// are the halo, edges and corners included; a grid of more than one slice has the halo slices −1
-/// and `depth` as well, while one of a single slice has none.
+/// The memory layout of a plane: slices one after the other, each with `height` rows and one halo
+/// row above and below. A row starts on a multiple of `row_pad` elements and has `row_pad` elements
+/// before it and at least `row_pad` after it, so that a vector may be read or written at the end of
+/// a row without touching cells of another row. Columns −1 and `width` and rows −1 and `height` are
+/// the halo, edges and corners included. A grid of several slices also has the halo slices −1 and
+/// `depth`; a grid of one slice has none.
 ///
-/// Rows are numbered through all slices: row r of [0, row_count()) is row r % height of slice
-/// r / height.
+/// Rows are numbered through all slices: row r is row r % height of slice r / height.
 struct PlaneLayout {
     static constexpr std::int64_t row_pad = 16;
 
@@ -111,19 +109,19 @@ struct PlaneLayout {
 
     bool has_halo_slices() const { return depth > 1; }
     std::int64_t row_count() const { return height * depth; }
-    /// Rows of memory from a slice to the next.
+    /// Rows of memory from one slice to the next.
     std::int64_t slice_rows() const { return height + 2; }
 
-    /// Elements from cell (0, 0, 0) to the first cell of a row that is numbered through all slices.
+    /// Elements from cell (0, 0, 0) to the first cell of a row, numbered through all slices.
     std::int64_t row_start(std::int64_t row) const {
         if (depth <= 1) return row * stride;
         return row / height * slice_stride + row % height * stride;
     }
-    /// Element number of cell (column i, row j, slice k), from the start of the allocation.
+    /// Index of the element of cell (column i, row j, slice k) in the allocation.
     std::int64_t offset(std::int64_t i, std::int64_t j, std::int64_t k = 0) const {
         return (k + (has_halo_slices() ? 1 : 0)) * slice_stride + (j + 1) * stride + row_pad + i;
     }
-    /// Elements to allocate.
+    /// The number of elements to allocate.
     std::int64_t size() const { return (depth + (has_halo_slices() ? 2 : 0)) * slice_stride; }
 
     friend bool operator==(const PlaneLayout&, const PlaneLayout&) = default;

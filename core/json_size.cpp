@@ -1,4 +1,4 @@
-// One pass counts brackets and commas outside of quoted texts; nothing is parsed.
+// One pass counts brackets and commas outside of strings; nothing is parsed.
 #include "core/json_size.h"
 
 #include <algorithm>

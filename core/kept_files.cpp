@@ -1,4 +1,4 @@
-// Kept files, on POSIX systems.
+// Kept files on POSIX systems.
 #include "core/kept_files.h"
 
 #include "core/descriptor.h"
@@ -26,22 +26,22 @@ namespace fs = std::filesystem;
 constexpr std::size_t digits_of_name = 32;
 constexpr std::uint64_t largest_file = std::uint64_t{16} << 20;
 
-/// How a file begins. Key and content follow, and then it ends.
+/// The start of a file; key and content follow.
 struct Header {
     char magic[8] = {};
-    std::uint64_t checksum = 0;  ///< Of all after it.
+    std::uint64_t checksum = 0;  ///< Of all bytes after it.
     std::uint64_t key_size = 0;
     std::uint64_t content_size = 0;
 };
 static_assert(sizeof(Header) == 32);
 constexpr std::size_t checked_from = 16;
 
-/// May nobody but this user have put it there?
+/// Whether only this user can have written the file.
 bool is_private(const struct stat& status) {
     return status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
 
-/// A folder that the user owns. A link to one is refused: its owner decides where it leads.
+/// Opens a folder of the user. A link is refused, because its owner decides where it leads.
 int open_own_folder(const fs::path& folder) {
     Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
     struct stat status {};
@@ -68,8 +68,8 @@ std::string read_own_file(const Descriptor& folder, const std::string& name) {
         if (got <= 0) return {};
         used += static_cast<std::size_t>(got);
     }
-    // A file that was used is young again, so that those go first that nobody uses; once a day is
-    // enough to know that.
+    // A file in use gets a new time at most once a day; the files unused for longest are removed
+    // first.
     constexpr long day = 24 * 60 * 60;
     if (status.st_mtime + day < ::time(nullptr)) ::futimens(file.number(), nullptr);
     return bytes;
@@ -106,8 +106,7 @@ std::optional<std::string> content_of(std::string_view file, std::string_view ma
     return std::string(file.substr(sizeof header + header.key_size));
 }
 
-/// Makes a folder that is the user's alone, and those above it as they usually are. Returns it
-/// open.
+/// Opens a folder, creating it with access for this user only, and its parents as usual.
 int make_own_folder(const fs::path& folder) {
     if (const int opened = open_own_folder(folder); opened >= 0) return opened;
     std::error_code error;
@@ -116,7 +115,7 @@ int make_own_folder(const fs::path& folder) {
     return open_own_folder(folder);
 }
 
-/// Does a file begin as those of this kind do, in whatever version?
+/// Whether a file starts with this magic, ignoring the version in its last byte.
 bool has_magic(const Descriptor& folder, const std::string& name, std::string_view magic) {
     const Descriptor file(open_to_read(folder, name));
     char first[8] = {};
@@ -149,10 +148,10 @@ void KeptFiles::keep(std::string_view key, std::string_view content) {
     if (bytes.empty() || bytes.size() > largest_file) return;
     const Descriptor folder(make_own_folder(folder_));
     if (!folder.is_open()) return;
-    // A day at the prompt may make many; looking through the folder takes as long as making one.
+    // Listing the folder takes as long as writing a file, so it is not done every time.
     constexpr unsigned often = 64;
     if (kept_.fetch_add(1) % often == 0) remove_oldest(folder);
-    // What a crash of the machine leaves empty has no checksum: nothing waits for the disk.
+    // No fsync: a file that a crash leaves empty fails its checksum.
     TemporaryFile unfinished(folder, 0600);
     if (unfinished.error() != 0 || write_all(unfinished.file(), bytes) != 0) return;
     (void)unfinished.rename_to(name_of(key));

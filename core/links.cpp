@@ -1,5 +1,4 @@
-// Builds the slices: a cell's links in the order of its list, then links of weight 0 to the cell
-// itself.
+// Builds the slices: the links of a cell in the order of its list, padded by links of weight 0.
 #include "core/links.h"
 
 #include "core/check.h"
@@ -12,7 +11,7 @@ namespace {
 
 constexpr std::int64_t slice_cells = LinkTable<float>::slice_cells;
 
-/// Where the cells of a list, whose links end at `ends`, lie in the rows of a plane.
+/// The positions of a list's cells in the rows of a plane. The links of cell i end before ends[i].
 class Placing {
 public:
     Placing(std::span<const std::size_t> ends, const PlaneLayout& layout,
@@ -24,7 +23,7 @@ public:
     struct Range {
         std::size_t first = 0, count = 0;
     };
-    /// The links of the cell at a place; none in the padding of a row.
+    /// The links of the cell at this position; none in the padding of a row.
     Range links_at(std::int64_t row, std::int64_t column) const {
         if (column >= layout_.width) return {};
         const auto last = static_cast<std::int64_t>(ends_.size()) - 1;
@@ -34,7 +33,7 @@ public:
         return {first, ends_[cell] - first};
     }
 
-    /// Of each cell of the list, elements from cell (0, 0).
+    /// For each cell of the list, its element counted from cell (0, 0).
     std::vector<std::int32_t> offsets() const {
         std::vector<std::int32_t> result(ends_.size());
         for (std::size_t k = 0; k < result.size(); ++k) {
@@ -47,8 +46,8 @@ public:
 
     std::int64_t slices_of_row() const { return (layout_.width + slice_cells - 1) / slice_cells; }
 
-    /// Calls `use(at, link)` for each link, `at` being its element in slices that begin at
-    /// `starts`, and `fill_up(at, row, column)` for the elements between them.
+    /// Calls `use(at, link)` for each link and `fill_up(at, row, column)` for each padding element.
+    /// `at` is the index of the element, with slices that begin at the entries `starts`.
     void for_each(const std::vector<std::uint32_t>& starts, const auto& use,
                   const auto& fill_up) const {
         for (std::int64_t row = 0; row < layout_.height; ++row) {

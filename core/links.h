@@ -1,10 +1,10 @@
-// Which cells are neighbours where cells lie on no grid, and how they lie in memory: sliced
-// ELLPACK.
+// The neighbours of cells that lie on no grid, stored as sliced ELLPACK (Monakov et al. 2010).
 //
-// Cells are numbered in rows as on a grid (PlaneLayout). Sixteen cells beside each other in a row
-// are a slice; a slice has as many entries as the cell with the most neighbours in it, and an entry
-// is sixteen links, one of each cell. So a vector of cells reads its neighbours' places and weights
-// as vectors, and gathers their values. What fills up is a link to the cell itself of weight 0.
+// Cells are numbered in rows as on a grid (PlaneLayout). Sixteen adjacent cells of a row form a
+// slice. A slice has as many entries as its cell with the most neighbours has links; an entry holds
+// one link of each of the sixteen cells. A vector of cells thus loads the indices and weights of
+// its neighbours as vectors and gathers their values. Padding links have weight 0 and lead to the
+// cell itself.
 #pragma once
 
 #include "core/grid.h"
@@ -21,29 +21,29 @@
 
 namespace cascade {
 
-/// Links as kernels read them. Entry e of a slice is at [16·e, 16·e + 16); those of slice s are
-/// starts[s] … starts[s + 1] − 1. Slice s of a plane of W columns is the one at column
-/// 16·(s mod n) of row s / n, n = ⌈W/16⌉.
+/// Links as kernels read them. Entry e is at [16·e, 16·e + 16); slice s has the entries starts[s] …
+/// starts[s + 1] − 1. In a plane of W columns, slice s is at column 16·(s mod n) of row s / n, with
+/// n = ⌈W/16⌉.
 template <typename Number>
 struct LinkTable {
     static constexpr std::int64_t slice_cells = PlaneLayout::row_pad;
 
     const std::uint32_t* starts = nullptr;
     const std::int32_t* targets = nullptr;  ///< Elements from cell (0, 0) to the neighbour.
-    const Number* weights = nullptr;        ///< Of the neighbour's difference in a Laplacian.
-    /// The same for the components of a gradient in space; null where nothing asks for them.
+    const Number* weights = nullptr;        ///< Factor of (neighbour − cell) in a Laplacian.
+    /// The factors for the components of a gradient in space; null unless requested.
     std::array<const Number*, 3> gradients{};
 };
 
-/// The links of cells in the order of the cells: cell i's end before ends[i].
+/// The links of all cells, in the order of the cells: those of cell i end before ends[i].
 struct LinkList {
     std::vector<std::size_t> ends;
-    std::vector<std::uint32_t> neighbours;  ///< Cells. The order is the order of sums.
+    std::vector<std::uint32_t> neighbours;  ///< Cell indices, in the order of summation.
     std::vector<double> weights;
     std::vector<Vector3d> gradients;  ///< Empty, or one for each link.
 };
 
-/// Elements that begin at a multiple of 64 bytes, zero at first.
+/// An array aligned to 64 bytes, initially zero.
 template <typename T>
 class AlignedArray {
 public:
@@ -67,14 +67,15 @@ private:
 class Links {
 public:
     Links() = default;
-    /// Cell order[k] of the list, or k where no order is given, lies at column k mod width of row
-    /// k / width. The cells after the last one, which fill the last row, are given links like it,
-    /// so that they have its values. The order of sums is that of the list. Throws std::bad_alloc.
+    /// Cell order[k] of the list, or cell k if `order` is empty, is at column k mod width of row k
+    /// / width. Padding cells that complete the last row get the links, and so the values, of the
+    /// last cell. Links keep the order of the list, which is the order of summation. Throws
+    /// std::bad_alloc.
     Links(const LinkList& list, const PlaneLayout& layout, Precision precision,
           std::span<const std::uint32_t> order = {});
 
-    /// Adds the weights of gradients, one for each link of the list that these links were made of,
-    /// whose cells end at `ends`; layout and order are the same. Throws std::bad_alloc.
+    /// Adds gradient weights, one for each link of the list given to the constructor; `ends` is
+    /// that list's, and layout and order are the same. Throws std::bad_alloc.
     void add_gradients(std::span<const Vector3d> gradients, std::span<const std::size_t> ends,
                        const PlaneLayout& layout, std::span<const std::uint32_t> order = {});
 

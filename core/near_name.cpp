@@ -1,6 +1,6 @@
-// Distance of names: optimal string alignment, the form of Damerau and Levenshtein's distance in
-// which no stretch is edited twice (F. Damerau, "A technique for computer detection and correction
-// of spelling errors", CACM 7(3), 1964).
+// Distance of names: optimal string alignment, the variant of the Damerau-Levenshtein distance that
+// edits no substring twice (F. Damerau, "A technique for computer detection and correction of
+// spelling errors", CACM 7(3), 1964).
 #include "core/near_name.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ char lower(char letter) {
 }
 
 std::size_t distance(std::string_view a, std::string_view b) {
-    // Three rows of the table: two before, one before, and the current one.
+    // The current row of the table and the two before it.
     std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
     for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -48,7 +48,7 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
         const std::size_t shorter = std::min(name.size(), candidate.size());
         if (longer - shorter > allowed) continue;
         const std::size_t edits = distance(name, candidate);
-        // Two different letters are as far apart as names of one letter can be.
+        // Names with no letter in common are not near, however short they are.
         if (edits >= longer || edits >= smallest) continue;
         smallest = edits;
         nearest = &candidate;

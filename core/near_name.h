@@ -7,10 +7,10 @@
 
 namespace cascade {
 
-/// The candidate with the smallest Damerau-Levenshtein distance (insert, delete, replace, swap of
-/// neighbours, upper and lower case alike) if that is small for the length of `name`: at most a
-/// third of its length, at least 1, with some letter left as it was. The first of several; empty
-/// when nothing is near. Names longer than 64 bytes have no near name.
+/// The candidate with the smallest Damerau-Levenshtein distance (insertions, deletions,
+/// replacements, swaps of neighbours, ignoring case) if that is at most a third of the length of
+/// `name`, or 1, and some letter stays as it was. The first of equally near ones; empty if none is
+/// near. Names longer than 64 bytes have no near name.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
 }  // namespace cascade

@@ -1,5 +1,4 @@
-// Linux's openat2() with RESOLVE_BENEATH where there is one, else openat() folder by folder with
-// O_NOFOLLOW.
+// Uses openat2() with RESOLVE_BENEATH if available, else openat() for each part with O_NOFOLLOW.
 #include "core/open_below.h"
 
 #include <cerrno>
@@ -19,8 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr int file_flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
 
-/// The descriptor that a call returns, or its error; a call that a signal interrupted is made
-/// again.
+/// The descriptor that a call returns, or its negative error number. Repeats interrupted calls.
 template <typename Call>
 int without_signals(const Call& call) {
     while (true) {
@@ -44,7 +42,7 @@ int open_by_kernel([[maybe_unused]] const Descriptor& folder,
 }
 
 int open_by_parts(const Descriptor& folder, const fs::path& file) {
-    int here = -1;  // Of the folder reached so far; the first is the caller's.
+    int here = -1;  // The folder reached so far; negative for the caller's.
     for (auto part = file.begin(); part != file.end(); ++part) {
         const bool is_last = std::next(part) == file.end();
         const Descriptor above(here);
@@ -66,7 +64,7 @@ int open_below(const Descriptor& folder, const fs::path& file, PathWalk walk) {
     }
     if (walk == PathWalk::kernel_or_parts) {
         const int number = open_by_kernel(folder, file);
-        // An old kernel, or a container that forbids the call; or names that changed meanwhile.
+        // An old kernel, a container that forbids the call, or names that changed meanwhile.
         if (number != -ENOSYS && number != -EPERM && number != -EAGAIN) return number;
     }
     return open_by_parts(folder, file);

@@ -1,4 +1,4 @@
-// Opening files that others have named, below a folder and nowhere else.
+// Opens files named by other files, but only below a given folder.
 #pragma once
 
 #include "core/descriptor.h"
@@ -7,13 +7,12 @@
 
 namespace cascade {
 
-/// How a path is walked: by the kernel (openat2 of Linux 5.6), or part by part.
+/// How a path is resolved: by the kernel (openat2 of Linux 5.6) if it can, or part by part.
 enum class PathWalk { kernel_or_parts, parts };
 
-/// Opens `file` for reading below the open folder. Returns a descriptor, or the negative number of
-/// the error. `file` is relative, has no "..", and no part of it may be a symbolic link (-ELOOP),
-/// so that what is opened lies below the folder even if names change meanwhile. Does not wait for
-/// the other end of a pipe.
+/// Opens `file` for reading below the open folder. Returns a descriptor or the negative error
+/// number. `file` is relative, has no "..", and no part of it may be a symbolic link (-ELOOP). It
+/// is below the folder even if names change meanwhile. Does not wait for the other end of a pipe.
 int open_below(const Descriptor& folder, const std::filesystem::path& file,
                PathWalk walk = PathWalk::kernel_or_parts);
 

@@ -1,4 +1,4 @@
-// The owner of the nearest folder that exists decides: this user, or root.
+// The owner of the nearest existing folder decides.
 #include "core/own_folder.h"
 
 #include <sys/stat.h>

@@ -1,13 +1,13 @@
-// Whose folders a user's own files may go to.
+// Whether a user's files may be created in a folder.
 #pragma once
 
 #include <filesystem>
 
 namespace cascade {
 
-/// May folders be made at this path without leaving them to the wrong user? So if the nearest
-/// folder that is there belongs to the effective user or to the system. With sudo HOME is often
-/// still that of another user, who could not write to what is made there.
+/// Whether folders may be created at this path: true if the nearest existing folder belongs to the
+/// effective user or to root. With sudo, HOME often still belongs to another user, who could not
+/// write to what root creates there.
 bool may_keep_files_in(const std::filesystem::path& folder);
 
 }  // namespace cascade

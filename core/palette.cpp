@@ -1,4 +1,4 @@
-// Palettes by name, and the colour at a place of one.
+// The palettes by name, and interpolation between their colours.
 #include "core/palette.h"
 
 #include "core/palette_stops.h"

@@ -1,4 +1,4 @@
-// Named colour maps: greys, perceptual maps, and coats of animals.
+// Named colour maps: greys, perceptual maps and animal coats.
 #pragma once
 
 #include <array>
@@ -7,13 +7,13 @@
 
 namespace cascade {
 
-/// Red, green, blue as stored in a picture (sRGB), each 0 … 1.
+/// Red, green and blue as stored in a picture (sRGB), each 0 … 1.
 using Colour = std::array<float, 3>;
 
-/// What NaN looks like: magenta, which no palette comes near.
+/// The colour of NaN: magenta, which no palette comes near.
 inline constexpr Colour colour_of_nan{1.0F, 0.0F, 1.0F};
 
-/// Colours at equal distances from 0 to 1; between them colour is linear in sRGB.
+/// Colours at equal distances from 0 to 1, interpolated linearly in sRGB.
 struct Palette {
     std::string_view name;
     std::string_view description;   ///< For `--help` and the spec.
@@ -23,10 +23,10 @@ struct Palette {
 /// All palettes, "grey" first.
 std::span<const Palette> palettes();
 
-/// By name; nullptr where there is none.
+/// The palette of that name; nullptr if there is none.
 const Palette* find_palette(std::string_view name);
 
-/// The colour at `position`, clamped to 0 … 1; NaN gives colour_of_nan.
+/// The colour at `position`, clamped to 0 … 1; colour_of_nan for NaN.
 Colour colour_at(const Palette& palette, double position);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// The stops of the palettes: numbers only. palette.cpp gives them names.
+// The colours of the palettes: numbers only. palette.cpp names them.
 #pragma once
 
 #include "core/palette.h"
@@ -8,7 +8,7 @@
 
 namespace cascade::palette_stops {
 
-/// 0xRRGGBB as it is written in design programs.
+/// A colour 0xRRGGBB.
 constexpr Colour hex(std::uint32_t rgb) {
     const auto channel = [rgb](int shift) {
         return static_cast<float>((rgb >> shift) & 0xffU) / 255.0F;
@@ -18,8 +18,8 @@ constexpr Colour hex(std::uint32_t rgb) {
 
 constexpr std::array<Colour, 2> grey{{hex(0x000000), hex(0xffffff)}};
 
-// Perceptual maps, read at 17 equal distances from their tables of 256 colours. Between the stops
-// the straight line stays within 0.025 of the tables (cividis: 0.042, at a bend of its dark end).
+// Perceptual maps, sampled at 17 equal distances from their tables of 256 colours. Linear
+// interpolation stays within 0.025 of the tables (cividis: 0.042, at a bend of its dark end).
 // viridis, magma, inferno, plasma: S. van der Walt, N. Smith, E. Firing, 2015, public domain (CC0).
 // cividis: J. R. Nuñez, C. R. Anderton, R. S. Renslow, "Optimizing colormaps with consideration
 // for color vision deficiency to enable accurate interpretation of scientific data", PLOS ONE

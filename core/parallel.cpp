@@ -22,7 +22,7 @@
 namespace cascade {
 namespace {
 
-/// Tells the core that this is a waiting loop: the other hyper-thread gets its turn.
+/// Tells the core that this is a waiting loop, so that the other hyper-thread gets its turn.
 void relax() {
 #if defined(__x86_64__)
     _mm_pause();
@@ -31,8 +31,8 @@ void relax() {
 #endif
 }
 
-/// Waits until `word` is no longer `old`. Spinning answers in tens of nanoseconds while every
-/// thread has a core; sleeping keeps an oversubscribed machine from burning whole time slices.
+/// Waits until `word` differs from `old`. Spinning responds within tens of nanoseconds while every
+/// thread has a core; sleeping keeps an oversubscribed machine from wasting whole time slices.
 void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t old, int spins) {
     for (int spin = 0; spin < spins; ++spin) {
         if (word.load(std::memory_order_acquire) != old) return;
@@ -47,7 +47,7 @@ void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t old, int s
     }
 }
 
-/// Cores that the scheduler's quota of this control group (version 2) allows; 0 where none is set.
+/// Processors that the CPU quota of this control group (version 2) allows; 0 if there is no quota.
 int quota_of_control_group() {
     std::FILE* file = std::fopen("/sys/fs/cgroup/cpu.max", "r");
     if (!file) return 0;
@@ -80,11 +80,10 @@ int hardware_threads() {
 
 namespace {
 
-/// A place where a number of threads meet, again and again. Each word that threads wait for has a
-/// cache line of its own.
+/// A reusable barrier. Each word that threads wait for has its own cache line.
 struct Meeting {
-    alignas(64) std::atomic<std::uint32_t> count{0};  ///< Meetings that are over.
-    alignas(64) std::atomic<int> arrived{0};          ///< Threads that wait for the others.
+    alignas(64) std::atomic<std::uint32_t> count{0};  ///< Completed meetings.
+    alignas(64) std::atomic<int> arrived{0};          ///< Threads waiting for the others.
 
     void arrive(int expected, int spins) {
         const std::uint32_t current = count.load(std::memory_order_relaxed);
@@ -101,9 +100,10 @@ struct Meeting {
 }  // namespace
 
 struct Team::State {
-    alignas(64) std::atomic<std::uint32_t> task{0};  ///< Counts run() calls; workers wait for it.
-    Meeting barrier;                                 ///< Of the threads that work.
-    Meeting end_of_run;                              ///< Of all.
+    alignas(64) std::atomic<std::uint32_t> task{
+        0};              ///< Counts calls of run(); workers wait for it to change.
+    Meeting barrier;     ///< Of the active threads.
+    Meeting end_of_run;  ///< Of all threads.
     alignas(64) const std::function<void(int)>* work = nullptr;  ///< Null asks workers to end.
     int active = 1;
     int size = 1;
@@ -135,7 +135,7 @@ Team::Team(int size) : state_(std::make_unique<State>()) {
         try {
             state_->workers.emplace_back([state = state_.get(), index] { state->serve(index); });
         } catch (const std::system_error&) {
-            state_->size = index;  // Those that wait look at it when they are given work.
+            state_->size = index;  // Workers read it only when they are given work.
             break;
         }
     }

@@ -1,4 +1,4 @@
-// Threads that stay alive for a run and meet at every step.
+// A team of threads that stays alive for a run.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ struct RowRange {
 /// Part `index` of `count` nearly equal parts of [0, rows).
 RowRange split_rows(std::int64_t rows, int index, int count);
 
-/// How many threads the machine offers this process (at least 1).
+/// The number of threads that the machine offers this process; at least 1.
 int hardware_threads();
 
-/// A team of `size` threads, or of fewer where the system denies more; the calling thread is number
-/// 0. Each works in FlushDenormals.
+/// A team of `size` threads, or fewer if the system refuses to start more. The calling thread is
+/// number 0. Each works under FlushDenormals.
 class Team {
 public:
     explicit Team(int size);
@@ -31,15 +31,15 @@ public:
 
     int size() const;
 
-    /// Runs `work(index)` once on every thread and returns when all are done. `work` must not
-    /// throw. Not reentrant.
+    /// Runs `work(index)` once on every thread and waits for all. `work` must not throw. Not
+    /// reentrant.
     void run(const std::function<void(int index)>& work);
 
-    /// The same on threads 0 … active − 1 only. With one, the others are left asleep.
+    /// The same on threads 0 … active − 1 only. With active == 1 the others stay asleep.
     void run(const std::function<void(int index)>& work, int active);
 
-    /// Inside `work` only: waits until every thread that works has arrived. What a thread wrote
-    /// before is seen by all after it. Spins a little, then yields.
+    /// Called inside `work` only: waits until every active thread has arrived. Writes made before
+    /// the barrier are visible to all threads after it.
     void barrier();
 
 private:

@@ -1,4 +1,4 @@
-// Filling the halo of planes.
+// Allocation of planes, and filling of their halos.
 #include "core/plane.h"
 
 #include "core/check.h"
@@ -18,17 +18,16 @@ namespace {
 constexpr std::size_t cache_line = 64;
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 
-/// Bytes from the start of a block of memory to the plane in it. Planes that begin alike, as
-/// multiples of pages do, have their rows in the same sets of the caches, where a tile of five
-/// planes then finds too few ways, and the processor takes what is stored in the one for what is
-/// loaded from the other, for it compares the last 12 bits of addresses first. So each plane is
-/// shifted against the others by a different part of 128 KiB, a way of a second-level cache, or of
-/// a page where it is too small for that: the multiples of 783 are spread evenly over 2048 lines as
-/// well as over 64.
+/// Bytes from the start of a memory block to the plane in it. Planes that start at equal offsets in
+/// their pages map their rows to the same cache sets, which have too few ways for a tile of five
+/// planes; and the processor mistakes a load from one plane for a store to another, because it
+/// first compares only the low 12 bits of addresses. So each plane is shifted by a different part
+/// of 128 KiB, a way of a second-level cache, or of a page if the plane is too small for that.
+/// Multiples of 783 are spread evenly over 2048 lines as well as over 64.
 std::size_t next_shift(std::size_t bytes) {
     constexpr std::size_t small_plane = 65536, lines_of_way = 2048, lines_of_page = 64;
     static std::atomic<std::size_t> planes{0};
-    std::size_t lines = 1;  // Where the block's address is kept.
+    std::size_t lines = 1;  // This line holds the block's address.
     if (bytes >= small_plane) {
         const std::size_t place = 783 * planes.fetch_add(1, std::memory_order_relaxed);
         lines += place % (bytes >= 2 * huge_page ? lines_of_way : lines_of_page);
@@ -36,8 +35,7 @@ std::size_t next_shift(std::size_t bytes) {
     return lines * cache_line;
 }
 
-/// The cell of an axis of `count` cells, the first or the last, from which the one beyond a side
-/// comes.
+/// The first or last cell of an axis of `count` cells, which determines the cell beyond a side.
 std::int64_t source_of(const SideRule& rule, Side side, std::int64_t count) {
     const bool is_before = static_cast<int>(side) % 2 == 0;
     return is_before == (rule.kind == SideKind::periodic) ? count - 1 : 0;
@@ -48,7 +46,7 @@ Number beyond(const SideRule& rule, Number cell, Number value, Number spacing) {
     return rule.kind == SideKind::fixed ? 2 * value - cell : cell + spacing * value;
 }
 
-/// Fills the halo that comes from some rows of a slice.
+/// Fills the halo cells that depend on some rows of a slice.
 template <typename Number>
 class HaloFill {
 public:
@@ -63,7 +61,7 @@ public:
         }
     }
 
-    /// Every row of the halo comes from one row of cells, and it is filled along with that.
+    /// Each row of the halo depends on one row of cells and is filled together with it.
     void from_rows(std::int64_t slice, std::int64_t begin, std::int64_t end) const {
         fill_columns(slice, begin, end);
         const auto is_given = [&](Side side) {
@@ -123,7 +121,7 @@ private:
         }
     }
 
-    /// A row of the halo beyond a side, with its halo columns.
+    /// Fills a row of the halo beyond a side, with its halo columns.
     void fill_row(Side side, RowPlace from, RowPlace to) const {
         const SideRule& rule = sides_[side];
         const Number* cells = origin_ + start(from) - 1;
@@ -160,7 +158,7 @@ void* allocate_plane(std::size_t bytes) {
     const std::size_t rounded = (bytes + shift + alignment - 1) / alignment * alignment;
     void* block = std::aligned_alloc(alignment, rounded);
     if (block == nullptr) throw std::bad_alloc();
-    // Advice only: without huge pages the plane is as good, but slower.
+    // Advice only: the plane works without huge pages, but slower.
     if (is_large) madvise(block, rounded, MADV_HUGEPAGE);
     char* const plane = static_cast<char*>(block) + shift;
     std::memcpy(plane - sizeof block, &block, sizeof block);

@@ -15,13 +15,13 @@
 
 namespace cascade {
 
-/// Zeroed memory, aligned to 64 bytes; large planes lie in huge pages where the system has them,
-/// because a step walks through eight and more of them at once. Throws std::bad_alloc.
+/// Zeroed memory, aligned to 64 bytes. Large planes use huge pages if the system has them, because
+/// a step walks through eight and more planes at once. Throws std::bad_alloc.
 void* allocate_plane(std::size_t bytes);
 void free_plane(void* plane);
 
-/// Owns one value per cell in the layout of PlaneLayout, aligned to 64 bytes and zero at first.
-/// Movable; a copy is made only when asked for by clone().
+/// Owns one value per cell in the layout of PlaneLayout, aligned to 64 bytes and initially zero.
+/// Movable; copied only by clone().
 template <typename T>
 class Plane {
 public:
@@ -39,7 +39,7 @@ public:
     /// A row by its number through all slices, 0 … layout().row_count() − 1.
     T* row(std::int64_t number) { return origin() + layout_.row_start(number); }
     const T* row(std::int64_t number) const { return origin() + layout_.row_start(number); }
-    /// A cell, which may be one of the halo.
+    /// A cell, which may be in the halo.
     T& at(std::int64_t i, std::int64_t j, std::int64_t k = 0) {
         return data_[static_cast<std::size_t>(layout_.offset(i, j, k))];
     }
@@ -65,15 +65,13 @@ private:
     std::unique_ptr<T[], Free> data_;
 };
 
-using Mask = Plane<std::uint8_t>;  ///< 1 where a cell is frozen, else 0.
+using Mask = Plane<std::uint8_t>;  ///< 1 if a cell is frozen, else 0.
 
-/// A species, or a parameter that varies over the surface: a plane of the run's numbers, which
-/// knows their precision. Loops over its cells are written for a `Plane<Number>` and chosen once,
-/// by visit().
+/// The values of a species or of a varying parameter: a plane in the precision of the run. Loops
+/// over the cells are written for a `Plane<Number>` and selected once, by visit().
 ///
-/// Where the precision is known cells are reached as those of a plane: `field.row<double>(j)`, and
-/// without a word, `field.row(j)`, those of binary32. Asking for the other precision is a mistake
-/// of ours.
+/// If the precision is known, cells are accessed as in a plane: `field.row<double>(j)`, or
+/// `field.row(j)` for binary32. Asking for the other precision is a bug.
 class Field {
 public:
     Field() = default;
@@ -100,7 +98,7 @@ public:
         return std::visit(std::forward<Look>(look), cells_);
     }
 
-    /// Address of cell (0, 0, 0), for those who know the precision from elsewhere.
+    /// Address of cell (0, 0, 0), for callers that know the precision from elsewhere.
     void* address() {
         return visit([](auto& plane) -> void* { return plane.origin(); });
     }
@@ -117,7 +115,7 @@ public:
     Field clone() const {
         return visit([](const auto& plane) { return Field(plane.clone()); });
     }
-    /// The same in another precision, rounded where that is less. The halo comes along.
+    /// A copy in another precision, with rounded values if that is lower; includes the halo.
     Field converted(Precision precision) const;
 
     template <typename Number = float>
@@ -154,7 +152,7 @@ public:
     Number at(std::int64_t i, std::int64_t j, std::int64_t k = 0) const {
         return plane<Number>().at(i, j, k);
     }
-    /// A cell of either precision.
+    /// A cell in either precision.
     double number_at(std::int64_t i, std::int64_t j, std::int64_t k = 0) const {
         return visit([&](const auto& plane) { return static_cast<double>(plane.at(i, j, k)); });
     }
@@ -167,17 +165,15 @@ private:
     std::variant<Plane<float>, Plane<double>> cells_;
 };
 
-/// Fills the halo of a field, edges and corners included: columns −1 and width, rows −1 and height
-/// and, where there is more than one slice, slices −1 and depth, by the rules of its sides, whose
-/// planes have the same precision. Columns come first, then rows with the halo columns, then slices
-/// with both.
+/// Fills the halo of a field, edges and corners included, by the rules of its sides: columns −1 and
+/// width, then rows −1 and height with their halo columns and, if there are several slices, slices
+/// −1 and depth with both. Planes of side values have the precision of the field.
 template <typename Number>
 void fill_halo(Number* origin, const PlaneLayout& layout, const SideRules& sides);
 void fill_halo(Field& field, const SideRules& sides);
 
-/// All of the halo whose values come from rows [begin, end), numbered through all slices. Threads
-/// that call it on parts of the rows have filled the whole halo together, without reading each
-/// other's rows.
+/// Fills all halo cells whose values come from rows [begin, end), numbered through all slices.
+/// Threads with disjoint parts of the rows fill the whole halo without reading each other's rows.
 template <typename Number>
 void fill_halo_from_rows(Number* origin, const PlaneLayout& layout, const SideRules& sides,
                          std::int64_t begin, std::int64_t end);

@@ -9,10 +9,10 @@
 
 namespace cascade {
 
-/// What all numbers of a run are: IEEE 754 binary32 or binary64.
+/// The format of all numbers of a run: IEEE 754 binary32 or binary64.
 enum class Precision : std::uint8_t { single, binary64 };
 
-/// How scripts and options write them.
+/// The word for a precision in scripts and options.
 constexpr std::string_view name_of(Precision precision) {
     return precision == Precision::single ? "single" : "double";
 }
@@ -32,8 +32,8 @@ template <typename Number>
 inline constexpr Precision precision_of =
     std::is_same_v<Number, double> ? Precision::binary64 : Precision::single;
 
-/// Calls `visit` with a zero of the type that numbers of a precision have: what depends on the
-/// format is chosen once, before the loops.
+/// Calls `visit` with a zero of the type that corresponds to a precision, so that the type is
+/// selected once, before the loops.
 template <typename Visit>
 constexpr decltype(auto) with_number(Precision precision, Visit&& visit) {
     return precision == Precision::single ? visit(float{}) : visit(double{});

@@ -1,4 +1,4 @@
-// Bytes that are no UTF-8 and characters that are not printable become U+FFFD.
+// Bytes that are not UTF-8 and characters that are not printable become U+FFFD.
 #include "core/printable.h"
 
 #include "core/utf8.h"

@@ -1,4 +1,4 @@
-// Three digits and a prefix of the SI, from nano to tera.
+// Three digits and an SI prefix, from nano to tera.
 #include "core/quantities.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ std::string three_digits(double value) {
     return fmt::format("{:.{}f}", value, value < 9.995 ? 2 : value < 99.95 ? 1 : 0);
 }
 
-/// The three digits and the prefix.
+/// The three digits, and the prefix.
 std::pair<std::string, std::string_view> scaled(double value) {
     constexpr std::array<std::string_view, 8> prefixes = {"n", "µ", "m", "", "k", "M", "G", "T"};
     if (!(value > 0) || !std::isfinite(value)) return {fmt::format("{}", value), ""};

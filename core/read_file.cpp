@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A descriptor or the negative number of the error.
+/// A descriptor, or the negative error number.
 int open_to_read(const fs::path& path, int flags) {
     int number = -1;
     do {
@@ -28,7 +28,7 @@ int open_to_read(const fs::path& path, int flags) {
 
 enum class Accepted { everything, plain_files };
 
-/// All that an open file holds. `opened` is its descriptor or the negative number of an error.
+/// The content of an open file. `opened` is its descriptor or a negative error number.
 Result<std::string> read_all(int opened, std::uint64_t largest, std::string_view name,
                              Accepted accepted) {
     const Descriptor file(opened);
@@ -47,7 +47,7 @@ Result<std::string> read_all(int opened, std::uint64_t largest, std::string_view
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (is_plain && size > largest) return too_large();
 
-    // A pipe tells no size, and a file may grow meanwhile: reading goes on until there is no more.
+    // A pipe reports no size, and a file may grow meanwhile, so this reads until the end.
     std::string bytes;
     bytes.reserve(is_plain ? size + 1 : 0);
     constexpr std::size_t chunk = 1 << 16;

@@ -1,4 +1,4 @@
-// What a message looks like: the only file that knows.
+// The layout of messages.
 #include "core/counted.h"
 #include "core/diagnostics.h"
 #include "core/printable.h"
@@ -15,12 +15,12 @@ namespace cascade {
 namespace {
 
 constexpr std::size_t widest_excerpt = 100;   // Columns of a source line that are shown.
-constexpr std::size_t columns_in_front = 60;  // A span further right has its line cut in front.
-constexpr std::size_t columns_kept = 40;      // So many characters stay before it then.
+constexpr std::size_t columns_in_front = 60;  // Further right, the start of the line is cut off
+constexpr std::size_t columns_kept = 40;      // and this many characters precede the span.
 constexpr std::size_t tab_stop = 8;
 constexpr std::string_view ellipsis = "\xe2\x80\xa6";  // U+2026.
 
-/// The colours of a message; all empty when it goes to a file.
+/// The colours of a message; all empty for output to a file.
 struct Colours {
     std::string_view bold, error, warning, note, hint, plain;
 };
@@ -30,16 +30,16 @@ Colours colours_of(const RenderStyle& style) {
     return {"\x1b[1m", "\x1b[1;31m", "\x1b[1;35m", "\x1b[1;36m", "\x1b[32m", "\x1b[0m"};
 }
 
-/// A source line as it is shown, and the columns of the underlined words in it.
+/// The shown part of a source line, and the underlined columns in it.
 struct Excerpt {
     std::string text;
     std::size_t marker_begin = 0;
     std::size_t marker_width = 0;
 };
 
-/// Byte at which the excerpt begins: the line's first, or some characters before the span.
+/// The byte at which the excerpt begins: the line's first, or some characters before the span.
 std::size_t excerpt_begin(std::string_view line, std::size_t span_begin) {
-    const bool may_be_near = span_begin <= 4 * columns_in_front;  // At most 4 bytes a character.
+    const bool may_be_near = span_begin <= 4 * columns_in_front;  // At most 4 bytes per character.
     if (may_be_near && count_code_points(line.substr(0, span_begin)) <= columns_in_front) return 0;
     std::size_t begin = span_begin;
     for (std::size_t k = 0; k < columns_kept && begin > 0; ++k) {

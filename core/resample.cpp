@@ -1,5 +1,5 @@
-// Restriction takes the mean of the cells that a coarse cell covers; refinement interpolates
-// linearly along each axis, with weights 3/4 and 1/4.
+// Restriction takes the mean of the fine cells in a coarse cell; refinement interpolates linearly
+// along each axis, with weights 3/4 and 1/4.
 #include "core/resample.h"
 
 #include "core/check.h"
@@ -14,12 +14,12 @@ std::int64_t divided(std::int64_t cells, std::int64_t times) {
     return cells / times;
 }
 
-/// Where the value of a fine cell comes from along one axis.
+/// The coarse cells from which a fine cell is interpolated along one axis.
 struct Neighbours {
     std::int64_t near = 0, far = 0;
 };
 
-/// Fine cells 2n and 2n + 1 lie in coarse cell n, a quarter of it off its centre.
+/// Fine cells 2n and 2n + 1 lie in coarse cell n, a quarter of its width from its centre.
 Neighbours neighbours_of(std::int64_t fine, std::int64_t coarse_cells) {
     if (coarse_cells == 1) return {0, 0};
     const std::int64_t near = fine / 2;

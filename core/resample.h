@@ -1,20 +1,21 @@
-// Planes of the same domain on finer and coarser grids.
+// Planes of one domain on finer and coarser grids.
 #pragma once
 
 #include "core/plane.h"
 
 namespace cascade {
 
-/// The grid of the same domain whose cells are `times` as wide. The sides of axes of more than one
-/// cell must be multiples of it; an axis of one cell stays as it is.
+/// The grid of the same domain with cells `times` as wide. The number of cells along each axis must
+/// be 1, which stays, or a multiple of `times`.
 Grid coarser(const Grid& grid, std::int64_t times);
 
-/// On a coarser grid: the mean of the cells that a cell covers, summed in binary64 row by row.
+/// A plane on a coarser grid: the mean of the fine cells in each cell, summed in binary64.
 template <typename Number>
 Plane<Number> restricted(const Plane<Number>& fine, const Grid& fine_grid, const Grid& coarse_grid);
 
-/// On a grid twice as fine: between the four nearest cells (two on a line, eight in a volume), of
-/// which the nearest counts 3/4 along each axis. Fills the halo of `coarse` by its sides.
+/// A plane on a grid twice as fine, interpolated from the four nearest cells (two on a line, eight
+/// in a volume); the nearest has weight 3/4 along each axis. Fills the halo of `coarse` by the
+/// rules `sides`.
 template <typename Number>
 Plane<Number> refined(Plane<Number>& coarse, const Grid& coarse_grid, const Grid& fine_grid,
                       const SideRules& sides);

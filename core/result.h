@@ -1,5 +1,5 @@
-// Results of work that can fail for reasons outside the program: files, memory, a run that blows
-// up. Mistakes in a user's text are Diagnostics instead; our own mistakes are CHECKs.
+// Results of operations that can fail for external reasons: files, memory, a diverging run.
+// Mistakes in a user's text are Diagnostics; bugs of Cascade are CHECKs.
 #pragma once
 
 #include <tl/expected.hpp>
@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// Why it failed, in words for the user, and what can be done about it (may be empty).
+/// Why an operation failed, in words for the user, and what to do about it (may be empty).
 struct Failure {
     std::string message;
     std::string hint;

@@ -1,4 +1,4 @@
-// What a run tells its caller while it goes on, and how the caller stops it.
+// What a run reports to its caller, and how the caller stops it.
 #pragma once
 
 #include <atomic>
@@ -8,32 +8,32 @@
 
 namespace cascade {
 
-/// How far a stage is. Sent now and then (some ten times a second), and at a stage's end.
+/// The progress of a stage. Sent some ten times a second and at the end of a stage.
 struct Progress {
-    std::string doing;     ///< What goes on where no stage runs; then nothing else means anything.
+    std::string doing;     ///< The activity while no stage runs; the rest then has no meaning.
     std::string stage;     ///< The stage's name.
-    std::string note;      ///< What is to be said after it; mostly nothing.
+    std::string note;      ///< A remark to print after it; usually empty.
     int stage_number = 1;  ///< From 1.
     int stage_count = 1;
-    std::int64_t step = 0;        ///< Complete steps of this stage.
+    std::int64_t step = 0;        ///< Completed steps of this stage.
     std::int64_t steps = 0;       ///< Steps this stage will take.
-    double t = 0;                 ///< The stage's time, where its end is given by time,
-    double duration = 0;          ///< and that end; 0 where it is given by steps.
+    double t = 0;                 ///< The stage's time if its end is given by time,
+    double duration = 0;          ///< and that end; 0 if the end is given by steps.
     double steps_per_second = 0;  ///< Recent rate; 0 while unknown.
     double seconds_left = -1;     ///< Of this stage at that rate; negative while unknown.
     bool stage_done = false;
-    bool condition_met = false;  ///< The stage's own condition, its `until`, has ended it:
-    std::string when_met;        ///< what to say then, as "settled".
+    bool condition_met = false;  ///< The stage was ended by its own condition, `until`;
+    std::string when_met;        ///< then the word to print, such as "settled".
 };
 
-/// Shared between a run and whoever watches it. `cancel` may be set from a signal handler or from
-/// another thread: the run ends at the next complete step.
+/// Shared between a run and its observer. `cancel` may be set from a signal handler or from another
+/// thread; the run then ends at the next complete step.
 struct RunControl {
     std::atomic<bool> cancel{false};
     std::function<void(const Progress&)> report;
-    /// Remarks that do not stop the run (the chequerboard warning, a kernel that is interpreted).
+    /// Warnings that do not stop the run, such as an interpreted kernel.
     std::function<void(const std::string& message)> warn;
-    /// What is good to know, and nothing is wrong with.
+    /// Information; nothing is wrong.
     std::function<void(const std::string& message)> note;
 };
 

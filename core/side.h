@@ -1,4 +1,4 @@
-// The sides of a grid and what a field is there.
+// The sides of a grid, and the boundary conditions of a field there.
 #pragma once
 
 #include "core/grid.h"
@@ -22,9 +22,9 @@ constexpr Side opposite(Side side) {
     return static_cast<Side>(static_cast<std::uint8_t>(side) ^ 1u);
 }
 
-/// What a cell at a side sees beyond it, c being its own value, e the side's and h the spacing.
+/// What a cell of value c at a side sees beyond it; e is the side's value and h the spacing.
 enum class SideKind : std::uint8_t {
-    periodic,  ///< The cell of the opposite side.
+    periodic,  ///< The cell at the opposite side.
     no_flux,   ///< c: nothing flows through the side.
     fixed,     ///< 2e − c: the value at the face is e.
     flux,      ///< c + h·e: the derivative along the outward normal is e.
@@ -34,13 +34,13 @@ constexpr bool takes_value(SideKind kind) {
     return kind == SideKind::fixed || kind == SideKind::flux;
 }
 
-/// How scripts write them.
+/// The words for them in scripts.
 inline constexpr std::array<std::string_view, 4> side_kind_words{"periodic", "noflux", "fixed",
                                                                  "flux"};
 
-/// A side of one field. `values`, where it is set, points to cell (0, 0, 0) of a plane whose cells
-/// beside the side hold e (its halo is filled), numbers of the field's precision; elsewhere e is
-/// `value` everywhere.
+/// The boundary condition at a side of one field. The side's value e varies if `values` is set: it
+/// points to cell (0, 0, 0) of a plane in the field's precision whose cells at the side hold e
+/// (with its halo filled). Otherwise e is `value` everywhere.
 struct SideRule {
     SideKind kind = SideKind::periodic;
     double value = 0;
@@ -49,13 +49,13 @@ struct SideRule {
     bool has_value() const { return takes_value(kind); }
 };
 
-/// All sides of one field.
+/// The boundary conditions of one field at all sides.
 struct SideRules {
     std::array<SideRule, side_count> at{};
     double spacing = 1;
 
     SideRules() = default;
-    SideRules(const Boundaries& boundary) {  // NOLINT: boundaries are rules.
+    SideRules(const Boundaries& boundary) {  // NOLINT: implicit, boundaries are rules.
         const std::array<Boundary, 3> along{boundary.x, boundary.y, boundary.z};
         for (std::size_t side = 0; side < side_count; ++side) {
             at[side].kind =

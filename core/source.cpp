@@ -1,4 +1,4 @@
-// Source texts: where their lines begin, and places in them as a person counts.
+// Source texts: the starts of their lines, and locations in them.
 #include "core/source.h"
 
 #include "core/check.h"
@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// Some editors begin a file with it; it is no character of the first line.
+/// Some editors write it at the start of a file; it does not count as a character.
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 /// Lines end with LF, CR LF or CR.

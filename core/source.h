@@ -1,9 +1,8 @@
-// Source texts and places in them.
+// Source texts and locations in them.
 //
-// Every text that a user can make a mistake in is a Source: the script, a built-in system, an
-// expression given on the command line, a line typed at the prompt. A Span names a stretch of one
-// of them and is all that later stages keep; line, column and the line itself are looked up only
-// when a message is drawn.
+// Every text in which a user can make a mistake is a Source: the script, a built-in system, an
+// expression from the command line, a line typed at the prompt. A Span is a range of one of them.
+// Later stages keep only spans; the line and the column are computed when a message is drawn.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +13,10 @@
 
 namespace cascade {
 
-/// Position of a source in its Sources.
+/// The index of a source in its Sources.
 using SourceId = std::uint32_t;
 
-/// The bytes [begin, end) of one source. `begin == end` marks a place between two characters.
+/// The bytes [begin, end) of one source. `begin == end` marks a position between two characters.
 struct Span {
     SourceId source = 0;
     std::uint32_t begin = 0;
@@ -26,16 +25,16 @@ struct Span {
     friend bool operator==(const Span&, const Span&) = default;
 };
 
-/// The smallest span that covers both; they must be of one source.
+/// The smallest span that covers both, which must be in one source.
 Span join(Span first, Span last);
 
-/// A place as a person counts it: both from 1, columns in characters (code points), not bytes.
+/// A line and a column as shown to a user: both from 1, columns in code points, not bytes.
 struct Location {
     std::uint32_t line = 1;
     std::uint32_t column = 1;
 };
 
-/// One text with its name (a path, or what stands for one, such as "<command line>").
+/// A text with its name: a path, or a substitute such as "<command line>".
 class Source {
 public:
     Source(std::string name, std::string text);
@@ -43,10 +42,10 @@ public:
     const std::string& name() const { return name_; }
     std::string_view text() const { return text_; }
 
-    /// Line and column of a byte offset (clamped to the text's size).
+    /// The line and column of a byte offset (clamped to the size of the text).
     Location locate(std::uint32_t offset) const;
 
-    /// A line without its line end; `line` counts from 1. Empty beyond the last line.
+    /// A line without its line end; `line` counts from 1. Empty after the last line.
     std::string_view line(std::uint32_t line) const;
 
 private:
@@ -55,7 +54,7 @@ private:
     std::vector<std::uint32_t> line_starts_;
 };
 
-/// All texts of one program. Adding never moves the others: string views into them stay valid.
+/// All texts of one program. Adding one never moves the others: string views into them stay valid.
 class Sources {
 public:
     SourceId add(std::string name, std::string text);

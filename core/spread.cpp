@@ -1,4 +1,4 @@
-// Merges two samples by the pairwise update of sums of squares, which avoids cancellation.
+// Merging of two sets of values.
 #include "core/spread.h"
 
 namespace cascade {

@@ -1,5 +1,4 @@
-// How values differ from each other: their mean, their deviation and their ends, and the one rule
-// that says when values count as even.
+// Mean, standard deviation and range of values, and the rule for when values count as even.
 #pragma once
 
 #include <algorithm>
@@ -8,17 +7,17 @@
 
 namespace cascade {
 
-/// Values count as even where their standard deviation is at most this part of their largest
-/// magnitude: what is left is rounding of binary32.
+/// Values count as even if their standard deviation is at most this fraction of their largest
+/// magnitude, about the rounding error of binary32.
 inline constexpr double even_deviation = 1e-5;
-/// They also do where it is at most this: what is left is dying away.
+/// They also do if it is at most this, which remains of a pattern that dies away.
 inline constexpr double least_deviation = 1e-12;
 
-/// Of values of any number. Those that are not finite do not count.
+/// The statistics of a set of values. Values that are not finite are ignored.
 struct Spread {
     double count = 0;
     double mean = 0;
-    double squares = 0;  ///< Sum of the squared distances from the mean.
+    double squares = 0;  ///< Sum of the squared differences from the mean.
     double smallest = std::numeric_limits<double>::infinity();
     double largest = -std::numeric_limits<double>::infinity();
 
@@ -26,19 +25,18 @@ struct Spread {
     double magnitude() const {
         return count > 0 ? std::max(std::abs(smallest), std::abs(largest)) : 0;
     }
-    /// No values at all are even, too.
+    /// A set without values is even.
     bool is_even() const {
         return !(deviation() > std::max(even_deviation * magnitude(), least_deviation));
     }
 
-    /// The spread of the values of both. T. F. Chan, G. H. Golub and R. J. LeVeque, "Updating
-    /// formulae and a pairwise algorithm for computing sample variances", 1979.
+    /// Merges in another set of values, without cancellation: T. F. Chan, G. H. Golub and R. J.
+    /// LeVeque, "Updating formulae and a pairwise algorithm for computing sample variances", 1979.
     void add(const Spread& other);
 };
 
-/// `for_each(take)` calls `take(value)` for every value, in the same order each time: the squares
-/// are taken about the mean, in a second pass, since a difference of sums would lose small
-/// patterns.
+/// `for_each(take)` calls `take(value)` for every value, in the same order each time. Squares are
+/// summed in a second pass, because a difference of sums would lose small patterns.
 template <typename ForEach>
 Spread spread_of(const ForEach& for_each) {
     Spread spread;

@@ -1,5 +1,5 @@
-// Creates with O_EXCL, locks with flock(), calls fsync() before renaming, and removes files whose
-// writers are dead: those that can be locked and are older than an hour.
+// Creates files with O_EXCL, locks them with flock(), and calls fsync() before renaming. A file's
+// writer is dead if the file can be locked and is older than an hour.
 #include "core/temporary_file.h"
 
 #include <algorithm>
@@ -21,8 +21,7 @@ namespace {
 constexpr std::string_view beginning = ".cascade-";
 constexpr std::size_t digit_count = 32;
 
-/// Between the making of a file and its lock lies a moment, and not every network file system
-/// locks.
+/// A file is locked a moment after its creation, and not every network file system supports locks.
 constexpr std::time_t youngest_dead = 60 * 60;
 
 int make_new(const Descriptor& folder, const std::string& name, mode_t mode) {
@@ -34,7 +33,7 @@ int make_new(const Descriptor& folder, const std::string& name, mode_t mode) {
     return number;
 }
 
-/// Removes a file of the right name if its writer is dead.
+/// Removes a file of this user if its writer is dead.
 void remove_if_dead(const Descriptor& folder, const char* name) {
     const Descriptor file(
         ::openat(folder.number(), name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
@@ -70,7 +69,7 @@ TemporaryFile::TemporaryFile(const Descriptor& folder, mode_t mode, std::string_
         return;
     }
     is_ours_ = true;
-    (void)::flock(file_.number(), LOCK_EX | LOCK_NB);  // Not every file system can.
+    (void)::flock(file_.number(), LOCK_EX | LOCK_NB);  // Some file systems cannot lock.
 }
 
 TemporaryFile::~TemporaryFile() {
@@ -80,7 +79,7 @@ TemporaryFile::~TemporaryFile() {
 int TemporaryFile::write(std::string_view bytes) {
     if (error_ != 0) return error_;
     if (const int error = write_all(file_, bytes)) return error;
-    // Without it a crash of the machine may leave the new name with no content after it.
+    // Otherwise a crash of the machine may leave the new name with empty content.
     return ::fsync(file_.number()) == 0 || errno == EINVAL ? 0 : errno;
 }
 

@@ -1,4 +1,4 @@
-// The one mutex of the process: solvers/ and measure/ both make plans.
+// The mutex for FFTW's planner.
 #include "core/transform_planner.h"
 
 namespace cascade {

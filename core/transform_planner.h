@@ -1,11 +1,11 @@
-// FFTW makes one plan at a time; transforms themselves may run at once.
+// FFTW's planner is not thread-safe, while its transforms are.
 #pragma once
 
 #include <mutex>
 
 namespace cascade {
 
-/// Held by whoever makes or destroys a plan, in whatever precision.
+/// The mutex for creating and destroying FFTW plans of any precision, in solvers/ and measure/.
 std::mutex& transform_planner();
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Decoding of UTF-8 by the table of well-formed sequences of RFC 3629, section 4.
+// Decoding of UTF-8 by the table of well-formed sequences in RFC 3629, section 4.
 #include "core/utf8.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ bool is_in(char32_t code_point, const Interval* begin, const Interval* end) {
     });
 }
 
-/// Size of the sequence that a first byte announces; 0 where it can begin none.
+/// The length of the sequence that starts with this byte; 0 if none does.
 std::uint32_t announced_size(unsigned char first) {
     if (first < 0x80) return 1;
     if (first >= 0xc2 && first <= 0xdf) return 2;
@@ -28,7 +28,7 @@ std::uint32_t announced_size(unsigned char first) {
     return 0;
 }
 
-/// The smallest code point that needs a sequence of this size.
+/// The smallest code point that needs a sequence of this length.
 constexpr std::array<char32_t, 5> smallest_of_size = {0, 0, 0x80, 0x800, 0x10000};
 
 }  // namespace

@@ -25,7 +25,7 @@ struct BasicVector3 {
     }
     friend Number length(BasicVector3 a) { return std::sqrt(dot(a, a)); }
 
-    /// Of length 1; the zero vector stays zero.
+    /// `a` scaled to length 1; the zero vector stays zero.
     friend BasicVector3 unit(BasicVector3 a) {
         const Number size = length(a);
         return size > 0 ? a * (1 / size) : a;
@@ -38,9 +38,9 @@ bool is_finite(BasicVector3<Number> v) {
 }
 
 using Vector3 = BasicVector3<float>;    ///< Of pictures.
-using Vector3d = BasicVector3<double>;  ///< Of geometry that is measured.
+using Vector3d = BasicVector3<double>;  ///< Of measured geometry.
 
-/// Two directions that make a right-handed frame with `normal` (of length 1): T. Duff et al.,
+/// Two directions that form a right-handed frame with `normal` (of length 1): T. Duff et al.,
 /// "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
 struct Frame {
     Vector3 tangent, bitangent;

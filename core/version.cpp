@@ -1,4 +1,4 @@
-// A file of its own, so that a new version compiles this file alone.
+// A separate file, so that a new version recompiles only this one.
 #include "core/version.h"
 
 namespace cascade {

@@ -1,4 +1,4 @@
-// Large numbers for people.
+// Large numbers for messages.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace cascade {
 
-/// "1,234,567".
+/// The number with a comma between groups of three digits: "1,234,567".
 std::string with_commas(std::int64_t number);
 
 }  // namespace cascade
