@@ -1,6 +1,6 @@
-// The contract between kernels and what executes them.
+// The contract between kernels and their executors.
 //
-// Backends: ir/interpreter.h (blocks of cells; the oracle), jit/jit.h (native code by LLVM),
+// Backends: ir/interpreter.h (blocks of cells; the reference), jit/jit.h (native code by LLVM),
 // ir/tiered_backend.h (the first until the second is ready). All give the same bits for the same
 // kernel and arguments.
 #pragma once
@@ -20,12 +20,12 @@
 
 namespace cascade {
 
-/// Where a kernel finds and puts its values. Pointers are to cell (0, 0, 0) of planes of one
-/// layout; a field read by `laplacian` or `neighbour` has its halo filled. An output overlaps
-/// nothing else, but it may be a field of which the kernel reads the own cell only. A kernel may
-/// write any values into an output row beyond its last cell, up to the next multiple of
-/// PlaneLayout::row_pad (so halo column `width` may hold garbage afterwards); cells of other rows
-/// and columns < 0 never.
+/// The inputs and outputs of a kernel. Pointers are to cell (0, 0, 0) of planes of one layout; a
+/// field read by `laplacian` or `neighbour` has its halo filled. An output may be a field that the
+/// kernel reads only in the cell that it computes; otherwise it overlaps nothing. A kernel may
+/// write any values into an output row after its last cell, up to the next multiple of
+/// PlaneLayout::row_pad (so halo column `width` is undefined afterwards), but never cells of other
+/// rows or columns < 0.
 template <typename Number>
 struct KernelArgumentsOf {
     std::span<const Number* const> fields;       ///< One per field slot.
@@ -33,26 +33,25 @@ struct KernelArgumentsOf {
     std::span<const Number> uniforms;            ///< One per uniform slot.
     std::span<Number* const> results;            ///< One per result.
     PlaneLayout layout;
-    LinkTable<Number> links = {};  ///< Of cells that lie on no grid.
-    /// All fields are in a near cache: fetching what the next rows read would only take their
-    /// place.
+    LinkTable<Number> links = {};  ///< For grids of linked cells.
+    /// All fields are in a cache near the core, so prefetching the next rows would only evict them.
     bool is_near = false;
 };
 using KernelArguments = KernelArgumentsOf<float>;
 
-/// A kernel ready to run. Its results never change; safe to run on several threads at once, each on
-/// its own rows, inside a FlushDenormals.
+/// An executable kernel. Its results never change. It may run on several threads at once, each on
+/// its own rows and inside a FlushDenormals.
 class Kernel {
 public:
     virtual ~Kernel() = default;
-    /// Computes rows, numbered through all slices, with numbers of the kernel's precision.
+    /// Computes rows, numbered through all slices, in the kernel's precision.
     virtual void run(const KernelArgumentsOf<float>&, RowRange) const { wrong_precision(); }
     virtual void run(const KernelArgumentsOf<double>&, RowRange) const { wrong_precision(); }
 
-    /// May it be many times as fast some time later, because code for it is still to be made? How
-    /// long it takes now then says nothing of later runs.
+    /// Whether the kernel may become many times faster later, because its code is still being
+    /// compiled. Its present speed then says nothing about later runs.
     virtual bool is_provisional() const { return false; }
-    /// Why it will stay as slow as it is; nothing where it is as it should be.
+    /// Why the kernel stays slow; null if it does not.
     virtual const Failure* refusal() const { return nullptr; }
 
 private:
@@ -63,25 +62,25 @@ private:
 
 using KernelPointer = std::shared_ptr<const Kernel>;
 
-/// Where the code of kernels came from.
+/// The number of kernels by origin of their code.
 struct KernelCounts {
-    std::int64_t compiled = 0;  ///< Made by this backend.
-    std::int64_t found = 0;     ///< Made by an earlier process and kept on disk.
+    std::int64_t compiled = 0;  ///< By this backend.
+    std::int64_t found = 0;     ///< Compiled by an earlier process and kept on disk.
 };
 
-/// Makes kernels runnable. Keeps what it made: compiling an equal kernel again costs a look-up.
+/// Makes kernels executable. Keeps compiled kernels: compiling an equal one again costs a look-up.
 class Backend {
 public:
     virtual ~Backend() = default;
     virtual std::string_view name() const = 0;  ///< "interp" or "jit".
     /// `stencil` is that of every grid that the kernel will run on.
     virtual Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) = 0;
-    /// What compile() gives, if that takes less time than running it once; else null.
+    /// The result of compile(), if obtaining it takes less time than running it once; else null.
     virtual KernelPointer find(const CellKernel& kernel, Stencil stencil) = 0;
-    /// So far.
+    /// The counts up to now.
     virtual KernelCounts counts() const { return {}; }
-    /// All that decides the code of kernels besides themselves, such as the processor, as bytes;
-    /// empty where it is not known.
+    /// Everything else that determines the code of a kernel, such as the processor; empty if
+    /// unknown.
     virtual std::string code_identity() const { return {}; }
 };
 

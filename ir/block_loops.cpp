@@ -1,7 +1,7 @@
-// The interpreter's inner loops, one for each operation and each choice of scalar operands; and the
-// same meaning for single words.
+// The interpreter's inner loops, one for each operation and each choice of scalar operands, and the
+// same operations on single words.
 //
-// A loop per choice, rather than a stride of 0 or 1 at run time, lets the compiler vectorise each.
+// A loop per choice, instead of a stride of 0 or 1 at run time, lets the compiler vectorise each.
 #include "ir/block_loops.h"
 
 #include "core/check.h"

@@ -9,13 +9,13 @@
 
 namespace cascade {
 
-/// Computes `count` words. Operands are words in the form of numbers, float or double; a scalar
-/// operand is one word that all cells share. `out` overlaps no operand.
+/// Computes `count` words. Operands are words as float or double; a scalar operand is one word that
+/// all cells share. `out` overlaps no operand.
 template <typename Number>
 using BlockLoop = void (*)(Number* out, const Number* a, const Number* b, const Number* c,
                            std::int64_t count);
 
-/// The loop of an operation that depends on its operands alone. Bit k of `scalar_operands` says
+/// The loop of an operation that only depends on its operands. Bit k of `scalar_operands` tells
 /// that operand k is a scalar; at least one operand is not.
 template <typename Number>
 BlockLoop<Number> block_loop(Op op, unsigned scalar_operands);

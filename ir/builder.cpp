@@ -1,4 +1,4 @@
-// Emitting, folding and numbering of values.
+// Emission, constant folding and value numbering.
 #include "ir/builder.h"
 
 #include "core/check.h"
@@ -30,7 +30,7 @@ std::uint32_t slot_of(const std::string& name, std::vector<std::string>& names,
     return entry->second;
 }
 
-/// Operations whose result is read as a number by everyone, so that any NaN may stand for any.
+/// Operations whose result is only ever read as a number, so that all NaNs are equivalent.
 bool yields_number(Op op) {
     return (op >= Op::add && op <= Op::divide) || (op >= Op::square_root && op <= Op::multiply_add);
 }
@@ -40,7 +40,7 @@ bool yields_truth(Op op) { return op == Op::mask || (op >= Op::less && op <= Op:
 
 }  // namespace
 
-// The one NaN: kernels must not depend on which of them the host's processor makes.
+// One NaN for all, so that kernels do not depend on the one that the host's processor makes.
 ValueId KernelBuilder::number(double value) {
     if (std::isnan(value)) return word(format().nan());
     const std::uint64_t bits = word_of(value, precision());
@@ -145,7 +145,7 @@ ValueId KernelBuilder::emit(Instruction instruction) {
     return id;
 }
 
-/// The value of an instruction without computing it at run time, if there is one.
+/// The value of an instruction if it is known without computing it at run time.
 std::optional<ValueId> KernelBuilder::simplify(const Instruction& instruction) {
     const auto [a, b, c] = instruction.operands;
     const int arity = info(instruction.op).arity;
@@ -172,12 +172,12 @@ ValueId KernelBuilder::fold(const Instruction& instruction) {
     return word(format().is_nan(bits) && yields_number(instruction.op) ? format().nan() : bits);
 }
 
-/// Denormal numbers are zeros.
+/// Whether a word is true as a number; denormal numbers count as zero.
 bool KernelBuilder::is_true_word(std::uint64_t word) const {
     return (word & format().exponent()) != 0;
 }
 
-/// `x and known`, `x or known`.
+/// Simplifies `x and known` or `x or known`.
 std::optional<ValueId> KernelBuilder::simplify_logic(Op op, ValueId x, std::uint64_t known) {
     const bool decides = is_true_word(known) == (op == Op::logical_or);
     if (decides) return number(op == Op::logical_or ? 1 : 0);

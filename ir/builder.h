@@ -1,13 +1,14 @@
-// Builds cell kernels. Every method returns the value of an instruction that is new or was there
-// already: the builder folds constants (in the spec's environment, with the interpreter's own
-// evaluation of an operation) and value-numbers, so an unsimplified kernel never exists.
+// Builds cell kernels. Every method returns the value of a new or an existing instruction: the
+// builder folds constants (in the spec's environment, with the interpreter's evaluation of an
+// operation) and numbers values, so an unsimplified kernel never exists.
 //
-// Only identities that hold for every word are used (select of equal branches or of a constant
-// condition, `and` and `or` with a constant; x * 1 and x + 0 are NOT among them: they flush
-// denormals and lose −0).
+// It only uses identities that hold for every word (select with equal branches or a constant
+// condition, `and` and `or` with a constant). x * 1 and x + 0 are NOT among them: they flush
+// denormals and lose −0.
 //
-// Elementary functions are expanded here into table operations, so that every executor computes
-// the same bits (ir/elementary.cpp; their accuracy is stated there and in spec/numerics.md).
+// Elementary functions are expanded here into operations of the table, so that every executor
+// computes the same bits (ir/elementary.cpp; their accuracy is stated there and in
+// spec/numerics.md).
 #pragma once
 
 #include "ir/cell_kernel.h"
@@ -28,7 +29,7 @@ public:
     Precision precision() const { return kernel_.precision; }
     WordFormat format() const { return format_of(kernel_.precision); }
 
-    // Sources. A slot is made at its first use; the same name gives the same slot.
+    // Sources. A slot is created at its first use; the same name gives the same slot.
     ValueId number(double value);  ///< Rounded to the kernel's precision; denormals become zero.
     ValueId word(std::uint64_t bits);  ///< Modulo 2^32 or 2^64.
     std::uint32_t field_slot(const std::string& name);
@@ -36,10 +37,9 @@ public:
     std::uint32_t uniform_slot(const std::string& name);
     ValueId field(std::uint32_t slot);
     ValueId laplacian(std::uint32_t slot);
-    /// The value of a field in a cell around, each offset −1, 0 or 1; the cell's own where all are
-    /// 0.
+    /// The value of a field in a neighbouring cell; each offset is −1, 0 or 1, and all may be 0.
     ValueId neighbour(std::uint32_t slot, int dx, int dy, int dz = 0);
-    /// A sum over the links of a cell of differences of one field; of a kernel for a surface.
+    /// A sum over a cell's links of differences of one field; only in a kernel for a surface.
     ValueId over_links(Op op, std::uint32_t slot);
     ValueId link_flow(Flow flow);
     ValueId mask(std::uint32_t slot);
@@ -50,7 +50,7 @@ public:
 
     /// Any instruction of the table.
     ValueId emit(Instruction instruction);
-    /// Any operation of the table without payload, by its operands.
+    /// Any operation of the table without payload.
     ValueId apply(Op op, ValueId a);
     ValueId apply(Op op, ValueId a, ValueId b);
     ValueId apply(Op op, ValueId a, ValueId b, ValueId c);
@@ -63,9 +63,9 @@ public:
     ValueId multiply(ValueId a, ValueId b) { return apply(Op::multiply, a, b); }
     ValueId divide(ValueId a, ValueId b) { return apply(Op::divide, a, b); }
 
-    // Composed operations. `minimum` and `maximum` pass NaN on: a if a is NaN, else b if b is NaN,
-    // else the smaller (larger), b when equal. `clamp_below(x, bound)` is bound where x < bound,
-    // else x (so NaN stays NaN): an invariant x >= bound. `clamp_above` likewise.
+    // Composed operations. `minimum` and `maximum` propagate NaN: a if a is NaN, else b if b is
+    // NaN, else the smaller (larger), b if they are equal. `clamp_below(x, bound)` is bound if x <
+    // bound, else x (so NaN stays NaN): the bound x >= bound. `clamp_above` likewise.
     ValueId minimum(ValueId a, ValueId b);
     ValueId maximum(ValueId a, ValueId b);
     ValueId clamp_below(ValueId x, ValueId bound);
@@ -80,45 +80,44 @@ public:
     ValueId tangent(ValueId x);
     ValueId arc_sine(ValueId x);
     ValueId arc_cosine(ValueId x);
-    /// The angle of the point (x, y), −π … π; of (x, 1) the arc tangent of y.
+    /// The angle of the point (x, y), −π … π. The arc tangent of y is the angle of (1, y).
     ValueId arc_tangent(ValueId y, ValueId x);
     ValueId hyperbolic_sine(ValueId x);
     ValueId hyperbolic_cosine(ValueId x);
     ValueId hyperbolic_tangent(ValueId x);
     ValueId cube_root(ValueId x);
     ValueId hypotenuse(ValueId x, ValueId y);
-    ValueId sign_of(ValueId x);        ///< −1, 1, or x where it is zero or NaN.
-    ValueId round_to_even(ValueId x);  ///< The nearest whole number, ties to even.
+    ValueId sign_of(ValueId x);        ///< −1, 1, or x if it is zero or NaN.
+    ValueId round_to_even(ValueId x);  ///< The nearest integer, ties to even.
     ValueId round_down(ValueId x);
     ValueId round_up(ValueId x);
-    /// x − y · floor(x / y), of the sign of y; NaN where |x / y| is 2^24 (in binary64 2^52)
-    /// or more.
+    /// x − y · floor(x / y), with the sign of y; NaN if |x / y| is 2^24 (in binary64 2^52) or more.
     ValueId modulus(ValueId x, ValueId y);
-    /// 0 up to `low`, 1 from `high` on, between them 3 t² − 2 t³.
+    /// 0 up to `low`, 1 from `high` on, 3 t² − 2 t³ between them.
     ValueId smooth_step(ValueId low, ValueId high, ValueId x);
-    /// x^y. A constant integer y of at most 64 in magnitude becomes multiplications by repeated
-    /// squaring (the order is in the spec), 1/x^n for negative ones; others go through log and exp.
+    /// x^y. A constant integer y of magnitude at most 64 becomes multiplications by repeated
+    /// squaring (their order is in the spec), 1/x^n for negative ones; other y use log and exp.
     ValueId power(ValueId x, ValueId y);
 
     // Random numbers (ir/random_numbers.cpp).
-    /// Draws are those of this cell's number, a word, instead of its column and row.
+    /// Draws then use this cell number, a word, instead of the cell's column and row.
     void set_cell(ValueId number) { cell_ = number; }
-    /// What stands for the cell in draws: two words.
+    /// The two words that identify the cell in draws.
     std::pair<ValueId, ValueId> cell_of_draws() {
         return cell_ ? std::pair(*cell_, word(0)) : std::pair(cell_column(), cell_row());
     }
-    /// Uniform in (−1, 1), symmetric, 2^23 different values, in binary64 2^52 whose first digits
-    /// are the same: a pure function of the cell, the `draw` word (which step, or 0) and the 64-bit
-    /// `key` (seed, stage, parameter, occurrence).
+    /// Uniform in (−1, 1), symmetric, with 2^23 different values; in binary64 with 2^52, whose
+    /// first digits are the same. A pure function of the cell, the `draw` word (the step, or 0) and
+    /// the 64-bit `key` (seed, stage, parameter, occurrence).
     ValueId random_symmetric(ValueId draw, std::uint64_t key);
-    /// The word of 32 bits in a uniform that draw_uniform() has made (ir/draw_of_step.h).
+    /// The 32-bit word in a uniform made by draw_uniform() (ir/draw_of_step.h).
     ValueId draw_word(ValueId uniform);
-    /// Gaussian, of mean 0 and variance 1, at most 6.7 in magnitude: a function of the same.
+    /// Gaussian with mean 0 and variance 1, of magnitude at most 6.7: a function of the same.
     ValueId random_normal(ValueId draw, std::uint64_t key);
 
-    /// Contraction shall leave this product or quotient as it is.
+    /// Excludes this product or quotient from contraction.
     void keep(ValueId id) { kernel_.kept.push_back(id); }
-    /// All from this one on.
+    /// Excludes all values from this one on.
     void keep_from(ValueId first) {
         for (ValueId id = first; id < kernel_.code.size(); ++id) keep(id);
     }
@@ -126,13 +125,13 @@ public:
     /// Appends an output.
     void result(const std::string& name, ValueId value);
 
-    /// The finished kernel: instructions that no result needs are dropped, slots are kept.
+    /// The finished kernel, without instructions that no result needs; unused slots stay.
     CellKernel finish() &&;
 
     std::size_t size() const { return kernel_.code.size(); }
     const Instruction& operator[](ValueId id) const { return kernel_.code[id]; }
     bool is_constant(ValueId id) const { return kernel_.code[id].op == Op::constant; }
-    /// The number that a constant is.
+    /// The number that a constant represents.
     double constant(ValueId id) const { return number_of(kernel_.code[id].payload, precision()); }
 
 private:
@@ -142,9 +141,8 @@ private:
     ValueId fold(const Instruction& instruction);
 
     CellKernel kernel_;
-    std::optional<ValueId> cell_;  ///< Whose number draws take.
-    std::unordered_map<std::uint64_t, ValueId>
-        numbering_;  ///< By hash; the next is tried if taken.
+    std::optional<ValueId> cell_;                           ///< Used for draws if set.
+    std::unordered_map<std::uint64_t, ValueId> numbering_;  ///< By hash, with linear probing.
     std::unordered_map<std::string, std::uint32_t> field_slots_, mask_slots_, uniform_slots_;
 };
 

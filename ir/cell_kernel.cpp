@@ -1,4 +1,4 @@
-// The table of operations as data, and kernels as text, as hashes and as something to be checked.
+// The table of operations, and printing, hashing and verification of kernels.
 #include "ir/cell_kernel.h"
 
 #include "core/check.h"
@@ -18,8 +18,7 @@ constexpr OpInfo table[] = {
 #undef CASCADE_OPERATION
 };
 
-/// One step of a multiplicative hash; the shift brings high bits back to where the next step and
-/// hash tables look.
+/// One step of a multiplicative hash. The shift moves high bits to the low end, where tables look.
 std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
     hash = (hash ^ value) * 0x9e3779b97f4a7c15ULL;
     return hash ^ (hash >> 32);

@@ -1,9 +1,9 @@
-// Cell kernels: what a stage computes per cell, as one small flat program.
+// Cell kernels: what a stage computes per cell, as one flat program.
 //
-// A kernel is a list of instructions in static single assignment: an instruction's position is
-// the name of its value, and it reads only values before it. There is no control flow; `select`
-// chooses. Nothing in it knows what a cell's neighbours are (the executor's stencil does) nor where
-// fields lie (KernelArguments does). It cannot fail: users' errors end in lang/.
+// A kernel is a list of instructions in static single assignment: an instruction's position names
+// its value, and it only reads values before it. There is no control flow but `select`. A kernel
+// does not know which cells are neighbours (the executor's stencil does) nor where fields are in
+// memory (KernelArguments does). It cannot fail: users' errors are found in lang/.
 #pragma once
 
 #include "core/precision.h"
@@ -40,7 +40,7 @@ inline constexpr int op_count = 0
 #undef CASCADE_OPERATION
     ;
 
-/// How many values an operation reads, for use at compile time.
+/// The number of values that an operation reads, at compile time.
 constexpr int info_arity(Op op) {
     switch (op) {
 #define CASCADE_OPERATION(name, arity, payload, meaning) \
@@ -52,23 +52,22 @@ constexpr int info_arity(Op op) {
     return 0;
 }
 
-/// Position of the instruction that computes a value.
+/// The index of the instruction that computes a value.
 using ValueId = std::uint32_t;
 
 struct Instruction {
     Op op = Op::constant;
     std::array<ValueId, 3> operands{};  ///< The first `info(op).arity` count; others are 0.
-    std::uint64_t payload = 0;          ///< Bits of a word, or a slot; 0 where there is none.
+    std::uint64_t payload = 0;          ///< Bits of a word, or a slot; 0 if unused.
 
-    /// The payload of what reads a slot.
+    /// The payload of an instruction that reads a slot.
     std::uint32_t slot() const { return static_cast<std::uint32_t>(payload); }
 
     friend bool operator==(const Instruction&, const Instruction&) = default;
 };
 
-/// What a `neighbour` reads: the value of a field, `dx` columns, `dy` rows and `dz` slices away.
-/// Each is −1, 0 or 1, and not all are 0. Along an axis of one cell there are no neighbours:
-/// executors take the offset along it for 0.
+/// The operands of `neighbour`: the field in `slot`, `dx` columns, `dy` rows and `dz` slices away.
+/// Each is −1, 0 or 1, and not all are 0. Executors treat an offset along an axis of one cell as 0.
 struct Neighbour {
     std::uint32_t slot = 0;  ///< Below 2^27.
     int dx = 0, dy = 0, dz = 0;
@@ -86,8 +85,8 @@ struct Neighbour {
     }
 };
 
-/// What a `link_flow` reads: the field `of` whose differences flow, and the field `factor` by whose
-/// mean of two cells they are multiplied.
+/// The operands of `link_flow`: the field `of`, whose differences flow, and the field `factor`,
+/// whose mean over the two cells multiplies them.
 struct Flow {
     std::uint32_t factor = 0, of = 0;  ///< Field slots.
 
@@ -97,14 +96,14 @@ struct Flow {
     }
 };
 
-/// Is it one of the sums over the links of a cell, on a surface?
+/// Whether an operation is a sum over the links of a cell, on a surface.
 constexpr bool is_link_sum(Op op) {
     return op == Op::laplacian || op == Op::link_flow || op == Op::link_squares ||
            op == Op::gradient_x || op == Op::gradient_y || op == Op::gradient_z;
 }
 
-/// The program of one cell. `results[k]` is the value that is stored in output field k.
-/// The slot names serve dumps and messages; slot numbers are their positions.
+/// The program of one cell. `results[k]` is the value stored in output field k. Slot numbers are
+/// indices into the lists of slot names, which serve dumps and messages.
 struct CellKernel {
     std::vector<Instruction> code;
     std::vector<ValueId> results;
@@ -113,24 +112,25 @@ struct CellKernel {
     std::vector<std::string> uniform_names;
     std::vector<std::string> result_names;
     Precision precision = Precision::single;  ///< Of all words.
-    std::vector<ValueId> kept = {};  ///< What contraction leaves as it is (ir/contraction.h).
+    std::vector<ValueId> kept = {};  ///< Values excluded from contraction (ir/contraction.h).
 
-    /// True if some instruction reads this field slot in other cells (on grids its halo must be
-    /// filled).
+    /// Whether some instruction reads this field slot in other cells, which needs the halo on
+    /// grids.
     bool reads_neighbours(std::uint32_t field_slot) const;
 };
 
-/// By value: can it differ between cells? What depends on constants and uniforms alone does not.
+/// For each value, whether it can differ between cells, that is, is not computed from uniforms
+/// only.
 std::vector<bool> varying(const CellKernel& kernel);
 
-/// A hash of everything that decides the generated code (not of the names).
+/// A hash of everything that determines the generated code, which excludes names.
 std::uint64_t hash(const CellKernel& kernel);
 
-/// The kernel as text, a value a line: `%7 = multiply %3, %5`. Stable; read by tests and people.
+/// The kernel as text, one value per line: `%7 = multiply %3, %5`. The format is stable.
 std::string print(const CellKernel& kernel);
 
-/// Checks that operands come before their users, slots exist, results exist. Returns an empty text
-/// or what is wrong. Tests and debug builds run it after every stage that makes a kernel.
+/// Checks that operands precede their users and that slots and results exist. Returns an empty text
+/// or the error. Tests and debug builds call it after every pass that makes a kernel.
 std::string verify(const CellKernel& kernel);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// One pass in the order of the code writes the kernel anew; a sum of two products fuses the first,
-// unless only the second has a factor that is the same in all cells.
+// One pass over the code builds the kernel anew. A sum of two products fuses the first, unless only
+// the second has a uniform factor.
 #include "ir/contraction.h"
 
 #include "ir/builder.h"
@@ -10,12 +10,11 @@
 namespace cascade {
 namespace {
 
-/// A product that need not be rounded: its factors in the new kernel. If one of them is the same in
-/// all cells that is the first.
+/// A product that may stay unrounded: its factors in the new kernel, a uniform one first.
 struct Product {
     ValueId first;
     ValueId second;
-    bool has_coefficient;  ///< The first is the same in all cells.
+    bool has_coefficient;  ///< The first factor is uniform.
 };
 
 class Contraction {
@@ -33,7 +32,7 @@ public:
         for (const ValueId id : kernel.kept) is_kept_[id] = true;
     }
 
-    /// Products that nobody reads any more are dropped at the end.
+    /// finish() drops products that are no longer used.
     CellKernel contracted() && {
         for (ValueId id = 0; id < kernel_.code.size(); ++id) renamed_[id] = rewritten(id);
         for (std::size_t k = 0; k < kernel_.results.size(); ++k) {
@@ -80,7 +79,7 @@ private:
         return products_[a]->has_coefficient && !products_[b]->has_coefficient ? a : b;
     }
 
-    /// The factor whose sign is turned over is one that varies: no other register holds it.
+    /// Negates the varying factor, because a negated coefficient would need another register.
     ValueId multiply_add(const Instruction& sum, ValueId fused) {
         const bool is_second = sum.operands[1] == fused;
         auto [first, second, has_coefficient] = *products_[fused];
@@ -96,7 +95,7 @@ private:
     KernelBuilder builder_;
     std::vector<bool> varies_, is_kept_;
     std::vector<std::optional<Product>> products_;  ///< By old value.
-    std::vector<ValueId> renamed_;                  ///< New values.
+    std::vector<ValueId> renamed_;                  ///< By old value, the new value.
 };
 
 }  // namespace

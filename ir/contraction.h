@@ -1,20 +1,19 @@
-// Fewer roundings, for speed: products that are added in the same operation, and reciprocals.
+// Contraction: faster kernels by multiply-adds, rounded once, and multiplication by reciprocals.
 //
-// A kernel of a meaning of its own comes out of it, so that all executors go on to agree. What
-// becomes of a sum depends on nothing but the two values that it adds: so the same formula is
-// contracted the same way wherever it is computed. What an algorithm needs as it is, is marked
-// (KernelBuilder::keep); products that are exact may be contracted, for their bits stay.
+// The result is a kernel with a new meaning, so that all executors still agree. Whether a sum is
+// contracted depends only on the two values that it adds, so the same formula is contracted the
+// same way everywhere. Algorithms exclude the products that must stay rounded
+// (KernelBuilder::keep); exact products may be contracted, because that keeps their bits.
 #pragma once
 
 #include "ir/cell_kernel.h"
 
 namespace cascade {
 
-/// The kernel with fewer roundings. A number that differs between cells and is divided by one that
-/// does not is multiplied by the reciprocal of that one. A sum or difference of which one side is a
-/// product that differs between cells becomes a multiply_add. Of two such products the one with a
-/// factor that is the same in all cells is taken, else the second. For processors that have the
-/// operation (ir/multiply_add.h).
+/// Contracts a kernel. A varying number divided by a uniform one is multiplied by the reciprocal
+/// instead. A sum or difference with a varying product on one side becomes a multiply_add; of two
+/// such products, the one with a uniform factor is fused, else the second. Requires a processor
+/// with that operation (ir/multiply_add.h).
 CellKernel contracted(const CellKernel& kernel);
 
 }  // namespace cascade

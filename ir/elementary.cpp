@@ -2,11 +2,11 @@
 //
 // The methods are the classical ones (W. J. Cody and W. Waite, "Software Manual for the Elementary
 // Functions", 1980; J.-M. Muller, "Elementary Functions", 3rd ed., 2016): reduce the argument with
-// a constant split into an exact head and a tail, evaluate a polynomial, put the result together.
-// The coefficients are ours: weighted minimax fits, rounded to the format one after the other, each
-// time fitting the rest again. No operation fuses, so every executor computes the same bits. An
-// algorithm is the same in binary32 and binary64; what differs stands in tables by precision, and
-// in comments in brackets.
+// a constant split into an exact head and a tail, evaluate a polynomial, reconstruct the result.
+// The coefficients are our own weighted minimax fits, rounded to the format one by one with the
+// others refitted each time. No operation fuses, so every executor computes the same bits. An
+// algorithm is the same in binary32 and binary64; the constants that differ are in tables by
+// precision, and comments give values for binary64 in brackets.
 //
 // Largest errors, in units in the last place of the exact value:
 //     exp 1.0    log 0.9               all binary32 arguments
@@ -23,8 +23,7 @@ namespace {
 
 constexpr ByPrecision<double> log2_of_e = {0x1.715476p+0, 0x1.71547652b82fep+0};
 
-/// ln 2 as a head of 14 (42) bits, whose product with the exponent of a number is exact, and the
-/// rest.
+/// ln 2 as a tail and a head of 14 (42) bits, whose product with the exponent of a number is exact.
 struct Split {
     double head;
     double tail;
@@ -32,7 +31,7 @@ struct Split {
 constexpr ByPrecision<Split> ln2 = {
     {{0x1.62e8p-1, -0x1.e8082ep-16}, {0x1.62e42fefa38p-1, 0x1.ef35793c7673p-45}}};
 
-/// Arguments of exp beyond which the result is infinite or 0.
+/// Beyond this magnitude of the argument, exp is infinite or 0.
 constexpr ByPrecision<double> exp_reach = {100, 750};
 
 // (e^r − 1 − r) / r² for |r| ≤ 0.347; error 2^−33 (2^−63) of e^r.
@@ -75,7 +74,7 @@ struct Scaled {
     Expression exponent;
 };
 
-/// e^x. Beyond the reach the result is infinite or 0 as it is there.
+/// e^x. Clamping the argument keeps the result infinite or 0.
 Scaled scaled_exponential(Expression argument) {
     const Expression x = argument.clamped(-argument.pick(exp_reach), argument.pick(exp_reach));
     const Expression n = (x * x.pick(log2_of_e)).rounded();

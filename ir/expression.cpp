@@ -1,4 +1,4 @@
-// Pieces that several elementary functions are made of.
+// Steps that several elementary functions share.
 #include "ir/expression.h"
 
 #include <cmath>
@@ -6,7 +6,7 @@
 namespace cascade {
 namespace {
 
-/// The word of √½: subtracted from a number's word it moves the border between two exponents there.
+/// The word of √½. Subtracting it from a word moves the boundary between two exponents there.
 constexpr ByPrecision<std::uint64_t> root_half_bits = {0x3f3504f3, 0x3fe6a09e667f3bcd};
 
 }  // namespace
@@ -20,8 +20,8 @@ Expression polynomial(Expression x, std::span<const double> coefficients) {
     return sum;
 }
 
-// The sum of 1.5 · 2^23 (2^52) and a smaller number has no digits after the point, and its last
-// bits are the whole number in two's complement.
+// The sum of 1.5 · 2^23 (2^52) and a smaller number has no fractional digits, and its last bits are
+// the integer in two's complement.
 Rounded round_to_whole(Expression x) {
     const WordFormat format = x.format();
     const double rounder = std::ldexp(1.5, format.fraction_bits);

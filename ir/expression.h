@@ -1,4 +1,4 @@
-// Formulas over values of a builder, written as they are on paper.
+// Formulas over values of a builder, in infix notation.
 //
 // Internal to ir/. An Expression is a value and its builder; operators emit instructions. Each
 // operator is one operation of the table, rounded once, in the order that C++ gives the formula.
@@ -15,8 +15,8 @@ namespace cascade {
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// What an algorithm takes from the number format: a row for binary32 and one for binary64. Numbers
-/// of the first are binary32 numbers, so that nothing is rounded when they are read.
+/// Constants of an algorithm that depend on the number format: a row for binary32 and one for
+/// binary64. The first row has binary32 numbers, so that reading them rounds nothing.
 template <typename Constants>
 using ByPrecision = std::array<Constants, 2>;
 
@@ -39,25 +39,24 @@ public:
         return {*builder_, builder_->apply(op, id_, other.id_)};
     }
 
-    /// The same product or quotient, which contraction leaves as it is.
+    /// The same product or quotient, excluded from contraction.
     Expression kept() const {
         builder_->keep(id_);
         return *this;
     }
 
     Expression absolute() const { return unary(Op::absolute); }
-    /// To the nearest whole number, ties to even.
+    /// The nearest integer, ties to even.
     Expression rounded() const { return unary(Op::round_to_even); }
-    /// Times 2^n, for a whole number n of −252 … 252 (−2044 … 2044). Exact, or flushed, or
-    /// infinite.
+    /// Times 2^n, for an integer n of −252 … 252 (−2044 … 2044). Exact, flushed, or infinite.
     Expression scaled(Expression n) const { return binary(Op::scale_by_power, n); }
     Expression clamped(double low, double high) const {
         const ValueId below = builder_->clamp_below(id_, builder_->number(low));
         return {*builder_, builder_->clamp_above(below, builder_->number(high))};
     }
 
-    /// This value, read as truth, chooses. Beware of words as conditions: small integers are
-    /// denormal numbers, which are not true.
+    /// `then` if this value is true, else `otherwise`. Words as conditions are a trap: small
+    /// integers are denormal numbers, which are false.
     Expression choose(Expression then, Expression otherwise) const {
         return {*builder_, builder_->select(id_, then.id_, otherwise.id_)};
     }
@@ -76,17 +75,17 @@ public:
     }
     Expression to_number() const { return unary(Op::bits_to_number); }
 
-    /// The bit of the sign, as a word, and the number with the sign of another put in front.
+    /// The sign bit as a word, and the number with the sign of another.
     Expression sign_word() const { return and_word(format().sign()); }
     Expression with_sign_of(Expression other) const {
         return binary(Op::bits_or, other.sign_word());
     }
 
-    /// The number without the lower half of its significand, of which 12 (26) bits are left:
-    /// products of two such are exact.
+    /// The number without the lower half of its significand, which leaves 12 (26) bits: products of
+    /// two such numbers are exact.
     Expression head() const { return and_word(format().all() << (format().fraction_bits / 2 + 1)); }
 
-    /// A word modulo 2^32: formulas of 32-bit words are the same in both formats.
+    /// A word modulo 2^32, so that formulas of 32-bit words are the same in both formats.
     Expression low_word() const { return format().bits == 32 ? *this : and_word(0xffffffff); }
 
 private:
@@ -113,13 +112,13 @@ inline Expression both(Expression a, Expression b) { return a.binary(Op::logical
 inline Expression either(Expression a, Expression b) { return a.binary(Op::logical_or, b); }
 inline Expression operator!(Expression a) { return a.unary(Op::logical_not); }
 
-/// c[0] + x (c[1] + x (c[2] + …)), from the innermost bracket outwards.
+/// c[0] + x (c[1] + x (c[2] + …)), by Horner's rule.
 Expression polynomial(Expression x, std::span<const double> coefficients);
 
-/// A number rounded to the nearest whole one, ties to even: for |x| < 2^22 (2^51).
+/// A number rounded to the nearest integer, ties to even, for |x| < 2^22 (2^51).
 struct Rounded {
     Expression number;  ///< As a number.
-    Expression word;    ///< As a word in two's complement.
+    Expression word;    ///< The integer in two's complement.
 };
 Rounded round_to_whole(Expression x);
 

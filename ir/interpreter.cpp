@@ -1,9 +1,8 @@
 // Plans and runs kernels block by block.
 //
-// What is the same in all cells (constants, uniforms and what is computed from them) is kept as
-// single words, computed once a run. Everything else lives in registers of 256 words, which are
-// used again as soon as no later instruction reads them: a chain of a million operations needs two.
-// Fields are read where they lie.
+// Uniform values (constants, uniforms and what is computed from them) are single words, computed
+// once per run. All others are in registers of 256 words, which are reused as soon as no later
+// instruction reads them: a chain of a million operations needs two. Fields are read in place.
 #include "ir/interpreter.h"
 
 #include "core/check.h"
@@ -22,11 +21,11 @@ namespace {
 
 constexpr std::int64_t block_cells = 256;
 
-/// Where the value of an instruction is found while a block is computed.
+/// The location of a value while a block is computed.
 struct Location {
     enum class Kind : std::uint8_t {
-        nowhere,  ///< Of operands that an operation does not have.
-        scalar,   ///< The same in all cells: `index` counts scalars.
+        nowhere,  ///< For operands that an operation does not have.
+        scalar,   ///< Uniform: `index` counts scalars.
         field,    ///< In memory: `index` is a field slot.
         beside,   ///< In memory: `index` is the payload of a neighbour.
         vector,   ///< In a register: `index` counts registers.
@@ -35,21 +34,21 @@ struct Location {
     std::uint32_t index = 0;
 };
 
-/// An instruction that is computed once a run.
+/// An instruction that is computed once per run.
 struct ScalarStep {
     Op op = Op::constant;
     std::uint64_t payload = 0;
     std::array<std::uint32_t, 3> operands{};  ///< Scalars.
 };
 
-/// An instruction that is computed once a block, into a register.
+/// An instruction that is computed once per block, into a register.
 template <typename Number>
 struct BlockStep {
     Op op = Op::constant;
     std::uint64_t payload = 0;  ///< A slot, or two.
     std::uint32_t target = 0;
     std::array<Location, 3> operands{};
-    BlockLoop<Number> loop = nullptr;  ///< Of operations that are functions of their operands.
+    BlockLoop<Number> loop = nullptr;  ///< For operations that only depend on their operands.
 };
 
 template <typename Number>
@@ -60,7 +59,7 @@ struct Plan {
     std::uint32_t register_count = 0;
 };
 
-/// Gives every value a location.
+/// Assigns a location to every value.
 template <typename Number>
 class Planner {
 public:
@@ -86,7 +85,7 @@ private:
         for (ValueId id = 0; id < kernel_.code.size(); ++id) {
             for (std::size_t k = 0; k < arity(id); ++k) ++readers_[kernel_.code[id].operands[k]];
         }
-        // Results are read at the end of the block, by nobody who would release them.
+        // Results are read at the end of the block, so their registers are never released.
         for (const ValueId id : kernel_.results) ++readers_[id];
     }
 
@@ -124,7 +123,7 @@ private:
             if (step.operands[k].kind == Location::Kind::scalar) scalars |= 1u << k;
         }
         if (is_function_of_operands(step.op)) step.loop = block_loop<Number>(step.op, scalars);
-        // The target is taken before operands are released: a loop's output overlaps no operand.
+        // Taken before operands are released, because a loop's output overlaps no operand.
         step.target = take_register();
         for (std::size_t k = 0; k < arity(id); ++k) release(instruction.operands[k]);
         locations_[id] = {Location::Kind::vector, step.target};
@@ -147,12 +146,12 @@ private:
     const CellKernel& kernel_;
     const std::vector<bool> varies_;
     std::vector<Location> locations_;
-    std::vector<std::uint32_t> readers_;  ///< Reads of a value that are still to come.
+    std::vector<std::uint32_t> readers_;  ///< Remaining reads of a value.
     std::vector<std::uint32_t> free_;
     Plan<Number> plan_;
 };
 
-/// One run of a plan: its arguments, and the memory it works in.
+/// One run of a plan: its arguments and its working memory.
 template <typename Number>
 class Runner {
 public:
@@ -251,9 +250,9 @@ private:
         }
     }
 
-    /// sum − times · c with one rounding, for 2 and 4 times, which are exact but for overflow. A
-    /// number whose multiple would overflow is subtracted from a part of the sum; what that part
-    /// loses where it is denormal is far below the last place of such numbers.
+    /// sum − times · c with one rounding, for times = 2 or 4, whose multiples are exact unless they
+    /// overflow. If the multiple would overflow, c is subtracted from sum / times instead; what a
+    /// denormal sum / times loses is far below the last place of such numbers.
     template <int times>
     static Number minus_multiple(Number sum, Number c) {
         constexpr Number largest = std::numeric_limits<Number>::max() / 4;
@@ -273,7 +272,7 @@ private:
             }
             return;
         }
-        // Other grids one pair after the other.
+        // Other stencils: one pair after the other.
         bool is_first = true;
         const auto add_pair = [&](const Number* first, const Number* second) {
             for (std::int64_t i = 0; i < count; ++i) {
@@ -369,7 +368,7 @@ private:
     std::int64_t slice_ = 0;
     std::int64_t column_ = 0;  ///< Of the block's first cell.
     std::int64_t count_ = 0;   ///< Cells of the block.
-    std::int64_t offset_ = 0;  ///< Of the block's first cell from cell (0, 0, 0), in elements.
+    std::int64_t offset_ = 0;  ///< From cell (0, 0, 0) to the block's first cell, in elements.
 };
 
 template <typename Number>
@@ -397,7 +396,7 @@ private:
     std::size_t field_count_, mask_count_, uniform_count_;
 };
 
-/// Planning costs about as much as the hash that a cache would need, so nothing is kept.
+/// Planning costs about as much as the hash that a cache would need, so nothing is cached.
 class Interpreter : public Backend {
 public:
     std::string_view name() const override { return "interp"; }

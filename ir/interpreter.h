@@ -1,5 +1,5 @@
-// The block interpreter: runs a cell kernel over blocks of 256 cells of a row, an operation at a
-// time. Needs no compiling; starting values and pictures are computed by it, and it is the oracle
+// The block interpreter: runs a cell kernel on blocks of 256 cells of a row, one operation at a
+// time. It needs no compilation. It computes starting values and pictures, and is the reference
 // against which every other backend is tested.
 #pragma once
 
@@ -7,11 +7,11 @@
 
 namespace cascade {
 
-/// A backend whose kernels are interpreted. compile() never fails.
+/// A backend that interprets its kernels. Its compile() never fails.
 std::unique_ptr<Backend> make_interpreter();
 
-/// The value of one operation on given words: the meaning that folding and the interpreter share.
-/// Only operations with payload `none` and no cell dependence. Call inside a FlushDenormals.
+/// The value of one operation on given words, as used by constant folding and the interpreter. Only
+/// for operations with payload `none` that do not depend on the cell. Call inside a FlushDenormals.
 std::uint32_t evaluate(Op op, std::uint32_t a, std::uint32_t b, std::uint32_t c);
 std::uint64_t evaluate(Op op, std::uint64_t a, std::uint64_t b, std::uint64_t c,
                        Precision precision);

@@ -1,8 +1,8 @@
 // asin, acos and the angle of a point, expanded into operations of the table.
 //
-// Arguments are folded onto a short interval around 0 by the identities of the functions (W. J.
-// Cody and W. Waite, "Software Manual for the Elementary Functions", 1980), and what is taken off,
-// a multiple of π/4, is added as a head and a tail. Coefficients as in ir/elementary.cpp.
+// Arguments are reduced to a short interval around 0 by the identities of the functions (W. J. Cody
+// and W. Waite, "Software Manual for the Elementary Functions", 1980); the difference, a multiple
+// of π/4, is added as a head and a tail. Coefficients as in ir/elementary.cpp.
 #include "ir/expression.h"
 
 namespace cascade {
@@ -18,7 +18,7 @@ constexpr double atan_double[] = {
 constexpr ByPrecision<std::span<const double>> atan_coefficients = {atan_single, atan_double};
 constexpr ByPrecision<double> tan_of_eighth = {0x1.a8279ap-2, 0x1.a827999fcef32p-2};  // tan(π/8)
 
-// (asin(s)/s − 1) / s² in s², for |s| ≤ ½; error 2^−31 (A2^−63) of the angle.
+// (asin(s)/s − 1) / s² in s², for |s| ≤ ½; error 2^−31 (2^−63) of the angle.
 constexpr double asin_single[] = {0x1.555550p-3, 0x1.333734p-4, 0x1.6cd7c4p-5,
                                   0x1.0367ccp-5, 0x1.e8e968p-7, 0x1.2e435cp-5};
 constexpr double asin_double[] = {
@@ -28,10 +28,10 @@ constexpr double asin_double[] = {
     -0x1.ab1153c532dfap-6, 0x1.133ac6097cf2fp-5};
 constexpr ByPrecision<std::span<const double>> asin_coefficients = {asin_single, asin_double};
 
-/// Points farther away, or nearer than its inverse, are moved before their coordinates are added.
+/// Coordinates above this, or below its inverse, are scaled before they are added.
 constexpr ByPrecision<double> far_away = {0x1p64, 0x1p512};
 
-/// A multiple of π/4 as a number and what it lacks.
+/// A multiple of π/4 as a rounded number and its rounding error.
 struct Angle {
     double head;
     double tail;
@@ -49,13 +49,13 @@ constexpr ByPrecision<Angles> eighths = {{{{0x1.921fb6p-1, -0x1.777a5cp-26},
                                            {0x1.2d97c7f3321d2p+1, 0x1.a79394c9e8a0ap-54},
                                            {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53}}}};
 
-/// The angle of a point in the upper half plane, folded twice: at the diagonal and at tan(π/8).
+/// The angle of a point in the upper half plane, reduced at the diagonal and at tan(π/8).
 Expression upper_angle(Expression y, Expression x) {
     const Expression width = x.absolute();
     const Expression steep = width < y;
     const Expression longer = steep.choose(y, width);
     const Expression shorter = steep.choose(width, y);
-    // So that neither the sum of the two overflows nor their difference vanishes.
+    // Keeps the sum of the two from overflowing and their difference from vanishing.
     const double reach = x.pick(far_away);
     const Expression factor =
         (reach < longer).choose(1 / reach, (longer < 1 / reach).choose(reach, x.number(1)));
@@ -84,9 +84,9 @@ Expression upper_angle(Expression y, Expression x) {
     return taken_off(&Angle::head) + (rest + taken_off(&Angle::tail));
 }
 
-/// asin of a number from 0 to ½, or half of acos of one from ½ to 1: the sum of both parts.
+/// asin of a number from 0 to ½, or half of acos of one from ½ to 1: head + tail.
 struct Arc {
-    Expression near;  ///< A truth: the number is at most ½.
+    Expression near;  ///< A truth value: the number is at most ½.
     Expression head;
     Expression tail;
 };
@@ -96,7 +96,7 @@ Arc arc_of(Expression a) {
     const Expression z = near.choose(a * a, (1 - a) * 0.5);
     const Expression s = near.choose(a, z.unary(Op::square_root));
     const Expression curved = s * (z * polynomial(z, a.pick(asin_coefficients)));
-    // What the square root lacks: z − h² is exact for a head h of 12 bits (26).
+    // The rounding error of the square root: z − h² is exact for a head h of 12 bits (26).
     const Expression h = near.choose(s, s.head());
     const Expression lacking = (z - h * h) / (s + h);
     const Expression has_rest = both(!near, 0 < s);

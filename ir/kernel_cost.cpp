@@ -1,5 +1,4 @@
-// Counts instruction by instruction; loads of the same neighbour, mask or table of links count
-// once.
+// Counts instruction by instruction; repeated loads of a neighbour, mask or link table count once.
 #include "ir/kernel_cost.h"
 
 #include <cstddef>
@@ -13,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// By value: is it a sign that multiply-adds alone turn over, which they do by themselves?
+/// For each value, whether it is a negation that only multiply-adds use, which include it.
 std::vector<bool> signs_of_multiply_adds(const CellKernel& kernel) {
     std::vector<bool> is_sign;
     for (const Instruction& instruction : kernel.code) {
@@ -27,7 +26,7 @@ std::vector<bool> signs_of_multiply_adds(const CellKernel& kernel) {
     return is_sign;
 }
 
-/// Adds up one kernel.
+/// The cost of one kernel.
 class Counter {
 public:
     Counter(const CellKernel& kernel, Stencil stencil, double links)
@@ -103,11 +102,11 @@ private:
             if (stencil_.y) load({slot, 0, side, 0});
             if (stencil_.z) load({slot, 0, 0, side});
         }
-        // Of 2 n neighbours 2 n − 1 sums, then a product and a difference.
+        // 2 n − 1 sums of 2 n neighbours, then a product and a difference.
         cost_.operations += 2 * stencil_.axes() + 1;
     }
 
-    /// `weights` names the table of weights: that of Laplacians or of a component of gradients.
+    /// `weights` names the table of weights: of Laplacians or of a component of gradients.
     void add_link_sum(std::initializer_list<std::uint32_t> slots, Op weights, double operations) {
         cost_.operations += operations * links_;
         for (const std::uint32_t slot : slots) {

@@ -1,11 +1,10 @@
-// What a kernel costs, counted from its instructions.
+// The cost of a kernel, counted from its instructions.
 //
-// An operation is one instruction of arithmetic, comparison, logic or choice on the word of a cell:
-// what is the same in all cells is computed once and not counted, nor is a sign that a multiply-add
-// turns over. A Laplacian is as many operations as its sum has: in two dimensions three sums of
-// neighbours, a product and a difference. A load is a value that comes from memory, the same one
-// being loaded once: the five values of a Laplacian are five loads, and the cell's own value
-// besides is none.
+// An operation is one instruction of arithmetic, comparison, logic or selection on the word of a
+// cell. Uniform values are computed once and not counted, nor are negations that a multiply-add
+// includes. A Laplacian counts the operations of its sum: in two dimensions three sums of
+// neighbours, a product and a difference. A load is a value from memory, counted once if it
+// repeats: a Laplacian has five loads, and reading the cell's own value as well adds none.
 #pragma once
 
 #include "core/grid.h"
@@ -13,21 +12,20 @@
 
 namespace cascade {
 
-/// Of one cell.
+/// The cost per cell.
 struct KernelCost {
-    double operations = 0;  ///< Divisions and roots included.
-    double divisions = 0;  ///< Those of them that are divisions or square roots, which take longer.
-    double loads = 0;      ///< Of values, of a mask's bytes, of a link's place and weights.
+    double operations = 0;  ///< Includes divisions and roots.
+    double divisions = 0;   ///< The divisions and square roots, which take longer.
+    double loads = 0;       ///< Of values, bytes of masks, indices and weights of links.
     double stores = 0;
     double load_bytes = 0;  ///< Of all loads.
     double store_bytes = 0;
-    double link_bytes = 0;  ///< Those of `load_bytes` that are places and weights of links.
+    double link_bytes = 0;  ///< The part of `load_bytes` for indices and weights of links.
 
     KernelCost& operator+=(const KernelCost& other);
 };
 
-/// `links` is how many links a cell has on average, those that fill up slices included; on grids it
-/// means nothing.
+/// `links` is the average number of links per cell, padding included; ignored on grids.
 KernelCost cost_of(const CellKernel& kernel, Stencil stencil, double links);
 
 }  // namespace cascade

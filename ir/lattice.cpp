@@ -1,5 +1,5 @@
-// Periodic axes take a whole number of lattice cells. Points are hashed in three parts, one for
-// each axis, which are computed once for all points that share them, and then mixed with the key.
+// Periodic axes take an integral number of lattice cells. The hash of a point is a sum of three
+// parts, one for each axis and shared by all points with that index, mixed with the key.
 #include "ir/lattice.h"
 
 #include "core/hash.h"
@@ -36,7 +36,7 @@ Expression lattice_word(const LatticeAxis& axis, Expression index) {
     return round_to_whole(inside).word;
 }
 
-// The keys are mixed now, once: keys of one different bit must not share a bit of their hashes.
+// The keys are mixed once here, so that keys that differ in one bit share no bits of their hashes.
 LatticeHash::LatticeHash(KernelBuilder& builder, const Draw& draw, std::uint32_t stream)
     : start_(builder, draw.word), second_key_(0) {
     const auto keys = pcg4d({static_cast<std::uint32_t>(draw.key),

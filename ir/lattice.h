@@ -1,4 +1,4 @@
-// What noise and lattices of seeds share: a lattice laid over the domain, and a hash of its points.
+// The common base of noise and seed lattices: a lattice over the domain, and a hash of its points.
 //
 // Internal to ir/.
 #pragma once
@@ -10,31 +10,30 @@ namespace cascade {
 
 /// The lattice along one axis.
 struct LatticeAxis {
-    Expression side;      ///< Of a lattice cell, in coordinates.
-    Expression count;     ///< Cells along a periodic axis: a whole number.
+    Expression side;      ///< Of a lattice cell, as a coordinate.
+    Expression count;     ///< Lattice cells along a periodic axis: an integer.
     Expression position;  ///< Of the cell in the lattice: coordinate / side.
     bool is_periodic;
 };
 
-/// Cells of about `side`, at most 2^20 along the axis. Along a periodic axis a whole number of
-/// them, at least one.
+/// Lattice cells of width `side`, at most 2^20 along the axis. Along a periodic axis the width is
+/// adjusted so that their number is an integer, at least 1.
 LatticeAxis lattice_axis(KernelBuilder& builder, const SpaceAxis& axis, Expression side);
 
-/// The largest whole number that is not above the position, or at a whole position the one before.
+/// The largest integer not above the position; at an integral position it may be the one before.
 Expression lattice_floor(Expression position);
 
-/// A whole number along an axis as a word; beyond a periodic side that of the opposite one. The
-/// number is −1 … count.
+/// An index along an axis, −1 … count, as a word; beyond a periodic side, that of the other side.
 Expression lattice_word(const LatticeAxis& axis, Expression index);
 
-/// The hash of lattice points: sums of products, mixed by the function lowbias32 (C. Wellons, "Hash
-/// function prospector", 2018, public domain) with a second key between its two products.
+/// The hash of lattice points: sums of products, mixed by lowbias32 (C. Wellons, "Hash function
+/// prospector", 2018, public domain) with a second key between its two products.
 class LatticeHash {
 public:
-    /// `stream` tells hashes of one draw apart.
+    /// `stream` distinguishes several hashes of one draw.
     LatticeHash(KernelBuilder& builder, const Draw& draw, std::uint32_t stream);
 
-    /// What an index contributes along axis 0, 1 or 2.
+    /// The contribution of an index along axis 0, 1 or 2.
     Expression part(std::size_t axis, Expression word) const;
     /// The hash of the sum of all parts.
     Expression mixed(Expression parts) const;
@@ -44,7 +43,7 @@ private:
     std::uint32_t second_key_;
 };
 
-/// A random word as a number in [−1, 1), and two more numbers from the same word.
+/// A random word as a number in [−1, 1); `which` selects one of three numbers from the same word.
 Expression signed_fraction(Expression word, std::size_t which);
 
 }  // namespace cascade

@@ -1,5 +1,4 @@
-// A loop for each choice of scalar operands, compiled for AVX2 and FMA by an attribute of the
-// function.
+// A loop for each choice of scalar operands, compiled for AVX2 and FMA by a function attribute.
 #include "ir/multiply_add.h"
 
 #include <algorithm>
@@ -16,7 +15,7 @@
 namespace cascade {
 namespace {
 
-/// All but the choice in which nothing varies.
+/// All choices but the one in which every operand is a scalar.
 constexpr unsigned scalar_choices = 7;
 
 template <unsigned scalars, typename Number>

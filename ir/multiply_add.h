@@ -1,7 +1,7 @@
 // a · b + c with one rounding: whether the processor has it, and loops that use it.
 //
-// This build may be for any x86-64, where the C library computes it by a call a number. So the
-// loops are compiled for processors that have the instruction, and taken where there is one.
+// A build for any x86-64 computes it by a call of the C library per number. These loops are
+// compiled for processors with the instruction, and used if it is present.
 #pragma once
 
 #include "ir/block_loops.h"
@@ -9,11 +9,11 @@
 
 namespace cascade {
 
-/// Does this processor compute a · b + c with one rounding in one instruction? What does not, is
-/// given no kernels with a multiply_add.
+/// Whether this processor computes a · b + c with one rounding in one instruction. Others are given
+/// no kernels with a multiply_add.
 bool has_multiply_add();
 
-/// Is there a multiply_add in the kernel?
+/// Whether the kernel has a multiply_add.
 bool multiplies_and_adds(const CellKernel& kernel);
 
 /// block_loop() of a multiply_add, by that instruction. Internal to ir/.

@@ -1,5 +1,5 @@
-// Smooth noise. Every lattice point has a random gradient, whose components are independent and
-// uniform in (−1, 1); in between, the planes that they span are blended.
+// Gradient noise. Every lattice point has a random gradient with independent components, uniform in
+// (−1, 1); the linear functions that they define are blended between the points.
 #include "ir/lattice.h"
 
 #include "core/check.h"
@@ -12,8 +12,8 @@ namespace {
 /// The two lattice points around a cell along one axis.
 struct Pair {
     std::size_t axis;                 ///< 0, 1 or 2.
-    std::array<Expression, 2> parts;  ///< Of their hashes.
-    std::array<Expression, 2> away;   ///< The cell's position beside them: 0 … 1 and −1 … 0.
+    std::array<Expression, 2> parts;  ///< Of the points' hashes.
+    std::array<Expression, 2> away;   ///< From each point to the cell: 0 … 1 and −1 … 0.
     Expression blend;                 ///< 0 at the first, 1 at the second.
 };
 
@@ -30,7 +30,8 @@ Pair pair_along(const LatticeHash& hash, std::size_t axis, const LatticeAxis& la
             fade(t)};
 }
 
-/// The plane of one lattice point at the cell. Bit k of `corner` chooses along the k-th pair.
+/// The linear function of one lattice point at the cell. Bit k of `corner` selects in the k-th
+/// pair.
 Expression plane_of(const LatticeHash& hash, const std::vector<Pair>& pairs, std::size_t corner) {
     const auto side = [corner](std::size_t k) { return (corner >> k) & 1; };
     Expression parts = pairs[0].parts[side(0)];
@@ -65,7 +66,7 @@ Expression octave(KernelBuilder& builder, const Space& space, Expression side, c
         }
         values.resize(values.size() / 2, side);
     }
-    // Blended planes reach half the number of axes where all gradients point to the middle.
+    // If all gradients point to the middle, the sum reaches half the number of axes.
     return values[0] * (2.0 / static_cast<double>(pairs.size()));
 }
 

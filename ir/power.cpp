@@ -1,13 +1,13 @@
 // x^y, expanded into operations of the table.
 //
-// Whole constant exponents up to 64 multiply. Others are 2^(y · log2|x|), where the logarithm is
-// carried as a head and a tail of together some 36 bits (in binary64 66): the product may be as
-// large as 128 (1024), and its error is the relative error of the result. Products of heads of 12
-// bits (26) are exact (G. W. Veltkamp and T. J. Dekker, Numerische Mathematik 18, 1971), so that no
-// fused operation is needed.
+// Constant integer exponents up to 64 are expanded into products. Other powers are 2^(y · log2|x|),
+// with the logarithm as a head and a tail of together some 36 bits (in binary64 66): the product
+// may be as large as 128 (1024), and its error is the relative error of the result. Products of
+// heads of 12 bits (26) are exact (G. W. Veltkamp and T. J. Dekker, Numerische Mathematik 18,
+// 1971), so no fused operation is needed.
 //
 // Special cases are those of C's pow(): 1 for y = 0 or x = 1, even if the other is NaN; NaN for a
-// finite x below 0 and a y that is not whole; the sign of x for odd y.
+// finite x < 0 and a y that is not an integer; the sign of x for odd y.
 #include "ir/expression.h"
 
 #include <cmath>
@@ -18,9 +18,9 @@ namespace {
 
 constexpr double largest_multiplied = 64;
 
-// Beyond this the result is infinite or 0 for every x but 1: |log2 x| is at least 2^−25 (2^−53).
+// Beyond this the result is infinite or 0 if x ≠ 1, because |log2 x| is at least 2^−25 (2^−53).
 constexpr ByPrecision<double> large_exponent = {0x1p40, 0x1p70};
-// 2 to this is infinite, and 0 to minus this.
+// 2 to this power is infinite, and 2 to its negative is 0.
 constexpr ByPrecision<double> large_logarithm = {200, 1200};
 
 /// 2 / (3 ln 2): rounded, and as a head of 11 bits (26) and a tail.
@@ -56,7 +56,7 @@ struct Split {
     Expression tail;
 };
 
-/// s = (m − 1) / (m + 1), with both parts of it.
+/// s = (m − 1) / (m + 1), rounded, and as two parts.
 struct Quotient {
     Expression rounded;
     Split parts;
@@ -97,14 +97,14 @@ Split logarithm_to_base_2(Expression x) {
     return {head, little - ((head - e) - large)};
 }
 
-/// 2^(p + q), where q is small beside p or beside 1 and |p| is not above the largest logarithm.
+/// 2^(p + q), where q is small compared with p or with 1, and |p| is at most the largest logarithm.
 Expression exponential_to_base_2(Expression p, Expression q) {
     const Expression n = (p + q).rounded();
     const Expression f = (p - n) + q;
     return (f * polynomial(f, f.pick(exp2_coefficients)) + 1).scaled(n);
 }
 
-/// |x|^y, for any words.
+/// x|^y, for any words.
 Expression power_of_magnitude(Expression a, Expression exponent) {
     const Expression y = exponent.clamped(-a.pick(large_exponent), a.pick(large_exponent));
     const Split logarithm = logarithm_to_base_2(a);
@@ -112,7 +112,7 @@ Expression power_of_magnitude(Expression a, Expression exponent) {
     const Expression y_tail = y - y_head;
     const Expression large = y_head * logarithm.head;  // Exact.
     const Expression little = y_tail * logarithm.head + y * logarithm.tail;
-    // Zero, infinity and NaN have no significand to take the logarithm of; and the head of a NaN
+    // Zero, infinity and NaN have no significand to take the logarithm of, and the head of a NaN
     // may be the word of an infinity.
     const Expression is_ordinary = both(both(0 < a, a < infinity), equals(y, y));
     const Expression extreme = y * equals(a, 0).choose(-infinity, a);
@@ -124,14 +124,14 @@ Expression power_of_magnitude(Expression a, Expression exponent) {
 }
 
 struct Parity {
-    Expression is_whole;  ///< A truth.
-    Expression odd_bit;   ///< The word 1 if the number is an odd whole number, else 0.
+    Expression is_whole;  ///< A truth value.
+    Expression odd_bit;   ///< The word 1 for an odd integer, else 0.
 };
 
 Parity parity_of(Expression y) {
-    // 2^23 + a has no digits after the point for a < 2^23, and its last bit is that of a. From
-    // 2^23 to 2^24 the last bit of a itself is worth 1; beyond, all numbers are even. In binary64
-    // these are 2^52 and 2^53.
+    // 2^23 + a has no fractional digits for a < 2^23, and its last bit is that of a. From 2^23 to
+    // 2^24 the last bit of a itself is worth 1; all larger numbers are even. In binary64 these are
+    // 2^52 and 2^53.
     const double all_whole = std::ldexp(1.0, y.format().fraction_bits);
     const double all_even = 2 * all_whole;
     const Expression a = y.absolute();
@@ -142,7 +142,7 @@ Parity parity_of(Expression y) {
     return {is_whole, both(is_whole, a < all_even).choose(odd_bit, a.word(0))};
 }
 
-/// The whole constant of at most 64 in magnitude that `y` is, if it is one.
+/// `y` as an integer, if it is a constant integer of magnitude at most 64.
 std::optional<int> small_whole(const KernelBuilder& builder, ValueId y) {
     if (!builder.is_constant(y)) return std::nullopt;
     const double value = builder.constant(y);
@@ -152,8 +152,8 @@ std::optional<int> small_whole(const KernelBuilder& builder, ValueId y) {
     return static_cast<int>(value);
 }
 
-/// x^n for n > 0. Bits of n from the lowest: the squares of x belonging to set bits are multiplied
-/// onto the product, from the right: x^3 = x · (x·x), x^7 = (x · x²) · x⁴.
+/// x^n for n > 0. From the lowest bit of n on, the squares of x that belong to set bits are
+/// multiplied to the left of the product: x^3 = x · (x·x), x^7 = (x · x²) · x⁴.
 Expression repeated_product(Expression x, unsigned n) {
     std::optional<Expression> product;
     Expression square = x;

@@ -1,6 +1,5 @@
-// Random numbers: the hash pcg4d (core/hash.h) of cell, draw and key, expanded into operations. Its
-// words have 32 bits in both formats, so that both draw the same numbers, of more digits in
-// binary64.
+// Random numbers: the hash pcg4d (core/hash.h) of cell, draw and key, expanded into operations.
+// Both formats use words of 32 bits, so both draw the same numbers, with more digits in binary64.
 #include "ir/expression.h"
 
 #include <array>
@@ -37,7 +36,7 @@ Hash hash_of(Words words) {
         const Expression low = word.low_word();
         word = low.binary(Op::bits_xor, low.shifted_right(16));
     }
-    // Of the second mixing only what these two words need is emitted: the rest is never read.
+    // The second mixing emits only what these two words need.
     const auto [x, y, z, w] = words;
     const Expression first = sum(x, product(y, w));
     return {first.low_word(), sum(y, product(z, first)).low_word()};
@@ -57,8 +56,7 @@ Hash hash_of_cell(KernelBuilder& builder, ValueId draw, std::uint64_t key) {
 
 ValueId KernelBuilder::random_symmetric(ValueId draw, std::uint64_t key) {
     const auto [first, second] = hash_of_cell(*this, draw, key);
-    // With k the upper 23 (52) bits: (k + ½) · 2^−22 − 1 is (2k + 1 − 2^23) · 2^−23, and so without
-    // a rounding.
+    // With k the upper 23 (52) bits: (k + ½) · 2^−22 − 1 is (2k + 1 − 2^23) · 2^−23, exactly.
     const int digits = format().fraction_bits;
     const Expression k = digits < 32 ? first.shifted_right(32 - digits)
                                      : first.shifted_left(digits - 32)
@@ -74,7 +72,7 @@ ValueId KernelBuilder::draw_word(ValueId uniform) {
 
 /// √(−2 ln a) cos(2π b) of two uniform numbers a and b (G. E. P. Box, M. E. Muller, "A note on the
 /// generation of random normal deviates", Annals of Mathematical Statistics 29, 1958). a has 31
-/// bits, so that large numbers are as rare as they are to be.
+/// bits, so that large numbers are as rare as they should be.
 ValueId KernelBuilder::random_normal(ValueId draw, std::uint64_t key) {
     const auto [first, second] = hash_of_cell(*this, draw, key);
     constexpr ByPrecision<double> two_pi = {0x1.921fb6p+2, 0x1.921fb54442d18p+2};

@@ -1,4 +1,4 @@
-// Rows are reduced in eight partial results, as the lanes of a vector; then pairs are folded.
+// Rows are reduced to eight partial results, the lanes of a vector, then combined in pairs.
 #include "ir/reduction.h"
 
 #include <array>
@@ -8,7 +8,7 @@
 namespace cascade {
 namespace {
 
-/// Cells i, i + 8, i + 16, … of a row make one of so many partial results; a vector's lanes.
+/// Cells i, i + 8, i + 16, … of a row make one partial result.
 constexpr std::size_t partial_results = 8;
 
 double take_together(ReductionKind kind, double a, double b) {
@@ -21,7 +21,7 @@ double take_together(ReductionKind kind, double a, double b) {
     return a;
 }
 
-/// Neighbours in pairs until one is left.
+/// Combines adjacent values in pairs until one is left.
 double fold_pairs(ReductionKind kind, std::span<double> values) {
     for (std::size_t count = values.size(); count > 1; count = (count + 1) / 2) {
         for (std::size_t k = 0; 2 * k < count; ++k) {

@@ -1,8 +1,8 @@
 // Cube root and hypotenuse, expanded into operations of the table.
 //
-// The cube root of a number m · 2^(3k) is that of m, begun by a polynomial and brought to full
-// length by one step of Halley's rule (W. Kahan, "Computing a real cube root", 1991), in which the
-// rest m − t³ is exact, t being a number of 12 bits (in binary64 26).
+// The cube root of m · 2^(3k) is that of m times 2^k. It starts from a polynomial, improved by one
+// step of Halley's method (W. Kahan, "Computing a real cube root", 1991) in which the residual m −
+// t³ is exact, because t has 12 bits (in binary64 26).
 #include "ir/expression.h"
 
 namespace cascade {
@@ -21,7 +21,7 @@ constexpr ByPrecision<double> cube_root_of_2 = {0x1.428a30p+0, 0x1.428a2f98d728b
 constexpr ByPrecision<double> cube_root_of_half = {0x1.965feap-1, 0x1.965fea53d6e3dp-1};
 constexpr ByPrecision<double> third_of_one = {0x1.555556p-2, 0x1.5555555555555p-2};
 
-/// Where squares would overflow or vanish, and the powers of two that move numbers away from there.
+/// The numbers beyond which squares would overflow or vanish, and powers of two to scale by there.
 struct Reach {
     double large, reduce;
     double small, enlarge;
@@ -29,7 +29,7 @@ struct Reach {
 constexpr ByPrecision<Reach> square_reach = {
     {{0x1p60, 0x1p-70, 0x1p-50, 0x1p75}, {0x1p500, 0x1p-600, 0x1p-450, 0x1p600}}};
 
-/// One of three numbers by the sign of n.
+/// One of three numbers, by the sign of n.
 Expression by_sign(Expression n, double below, double at, double above) {
     return (n < 0).choose(below, (0 < n).choose(above, n.number(at)));
 }
@@ -56,11 +56,11 @@ ValueId KernelBuilder::cube_root(ValueId argument) {
                              by_sign(left, x.pick(cube_root_of_half), 1, x.pick(cube_root_of_2));
     const Expression magnitude = halley_step(guess.head(), y).scaled(third);
     const Expression root = magnitude.with_sign_of(x);
-    // Zero, infinity and NaN are their own; the sum flushes a denormal number.
+    // Zero, infinity and NaN are their own roots; the sum flushes a denormal number.
     return both(0 < a, a < infinity).choose(root, x + x).id();
 }
 
-/// √(x² + y²), both brought to where squares neither overflow nor vanish.
+/// √(x² + y²), both scaled so that squares neither overflow nor vanish.
 ValueId KernelBuilder::hypotenuse(ValueId first, ValueId second) {
     const Expression x = Expression(*this, first).absolute();
     const Expression y = Expression(*this, second).absolute();

@@ -1,4 +1,4 @@
-// Lattices of seeds: a cell looks at the two nearest rows of seeds along each axis.
+// Seed lattices: a cell considers the two nearest rows of seeds along each axis.
 #include "ir/lattice.h"
 
 #include <optional>
@@ -10,7 +10,7 @@ namespace {
 /// One of two neighbouring seeds along an axis.
 struct Candidate {
     Expression part;  ///< Of its hash.
-    Expression away;  ///< From the cell to where it is without jitter, in coordinates.
+    Expression away;  ///< From the cell to the seed without jitter, as a coordinate.
 };
 
 struct Candidates {
@@ -18,7 +18,7 @@ struct Candidates {
     std::vector<Candidate> both;
 };
 
-/// Seeds lie at whole numbers + offset.
+/// The nearest two seed positions, which are integers + offset.
 Candidates candidates_along(const LatticeHash& hash, std::size_t axis, const LatticeAxis& lattice,
                             double offset) {
     Candidates found{axis, {}};
@@ -32,8 +32,7 @@ Candidates candidates_along(const LatticeHash& hash, std::size_t axis, const Lat
     return found;
 }
 
-/// Whether the cell is within the radius of one seed. Bit k of `corner` chooses along the k-th
-/// axis.
+/// Whether the cell is within the radius of one seed. Bit k of `corner` selects along axis k.
 Expression is_near(const LatticeHash& hash, const std::vector<Candidates>& axes, std::size_t corner,
                    Expression squared_radius, Expression jitter) {
     const auto chosen = [&](std::size_t k) { return axes[k].both[(corner >> k) & 1]; };

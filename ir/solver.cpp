@@ -1,4 +1,4 @@
-// What is known of each solver by its name.
+// Properties of the solvers.
 #include "ir/solver.h"
 
 #include "core/check.h"
@@ -12,14 +12,14 @@ namespace {
 struct Row {
     std::string_view name;
     int order;
-    double interval;  ///< Of stability on the negative axis; of those without stages.
+    double interval;  ///< Of stability on the negative real axis; for solvers without stages.
 };
 
-/// In the order of Solver. Semi-implicit solvers have the interval of what they take explicitly:
-/// two of them are Euler's method where nothing diffuses, imex2 is Heun's. The intervals are the
-/// zeros of |R(z)| = 1 on the negative axis, R being the stability polynomial (E. Hairer, G.
-/// Wanner, "Solving Ordinary Differential Equations II", 1996, section IV.2); of Dormand-Prince the
-/// one of its fifth order formula.
+/// In the order of Solver. Semi-implicit solvers have the interval of their explicit part: two of
+/// them are Euler's method without diffusion, imex2 is Heun's. The intervals are the zeros of
+/// |R(z)| = 1 on the negative axis, where R is the stability polynomial (E. Hairer, G. Wanner,
+/// "Solving Ordinary Differential Equations II", 1996, section IV.2); for Dormand-Prince, that of
+/// its formula of fifth order.
 constexpr std::array<Row, 11> rows{{{"euler", 1, 2.0},
                                     {"symplectic", 1, 2.0},
                                     {"rk2", 2, 2.0},
@@ -63,12 +63,12 @@ int order_of(Solver solver) { return row(solver).order; }
 
 int order_of_estimate(Solver solver) {
     if (is_adaptive(solver)) return order_of(solver);
-    // imex2 is compared with its own stage of first order.
+    // imex2 is compared with its own first-order stage.
     return solver == Solver::imex2 ? 2 : std::min(order_of(solver) + 1, 3);
 }
 
-/// Meyer, Balsara, Aslam 2014, equations 15 and 24: (s² + s) / 2 and (s² + s − 2) / 4 Euler steps,
-/// each of which is stable down to −2.
+/// Meyer, Balsara and Aslam 2014, equations 15 and 24: (s² + s) / 2 and (s² + s − 2) / 4 Euler
+/// steps, each of which is stable down to −2.
 double stability_interval(Solver solver, std::uint32_t stages) {
     const double s = stages;
     if (solver == Solver::rkl1) return s * s + s;
@@ -81,7 +81,7 @@ std::uint32_t least_stages(Solver solver) { return solver == Solver::rkl1 ? 1 : 
 std::uint32_t stages_for(Solver solver, double ratio) {
     CHECK(is_stabilised(solver), "only stabilised solvers choose their stages");
     std::uint32_t stages = least_stages(solver);
-    // Not a ratio below the interval, NaN included, goes on to the end.
+    // The negation makes NaN continue to the end.
     while (stages < most_stages && !(stability_interval(solver, stages) >= 2 * ratio)) stages += 2;
     return stages;
 }

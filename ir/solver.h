@@ -1,4 +1,4 @@
-// The solvers of the language: what is known of each by its name.
+// The solvers of the language and their properties.
 #pragma once
 
 #include <cstdint>
@@ -28,31 +28,31 @@ std::string_view name_of(Solver solver);
 std::optional<Solver> solver_of(std::string_view name);
 std::vector<std::string> solver_names();
 
-/// Does it choose its steps by an estimate of the error?
+/// Whether it chooses its steps by an error estimate.
 bool is_adaptive(Solver solver);
-/// Does it take more stages the longer the step is (Runge-Kutta-Legendre)?
+/// Whether it takes more stages for longer steps (Runge-Kutta-Legendre).
 bool is_stabilised(Solver solver);
-/// Does it take diffusion implicitly or exactly, and only the rest by its rate at the old step?
+/// Whether it takes diffusion implicitly or exactly, and only the rest by its rate at the old step.
 bool is_semi_implicit(Solver solver);
-/// Are its steps as long as the reaction allows, however fast diffusion is?
+/// Whether its steps are as long as the reaction allows, however fast diffusion is.
 inline bool takes_long_steps(Solver solver) {
     return is_stabilised(solver) || is_semi_implicit(solver);
 }
-/// May the time step vary by cell?
+/// Whether the time step may vary by cell.
 bool takes_speed_by_cell(Solver solver);
-/// Its order: the error of a whole run is proportional to step^order.
+/// The order p: the error of a whole run is proportional to step^p.
 int order_of(Solver solver);
-/// The error of a step that is estimated is proportional to step^this: of an adaptive solver by its
-/// embedded pair, of the others as in solvers/error_estimate.h.
+/// The p for which the estimated error of a step is proportional to step^p: the embedded pair of an
+/// adaptive solver, for others as in solvers/error_estimate.h.
 int order_of_estimate(Solver solver);
-/// −λ · step must be below this for every negative eigenvalue λ of the rates. `stages` counts those
-/// of a stabilised solver.
+/// The solver is stable if −λ · step is below this for every negative eigenvalue λ of the rates'
+/// Jacobian. `stages` is that of a stabilised solver.
 double stability_interval(Solver solver, std::uint32_t stages = 1);
 
-/// The least odd number of stages with which a stabilised solver is stable for steps `ratio` times
-/// as long as the longest of explicit Euler; `most_stages` where none is.
+/// The smallest odd number of stages with which a stabilised solver is stable for steps `ratio`
+/// times as long as the longest of explicit Euler; `most_stages` if there is none.
 std::uint32_t stages_for(Solver solver, double ratio);
-/// The fewest stages of a stabilised solver: `rkl1` of one stage is explicit Euler.
+/// The smallest number of stages of a stabilised solver: `rkl1` with one stage is explicit Euler.
 std::uint32_t least_stages(Solver solver);
 inline constexpr std::uint32_t most_stages = 99;
 

@@ -1,5 +1,5 @@
-// One worker thread compiles the kernels that are wanted, in order, and then those that are
-// expected; a kernel switches to native code by one atomic pointer.
+// One worker thread compiles the wanted kernels, in order, and then the expected ones. A kernel
+// switches to native code by one atomic pointer.
 #include "ir/tiered_backend.h"
 
 #include "ir/interpreter.h"
@@ -20,29 +20,29 @@
 namespace cascade {
 namespace {
 
-/// Of any grid: a row costs about as much as so many cells besides.
+/// A row costs about as much as this number of cells, in addition to its cells.
 constexpr std::int64_t cells_per_row = 64;
 
 }  // namespace
 
-/// The thread that compiles, and what it is asked for.
+/// The compiling thread and its queues.
 class TieredBackend::Worker {
 public:
     class TieredKernel;
 
     explicit Worker(Backend& native) : native_(native) {}
 
-    /// Begins the thread if that was not done. False where there can be none.
+    /// Starts the thread unless it runs. False if it cannot be started.
     bool start();
-    /// Compiles what is wanted and ends the thread.
+    /// Compiles the wanted kernels and ends the thread.
     void stop();
     void settle();
     void abandon();
     void add(const std::shared_ptr<TieredKernel>& kernel);
     void expect(const CellKernel& kernel, Stencil stencil);
-    /// Kernels that are wanted have changed. Allocates nothing: threads that compute call it.
+    /// Signals new wanted kernels. Allocates nothing, because computing threads call it.
     void wake();
-    /// Returns when the kernel is settled, or will never be. Threads that compute call it.
+    /// Returns when the kernel is settled or never will be. Called by computing threads.
     void wait_for(const TieredKernel& kernel);
 
 private:
@@ -54,21 +54,21 @@ private:
     void work();
     bool has_wanted() const;
     std::shared_ptr<TieredKernel> next_wanted();
-    /// Is it being compiled, or waits to be?
+    /// Whether it is being compiled or is waiting for it.
     bool is_coming(const TieredKernel& kernel) const;
 
-    Backend& native_;  ///< Used by the thread alone, which ends before the backend does.
+    Backend& native_;  ///< Used by the thread only, which ends before the backend does.
     std::thread thread_;
     std::mutex mutex_;
     std::condition_variable changed_;
     bool is_stopping_ = false;
-    std::condition_variable settled_;                   ///< Fewer kernels are coming.
+    std::condition_variable settled_;                   ///< Notified when a kernel settles.
     std::vector<std::shared_ptr<TieredKernel>> begun_;  ///< Those not compiled yet, in order.
     const TieredKernel* in_work_ = nullptr;  ///< The one being compiled, if it is wanted.
     std::deque<Source> expected_;
 };
 
-/// Interpreted, then native.
+/// A kernel that is interpreted at first, native later.
 class TieredBackend::Worker::TieredKernel final : public Kernel {
 public:
     TieredKernel(const CellKernel& kernel, Stencil stencil, KernelPointer interpreted,
@@ -92,7 +92,7 @@ public:
 
     bool is_wanted() const { return is_wanted_.load(std::memory_order_relaxed); }
 
-    /// Makes code. Called once, by the worker's thread.
+    /// Compiles the kernel. Called once, by the worker's thread.
     void compile(Backend& native) {
         try {
             auto made = native.compile(source_->kernel, source_->stencil);
@@ -118,7 +118,7 @@ private:
         present_.load(std::memory_order_acquire)->run(arguments, rows);
     }
 
-    /// Before so many cells are interpreted: is it worth compiling now, or even waiting for that?
+    /// Called before interpreting this number of cells: requests compilation, or waits for it.
     void count(std::int64_t cells) const {
         const std::int64_t before = interpreted_cells_.fetch_add(cells, std::memory_order_relaxed);
         if (before + cells < cells_worth_compiling) return;
@@ -172,7 +172,7 @@ bool TieredBackend::Worker::has_wanted() const {
 }
 
 void TieredBackend::Worker::abandon() {
-    std::vector<std::shared_ptr<TieredKernel>> kernels;  // Gone without the lock.
+    std::vector<std::shared_ptr<TieredKernel>> kernels;  // Destroyed without holding the lock.
     {
         const std::lock_guard lock(mutex_);
         kernels.swap(begun_);
@@ -184,7 +184,7 @@ void TieredBackend::Worker::abandon() {
 void TieredBackend::Worker::add(const std::shared_ptr<TieredKernel>& kernel) {
     {
         const std::lock_guard lock(mutex_);
-        // Nobody else knows them any more, and they have hardly been used.
+        // Nothing else refers to them any more, and they have hardly been used.
         std::erase_if(begun_, [](const auto& known) {
             return known.use_count() == 1 && !known->is_wanted();
         });
@@ -202,7 +202,7 @@ void TieredBackend::Worker::expect(const CellKernel& kernel, Stencil stencil) {
 }
 
 void TieredBackend::Worker::wake() {
-    // The thread either has not looked yet, or waits: nothing falls between.
+    // With the lock taken once, the thread is either about to check or waiting: no signal is lost.
     { const std::lock_guard lock(mutex_); }
     changed_.notify_all();
 }
@@ -228,7 +228,7 @@ std::shared_ptr<TieredBackend::Worker::TieredKernel> TieredBackend::Worker::next
 }
 
 void TieredBackend::Worker::work() {
-    // A thread begins with its maker's rules of arithmetic; compilers expect the usual ones.
+    // A thread inherits its creator's floating-point environment; compilers expect the default one.
     std::fesetenv(FE_DFL_ENV);
     std::unique_lock lock(mutex_);
     while (true) {
@@ -236,7 +236,7 @@ void TieredBackend::Worker::work() {
             in_work_ = kernel.get();
             lock.unlock();
             kernel->compile(native_);
-            kernel.reset();  // It may be the last to know it, and then it goes without the lock.
+            kernel.reset();  // If this is the last reference, it is destroyed without the lock.
             lock.lock();
             in_work_ = nullptr;
             settled_.notify_all();
@@ -245,7 +245,7 @@ void TieredBackend::Worker::work() {
             expected_.pop_front();
             lock.unlock();
             try {
-                // What it refuses is refused again when somebody asks for it.
+                // A kernel that is refused here is refused again when it is requested.
                 (void)native_.compile(source.kernel, source.stencil);
             } catch (const std::bad_alloc&) {
             }

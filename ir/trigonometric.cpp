@@ -1,14 +1,14 @@
 // sin, cos and tan, expanded into operations of the table.
 //
-// The angle is brought to |r| ≤ π/4 by taking off n quarter turns; π/2 is split into four pieces of
-// 11 bits (in binary64 26), whose products with n are exact, and a rest. What rounding loses is
-// carried along as a tail. So r is right to its last bit for every angle up to 8192 (2^27), even
-// beside multiples of π/2.
+// The angle is reduced to |r| ≤ π/4 by subtracting n quarter turns. π/2 is split into four parts of
+// 11 bits (in binary64 26), whose products with n are exact, and a rest. Rounding errors are
+// carried along as a tail. So r is correct to its last bit for every angle up to 8192 (2^27), even
+// next to multiples of π/2.
 //
-// Angles from 8192 to 2^24 (2^27 to 2^53) are first brought below 3217 (2^26) by taking off
+// Angles from 8192 to 2^24 (2^27 to 2^53) are first reduced below 3217 (2^26) by subtracting
 // multiples of 4096 (2^26) quarter turns in the same way; r then has an absolute error of at most
-// 2^−33 (2^−77). Beyond 2^24 (2^53), where neighbouring numbers are 2 and more apart, an angle
-// means nothing and the result is NaN, as it is for infinities. −0 has the sine −0.
+// 2^−33 (2^−77). Beyond 2^24 (2^53), where adjacent numbers are 2 and more apart, an angle has no
+// meaning and the result is NaN, as for infinities. The sine of −0 is −0.
 #include "ir/expression.h"
 
 #include <array>
@@ -16,12 +16,12 @@
 namespace cascade {
 namespace {
 
-/// How angles are reduced.
+/// The constants of the reduction.
 struct Reduction {
     double largest_angle;
     double largest_direct_angle;
-    double many;  ///< Quarter turns that are taken off large angles together.
-    std::array<double, 5> quarter_turn;  ///< Four pieces and the rest.
+    double many;                         ///< Quarter turns subtracted from large angles at once.
+    std::array<double, 5> quarter_turn;  ///< Four parts and the rest.
 };
 constexpr ByPrecision<Reduction> reductions = {
     {{0x1p24, 0x1p13, 0x1p12, {0x1.92p+0, 0x1.fb8p-12, -0x1.5ep-23, 0x1.0b8p-34, -0x1.cf72cep-45}},
@@ -49,20 +49,20 @@ constexpr double cos_double[] = {0x1.5555555555555p-5,  -0x1.6c16c16c16b31p-10,
                                  0x1.9dfa0de9af30ap-45};
 constexpr ByPrecision<std::span<const double>> cos_coefficients = {cos_single, cos_double};
 
-/// A number as the sum of two, the second being about 2^−24 (2^−53) of the first.
+/// A number as a sum; the tail is about 2^−24 (2^−53) of the head.
 struct Sum {
     Expression head;
     Expression tail;
 };
 
-/// a − b where the rounding error is itself a number: T. J. Dekker, "A floating-point technique for
-/// extending the available precision", Numerische Mathematik 18, 1971.
+/// a − b with its rounding error, if that is a number: T. J. Dekker, "A floating-point technique
+/// for extending the available precision", Numerische Mathematik 18, 1971.
 Sum exact_difference(Expression a, Expression b) {
     const Expression difference = a - b;
     return {difference, (a - difference) - b};
 }
 
-/// The angle without n · unit quarter turns.
+/// The angle minus n · unit quarter turns.
 Sum take_off(Expression angle, Expression n, double unit) {
     const std::array<double, 5>& quarter_turn = angle.pick(reductions).quarter_turn;
     const Expression rough =
@@ -78,7 +78,7 @@ struct SineAndCosine {
     Expression cosine;
 };
 
-/// Of an angle of at most about π/4.
+/// Sine and cosine of an angle of at most about π/4.
 SineAndCosine of_small_angle(Sum r) {
     const Expression z = r.head * r.head;
     const Expression half = z * 0.5;
@@ -91,13 +91,13 @@ SineAndCosine of_small_angle(Sum r) {
     return {sine, cosine};
 }
 
-/// Sine and cosine of what is left of an angle without a number of quarter turns.
+/// Sine and cosine of the reduced angle, and the quarter turns subtracted.
 struct Reduced {
     SineAndCosine rest;
-    Expression quarter_turns;  ///< As a word.
+    Expression quarter_turns;  ///< An integer in two's complement.
 };
 
-/// Of an angle that is not negative.
+/// Reduces an angle that is not negative.
 Reduced reduce(Expression angle) {
     const Reduction& by = angle.pick(reductions);
     const double per_radian = angle.pick(quarter_turns_per_radian);
@@ -117,8 +117,7 @@ Expression nan_if_too_large(Expression angle, Expression value) {
     return is_angle.choose(value, angle.number(nan));
 }
 
-/// Sine (turned = 0) or cosine (turned = 1) of an angle that is not negative, as the sine of the
-/// angle and `turned` quarter turns.
+/// The sine of a non-negative angle plus `turned` quarter turns: its sine (0) or its cosine (1).
 Expression sine_of(Expression angle, std::uint64_t turned) {
     const auto [rest, quarter_turns] = reduce(angle);
     const Expression quadrant = quarter_turns.plus_word(turned);

@@ -1,4 +1,4 @@
-// The bits of a word: what an algorithm on words must know of the number format.
+// The bit layout of words, for algorithms on them.
 #pragma once
 
 #include "core/precision.h"
@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// IEEE 754 binary32 or binary64. Words are the lower `bits` of a 64-bit integer, the rest is 0.
+/// IEEE 754 binary32 or binary64. A word is the lower `bits` of a 64-bit integer; the others are 0.
 struct WordFormat {
     int bits;           ///< 32 or 64.
     int fraction_bits;  ///< Of the significand, without the leading one: 23 or 52.
@@ -23,7 +23,7 @@ struct WordFormat {
     constexpr std::uint64_t one() const {
         return static_cast<std::uint64_t>(bias) << fraction_bits;
     }
-    /// The NaN that stands for all.
+    /// The one NaN.
     constexpr std::uint64_t nan() const { return exponent() | (fraction() ^ (fraction() >> 1)); }
 
     constexpr bool is_denormal(std::uint64_t word) const {
@@ -39,7 +39,7 @@ constexpr WordFormat format_of(Precision precision) {
 template <typename Number>
 using WordOf = std::conditional_t<std::is_same_v<Number, double>, std::uint64_t, std::uint32_t>;
 
-/// A number as a word and back.
+/// A binary32 number as a word, and back.
 inline std::uint32_t to_bits(float number) { return std::bit_cast<std::uint32_t>(number); }
 inline float to_number(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 

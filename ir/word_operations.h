@@ -1,9 +1,8 @@
-// What every operation of the table does with words: the one definition behind the folding of
-// constants and the loops of the interpreter. `Number` is float or double, whichever the words
-// hold.
+// The effect of every operation of the table on words: the definition that constant folding and the
+// interpreter share. `Number` is float or double, whichever the words hold.
 //
-// Internal to ir/. Denormals are flushed by the processor, so all of this is right only inside a
-// FlushDenormals. The functions are written such that loops over them become vector code.
+// Internal to ir/. The processor flushes denormals, so this is only correct inside a
+// FlushDenormals. The functions are written so that compilers vectorise loops over them.
 #pragma once
 
 #include "ir/cell_kernel.h"
@@ -15,7 +14,7 @@
 
 namespace cascade {
 
-/// True for the operations that depend on their operands alone.
+/// True for the operations that only depend on their operands.
 constexpr bool is_function_of_operands(Op op) { return op >= Op::add; }
 static_assert(static_cast<int>(Op::add) == static_cast<int>(Op::cell_slice) + 1,
               "the sources come first in the table");
@@ -33,8 +32,8 @@ template <typename Number>
 inline constexpr auto sign_bit =
     static_cast<WordOf<Number>>(format_of(precision_of<Number>).sign());
 
-/// A number other than zero. Asked of the word, because compilers that see a number made from a
-/// word and compared with 0 may look at its bits, and take a denormal for true.
+/// Whether a word is a number other than zero. This tests the word, because compilers that see a
+/// number made from a word and compared with 0 may test its bits, and take a denormal for true.
 template <typename Number>
 bool is_true(WordOf<Number> word) {
     constexpr WordFormat format = format_of(precision_of<Number>);
@@ -50,8 +49,7 @@ Number arithmetic(Number a, Number b) {
     if constexpr (op == Op::divide) return a / b;
 }
 
-/// The nearest whole number: the sum of 2^23 (2^52) and a smaller number has no digits after the
-/// point.
+/// The nearest integer: the sum of 2^23 (2^52) and a smaller number has no fractional digits.
 template <typename Number>
 Number round_to_even(Number a) {
     constexpr auto all_whole =
@@ -60,9 +58,9 @@ Number round_to_even(Number a) {
     return size < all_whole ? std::copysign((size + all_whole) - all_whole, a) : a;
 }
 
-/// a · 2^b. One factor 2^b may be out of range where the product is not; so there are two, of about
-/// the same size. Their exponents plus the bias are the halves of b plus twice the bias, which are
-/// the last bits of a sum, as whole numbers; a shift leaves no others.
+/// a · 2^b. One factor 2^b may be out of range although the product is not, so there are two of
+/// about the same size. Their biased exponents are the two halves of b + 2 · bias, which is in the
+/// last bits of a sum; shifts remove its other bits.
 template <typename Number>
 Number scale_by_power(Number a, Number b) {
     using Word = WordOf<Number>;
@@ -107,7 +105,7 @@ Word integer(Word a, Word b) {
     }
 }
 
-/// The word that `op` makes of its operands; those beyond its arity are not looked at.
+/// The result of `op`; operands beyond its arity are ignored.
 template <Op op, typename Number, typename Word = WordOf<Number>>
 inline Word word_operation(Word a, Word b, Word c) {
     const auto x = std::bit_cast<Number>(a);
