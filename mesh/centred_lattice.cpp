@@ -1,5 +1,4 @@
-// Marching tetrahedra, a table of cases by which corners are inside; points are numbered layer by
-// layer.
+// Marching tetrahedra, by a table indexed by the set of corners inside.
 #include "mesh/centred_lattice.h"
 
 #include <algorithm>
@@ -8,12 +7,12 @@ namespace cascade {
 
 namespace {
 
-/// Of centres there are two more than cells along an axis, of corners one more.
+/// Along an axis there are two more centres than cells, and one more corner.
 std::int64_t row_length(const CentredLattice& lattice, std::size_t axis, bool is_centre) {
     return lattice.counts()[axis] + (is_centre ? 2 : 1);
 }
 
-/// Place of a point in its layer.
+/// Index of a point in its layer.
 std::size_t index_in_layer(const CentredLattice& lattice, const LatticePoint& point) {
     const std::int64_t shift = point.is_centre ? 1 : 0;
     return static_cast<std::size_t>((point.place[1] + shift) *
@@ -37,11 +36,11 @@ Crossing crossing(const Corner& a, const Corner& b) {
     return {std::uint64_t{a.number} << 32 | b.number, a.value / (a.value - b.value)};
 }
 
-/// The part of the surface within a tetrahedron whose corners 1, 2 and 3 turn counterclockwise seen
-/// from corner 0's far side: (v₁ − v₀) · (v₂ − v₀) × (v₃ − v₀) > 0. With one corner apart from the
-/// others it is a triangle, with two a quadrilateral. Renumbering the corners by an even
-/// permutation brings the corner that is apart to place 0, or the two inside to places 0 and 1; for
-/// these the table is made by looking at v₀ = 0 and the three unit vectors.
+/// Appends the part of the surface within a tetrahedron whose corners 1, 2 and 3 are
+/// counterclockwise seen from opposite corner 0: (v₁ − v₀) · (v₂ − v₀) × (v₃ − v₀) > 0. It is a
+/// triangle if one corner is separated from the others, and a quadrilateral if two are. An even
+/// permutation moves the separated corner to index 0, or the two inside to indices 0 and 1; the
+/// table covers these cases, derived with v₀ = 0 and the unit vectors.
 void cross(const Tetrahedron& v, CrossedTriangles& triangles) {
     unsigned inside = 0;
     for (unsigned k = 0; k < 4; ++k) inside |= (v[k].value > 0 ? 1u : 0u) << k;
@@ -104,7 +103,7 @@ Vector3d CentredLattice::place_of(const LatticePoint& point) const {
             coordinate(low_.z, high_.z, 2)};
 }
 
-// Layers follow each other as centres −1, corners 0, centres 0, … corners n, centres n.
+// The order of layers is centres −1, corners 0, centres 0, … corners n, centres n.
 
 std::uint32_t CentredLattice::number_of(const LatticePoint& point) const {
     const auto layers = static_cast<std::uint32_t>(point.place[2] + (point.is_centre ? 1 : 0));

@@ -1,10 +1,10 @@
-// A box filled with tetrahedra between the corners and the centres of its cells, and where a
-// function changes its sign between them.
+// A box filled with tetrahedra between the corners and the centres of its cells, and the crossings
+// of their edges by the zero set of a function.
 //
-// Around each face between two cells lie four tetrahedra: the centres on either side, and two
-// neighbouring corners of the face. They are those of the body-centred cubic lattice, the roundest
-// that fill space all alike. At the box's sides the centre of the face stands in for the centre of
-// the missing cell.
+// Each face between two cells has four tetrahedra around it, each of the centres on either side and
+// two adjacent corners of the face. They form the tetrahedra of the body-centred cubic lattice, the
+// most regular ones that fill space by copies of one shape. At the box's sides the centre of the
+// face replaces the centre of the missing cell.
 #pragma once
 
 #include "core/vector3.h"
@@ -16,8 +16,7 @@
 
 namespace cascade {
 
-/// Numbers of a lattice point: of corners and of centres, which are counted from −1, one beyond the
-/// cells.
+/// Indices of a lattice point. Those of centres start at −1, one before the cells.
 struct LatticePoint {
     std::array<std::int32_t, 3> place{};
     bool is_centre = false;
@@ -25,18 +24,18 @@ struct LatticePoint {
 
 class CentredLattice {
 public:
-    /// `counts`: cells along each axis, at least 1; no more than 2³⁰ points altogether.
+    /// `counts`: cells along each axis, at least 1; at most 2³⁰ points altogether.
     CentredLattice(Vector3d low, Vector3d high, std::array<std::int32_t, 3> counts)
         : low_(low), high_(high), counts_(counts) {}
 
     const std::array<std::int32_t, 3>& counts() const { return counts_; }
     Vector3d place_of(const LatticePoint& point) const;
 
-    /// A number for each point, smaller ones for smaller z.
+    /// The number of a point; smaller for smaller z.
     std::uint32_t number_of(const LatticePoint& point) const;
     LatticePoint point_of(std::uint32_t number) const;
 
-    /// Is the point on a side of the box?
+    /// Whether the point is on a side of the box.
     bool is_at_side(const LatticePoint& point) const;
 
 private:
@@ -49,15 +48,14 @@ struct LatticeLayer {
     std::vector<double> values;  ///< Row by row along x.
 };
 
-/// The points of a layer, in order. Centres of layer −1 and beyond the last are those of the box's
-/// sides.
+/// The points of a layer, in order. The first and the last layer of centres are on the box's sides.
 std::vector<LatticePoint> layer_points(const CentredLattice& lattice, std::int32_t layer,
                                        bool is_centres);
 
-/// Where the surface crosses an edge of the lattice.
+/// The crossing of the surface with an edge of the lattice.
 struct Crossing {
-    std::uint64_t edge = 0;  ///< The numbers of both its ends, the smaller one first.
-    double part = 0;         ///< From the first to the second end, as if the function were linear.
+    std::uint64_t edge = 0;  ///< The numbers of its ends, the smaller one first.
+    double part = 0;         ///< Fraction of the edge before it, by linear interpolation.
 
     friend bool operator<(const Crossing& a, const Crossing& b) { return a.edge < b.edge; }
 };
@@ -67,9 +65,8 @@ inline std::pair<std::uint32_t, std::uint32_t> ends_of(std::uint64_t edge) {
 
 using CrossedTriangles = std::vector<std::array<Crossing, 3>>;
 
-/// Appends the triangles of all tetrahedra at faces of layer `layer` (0 … counts[2] − 1) whose
-/// normals point along x or y. `below` and `above` are the corners of layers `layer` and `layer`
-/// + 1.
+/// Appends the triangles of all tetrahedra at faces of layer `layer` (0 … counts[2] − 1) with
+/// normals along x or y. `below` and `above` are the corners of layers `layer` and `layer` + 1.
 void cross_upright_faces(const CentredLattice& lattice, std::int32_t layer,
                          const LatticeLayer& below, const LatticeLayer& centres,
                          const LatticeLayer& above, CrossedTriangles& triangles);

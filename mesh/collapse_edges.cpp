@@ -1,15 +1,14 @@
-// The link condition and the collapse are OpenMesh's; what a triangle may become is decided here.
+// Decides which edges may be collapsed; OpenMesh checks the link condition and collapses them.
 #include "mesh/collapse_edges.h"
 
 namespace cascade {
 
 namespace {
 
-constexpr double least_cosine = 0.26;  ///< Of the angle by which a triangle may turn: 75°.
+constexpr double least_cosine = 0.26;  ///< Of the rotation of a triangle: 75°.
 constexpr unsigned most_neighbours = 10;
 
-/// Whether the triangles around a vertex stay good when it moves to `to` and becomes one with
-/// `other`.
+/// Whether the triangles around a vertex keep their shape if it moves to `to`, merged with `other`.
 bool stays_smooth(const HalfEdges& mesh, VertexHandle v, VertexHandle other, Vector3d to,
                   double longest) {
     const Vector3d from = position(mesh, v);
@@ -21,7 +20,7 @@ bool stays_smooth(const HalfEdges& mesh, VertexHandle v, VertexHandle other, Vec
         const Vector3d along = at_b - to;
         const Vector3d after = cross(along, at_c - to);
         const bool turns = dot(before, after) < least_cosine * length(before) * length(after);
-        // Without an area it turns nowhere, but would be of no use.
+        // A triangle without area has no direction, and no use.
         if (turns || length(after) <= 0.02 * dot(along, along) ||
             dot(along, along) > longest * longest) {
             return false;
@@ -35,7 +34,7 @@ void try_edge(HalfEdges& mesh, HalfedgeHandle h, double shortest, double longest
     const VertexHandle a = mesh.from_vertex_handle(h), b = mesh.to_vertex_handle(h);
     const Vector3d from = position(mesh, a), apart = position(mesh, b) - from;
     if (dot(apart, apart) >= shortest * shortest) return;
-    // A vertex of three triangles would be left with two, which lie against each other.
+    // A vertex with three triangles would keep two, which would coincide.
     if (mesh.valence(mesh.opposite_vh(h)) < 4 || mesh.valence(mesh.opposite_vh(other)) < 4) return;
     if (mesh.valence(a) + mesh.valence(b) > most_neighbours + 4) return;
     const Vector3d middle = from + apart * 0.5;
@@ -43,7 +42,7 @@ void try_edge(HalfEdges& mesh, HalfedgeHandle h, double shortest, double longest
         return;
     if (!mesh.is_collapse_ok(other)) return;
     mesh.set_point(a, {middle.x, middle.y, middle.z});
-    mesh.collapse(other);  // b becomes a.
+    mesh.collapse(other);  // b is replaced by a.
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ constexpr std::array bones = {
     Bone{{0, 1.225, -0.742}, {0, 1.285, -0.700}, 0.060, 0.052, firm, false, false},
 };
 
-/// In units of its softness, below 0 within the flesh.
+/// The signed distance from a bone's flesh in units of its softness; negative inside.
 double distance_from(const Bone& bone, Vector3d p) {
     const Vector3d along = bone.to - bone.from;
     const double part = std::clamp(dot(p - bone.from, along) / dot(along, along), 0.0, 1.0);
@@ -54,7 +54,7 @@ double distance_from(const Bone& bone, Vector3d p) {
 std::span<const Bone> creature_bones() { return bones; }
 
 double creature_function(Vector3d p) {
-    // The largest term is taken out of the sum, so that far away nothing underflows.
+    // The largest term is factored out, so that far away nothing underflows.
     std::array<double, 2 * bones.size()> terms{};
     std::size_t count = 0;
     for (const Bone& bone : bones) {

@@ -1,4 +1,4 @@
-// Sets of numbers that are joined step by step.
+// Union-find.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace cascade {
 
-/// The numbers 0 … count − 1, each a set of its own at first; R. Tarjan's union-find with path
-/// halving. A set is called by its smallest number.
+/// A partition of the numbers 0 … count − 1, initially each in its own set; R. Tarjan's union-find
+/// with path halving. A set is represented by its smallest number.
 class DisjointSets {
 public:
     explicit DisjointSets(std::size_t count) : above_(count) {

@@ -1,4 +1,4 @@
-// Sorts half-edges by their two points; where more than two triangles meet, those that continue
+// Sorts half-edges by their two points. At edges with more than two triangles those that continue
 // each other best are paired. Orientation spreads breadth first.
 #include "mesh/edge_pairs.h"
 
@@ -14,11 +14,11 @@ namespace {
 
 using Triangles = std::span<const std::array<std::uint32_t, 3>>;
 
-/// More triangles than this at one edge are not paired at all.
+/// Edges with more triangles than this are not paired at all.
 constexpr std::size_t most_at_edge = 16;
 
 struct HalfEdge {
-    std::uint32_t low = 0, high = 0;  ///< Its points in order of their numbers.
+    std::uint32_t low = 0, high = 0;  ///< Its points in ascending order.
     TriangleEdge place;
 
     friend bool operator<(const HalfEdge& a, const HalfEdge& b) {
@@ -33,18 +33,18 @@ std::uint32_t apex(Triangles triangles, TriangleEdge e) {
     return triangles[e.triangle][(e.edge + 2) % 3];
 }
 
-/// At right angles to the edge, into the triangle, of length 1.
+/// The unit vector perpendicular to the edge that points into the triangle.
 Vector3d inwards(std::span<const Vector3d> points, Triangles triangles, const HalfEdge& edge) {
     const Vector3d along = unit(points[edge.high] - points[edge.low]);
     const Vector3d side = points[apex(triangles, edge.place)] - points[edge.low];
     return unit(side - along * dot(side, along));
 }
 
-/// Two of the triangles at a non-manifold edge, the better the smaller.
+/// A pair of triangles at a non-manifold edge; smaller is better.
 struct Match {
     bool is_elsewhere_apart = false;
     bool turns_against = false;
-    double fold = 0;  ///< Cosine between the triangles: −1 where they continue each other.
+    double fold = 0;  ///< Cosine between the triangles: −1 if they are coplanar.
     std::size_t first = 0, second = 0;
 
     friend bool operator<(const Match& a, const Match& b) {
@@ -120,11 +120,11 @@ private:
 
     std::span<const Vector3d> points_;
     Triangles triangles_;
-    DisjointSets sheets_;  ///< Triangles that are connected by edges of two.
+    DisjointSets sheets_;  ///< Triangles connected over manifold edges.
     EdgePairs result_;
 };
 
-/// One component: its triangles, whether it is closed, its volume if they turn as they are marked.
+/// Orients the triangles of each component consistently.
 class Orienter {
 public:
     Orienter(std::span<const Vector3d> points, Triangles triangles,

@@ -1,4 +1,4 @@
-// Walks from triangle to triangle, each laid flat beside the last one, up to a limited number.
+// Walks from triangle to triangle, laying each flat beside the last one, up to a limited number.
 #include "mesh/flat.h"
 
 #include <algorithm>
@@ -7,13 +7,13 @@ namespace cascade {
 
 namespace {
 
-/// A walk crosses no more triangles than this: rounding could lead it around a point for ever.
+/// Limit of crossings in a walk: rounding could make it circle around a point forever.
 constexpr int most_crossings = 100'000;
 
-/// To the left of an edge, of the edge's length.
+/// The edge rotated by 90° counterclockwise.
 Vector2d left_of(Vector2d edge) { return {-edge.y, edge.x}; }
 
-/// Which edge is crossed first on the way from `point` by `step`, and after what part of it.
+/// The first edge crossed on the way from `point` by `step`, and the fraction of the step to it.
 struct EdgeCrossing {
     std::uint32_t edge = 3;
     double part = 1;

@@ -1,4 +1,4 @@
-// Triangles laid flat: in a plane, as large as in space.
+// Triangles laid flat into a plane.
 #pragma once
 
 #include "core/vector2.h"
@@ -11,7 +11,7 @@ namespace cascade {
 
 using FlatTriangle = std::array<Vector2d, 3>;
 
-/// A point of a triangle as weights of its corners; they are not negative and their sum is 1.
+/// A point of a triangle by barycentric weights of its corners, which are ≥ 0 with sum 1.
 struct SurfacePlace {
     std::uint32_t triangle = 0;
     std::array<double, 3> weights{1, 0, 0};
@@ -27,16 +27,15 @@ inline Vector2d position_of(const FlatTriangle& flat, const std::array<double, 3
     return flat[0] * weights[0] + flat[1] * weights[1] + flat[2] * weights[2];
 }
 
-/// The triangle in a plane, its edge `edge` from `from` to `to`, which are as far apart as in
-/// space; the third corner lies to the left of the edge. Corners keep their numbers.
+/// The triangle in a plane with its edge `edge` from `from` to `to`, which are as far apart as in
+/// space, and the third corner to the left of the edge. Corners keep their indices.
 FlatTriangle lay_flat(const SurfaceMesh& mesh, TriangleEdge edge, Vector2d from, Vector2d to);
 
-/// The same with corner 0 at the origin and corner 1 on the x axis: the frame of the triangle in
+/// The same with corner 0 at the origin and corner 1 on the x axis: the triangle's own frame, in
 /// which steps on the surface are given.
 FlatTriangle own_frame(const SurfaceMesh& mesh, std::uint32_t triangle);
 
-/// The weights that make up a point of the plane. Those of a point outside are brought to the
-/// nearest that are allowed: below 0 becomes 0.
+/// The barycentric weights of a point of the plane. Weights of a point outside are clamped to ≥ 0.
 std::array<double, 3> weights_at(const FlatTriangle& flat, Vector2d point);
 
 /// A vector in another frame, whose x axis is `turn` (of length 1) in the first one.
@@ -44,15 +43,14 @@ inline Vector2d turned_into(Vector2d vector, Vector2d turn) {
     return {dot(turn, vector), cross(turn, vector)};
 }
 
-/// Where a walk ended.
+/// The end of a walk.
 struct WalkEnd {
     SurfacePlace place;
-    double part = 1;      ///< Of the step that was walked; below 1 at a boundary.
-    Vector2d turn{1, 0};  ///< The x axis of the frame in which it ended, in that in which it began.
+    double part = 1;      ///< Fraction of the step that was walked; below 1 at a boundary.
+    Vector2d turn{1, 0};  ///< The x axis of the final frame in the initial one.
 };
 
-/// Goes straight on from a place by a step in the frame of its triangle, unfolding triangles on the
-/// way; ends early at a boundary.
+/// Walks straight by a step in the frame of the place's triangle, over edges; stops at a boundary.
 WalkEnd walk(const SurfaceMesh& mesh, const SurfacePlace& from, Vector2d step);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Flips and deletions are OpenMesh's; textures and faces of the model follow them here.
+// OpenMesh flips and deletes; texture coordinates and model faces are updated here.
 #include "mesh/flat_triangles.h"
 
 #include "mesh/half_edges.h"
@@ -84,10 +84,10 @@ private:
         return corners;
     }
 
-    /// The place in the texture of the corner where a half-edge begins.
+    /// The texture coordinates of the corner where a half-edge begins.
     TexturePlace& texture(HalfedgeHandle h) { return texture_[static_cast<std::size_t>(h.idx())]; }
 
-    /// Whether that could be done.
+    /// Removes a flat triangle if possible and returns whether it was.
     bool remove(FaceHandle f) {
         const HalfedgeHandle h = sides_of(f)[longest_edge(corners_of(f))];
         const FaceHandle other = mesh_.opposite_face_handle(h);
@@ -101,7 +101,7 @@ private:
         const HalfedgeHandle o = mesh_.opposite_halfedge_handle(h),
                              bc = mesh_.next_halfedge_handle(h);
         if (!texture_.empty())
-            texture(bc) = texture(o);  // Both triangles lie in the other one now.
+            texture(bc) = texture(o);  // Both new triangles are parts of the other one.
         mesh_.flip(e);
         if (!texture_.empty()) {
             texture(h) = texture(mesh_.next_halfedge_handle(o));
@@ -125,8 +125,7 @@ private:
         if (done_.left_out > 0) renew_points();
     }
 
-    /// Without points that no triangle uses any more, and with more of those at which what was left
-    /// out held parts together.
+    /// Removes points without triangles and splits points whose fans were separated by deletions.
     void renew_points() {
         const std::vector<std::uint32_t> sources = separate_fans(old_);
         const auto taken = [&](const auto& old) {
@@ -142,7 +141,7 @@ private:
 
     SurfaceMesh& old_;
     HalfEdges& mesh_;
-    std::vector<TexturePlace> texture_;  ///< Of half-edges; empty where the mesh has none.
+    std::vector<TexturePlace> texture_;  ///< Of half-edges; empty if the mesh has none.
     FlatTriangles done_;
 };
 

@@ -1,12 +1,11 @@
-// glTF and GLB files, read by tinygltf: the triangles of all meshes, placed in space by the nodes
-// of the scene.
+// Reads glTF and GLB files with tinygltf: all meshes of the scene, transformed by its nodes.
 #include "core/json_size.h"
 #include "mesh/model_file.h"
 
 #include <fmt/format.h>
 
 #define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_STB_IMAGE  // Pictures of a model are not looked at.
+#define TINYGLTF_NO_STB_IMAGE  // Textures are not needed.
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #pragma GCC diagnostic push
@@ -25,8 +24,8 @@ namespace {
 
 constexpr std::size_t deepest_nesting = 128;
 
-/// A small file can place the same mesh, or list the same triangles, any number of times: what
-/// comes of it is bounded by its size, with something for small files.
+/// Limits derived from the file's size, with an allowance for small files: a small file can use the
+/// same mesh or list the same triangles any number of times.
 struct Bounds {
     std::size_t points, corners;
 
@@ -35,7 +34,7 @@ struct Bounds {
           corners(std::min(std::size_t{1} << 29, (std::size_t{1} << 20) + 4 * bytes)) {}
 };
 
-/// A placing in space: columns of a matrix of 4 × 4, as glTF writes them.
+/// A transformation: a 4 × 4 matrix, column by column as in glTF.
 using Matrix = std::array<double, 16>;
 constexpr Matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
@@ -58,7 +57,7 @@ Vector3d place(const Matrix& m, Vector3d p) {
     return {row(0), row(1), row(2)};
 }
 
-/// Of a node: its matrix, or translation, rotation (a quaternion) and scale.
+/// The matrix of a node, or that of its translation, rotation (a quaternion) and scale.
 Matrix matrix_of(const tinygltf::Node& node) {
     if (node.matrix.size() == 16) {
         Matrix matrix;
@@ -85,7 +84,7 @@ Matrix matrix_of(const tinygltf::Node& node) {
     return matrix;
 }
 
-/// The numbers of an accessor, whose place in its buffer has been checked.
+/// The numbers of an accessor whose range in its buffer is valid.
 class Numbers {
 public:
     static std::optional<Numbers> of(const tinygltf::Model& model, int number) {
@@ -189,7 +188,7 @@ public:
     }
 
 private:
-    /// A node and those below it, without recursion: a hostile file nests deeply or in circles.
+    /// Adds a node and its descendants iteratively: a hostile file nests deeply or in cycles.
     Result<void> add_node(int root) {
         std::vector<std::pair<int, Matrix>> waiting = {{root, identity}};
         std::size_t visits = 0;
@@ -223,7 +222,7 @@ private:
                                        primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
                                        primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN ||
                                        primitive.mode == -1;
-            if (!has_triangles) continue;  // Points and lines are no surface.
+            if (!has_triangles) continue;  // Points and lines have no surface.
             if (const auto added = add_triangles(primitive, matrix); !added) return added;
         }
         return {};
@@ -279,7 +278,7 @@ private:
                 const std::size_t number =
                     indices ? static_cast<std::size_t>(indices->at(c, 0)) : c;
                 soup_.corners.push_back(static_cast<std::uint32_t>(first + number));
-                // glTF counts from the upper left.
+                // glTF has the origin at the upper left.
                 soup_.texture.push_back(
                     has_texture ? TexturePlace{static_cast<float>(texture->at(number, 0)),
                                                static_cast<float>(1 - texture->at(number, 1))}
@@ -322,8 +321,8 @@ private:
                                            PointAttribute{"blue", {}}};
 };
 
-/// The library makes hundreds of bytes of some objects of two, and calls itself for each level: is
-/// what it would make within bounds?
+/// Checks the size of the JSON text: tinygltf needs hundreds of bytes for some objects of two
+/// bytes, and recurses at each level.
 Result<void> check_json(std::string_view json) {
     const JsonSize size = measure_json(json);
     if (size.depth > deepest_nesting) {
@@ -337,7 +336,7 @@ Result<void> check_json(std::string_view json) {
     return {};
 }
 
-/// The text in a binary file: its length stands at byte 12, it begins at byte 20.
+/// The JSON text of a binary file: its length is at byte 12, and it begins at byte 20.
 std::string_view json_of(std::string_view bytes, bool is_binary) {
     if (!is_binary || bytes.size() < 20) return bytes;
     std::uint32_t length = 0;
@@ -346,15 +345,14 @@ std::string_view json_of(std::string_view bytes, bool is_binary) {
     return bytes.substr(20, length);
 }
 
-/// How the library gets at buffers in files of their own. Its own way opens whatever is named, and
-/// asks a shell what names mean.
+/// Callbacks for reading external buffers. tinygltf's own open any file and use a shell.
 class Buffers {
 public:
     explicit Buffers(const GrantedFiles& files) : files_(files) {}
 
     tinygltf::FsCallbacks callbacks() {
         tinygltf::FsCallbacks calls{};
-        calls.FileExists = [](const std::string&, void*) { return true; };  // Reading will tell.
+        calls.FileExists = [](const std::string&, void*) { return true; };  // Reading will fail.
         calls.ExpandFilePath = [](const std::string& name, void*) { return name; };
         calls.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*,
                                  const std::string& name, void* self) {

@@ -1,4 +1,4 @@
-// Between the flat triangles that are read and the half-edges that are edited.
+// Conversion between SurfaceMesh, which is read, and half-edges, which are edited.
 #include "mesh/half_edges.h"
 
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ private:
                corner(next(here)) == corner(other);
     }
 
-    /// The first half-edge of each edge belongs to the triangle with the lower number.
+    /// The first half-edge of each edge belongs to the triangle with the lower index.
     Result<void> number_edges() {
         if (mesh_.across.size() != mesh_.triangles.size()) {
             return failure("the surface has triangles whose neighbours are not known");
@@ -90,7 +90,7 @@ private:
         });
     }
 
-    /// A vertex at a boundary has its outgoing half-edge there.
+    /// The outgoing half-edge of a boundary vertex is its boundary half-edge.
     Result<void> add_boundaries(HalfEdges& made) {
         std::vector<HalfedgeHandle> boundary;
         each_edge([&](TriangleEdge e) {
@@ -114,7 +114,7 @@ private:
             fmt::format("the triangles around point {} of the surface are not one fan", point));
     }
 
-    /// Walking around each point must meet all of its triangles.
+    /// The triangles around each point must form one fan.
     Result<void> check_fans(const HalfEdges& made) const {
         std::vector<std::uint32_t> corners(mesh_.points.size());
         each_edge([&](TriangleEdge e) { ++corners[number(corner(e))]; });
@@ -139,7 +139,7 @@ private:
 }  // namespace
 
 Result<HalfEdges> half_edges(const SurfaceMesh& mesh) {
-    Result<HalfEdges> made;  // The only thing that is returned, so that it is not copied.
+    Result<HalfEdges> made;  // The only object returned, so that it is not copied.
     if (Result<void> fine = Converter(mesh).convert(*made); !fine)
         made = tl::unexpected(fine.error());
     return made;
@@ -152,7 +152,7 @@ SurfaceMesh surface_mesh(const HalfEdges& mesh, std::span<const std::uint32_t> v
         points[v] = static_cast<std::uint32_t>(result.points.size());
         result.points.push_back(position(mesh, vertex(v)));
     }
-    std::vector<TriangleEdge> places(mesh.n_halfedges());  // Of those with a face.
+    std::vector<TriangleEdge> places(mesh.n_halfedges());  // Of half-edges with a face.
     const auto place = [&](HalfedgeHandle h) -> TriangleEdge& {
         return places[static_cast<std::size_t>(h.idx())];
     };

@@ -1,4 +1,4 @@
-// The mesh that is edited: OpenMesh's half-edges. No other file of the rooms includes OpenMesh.
+// The editable mesh: OpenMesh's half-edges. No other file of the rooms includes OpenMesh.
 #pragma once
 
 #include "core/result.h"
@@ -20,33 +20,32 @@ struct HalfEdgeTraits : OpenMesh::DefaultTraits {
     FaceAttributes(OpenMesh::Attributes::Status);
 };
 
-/// Triangles that can be flipped, split and collapsed. A half-edge has its face on the left, none
-/// at a boundary. Debian's OpenMesh is compiled with its assertions: flip() ends the program where
-/// is_flip_ok() does not hold. Copies are deep, and so are moves.
+/// Triangles that can be flipped, split and collapsed. A half-edge has its face on the left, or
+/// none at a boundary. Debian compiles OpenMesh with assertions: flip() aborts unless is_flip_ok()
+/// holds. Copies are deep, and so are moves.
 using HalfEdges = OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits>;
 using OpenMesh::EdgeHandle;
 using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
-/// The most faces that can be: half-edges, up to six for each, are numbered by `int`.
+/// The largest number of faces: half-edges, up to six per face, have indices of type `int`.
 inline constexpr std::size_t most_faces = std::numeric_limits<int>::max() / 6;
 
-/// The points and triangles of `mesh` with their numbers; the half-edge of a face is that from its
-/// first corner to its second. Two edges between the same two points stay two: add_face() looks
-/// edges up by their ends and would make them one, so half-edges are linked by `across` instead.
-/// is_flip_ok() never lets a second edge come about; is_collapse_ok() does not see one that is
-/// there.
+/// The points and triangles of `mesh` with their indices; the half-edge of a face goes from its
+/// first corner to its second. Two edges between the same points stay two: half-edges are linked by
+/// `across`, because add_face() looks edges up by their ends and would merge them. is_flip_ok()
+/// prevents new double edges; is_collapse_ok() does not notice existing ones.
 ///
-/// Fails on what is no SurfaceMesh: corners that are no points, a triangle with a corner twice,
-/// edges that do not fit what is across, points with several fans of triangles; and on more edges
-/// than can be numbered. Throws std::bad_alloc.
+/// Fails on invalid meshes: corners that are no points, a triangle with a repeated corner, edges
+/// that do not match their neighbours, points with several fans of triangles; and on more edges
+/// than can be indexed. Throws std::bad_alloc.
 Result<HalfEdges> half_edges(const SurfaceMesh& mesh);
 
-/// The mesh of `vertices`, in this order; they must be all that faces use. Triangles follow each
-/// other as the faces do. (OpenMesh's garbage_collection() fills gaps from the end.)
+/// The mesh of `vertices`, in this order; they must include all that faces use. Triangles are in
+/// the order of faces. (OpenMesh's garbage_collection() fills gaps from the end.)
 SurfaceMesh surface_mesh(const HalfEdges& mesh, std::span<const std::uint32_t> vertices);
-/// The same of all vertices that are not deleted, in their order.
+/// The same with all vertices that are not deleted, in their order.
 SurfaceMesh surface_mesh(const HalfEdges& mesh);
 
 inline VertexHandle vertex(std::uint32_t point) { return VertexHandle(static_cast<int>(point)); }
@@ -57,12 +56,10 @@ inline Vector3d position(const HalfEdges& mesh, VertexHandle v) {
     return {p[0], p[1], p[2]};
 }
 
-/// The half-edges out of a vertex, counterclockwise; at a boundary the first has a face and the
-/// last has none.
+/// The half-edges out of a vertex, counterclockwise; at a boundary only the last has no face.
 void outgoing(const HalfEdges& mesh, VertexHandle v, std::vector<HalfedgeHandle>& spokes);
 
-/// Whether an edge goes from one vertex to the other. Looks at both in turn, so that it takes no
-/// longer than the smaller one-ring does.
+/// Whether an edge joins two vertices. Takes time proportional to the smaller one-ring.
 bool are_neighbours(const HalfEdges& mesh, VertexHandle a, VertexHandle b);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Crosses the lattice layer by layer, makes the triangles even, and brings the points onto the
+// Crosses the lattice layer by layer, remeshes isotropically, and projects the points onto the
 // surface by regula falsi with the Illinois rule.
 #include "mesh/implicit_surface.h"
 
@@ -16,16 +16,16 @@ namespace cascade {
 namespace {
 
 constexpr double least_length = 1e-60, largest_length = 1e60;
-/// Corners are kept off the ends of edges, where triangles would have no area.
+/// Corners keep this distance from the ends of edges, where triangles would have no area.
 constexpr double least_part = 0.1;
-/// How far from a point the surface is looked for, in edges, nearest first.
+/// Search distances for the surface from a point, in edges, nearest first.
 constexpr std::array reaches = {0.05, 0.15, 0.4, 1.0};
 constexpr int most_halvings = 60;
-constexpr double accuracy = 1e-12;  ///< Of a corner's place, in edges.
+constexpr double accuracy = 1e-12;  ///< Of a corner's position, in edges.
 
 std::string text_of(Vector3d p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
 
-/// The function with a look at what it returns.
+/// The function with a check of its results.
 class CheckedFunction {
 public:
     explicit CheckedFunction(const ImplicitFunction& function) : function_(function) {}
@@ -45,8 +45,7 @@ private:
     const ImplicitFunction& function_;
 };
 
-/// Brings points onto the surface along their normals. Of those that are sought: which, between
-/// which distances from where they are, and the function there.
+/// Projects points onto the surface along their normals.
 class Projector {
 public:
     Projector(const CheckedFunction& function, const ImplicitRequest& request)
@@ -62,11 +61,11 @@ private:
     struct Bracket {
         std::size_t number = 0;
         Vector3d origin, direction;
-        double near = 0, far = 0;  ///< Distances; the sign of the function changes between them.
+        double near = 0, far = 0;  ///< Distances; the function changes its sign between them.
         double near_value = 0, far_value = 0;
     };
 
-    /// The box is all of space that the function need be defined in.
+    /// Clamped to the box, because the function need not be defined outside.
     Vector3d place(const Bracket& b, double distance) const {
         const Vector3d p = b.origin + b.direction * distance;
         return {std::clamp(p.x, request_.low.x, request_.high.x),
@@ -84,7 +83,8 @@ private:
         return function_(places_, values_);
     }
 
-    /// From inside outwards, from outside inwards, farther and farther. What is not found stays.
+    /// Searches outwards from points inside and inwards from points outside, at growing distances.
+    /// Points for which no sign change is found stay.
     Result<void> find_brackets(std::span<const Vector3d> points,
                                std::span<const Vector3d> normals) {
         std::vector<Bracket> sought;
@@ -125,8 +125,8 @@ private:
         return {};
     }
 
-    /// Regula falsi, in which an end that stays counts half every time (the Illinois rule); halving
-    /// now and then bounds the number of steps.
+    /// Regula falsi with the Illinois rule, which halves the value at an end that stays; occasional
+    /// bisection bounds the number of steps.
     Result<void> close_brackets(std::span<Vector3d> points) {
         std::vector<double> middles;
         for (int round = 0; round < most_halvings && !bracketed_.empty(); ++round) {
@@ -168,7 +168,7 @@ private:
 std::array<std::int32_t, 3> cells_of(const ImplicitRequest& request) {
     const Vector3d size = request.high - request.low;
     const auto count = [&](double length) {
-        // Counts are only used where lattice_points() is within its limit.
+        // Clamping is safe: counts are used only if lattice_points() is within its limit.
         return static_cast<std::int32_t>(
             std::clamp(std::ceil(length / request.edge - 1e-9), 1.0, 1e9));
     };
@@ -184,7 +184,7 @@ public:
           cancel_(cancel),
           progress_(progress) {}
 
-    /// Triangles in all cells, layer by layer.
+    /// The triangles of all cells, layer by layer.
     Result<SurfaceMesh> cut() {
         const std::int32_t layers = lattice_.counts()[2];
         LatticeLayer centres_below, corners_below, centres, corners_above;
@@ -235,7 +235,7 @@ private:
         return {};
     }
 
-    /// A point for each edge that is crossed, in the order of edges.
+    /// The mesh with a point for each crossed edge, in the order of edges.
     SurfaceMesh joined() {
         std::vector<Crossing> crossings;
         crossings.reserve(3 * triangles_.size());

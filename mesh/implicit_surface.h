@@ -1,4 +1,4 @@
-// Surfaces that are given by a function of space: where it is 0.
+// Implicit surfaces: the zero set of a function of space.
 #pragma once
 
 #include "core/result.h"
@@ -10,39 +10,37 @@
 
 namespace cascade {
 
-/// Sets values[k] to the function at points[k], for all k; above 0 is inside. Called by one thread,
-/// mostly with whole slices of equal z.
+/// Sets values[k] to the function at points[k], for all k; positive is inside. Called by one
+/// thread, usually with whole layers of equal z.
 using ImplicitFunction =
     std::function<void(std::span<const Vector3d> points, std::span<double> values)>;
 
 struct ImplicitRequest {
-    Vector3d low{-1, -1, -1}, high{1, 1, 1};  ///< The box in which the surface lies, as a whole.
-    double edge = 0.05;                       ///< How long the sides of triangles should be, about.
+    Vector3d low{-1, -1, -1}, high{1, 1, 1};  ///< The box that contains the surface.
+    double edge = 0.05;                       ///< Approximate length of the triangles' edges.
 };
 
-/// The most points at which a box is looked at, and triangles that the first cut may have.
+/// Limits of the number of lattice points and of triangles before remeshing.
 inline constexpr double most_lattice_points = 3e8;
 inline constexpr std::size_t most_cut_triangles = std::size_t{1} << 24;
 
-/// At how many points the function is looked at to find the surface: twice the box's volume over
-/// the cube of the edge. Some hundred more are needed for each corner of the triangles, to bring it
-/// there.
+/// The number of function evaluations that find the surface: twice the box's volume over the cube
+/// of the edge. Projection takes some hundred further evaluations per corner of the triangles.
 double lattice_points(const ImplicitRequest& request);
 
-/// The surface f = 0 as closed components of even triangles that face outwards, with corners on it.
-/// The function is looked at on a lattice of corners and centres of cells as wide as `edge`; the
-/// tetrahedra between them are cut where it changes its sign (A. Doi and A. Koide, "An Efficient
-/// Method of Triangulating Equi-Valued Surfaces", IEICE Transactions E74(1), 1991), which leaves no
-/// choice and so always closes; then triangles are made even and their corners brought onto f = 0
-/// along the normals, by regula falsi between places inside and outside. What is thinner than
-/// `edge` may be lost or torn, sharp edges are blunted by as much; the error of area and volume is
-/// of second order in `edge` elsewhere.
+/// The surface f = 0 as closed components of nearly equilateral triangles that face outwards, with
+/// corners on the surface. The function is evaluated on a lattice of corners and centres of cells
+/// of width `edge`; the tetrahedra between them are cut where it changes its sign (A. Doi and A.
+/// Koide, "An Efficient Method of Triangulating Equi-Valued Surfaces", IEICE Transactions E74(1),
+/// 1991), which has no ambiguous cases and always gives a closed surface. Then the triangles are
+/// remeshed and their corners projected onto f = 0 along the normals, by regula falsi between
+/// points inside and outside. Parts thinner than `edge` may be lost or torn, and sharp edges are
+/// rounded by as much; elsewhere the error of area and volume is of second order in `edge`.
 ///
-/// A surface that meets the side of the box is refused: a cut is better said in the function, as
-/// min(f, g) with a g above 0 inside the part that is wanted. Fails, too, naming the place, where
-/// the function is not finite, where it is nowhere above 0, and on boxes of more than
-/// `most_lattice_points`. When `cancel` becomes true the work ends with a Failure. `progress` is
-/// told the part that is done, from 0 to 1. Throws std::bad_alloc.
+/// Fails if the surface meets a side of the box: include the cut in the function, as min(f, g) with
+/// a g that is positive inside the wanted part. Fails also, with the location, if the function is
+/// not finite, if it is nowhere positive, if the box has more than `most_lattice_points`, and when
+/// `cancel` becomes true. Reports progress from 0 to 1. Throws std::bad_alloc.
 Result<SurfaceMesh> implicit_surface(const ImplicitFunction& function,
                                      const ImplicitRequest& request,
                                      const std::atomic<bool>& cancel,

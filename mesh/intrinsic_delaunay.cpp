@@ -1,5 +1,4 @@
-// Flips edges whose opposite cotangents sum to less than zero; only the lengths of edges are
-// needed.
+// Flips edges whose opposite cotangents have a negative sum; only needs the lengths of edges.
 #include "mesh/intrinsic_delaunay.h"
 
 #include "mesh/flat.h"
@@ -11,9 +10,9 @@ namespace cascade {
 
 namespace {
 
-/// Sums of cotangents above this are not below zero but for rounding.
+/// Sums of cotangents above the negative of this are not flipped, because of rounding.
 constexpr double tolerance = 1e-9;
-/// An edge is looked at no more often than this, on the average.
+/// Limit of checks per edge, on average.
 constexpr std::size_t most_looks = 100;
 
 class EdgeFlipper {
@@ -59,7 +58,7 @@ private:
         const std::uint32_t c = mesh_.triangles[t][k2], d = mesh_.triangles[o][m2];
         const double bc = mesh_.lengths[t][k1], ca = mesh_.lengths[t][k2];
         const double ad = mesh_.lengths[o][m1], db = mesh_.lengths[o][m2];
-        // What lies beyond the four sides, which may be sides of these triangles themselves.
+        // The neighbours across the four sides, which may be sides of these triangles themselves.
         std::array<TriangleEdge, 4> beyond = {mesh_.across[o][m2], mesh_.across[t][k1],
                                               mesh_.across[t][k2], mesh_.across[o][m1]};
         const std::array<TriangleEdge, 4> old = {TriangleEdge{o, m2}, {t, k1}, {t, k2}, {o, m1}};
@@ -96,7 +95,7 @@ private:
         return {x, 2 * mesh_.area(edge.triangle) / base};
     }
 
-    /// The same of the triangle on the other side, whose edge goes the other way.
+    /// The third corner of the triangle on the other side, whose edge has the opposite direction.
     static Vector2d mirrored(Vector2d apex, double base) { return {base - apex.x, -apex.y}; }
 
     IntrinsicMesh mesh_;

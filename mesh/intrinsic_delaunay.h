@@ -1,4 +1,4 @@
-// The Delaunay triangulation of a surface as it is, over its own points.
+// The intrinsic Delaunay triangulation of a surface.
 #pragma once
 
 #include "mesh/surface_mesh.h"
@@ -8,26 +8,24 @@
 
 namespace cascade {
 
-/// Triangles that lie on a surface of triangles, bent over its edges: known by the lengths of their
-/// sides only.
+/// Triangles on a surface of triangles, bent over its edges, defined by the lengths of their sides.
 struct IntrinsicMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::array<TriangleEdge, 3>> across;  ///< As in SurfaceMesh.
     std::vector<std::array<double, 3>> lengths;       ///< Of the edges of each triangle.
 
     double area(std::uint32_t triangle) const;
-    /// The cotangent of the angle that faces an edge.
+    /// The cotangent of the angle opposite an edge.
     double cotangent(TriangleEdge edge) const;
 };
 
-/// Flips edges until no two angles that face one have more than 180° together, which makes all
-/// cotangent weights positive except at boundaries: A. Bobenko and B. Springborn, "A Discrete
+/// Flips edges until no two angles opposite an edge exceed 180° together, which makes all cotangent
+/// weights non-negative except at boundaries: A. Bobenko and B. Springborn, "A Discrete
 /// Laplace–Beltrami Operator for Simplicial Surfaces", Discrete & Computational Geometry 38 (2007);
 /// the algorithm is that of M. Fisher et al., "An Algorithm for the Construction of Intrinsic
 /// Delaunay Triangulations with Applications to Digital Geometry Processing", Computing 81 (2007).
-/// Triangles may end up with two corners at one point. OpenMesh does not know such
-/// triangles, which is why these are not HalfEdges. Gives up on edges that rounding would flip for
-/// ever.
+/// Triangles may end up with two corners at one point, which OpenMesh does not support; therefore
+/// this does not use HalfEdges. Stops flipping if rounding would make it endless.
 IntrinsicMesh intrinsic_delaunay(const SurfaceMesh& mesh);
 
 }  // namespace cascade

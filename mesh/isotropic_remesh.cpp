@@ -1,4 +1,4 @@
-// Rounds of Botsch and Kobbelt's local changes.
+// Rounds of Botsch and Kobbelt's local operations.
 #include "mesh/isotropic_remesh.h"
 
 #include "mesh/collapse_edges.h"
@@ -11,15 +11,15 @@ namespace cascade {
 
 namespace {
 
-constexpr double longest = 4.0 / 3;  ///< Edges, in units of the one that is wanted.
-/// How short an edge must be to go, round by round: the shortest first.
+constexpr double longest = 4.0 / 3;  ///< Of the target edge length.
+/// The length below which edges are collapsed in each round: the shortest first.
 constexpr std::array shortest = {0.3, 0.5, 0.65, 0.8, 0.8, 0.0, 0.0, 0.0};
 constexpr int most_flip_passes = 6;
 constexpr double smoothing = 0.6;
 constexpr double angle_tolerance = 1e-6;  ///< Of a sum of angles.
 constexpr double flattest_fold = 0.7;     ///< Cosine between triangles whose edge may be flipped.
 
-/// The angle that faces a half-edge: its cosine and sine, times the lengths of its sides.
+/// The angle opposite a half-edge: its cosine and sine, times the lengths of its sides.
 struct FacingAngle {
     double cosine = 0, sine = 0;
     double size() const { return std::sqrt(cosine * cosine + sine * sine); }
@@ -31,7 +31,7 @@ FacingAngle facing_angle(const HalfEdges& mesh, HalfedgeHandle h) {
     return {dot(a, b), length(cross(a, b))};
 }
 
-/// Whether two angles sum up to half a turn at most, by the sine of their sum.
+/// Whether two angles sum to at most 180°, by the sine of their sum.
 bool is_delaunay(FacingAngle a, FacingAngle b) {
     const double sine = a.cosine * b.sine + a.sine * b.cosine;
     return sine >= 0 || sine >= -angle_tolerance * a.size() * b.size();
@@ -39,7 +39,7 @@ bool is_delaunay(FacingAngle a, FacingAngle b) {
 
 Vector3d double_area_normal(Vector3d a, Vector3d b, Vector3d c) { return cross(b - a, c - a); }
 
-/// Whether flipping the edge makes its angles better and leaves the surface as it is.
+/// Whether flipping the edge improves its angles without changing the shape of the surface.
 bool wants_flip(const HalfEdges& mesh, EdgeHandle e) {
     const HalfedgeHandle h = mesh.halfedge_handle(e, 0), other = mesh.halfedge_handle(e, 1);
     if (is_delaunay(facing_angle(mesh, h), facing_angle(mesh, other))) return false;
@@ -54,7 +54,7 @@ bool wants_flip(const HalfEdges& mesh, EdgeHandle e) {
     return mesh.valence(from) > 3 && mesh.valence(to) > 3 && mesh.is_flip_ok(e);
 }
 
-/// Flips edges until no two angles that face one sum up to more than half a turn.
+/// Flips edges until no two angles opposite an edge exceed 180° together.
 void flip_edges(HalfEdges& mesh) {
     std::vector<EdgeHandle> suspects, next;
     for (const EdgeHandle e : mesh.edges()) suspects.push_back(e);
@@ -73,8 +73,7 @@ void flip_edges(HalfEdges& mesh) {
     }
 }
 
-/// Where points would lie in the middle of the triangles around them, each of which counts as much
-/// as its area, but only along the surface.
+/// The area-weighted centroid of the triangles around each point, projected to the tangent plane.
 std::vector<Vector3d> spread(const SurfaceMesh& mesh, std::span<const Vector3d> normals) {
     std::vector<Vector3d> sums(mesh.points.size());
     std::vector<double> areas(mesh.points.size());
@@ -96,7 +95,7 @@ std::vector<Vector3d> spread(const SurfaceMesh& mesh, std::span<const Vector3d> 
     return places;
 }
 
-/// Moves the points but for those of triangles that would be turned over.
+/// Moves the points, except for those of triangles that would be turned over.
 void move_points(SurfaceMesh& mesh, std::vector<Vector3d> places) {
     for (bool is_fine = false; !is_fine;) {
         is_fine = true;

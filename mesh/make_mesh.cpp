@@ -1,5 +1,5 @@
-// The repairs in order: points joined, polygons cut, doubles left out, triangles paired and
-// oriented, fans separated, flat triangles removed.
+// The repairs in order: points merged, polygons triangulated, duplicates removed, triangles paired
+// and oriented, fans separated, flat triangles removed.
 #include "mesh/make_mesh.h"
 
 #include "core/counted.h"
@@ -77,7 +77,7 @@ private:
         return {};
     }
 
-    /// Points in the same place become the first of them.
+    /// Merges points at the same position into the first of them.
     void join_points() {
         joined_.resize(soup_.points.size());
         PointTable places(soup_.points);
@@ -134,7 +134,7 @@ private:
         return {};
     }
 
-    /// Of triangles over the same three points the first stays.
+    /// Of triangles with the same three points the first is kept.
     void leave_out_doubles() {
         std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> keys;
         keys.reserve(corners_.size());
@@ -206,7 +206,7 @@ private:
         }
     }
 
-    /// A point for every fan of triangles; the points' numbers keep their order.
+    /// Gives each fan of triangles its own point; keeps the points in order.
     void split_fans() {
         const std::vector<std::uint32_t> sources = separate_fans(mesh());
         std::size_t doubled = 0;
@@ -246,7 +246,7 @@ private:
 
     PolygonSoup soup_;
     std::vector<bool> is_used_;
-    std::vector<std::uint32_t> joined_;                  ///< The point that each point has become.
+    std::vector<std::uint32_t> joined_;  ///< The point that each point was merged into.
     std::vector<std::array<std::uint32_t, 3>> corners_;  ///< Of triangles, as corners of the soup.
     MadeMesh made_;
 };

@@ -1,4 +1,4 @@
-// From the polygons of a file to a surface on which patterns can grow.
+// Construction of a manifold surface from the polygons of a file.
 #pragma once
 
 #include "core/result.h"
@@ -12,22 +12,20 @@ namespace cascade {
 
 struct MadeMesh {
     SurfaceMesh mesh;
-    std::vector<std::string> repairs;  ///< What was done to the model, a sentence each.
+    std::vector<std::string> repairs;  ///< A sentence for each repair.
 };
 
-/// Cuts polygons into triangles and repairs what can be repaired without guessing:
+/// Triangulates polygons and makes all repairs that need no guesses:
 ///
-/// - points in the same place are joined, points that no face uses are left out;
-/// - faces of fewer than three different corners and faces that are there twice are left out;
-/// - where more than two faces meet at an edge, those that continue each other stay together and
-///   the others end there; where only a point holds parts together it is doubled;
-/// - faces are turned to agree with their neighbours, closed components outwards; a surface with
-/// one
-///   side only is cut open;
+/// - points at the same position are merged, unused points are removed;
+/// - faces with fewer than three different corners and duplicate faces are removed;
+/// - where more than two faces meet at an edge, those that continue each other stay connected and
+///   the others get a boundary; a point that alone connects several parts is duplicated;
+/// - faces are oriented consistently, closed components outwards; one-sided surfaces are cut open;
 /// - a triangle without area is merged with its neighbour by flipping its longest edge.
 ///
-/// Fails on coordinates that are not finite or out of 10⁻⁷⁰ … 10⁷⁰ in size, on a polygon too
-/// intricate to cut, and where no area is left. Throws std::bad_alloc.
+/// Fails if coordinates are not finite or their largest magnitude is outside of 10⁻⁷⁰ … 10⁷⁰, on a
+/// polygon too complex to triangulate, and if no area is left. Throws std::bad_alloc.
 Result<MadeMesh> make_mesh(PolygonSoup soup);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Chooses the reader by the ending of the name.
+// Selects the reader by the extension of the name.
 #include "mesh/model_file.h"
 
 #include "core/file.h"
@@ -22,7 +22,7 @@ std::string ending_of(const std::filesystem::path& path) {
     return ending;
 }
 
-/// Fails where the ending of a name is none of a model.
+/// The extension of a model's name in lower case; fails for others.
 Result<std::string> model_ending(const std::string& name) {
     constexpr std::array<std::string_view, 6> endings = {"ply", "obj", "off", "stl", "gltf", "glb"};
     std::string ending = ending_of(name);

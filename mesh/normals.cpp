@@ -1,5 +1,4 @@
-// Corners are joined across edges that are not creases (disjoint sets), and each group has one
-// normal.
+// Corners are merged across edges that are no creases; each group has one normal.
 #include "mesh/normals.h"
 
 #include "mesh/disjoint_sets.h"
@@ -13,13 +12,13 @@ namespace {
 
 constexpr double cosine_of_crease = 0.5;
 
-/// Of length 1, or `otherwise` where there is no direction.
+/// `a` scaled to length 1, or `otherwise` if it is 0.
 Vector3d unit_or(Vector3d a, Vector3d otherwise) {
     const Vector3d scaled = unit(a);
     return length(scaled) > 0.5 ? scaled : otherwise;
 }
 
-/// Corner k of triangle t has the number 3 t + k.
+/// Corner k of triangle t has the index 3 t + k.
 DisjointSets smooth_groups(const SurfaceMesh& mesh) {
     std::vector<Vector3d> normals;
     normals.reserve(mesh.triangles.size());

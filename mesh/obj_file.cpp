@@ -1,5 +1,5 @@
-// OBJ files (Wavefront Technologies, "Advanced Visualizer Manual", appendix B1: Object Files):
-// places of points and textures, colours of points, polygons. Other lines are not looked at.
+// Reads positions, texture coordinates, colours of points and polygons of OBJ files (Wavefront
+// Technologies, "Advanced Visualizer Manual", appendix B1: Object Files); ignores other lines.
 #include "mesh/model_file.h"
 #include "mesh/text_words.h"
 
@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::int64_t most_points = std::numeric_limits<std::int32_t>::max();
 
-/// What a corner of a face names, counted from 0.
+/// The indices in a corner of a face, from 0.
 struct Corner {
     std::uint32_t point = 0;
     std::optional<std::uint32_t> texture;
 };
 
-/// Lines that end in a backslash go on in the next; it becomes two blanks, which changes no place.
+/// Joins lines that end in a backslash with the next one. Blanks replace it, so that offsets stay.
 std::string joined_lines(std::string_view bytes) {
     std::string text(bytes);
     for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
@@ -56,7 +56,7 @@ private:
         return failure(fmt::format("line {} of the OBJ file is not {}", lines_.number(), what));
     }
 
-    /// Three numbers, which three of a colour may follow.
+    /// Three coordinates, optionally followed by a colour.
     bool read_point(const Words& words) {
         std::array<double, 6> numbers{};
         const std::size_t count = std::min<std::size_t>(words.size() - 1, 6);
@@ -96,7 +96,7 @@ private:
         return true;
     }
 
-    /// "point", "point/texture", "point//normal" or "point/texture/normal".
+    /// Parses "point", "point/texture", "point//normal" or "point/texture/normal".
     std::optional<Corner> corner_in(std::string_view word) const {
         const std::size_t slash = std::min(word.find('/'), word.size());
         const auto point = number_of(word.substr(0, slash), std::ssize(soup_.points));
@@ -110,7 +110,7 @@ private:
         return corner;
     }
 
-    /// Counted from 1, or from −1 backwards from the last one so far.
+    /// An index from 1, or a negative one counted backwards from the latest.
     static std::optional<std::uint32_t> number_of(std::string_view word, std::int64_t so_far) {
         const auto number = whole_number_in<std::int64_t>(word);
         if (!number || *number > most_points || *number < -so_far || *number == 0)

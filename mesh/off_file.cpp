@@ -1,4 +1,4 @@
-// OFF files of text.
+// Reads OFF files in text format.
 #include "mesh/model_file.h"
 #include "mesh/text_words.h"
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t least_point = 6, least_face = 2;  ///< Bytes, with the end of the line.
 
-/// What the first word says that points have beside their places.
+/// The data of points besides positions, as declared by the first word.
 struct Extras {
     bool texture = false, colour = false, normal = false;
 };
@@ -95,7 +95,7 @@ private:
         const std::size_t first = extras_.normal ? 6 : 3;
         if (!extras_.colour) return true;
         if (numbers_.size() < first + 3) return false;
-        // Whole numbers up to 255, or fractions.
+        // Integers up to 255, or fractions.
         const bool is_fraction = words[first].find('.') != std::string_view::npos;
         for (std::size_t k = 0; k < 3; ++k) {
             soup_.attributes[k].values.push_back(
@@ -104,7 +104,7 @@ private:
         return true;
     }
 
-    /// Behind the corners may stand a colour.
+    /// A colour may follow the corners.
     bool read_face(const Words& words) {
         if (words.empty()) return false;
         const auto count = whole_number_in<std::uint32_t>(words[0]);

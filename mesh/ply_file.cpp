@@ -1,4 +1,4 @@
-// PLY files, with triangle strips and properties of any name.
+// Reads PLY files, including triangle strips and properties of any name.
 #include "mesh/model_file.h"
 #include "mesh/ply_header.h"
 #include "mesh/text_words.h"
@@ -18,13 +18,13 @@ namespace {
 
 constexpr std::uint32_t most_points = std::numeric_limits<std::int32_t>::max();
 
-/// Takes numbers from the body of the file, one after the other.
+/// Reads numbers from the body of the file in sequence.
 class NumberReader {
 public:
     NumberReader(std::string_view bytes, const PlyHeader& header)
         : bytes_(bytes), at_(header.size), format_(header.format) {}
 
-    /// Nothing where the file ends or where a text has no number.
+    /// Nothing at the end of the file or if a text has no number.
     std::optional<double> next(PlyNumber type) {
         return format_ == PlyHeader::Format::text ? next_word() : next_binary(type);
     }
@@ -75,7 +75,7 @@ private:
     PlyHeader::Format format_;
 };
 
-/// Where the numbers of a point go: −1 where the file has none.
+/// The columns of a point's numbers: −1 if the file has none.
 struct PointColumns {
     std::array<int, 3> place{-1, -1, -1};
     std::array<int, 2> texture{-1, -1};
@@ -199,8 +199,8 @@ private:
             }
             if (name == "texcoord") add_texture(lists_[k]);
         }
-        // Where a face has places for more or fewer corners than its own, those of others would
-        // slip.
+        // If a face has texture coordinates for more or fewer corners than it has, those of later
+        // faces would be misassigned.
         corners_have_texture_ =
             corners_have_texture_ && soup_.texture.size() == soup_.corners.size();
         return {};
@@ -238,7 +238,7 @@ private:
         return true;
     }
 
-    /// Triangle strips, one after the other, separated by −1; every second triangle is turned.
+    /// Triangle strips in sequence, separated by −1; every second triangle is reversed.
     bool add_strips(const std::vector<double>& strip) {
         std::size_t begin = 0;
         for (std::size_t k = 0; k < strip.size(); ++k) {
@@ -255,7 +255,7 @@ private:
         return true;
     }
 
-    /// Of the polygon added before it.
+    /// Adds the texture coordinates of the latest polygon.
     void add_texture(const std::vector<double>& places) {
         for (std::size_t k = 0; k + 1 < places.size(); k += 2) {
             soup_.texture.push_back(
@@ -271,8 +271,8 @@ private:
     bool corners_have_texture_ = true;
     std::vector<TexturePlace> point_texture_;
     std::vector<std::size_t> attribute_columns_;
-    std::vector<double> row_;                 ///< Scalars of the element that is read.
-    std::vector<std::vector<double>> lists_;  ///< And its lists.
+    std::vector<double> row_;                 ///< Scalars of the current element.
+    std::vector<std::vector<double>> lists_;  ///< Lists of the current element.
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Reads line by line; types are known by their old names and by those with sizes.
+// Reads line by line; types have an original name and one with a size.
 #include "mesh/ply_header.h"
 
 #include "mesh/text_words.h"
@@ -17,7 +17,6 @@ struct TypeName {
     std::string_view name;
     PlyNumber type;
 };
-// The names of the first definition and those with sizes.
 constexpr std::array type_names = {
     TypeName{"char", PlyNumber::int8},      TypeName{"int8", PlyNumber::int8},
     TypeName{"uchar", PlyNumber::uint8},    TypeName{"uint8", PlyNumber::uint8},
@@ -38,7 +37,7 @@ std::optional<PlyNumber> type_called(std::string_view name) {
 
 using Words = std::vector<std::string_view>;
 
-/// Reads the lines of a head one by one.
+/// Reads the lines of a header one by one.
 class HeaderReader {
 public:
     explicit HeaderReader(std::string_view bytes) : bytes_(bytes) {}

@@ -1,5 +1,5 @@
-// The head of a PLY file: which elements with which properties follow, and how numbers are written
-// (G. Turk, "The PLY Polygon File Format", 1994).
+// The header of a PLY file: the elements that follow, their properties and the number formats (G.
+// Turk, "The PLY Polygon File Format", 1994).
 #pragma once
 
 #include "core/result.h"
@@ -20,7 +20,7 @@ struct PlyProperty {
     std::string name;
     PlyNumber type = PlyNumber::float32;
     bool is_list = false;
-    PlyNumber count_type = PlyNumber::uint8;  ///< Of a list's length.
+    PlyNumber count_type = PlyNumber::uint8;  ///< Type of a list's length.
 };
 
 struct PlyElement {
@@ -28,7 +28,7 @@ struct PlyElement {
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
 
-    /// The fewest bytes that one of them takes in the file.
+    /// The fewest bytes that one element takes in the file.
     std::size_t least_bytes(bool is_text) const;
 };
 
@@ -36,11 +36,10 @@ struct PlyHeader {
     enum class Format : std::uint8_t { text, little_endian, big_endian };
     Format format = Format::text;
     std::vector<PlyElement> elements;
-    std::size_t size = 0;  ///< Bytes of the head; the elements follow.
+    std::size_t size = 0;  ///< Bytes of the header; the elements follow.
 };
 
-/// Fails, naming the line, on what is no head of a PLY file, and on elements of which the file is
-/// too short to hold as many as it says.
+/// Fails, with the line, on malformed headers, and if the file is too short for its elements.
 Result<PlyHeader> read_ply_header(std::string_view bytes);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Finding points that lie in the same place.
+// Lookup of points with equal coordinates.
 #pragma once
 
 #include "core/vector3.h"
@@ -9,13 +9,13 @@
 
 namespace cascade {
 
-/// A hash table of points that are kept elsewhere, by their coordinates. −0 and NaN are other
-/// places than 0 and NaN: the former is to be made 0 before, the latter equals nothing.
+/// A hash table of points, stored elsewhere, by their coordinates. −0 differs from 0, so callers
+/// replace it by 0; NaN equals nothing.
 class PointTable {
 public:
     explicit PointTable(const std::vector<Vector3d>& points) : points_(points), slots_(64, empty) {}
 
-    /// The first point added that lies where point `number` lies, else `number`, which is added.
+    /// The first point added with the position of point `number`, else `number`, which is added.
     std::uint32_t find_or_add(std::uint32_t number) {
         if (2 * (count_ + 1) > slots_.size()) grow();
         std::uint32_t& slot = slot_of(points_[number]);
@@ -37,7 +37,7 @@ private:
         }
         return hash;
     }
-    /// Where the place is, or could be put.
+    /// The slot of a position, or a free slot for it.
     std::uint32_t& slot_of(const Vector3d& p) {
         std::size_t at = hash_of(p) & (slots_.size() - 1);
         while (slots_[at] != empty && !(points_[slots_[at]] == p))

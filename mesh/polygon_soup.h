@@ -1,5 +1,5 @@
-// What a model's file holds: polygons over points, as they were written. Nothing is checked but
-// that every corner is one of the points; `mesh/surface_mesh.h` is what is made of it.
+// The content of a model file: polygons over points, without adjacency. Only guarantees that every
+// corner is one of the points; mesh/surface_mesh.h is made from it.
 #pragma once
 
 #include "core/vector3.h"
@@ -12,20 +12,20 @@
 
 namespace cascade {
 
-/// A number at every point that a file gives a name: `red`, `quality`, `temperature`.
+/// A named number at every point: `red`, `quality`, `temperature`.
 struct PointAttribute {
     std::string name;
     std::vector<float> values;  ///< One per point.
 };
 
-/// A place in a texture, (0, 0) its lower left and (1, 1) its upper right.
+/// Texture coordinates, (0, 0) at the lower left and (1, 1) at the upper right.
 using TexturePlace = std::array<float, 2>;
 
 struct PolygonSoup {
     std::vector<Vector3d> points;
-    std::vector<std::uint32_t> corners;  ///< Numbers of points, polygon after polygon.
+    std::vector<std::uint32_t> corners;  ///< Indices of points, polygon after polygon.
     std::vector<std::size_t> ends;       ///< Polygon p ends before corner ends[p].
-    std::vector<TexturePlace> texture;   ///< One per corner; empty where the file has none.
+    std::vector<TexturePlace> texture;   ///< One per corner; empty if the file has none.
     std::vector<PointAttribute> attributes;
 
     std::size_t polygon_count() const { return ends.size(); }

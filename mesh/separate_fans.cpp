@@ -25,7 +25,7 @@ std::vector<std::uint32_t> separate_fans(SurfaceMesh& mesh) {
     for (std::uint32_t c = 0; c < corners; ++c) {
         if (fans.find(c) == c) owners.emplace_back(mesh.triangles[c / 3][c % 3], c);
     }
-    std::size_t points = 0;  // Those of the mesh may still be in another place.
+    std::size_t points = 0;  // Computed, because the mesh's points may be elsewhere.
     for (const auto& owner : owners)
         points = std::max<std::size_t>(points, owner.first + std::size_t{1});
     sort_by_point(owners, points, [](const auto& owner) { return owner.first; });

@@ -1,4 +1,4 @@
-// A point for every fan of triangles.
+// Separation of fans of triangles that only share a point.
 #pragma once
 
 #include "mesh/surface_mesh.h"
@@ -8,10 +8,9 @@
 
 namespace cascade {
 
-/// Renumbers the corners of the triangles so that triangles share a point only where edges lead
-/// from one to the next around it. The points' order is kept; those that no triangle uses are gone.
-/// Returns for each new point the number of the one that it was: `points` and `attributes` are the
-/// caller's.
+/// Renumbers the corners of the triangles so that triangles share a point only if they are
+/// connected over edges at it. Keeps the order of points and drops unused ones. Returns for each
+/// new point its old index; the caller updates `points` and `attributes`.
 std::vector<std::uint32_t> separate_fans(SurfaceMesh& mesh);
 
 }  // namespace cascade

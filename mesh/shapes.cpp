@@ -1,5 +1,5 @@
-// An icosahedron whose sides are cut along great circles, a lattice of angles for the torus, and
-// six lattices for the box; each with texture coordinates.
+// The sphere is an icosahedron whose sides are cut along great circles, the torus a lattice of
+// angles, and the box six lattices; each with texture coordinates.
 #include "mesh/shapes.h"
 
 #include "mesh/edge_pairs.h"
@@ -32,19 +32,19 @@ Result<void> check_count(double triangles) {
                    "choose longer edges");
 }
 
-/// How many edges a length is cut into.
+/// The number of edges into which a length is cut.
 double cuts(double length, double edge, double least) {
     return std::max(least, std::round(length / edge));
 }
 
-/// The points of the icosahedron's edges and sides, cut into n.
+/// Makes the points of the icosahedron's edges and sides, cut into n.
 class SphereMaker {
 public:
     SphereMaker(double radius, std::uint32_t cuts) : radius_(radius), cuts_(cuts) {}
 
     SurfaceMesh make() {
         place_corners();
-        // Around the pole at the top, two rings around the middle, around the other pole.
+        // The fans around the top and bottom poles, and the band between them.
         for (std::uint32_t k = 0; k < 5; ++k) {
             const std::uint32_t upper = 1 + k, next_upper = 1 + (k + 1) % 5;
             const std::uint32_t lower = 6 + k, next_lower = 6 + (k + 1) % 5;
@@ -73,8 +73,8 @@ private:
         for (const Vector3d& corner : corners_) points_.push_back(corner * radius_);
     }
 
-    /// The sum of corners, each times the sine of its part of their angle; for two corners that is
-    /// the point at this part of the arc between them.
+    /// The sum of corners, each weighted by the sine of its fraction of their angle; for two
+    /// corners this is the point at that fraction of the arc between them.
     std::uint32_t add_point(std::array<std::uint32_t, 3> corners,
                             std::array<std::uint32_t, 3> parts) {
         static const double angle = std::acos(1 / std::sqrt(5.0));
@@ -86,7 +86,7 @@ private:
         return static_cast<std::uint32_t>(points_.size() - 1);
     }
 
-    /// Point `k` of an edge, counted from `from`; both sides of the edge get the same.
+    /// Point `k` of an edge, counted from `from`; both sides of the edge share it.
     std::uint32_t on_edge(std::uint32_t from, std::uint32_t to, std::uint32_t k) {
         if (k == 0) return from;
         if (k == cuts_) return to;
@@ -141,12 +141,12 @@ private:
     std::uint32_t cuts_;
     std::vector<Vector3d> corners_, points_;
     std::vector<std::array<std::uint32_t, 3>> triangles_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>
-        edges_;  ///< Their first points.
+    /// The first point of each edge.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges_;
 };
 
-/// Rectangle (i, j) of a lattice as two triangles; neighbours are cut along other diagonals, so
-/// that they turn the same way in all directions.
+/// Rectangle (i, j) of a lattice as two triangles; adjacent rectangles are cut along different
+/// diagonals, which avoids a preferred direction.
 template <typename Corner>
 void cut_rectangle(std::size_t i, std::size_t j, const Corner& corner) {
     const std::array<std::pair<std::size_t, std::size_t>, 4> ring = {
@@ -157,7 +157,7 @@ void cut_rectangle(std::size_t i, std::size_t j, const Corner& corner) {
     }
 }
 
-/// Triangles from corners that come one by one.
+/// Assembles triangles from a sequence of corners.
 struct TriangleList {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::array<TexturePlace, 3>> texture;
@@ -171,7 +171,7 @@ struct TriangleList {
         texture.back()[count] = {static_cast<float>(u), static_cast<float>(v)};
         count = (count + 1) % 3;
     }
-    std::size_t count = 0;  ///< Corners of the last one so far.
+    std::size_t count = 0;  ///< Corners of the current triangle.
 };
 
 SurfaceMesh mesh_of(std::vector<Vector3d> points, TriangleList list) {
@@ -180,20 +180,20 @@ SurfaceMesh mesh_of(std::vector<Vector3d> points, TriangleList list) {
     return mesh;
 }
 
-/// A point of the lattice in which a box stands.
+/// Indices of a point in the lattice of a box.
 using Step = std::array<std::uint32_t, 3>;
 
-/// One side of a box: from a corner along two axes, which turn to the third outwards.
+/// One side of a box: from a corner along two axes, whose cross product points outwards.
 struct BoxSide {
-    Step corner;             ///< 0 or 1: at the low or the high end of each axis.
+    Step corner;             ///< 0 or 1: the low or the high end of each axis.
     std::size_t across, up;  ///< The axes.
-    bool is_backwards;       ///< Goes along `across` from the high to the low end,
-    bool is_downwards;       ///< and along `up`.
-    std::array<int, 4> net;  ///< Place in the unfolded box: numbers of depths and widths to its
-                             ///< left, of depths and heights below it.
+    bool is_backwards;       ///< `across` runs from the high to the low end,
+    bool is_downwards;       ///< and `up` likewise.
+    std::array<int, 4> net;  ///< Position in the net of the box: the number of depths and widths to
+                             ///< its left, and of depths and heights below it.
 };
 
-// Axes are width (x), height (y) and depth (z).
+// The axes are width (x), height (y) and depth (z).
 constexpr std::array box_sides = {
     BoxSide{{0, 0, 0}, 2, 1, false, false, {0, 0, 1, 0}},  // Left.
     BoxSide{{0, 0, 1}, 0, 1, false, false, {1, 0, 1, 0}},  // Front.
@@ -227,7 +227,7 @@ public:
     }
 
 private:
-    /// The corners of a side's triangles: the key of each, and its place in the texture.
+    /// Visits the corners of a side's triangles with their keys and texture coordinates.
     template <typename Visit>
     void for_points(const BoxSide& side, const Visit& visit) const {
         const std::uint32_t columns = counts_[side.across], rows = counts_[side.up];
@@ -274,7 +274,7 @@ Result<SurfaceMesh> sphere_mesh(double radius, double edge) {
         return tl::unexpected(fine.error());
     if (const auto fine = check_length("the edge", edge); !fine)
         return tl::unexpected(fine.error());
-    // As many triangles with three equal sides as cover the sphere.
+    // The number of equilateral triangles of that edge that cover the sphere.
     const double n = cuts(radius * std::sqrt(4 * std::numbers::pi / (5 * std::sqrt(3.0))), edge, 1);
     if (const auto fine = check_count(20 * n * n); !fine) return tl::unexpected(fine.error());
     return SphereMaker(radius, static_cast<std::uint32_t>(n)).make();

@@ -1,5 +1,5 @@
-// STL files (3D Systems, "StereoLithography Interface Specification", 1989), text or binary. Which
-// of them a file is says its size: that of a binary file follows from its number of triangles.
+// Reads STL files (3D Systems, "StereoLithography Interface Specification", 1989), text or binary.
+// A file is binary if its size matches its number of triangles.
 #include "mesh/model_file.h"
 #include "mesh/point_table.h"
 #include "mesh/text_words.h"
@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::size_t head_size = 84, triangle_size = 50;  ///< Bytes of a binary file.
 
-/// Triangles come with points of their own; those in the same place become one.
+/// Triangles have separate points; those at the same position are merged.
 class MergedSoup {
 public:
     MergedSoup() = default;
-    MergedSoup(const MergedSoup&) = delete;  // The table looks at the points.
+    MergedSoup(const MergedSoup&) = delete;  // The table refers to the points.
     MergedSoup& operator=(const MergedSoup&) = delete;
 
     void add_corner(Vector3d p) {
@@ -39,7 +39,7 @@ private:
     PointTable places_{soup_.points};
 };
 
-/// The four bytes from `at` on; STL files have the lowest first.
+/// The four bytes at `at`, in little-endian order as in STL files.
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
     std::uint32_t word = 0;
     for (std::size_t k = 4; k-- > 0;) word = word << 8 | static_cast<unsigned char>(bytes[at + k]);
@@ -49,7 +49,7 @@ std::uint32_t word_at(std::string_view bytes, std::size_t at) {
 PolygonSoup read_binary(std::string_view bytes, std::size_t count) {
     MergedSoup soup;
     for (std::size_t t = 0; t < count; ++t) {
-        for (std::size_t k = 1; k <= 3; ++k) {  // Before the corners stands the normal.
+        for (std::size_t k = 1; k <= 3; ++k) {  // The normal precedes the corners.
             const std::size_t at = head_size + t * triangle_size + 12 * k;
             const auto number = [&](std::size_t c) {
                 return static_cast<double>(std::bit_cast<float>(word_at(bytes, at + 4 * c)));

@@ -1,5 +1,4 @@
-// Facts that follow from the connectivity: connected components, boundaries, the Euler
-// characteristic.
+// Connected components, boundaries and the Euler characteristic, from the adjacency.
 #include "mesh/surface_mesh.h"
 
 #include <algorithm>
@@ -47,7 +46,7 @@ std::vector<std::uint32_t> connected_components(const SurfaceMesh& mesh) {
 
 namespace {
 
-/// The boundary edge that begins where this one ends: the next one around the same point.
+/// The boundary edge that begins where this one ends.
 TriangleEdge next_of_boundary(const SurfaceMesh& mesh, TriangleEdge edge) {
     TriangleEdge next = {edge.triangle, (edge.edge + 1) % 3};
     for (;;) {

@@ -1,8 +1,8 @@
-// A surface in space as triangles that fit together: what patterns are grown on.
+// A surface in space as a triangle mesh: an oriented manifold with boundary, of one or several
+// components.
 //
-// Every edge lies between two triangles or at a boundary, every point has one fan of triangles
-// around it, and neighbours turn the same way round: the surface is an oriented manifold with
-// boundary, of one or several components.
+// Every edge is between two triangles or at a boundary, every point has one fan of triangles, and
+// adjacent triangles have the same orientation.
 #pragma once
 
 #include "mesh/polygon_soup.h"
@@ -14,7 +14,7 @@
 
 namespace cascade {
 
-/// Corners and edges of a triangle follow each other: 0, 1, 2, 0.
+/// Corners and edges of a triangle are in cyclic order: 0, 1, 2, 0.
 template <std::unsigned_integral Index>
 constexpr Index corner_after(Index k) {
     return k == 2 ? 0 : k + 1;
@@ -37,46 +37,47 @@ struct TriangleEdge {
 struct SurfaceMesh {
     std::vector<Vector3d> points;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Counterclockwise, seen from outside.
-    /// What lies across edge k of each triangle: an edge of another one, or nothing.
+    /// The edge of the adjacent triangle across edge k of each triangle, or none.
     std::vector<std::array<TriangleEdge, 3>> across;
-    std::vector<std::array<TexturePlace, 3>> texture;  ///< Per triangle; empty where there is none.
+    std::vector<std::array<TexturePlace, 3>> texture;  ///< Per triangle; empty if there is none.
     std::vector<PointAttribute> attributes;
-    /// The face of the model from which each triangle was cut, counted from 0 (one without area
-    /// that was merged with a neighbour counts to the neighbour's); empty where nothing but
-    /// triangles is known.
+    /// The face of the model from which each triangle was cut, from 0 (a triangle without area that
+    /// was merged with a neighbour counts to the neighbour's); empty if the model has only
+    /// triangles.
     std::vector<std::uint32_t> faces;
 
     Vector3d corner(std::size_t triangle, std::size_t k) const {
         return points[triangles[triangle][k]];
     }
-    /// At right angles to a triangle, outwards, as long as twice its area.
+    /// The outward normal of a triangle, with the length of twice its area.
     Vector3d double_area_normal(std::size_t triangle) const {
         const Vector3d a = corner(triangle, 0);
         return cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
     }
     double area(std::size_t triangle) const { return length(double_area_normal(triangle)) / 2; }
-    /// Of all triangles, added in their order.
+    /// The sum over all triangles, in their order.
     double total_area() const;
-    /// The smallest box that holds all points.
+    /// The bounding box of all points.
     struct Box {
         Vector3d low, high;
     };
     Box box() const;
 };
 
-/// What a mesh is, in numbers.
+/// Properties of a mesh as numbers.
 struct MeshFacts {
     std::size_t points = 0, triangles = 0, edges = 0;
-    std::size_t components = 0;  ///< Connected components, over edges.
+    std::size_t components = 0;  ///< Connected over edges.
     std::size_t boundary_edges = 0;
     std::size_t boundaries = 0;             ///< Closed loops of boundary edges.
     std::int64_t euler_characteristic = 0;  ///< points − edges + triangles.
     double area = 0;
-    Vector3d low, high;  ///< The smallest box that holds it.
+    Vector3d low, high;  ///< The bounding box.
 };
 MeshFacts facts_of(const SurfaceMesh& mesh);
 
-/// The number of each triangle's component, 0 … components − 1, in order of their first triangles.
+/// The component of each triangle, 0 … components − 1, numbered in the order of their first
+/// triangles.
 std::vector<std::uint32_t> connected_components(const SurfaceMesh& mesh);
 
 }  // namespace cascade

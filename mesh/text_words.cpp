@@ -1,4 +1,4 @@
-// Numbers by from_chars(); those out of range become 0 or infinity.
+// Parses numbers by from_chars(); those out of range become 0 or infinity.
 #include "mesh/text_words.h"
 
 #include <algorithm>
@@ -26,8 +26,8 @@ std::optional<double> number_in(std::string_view word) {
         return std::nullopt;
     }
     if (fault == std::errc()) return value;
-    // Out of range, and from_chars does not say at which end: the exponent does, or, where there is
-    // none, whether anything stands before the point.
+    // Out of range, and from_chars does not tell at which end: the sign of the exponent does, or,
+    // without one, whether there are digits before the point.
     const bool is_negative = word.starts_with('-');
     if (is_negative) word.remove_prefix(1);
     const std::size_t exponent = word.find_first_of("eE");

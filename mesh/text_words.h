@@ -1,4 +1,4 @@
-// The lines of a text file, their words, and the numbers that words are.
+// Lines of a text file, their words, and numbers in words.
 #pragma once
 
 #include <charconv>
@@ -9,14 +9,14 @@
 
 namespace cascade {
 
-/// What stands between blanks, tabs and other white space.
+/// The words between white space.
 std::vector<std::string_view> words_of(std::string_view line);
 
-/// A number with or without a sign, a fraction, an exponent; also "nan" and "inf". What is nearer
-/// to 0 than any number is 0, what is beyond all numbers is infinite. Nothing for any other word.
+/// A number with an optional sign, fraction and exponent; also "nan" and "inf". Numbers out of
+/// range become 0 or infinity. Nothing for any other word.
 std::optional<double> number_in(std::string_view word);
 
-/// A whole number that fits its type, with or without a sign.
+/// An integer that fits its type, with an optional sign.
 template <typename Integer>
 std::optional<Integer> whole_number_in(std::string_view word) {
     if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
@@ -26,14 +26,14 @@ std::optional<Integer> whole_number_in(std::string_view word) {
     return value;
 }
 
-/// The lines of a text that hold words, one by one. What follows a '#' is a comment.
+/// Iterates over the lines of a text that have words. A '#' starts a comment.
 class LineReader {
 public:
     explicit LineReader(std::string_view text) : text_(text) {}
 
     /// The words of the next line; none at the end.
     const std::vector<std::string_view>& next();
-    /// Of the line read last, from 1.
+    /// The number of the current line, from 1.
     std::size_t number() const { return number_; }
 
 private:

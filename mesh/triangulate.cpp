@@ -1,4 +1,4 @@
-// Ear clipping in the plane nearest to the polygon's own; quadrilaterals have a rule of their own.
+// Ear clipping in the coordinate plane nearest to the polygon's; quadrilaterals are a special case.
 #include "mesh/triangulate.h"
 
 #include "core/vector2.h"
@@ -18,7 +18,7 @@ double turn(Vector2d a, Vector2d b, Vector2d c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// The polygon's normal, as long as twice the area: M. E. Newell's sum over its edges.
+/// The polygon's normal, with the length of twice its area: the sum over a fan of triangles.
 Vector3d normal_of(std::span<const Vector3d> corners) {
     Vector3d sum;
     for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
@@ -27,7 +27,7 @@ Vector3d normal_of(std::span<const Vector3d> corners) {
     return sum;
 }
 
-/// The polygon seen along the axis nearest to its normal, turning counterclockwise.
+/// The polygon projected along the axis nearest to its normal, counterclockwise.
 std::vector<Vector2d> flattened(std::span<const Vector3d> corners) {
     const Vector3d n = normal_of(corners);
     const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
@@ -59,7 +59,7 @@ void cut_quadrilateral(std::span<const Vector3d> c, std::vector<Triangle>& trian
     }
 }
 
-/// The corners that are left of a polygon while ears are cut off, as a ring.
+/// The remaining corners of a polygon while ears are cut off, as a ring.
 class Ring {
 public:
     explicit Ring(std::vector<Vector2d> corners) : corners_(std::move(corners)) {
@@ -77,7 +77,7 @@ public:
     std::uint32_t next(std::uint32_t k) const { return next_[k]; }
     Triangle ear(std::uint32_t k) const { return {previous_[k], k, next_[k]}; }
 
-    /// Turns to the inside, with no other corner within. Only dents can lie within an ear.
+    /// Convex, with no other corner inside. Only reflex corners can be inside an ear.
     bool is_ear(std::uint32_t k) const {
         if (!is_convex(k)) return false;
         const auto [a, b, c] = ear(k);
@@ -130,10 +130,10 @@ bool triangulate(std::span<const Vector3d> corners, std::vector<Triangle>& trian
             at = ring.next(at);
             ++tried;
         }
-        triangles.push_back(ring.ear(at));  // Of a polygon that crosses itself, any corner.
+        triangles.push_back(ring.ear(at));  // For a polygon that intersects itself, any corner.
         const std::uint32_t following = ring.next(at);
         ring.cut(at);
-        at = ring.next(following);  // Every second corner: round polygons make no fans.
+        at = ring.next(following);  // Skipping a corner avoids fans in round polygons.
     }
     triangles.push_back(ring.ear(at));
     return true;

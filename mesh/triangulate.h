@@ -1,4 +1,4 @@
-// Polygons cut into triangles.
+// Triangulation of polygons.
 #pragma once
 
 #include "core/vector3.h"
@@ -11,12 +11,12 @@
 
 namespace cascade {
 
-/// Cuts a polygon along diagonals into triangles of its corner numbers 0 … n − 1, which turn as it
-/// does: a quadrilateral along the diagonal that lies inside, the shorter one if both do; others by
-/// cutting off ears in the plane nearest to the polygon (G. H. Meisters, "Polygons have ears",
-/// American Mathematical Monthly 82, 1975). A polygon that crosses itself is cut up somehow.
-/// Appends to `triangles`. False for a polygon with so many dents that this would take more than
-/// seconds.
+/// Cuts a polygon along diagonals into triangles of its corners 0 … n − 1, with its orientation: a
+/// quadrilateral along the diagonal inside, the shorter one if both are; other polygons by cutting
+/// off ears in the coordinate plane nearest to the polygon (G. H. Meisters, "Polygons have ears",
+/// American Mathematical Monthly 82, 1975). The result for a polygon that intersects itself is
+/// arbitrary. Appends to `triangles`. Returns false for a polygon with so many reflex corners that
+/// this would take more than seconds.
 bool triangulate(std::span<const Vector3d> corners,
                  std::vector<std::array<std::uint32_t, 3>>& triangles);
 
