@@ -1,4 +1,4 @@
-// A stretch is a symmetric 2 x 2 matrix in the frame of its triangle.
+// Stretches are symmetric 2 × 2 matrices in the frame of their triangle.
 #include "surface/anisotropy.h"
 
 #include <algorithm>

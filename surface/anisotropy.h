@@ -1,4 +1,4 @@
-// Surfaces on which lengths count differently along and across a direction.
+// Anisotropic surfaces, whose metric differs along and across a direction.
 #pragma once
 
 #include "mesh/flat.h"
@@ -7,38 +7,35 @@
 
 namespace cascade {
 
-/// A symmetric matrix of determinant 1 that takes vectors of a plane to vectors whose lengths are
-/// those that count. It keeps areas.
+/// A symmetric matrix of determinant 1 that maps vectors of a plane to vectors with the length of
+/// the anisotropic metric. It preserves areas.
 struct Stretch {
     double xx = 1, xy = 0, yy = 1;
 
-    /// 1/√ratio along a direction of the plane, √ratio across: what is a circle afterwards was an
-    /// ellipse `ratio` times as long as wide.
+    /// Scales by 1/√ratio along a direction of the plane and by √ratio across it: an ellipse
+    /// `ratio` times as long as wide becomes a circle.
     static Stretch along(Vector2d direction, double ratio);
 
     Vector2d operator()(Vector2d v) const { return {xx * v.x + xy * v.y, xy * v.x + yy * v.y}; }
     Stretch inverse() const { return {yy, -xy, xx}; }
-    /// The same in a frame whose x axis is `turn` (of length 1) in this one.
+    /// The same stretch in a frame whose x axis is `turn` (of length 1) in this one.
     Stretch in_frame(Vector2d turn) const;
 };
 
-/// What each triangle is stretched by: G. Turk, "Texturing Surfaces Using Reaction-Diffusion"
-/// (thesis, 1992), section 4.4.1, contracts the places around a cell in the direction of
-/// anisotropy.
+/// The stretch of each triangle. G. Turk, "Texturing Surfaces Using Reaction-Diffusion" (thesis,
+/// 1992), section 4.4.1, contracts the points around a cell in the direction of anisotropy.
 struct Anisotropy {
-    /// Per triangle, of any length; what is normal to the triangle does not count.
+    /// Per triangle, of any length; the component normal to the triangle is ignored.
     std::vector<Vector3d> direction;
-    /// Per triangle, 1 … `largest_ratio`: how many times as long as wide cells are. Diffusion over
-    /// them is `ratio` times as fast along the direction as it would be without, and a `ratio`-th
-    /// across.
+    /// Per triangle, 1 … `largest_ratio`: the length of cells over their width. Relative to no
+    /// anisotropy, diffusion is `ratio` times as fast along the direction and 1/ratio times across.
     std::vector<double> ratio;
 
     static constexpr double largest_ratio = 100;
 
-    /// Of a triangle, brought to 1 … `largest_ratio`.
+    /// The ratio of a triangle, clamped to 1 … `largest_ratio`.
     double ratio_of(std::uint32_t triangle) const;
-    /// In the frame of the triangle. Of no direction within it nothing comes but the surface as it
-    /// is.
+    /// The stretch in the triangle's frame; the identity if the direction vanishes in its plane.
     Stretch of(const SurfaceMesh& mesh, std::uint32_t triangle) const;
 };
 

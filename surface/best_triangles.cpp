@@ -1,5 +1,5 @@
-// Dynamic programming over stretches of the ring: the best filling of a stretch comes from the best
-// fillings of its two parts (G. T. Klincsek, "Minimal triangulations of polygonal domains", 1980).
+// Dynamic programming over intervals of the ring: the best triangulation of an interval combines
+// those of its two parts (G. T. Klincsek, "Minimal triangulations of polygonal domains", 1980).
 #include "surface/fill_hole.h"
 
 #include <algorithm>
@@ -9,11 +9,10 @@ namespace cascade {
 
 namespace {
 
-/// Of the points of a ring from one to another.
+/// The best triangulation of the points of a ring from one to another.
 struct Part {
-    double worst = std::numeric_limits<double>::infinity();  ///< The worth of the worst triangle
-                                                             ///< between them, at best.
-    std::uint32_t middle = 0;  ///< The third corner of the triangle at the line that joins the two.
+    double worst = std::numeric_limits<double>::infinity();  ///< The worth of its worst triangle.
+    std::uint32_t middle = 0;  ///< The third corner of the triangle on the line that joins the two.
 };
 
 class BestFilling {
@@ -46,8 +45,8 @@ private:
         return best;
     }
 
-    /// Those farther out first, so that each cuts its middle corner off. No deeper than the ring is
-    /// long.
+    /// Outer triangles come first, so that each cuts off its middle corner. The recursion is at
+    /// most as deep as the ring is long.
     void collect(std::uint32_t from, std::uint32_t to, std::vector<RingTriangle>& found) {
         if (to - from < 2) return;
         const std::uint32_t middle = part(from, to).middle;

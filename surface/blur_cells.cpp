@@ -1,5 +1,5 @@
-// The exponential of the diffusion as a sum of Chebyshev polynomials, which takes far fewer
-// applications of the operator than explicit steps.
+// The exponential of the diffusion operator as a series of Chebyshev polynomials, which applies the
+// operator far less often than explicit steps would.
 #include "surface/blur_cells.h"
 
 #include <algorithm>
@@ -10,17 +10,16 @@ namespace cascade {
 
 namespace {
 
-/// Voronoi edges longer than this times the distance of their cells would make steps short: cells
-/// that nearly coincide.
+/// Limit of a Voronoi edge's length over distance: nearly coinciding cells would make steps short.
 constexpr double most_flow = 4;
-constexpr double least_area = 0.2;  ///< Of the average.
-constexpr double precision = 1e-4;  ///< Sum of what is left away of the series.
+constexpr double least_area = 0.2;  ///< As a fraction of the average.
+constexpr double precision = 1e-4;  ///< Sum of the omitted terms of the series.
 
-/// What flows between cells, in units of the average area.
+/// The coefficients of the flow between cells, in units of the average area.
 struct Flows {
     std::vector<float> inverse_areas;
     std::vector<float> edges;  ///< Length over distance, as in SurfaceCells::edges.
-    double fastest = 0;        ///< No wave decays faster than this.
+    double fastest = 0;        ///< Upper bound of the decay rates of all waves.
 };
 
 Flows flows_of(const SurfaceCells& cells) {
@@ -41,10 +40,10 @@ Flows flows_of(const SurfaceCells& cells) {
     return flows;
 }
 
-/// The coefficients of exp(z (x − 1)) in Chebyshev polynomials of x, −1 … 1: exp(−z) times the
-/// modified Bessel functions I₀(z), 2 I₁(z), 2 I₂(z), … (M. Abramowitz and I. Stegun, "Handbook of
-/// Mathematical Functions", 9.6.34), as many as are needed, scaled to the sum 1. They are found
-/// from the last one to the first by I_{k−1} = I_{k+1} + (2 k / z) I_k (J. Miller's way).
+/// The coefficients of exp(z (x − 1)) in Chebyshev polynomials of x, −1 … 1, scaled to the sum 1:
+/// exp(−z) times the modified Bessel functions I₀(z), 2 I₁(z), 2 I₂(z), … (M. Abramowitz and I.
+/// Stegun, "Handbook of Mathematical Functions", 9.6.34), truncated at `precision`. They are
+/// computed backwards by I_{k−1} = I_{k+1} + (2 k / z) I_k (Miller's algorithm).
 std::vector<float> coefficients(double z) {
     const auto last = static_cast<std::size_t>(std::sqrt(40 * z)) + 10;
     std::vector<double> found(last + 2);
@@ -67,9 +66,9 @@ std::vector<float> coefficients(double z) {
     return result;
 }
 
-/// Applies the exponential of a time times the flows. With B = 1 + 2 flows / fastest, whose waves
-/// are multiplied by −1 … 1, it is exp(z (B − 1)), z = time × fastest / 2: a sum of T_k(B) times
-/// the values, where T_{k+1} = 2 B T_k − T_{k−1}.
+/// Applies exp(time × flows). With B = 1 + 2 flows / fastest, whose eigenvalues are in −1 … 1, this
+/// is exp(z (B − 1)) for z = time × fastest / 2: a sum of T_k(B) applied to the values, where
+/// T_{k+1} = 2 B T_k − T_{k−1}.
 class Diffusion {
 public:
     Diffusion(const SurfaceCells& cells, const Flows& flows, int channels)
@@ -80,7 +79,6 @@ public:
         std::vector<float> current = values, before = values, next(values.size());
         for (float& value : values) value *= terms[0];
         for (std::size_t k = 1; k < terms.size(); ++k) {
-            // T₁ = B T₀; all others are twice B of the last one less the one before.
             sweep(k == 1 ? 1 : 2, k == 1 ? 0 : -1, terms[k], current, before, next, values, team);
             before.swap(current);
             current.swap(next);

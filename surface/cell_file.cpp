@@ -1,4 +1,4 @@
-// Two hashes over mesh and options are the key; whatever is read is checked before it is used.
+// The key is two hashes of mesh and options; everything read is validated before use.
 #include "surface/cell_file.h"
 
 #include "core/file.h"
@@ -33,14 +33,14 @@ static_assert(sizeof(Header) == 64);
 
 constexpr std::uint64_t bytes_per_cell = 4 + 3 * 8 + 8 + 8;
 constexpr std::uint64_t bytes_per_edge = 4 + 8 + 8;
-constexpr std::uint64_t most = std::uint64_t{1} << 40;  // Keeps sums of sizes from wrapping.
+constexpr std::uint64_t most = std::uint64_t{1} << 40;  // Keeps sums of sizes from overflowing.
 
 template <typename T>
 void append(std::string& bytes, const T& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// Takes values off the front. There must be enough.
+/// Reads values from the front of a text, which must be long enough.
 class Bytes {
 public:
     explicit Bytes(std::string_view bytes) : bytes_(bytes) {}
@@ -63,7 +63,7 @@ std::string_view bytes_of(const std::vector<T>& values) {
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-/// Of several texts one after the other.
+/// Two hashes of a sequence of texts.
 class TwoHashes {
 public:
     void add(std::string_view bytes) {
@@ -122,7 +122,7 @@ bool is_sound(const SurfacePlace& place, const SurfaceMesh& mesh) {
                        [](double weight) { return weight >= 0 && weight <= 1; });
 }
 
-/// Do the Voronoi edges of a cell name others, in order, which have them too?
+/// Whether a cell's Voronoi edges lead to other cells, in ascending order, that have them too.
 bool are_sound(const SurfaceCells& cells, std::uint32_t cell) {
     const auto edges = cells.edges_of(cell);
     for (std::size_t k = 0; k < edges.size(); ++k) {
@@ -243,7 +243,7 @@ Result<SurfaceCells> read_cells(const std::filesystem::path& path, const Surface
     const auto damaged = [&](std::string_view why) {
         return failure(fmt::format("'{}' is damaged: {}", path.string(), why));
     };
-    // It may have been replaced since its header was read.
+    // The file may have been replaced since its header was read.
     if (bytes->size() != size || std::memcmp(bytes->data(), &*header, sizeof(Header)) != 0) {
         return damaged("it changed while it was read");
     }

@@ -1,9 +1,8 @@
-// Cells kept in a file, for the next time that the same ones are asked for.
+// Cells kept in a file for later runs.
 //
-// The file is, in the byte order of the machine that wrote it: eight letters "CASCELLS", the
-// version, a mark of the byte order, the hash of all that the cells were made of, the numbers of
-// cells and Voronoi edges and the bare area; then places, areas, ends and edges; and a checksum
-// (FNV-1a, 64 bits) of everything before it.
+// The file consists of, in the byte order of the machine that wrote it: the letters "CASCELLS", the
+// version, a byte order mark, the key, the numbers of cells and Voronoi edges, and the bare area;
+// then places, areas, ends and edges; then a checksum (FNV-1a, 64 bits) of everything before it.
 #pragma once
 
 #include "core/result.h"
@@ -13,35 +12,33 @@
 
 namespace cascade {
 
-/// Raised when the file's form changes, or when the same surface and options give other cells than
-/// before.
+/// Increased when the file format or the cells for the same surface and options change.
 inline constexpr std::uint32_t cell_file_version = 2;
 
-/// A hash of the surface and of all that decides what cells it gets. Cells may be used again if and
-/// only if it is the same; two different ones agree once in 2¹²⁸.
+/// A hash of the surface and of all options that affect its cells: cells may be reused if and only
+/// if it is equal. The probability of a collision is 2⁻¹²⁸.
 struct CellKey {
     std::array<std::uint64_t, 2> words{};
     friend bool operator==(const CellKey&, const CellKey&) = default;
-    std::string text() const;  ///< 32 hexadecimal digits, for the name of a file.
+    std::string text() const;  ///< 32 hexadecimal digits, for a file name.
 };
 CellKey key_of(const SurfaceMesh& mesh, const CellOptions& options);
 
-/// Writes by a rename, so that nobody sees half a file.
+/// Writes a temporary file and renames it, so that an incomplete file is never seen.
 Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& cells,
                          const CellKey& key);
 
-/// The cells of a file written with this key for this surface. Fails, saying why, on a file that is
-/// missing, no file of cells, of another version or byte order, made of something else, truncated,
-/// or damaged in any bit. No more is allocated than the file's size allows, and cells that are
-/// returned are sound: every number names something, edges are symmetric, lengths are finite and
-/// above 0. Throws std::bad_alloc.
+/// The cells of a file written with this key for this surface. Fails with the reason if the file is
+/// missing, is no file of cells, has another version, byte order or key, or is truncated or damaged
+/// in any bit. Allocates no more than the file's size allows. The returned cells are valid: indices
+/// are in range, edges are symmetric, lengths are finite and positive. Throws std::bad_alloc.
 Result<SurfaceCells> read_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
                                 const CellKey& key);
 
-/// The cells from the file if it holds these; otherwise they are made and written there.
+/// The cells from the file if it holds them; otherwise they are made and written there.
 struct KeptCells {
     SurfaceCells cells;
-    bool were_kept = false;  ///< They came from the file.
+    bool were_kept = false;  ///< They were read from the file.
     std::string not_kept;    ///< Why the file could not be written; empty if it was.
 };
 Result<KeptCells> kept_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,

@@ -1,5 +1,4 @@
-// Each triangle is cut into boxes that list the images of cells within reach; a place looks in its
-// box.
+// Each triangle is divided into boxes that list the images of cells within reach of a box.
 #include "surface/cell_filter.h"
 
 #include "surface/point_index.h"
@@ -12,20 +11,20 @@ namespace cascade {
 
 namespace {
 
-/// A sum of weights below this is no average: the place is at the very rim of what it sees.
+/// With a smaller sum of weights, all cells are at the edge of their reach: no average is taken.
 constexpr float least_sum = 1e-5F;
 
-/// In radii: two images of a cell that are no farther apart are one.
+/// In radii: images of one cell that are no farther apart are merged.
 constexpr float same_point_distance = 0.004F;
 
 Vector3 single(Vector3d v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Of the square of a distance.
+/// The weight for the square of a distance, in radii.
 float weight_of(float square) { return std::max(0.0F, 1 + square * (2 * std::sqrt(square) - 3)); }
 
-/// Of the points the nearest one to each of some others, in space.
+/// For each of `others`, the nearest of the points in space.
 std::vector<std::uint32_t> nearest_points(std::span<const Vector3d> points,
                                           std::span<const Vector3d> others, double reach) {
     std::vector<std::uint32_t> nearest(others.size(), TriangleEdge::none);
@@ -94,7 +93,7 @@ CellFilter::FlatPoint CellFilter::flat_point(const Patch& patch, const SurfacePl
     const auto second = static_cast<float>(place.weights[(patch.first_corner + 1) % 3]);
     const auto third = static_cast<float>(place.weights[(patch.first_corner + 2) % 3]);
     FlatPoint result{second * patch.second_x + third * patch.third_x, third * patch.third_y, {}};
-    // On an edge the opposite corner's weight is 0, and that edge counts alone.
+    // On an edge the weight of the opposite corner is 0, so only that edge counts.
     float sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const double others = place.weights[k] * place.weights[(k + 1) % 3];
@@ -104,7 +103,7 @@ CellFilter::FlatPoint CellFilter::flat_point(const Patch& patch, const SurfacePl
     if (sum > 0) {
         for (float& edge : result.edges) edge /= sum;
     } else {
-        // At a corner: its two edges.
+        // At a corner its two edges count equally.
         for (std::size_t k = 0; k < 3; ++k) {
             result.edges[k] = place.weights[k] + place.weights[(k + 1) % 3] > 0.5 ? 0.5F : 0.0F;
         }
@@ -126,7 +125,7 @@ std::span<const CellFilter::Sighting> CellFilter::sightings_of(std::size_t first
     return {sightings_.data() + first, box_ends_[first_box + boxes - 1] - first};
 }
 
-/// Edges that see nearly the same share a sighting.
+/// Edges from which an image is at nearly the same point share a sighting.
 CellFilter::Sightings CellFilter::sightings_in(const CellImage& image) {
     Sightings found;
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -144,12 +143,11 @@ CellFilter::Sightings CellFilter::sightings_in(const CellImage& image) {
     return found;
 }
 
-/// Calls `visit(box)` for those of its triangle's boxes from which an image is within the radius:
-/// all between the lowest and highest that can be.
+/// Calls `visit(box)` for a rectangle of boxes of its triangle: all that an image can reach.
 template <typename Visit>
 void CellFilter::visit_boxes(const CellImage& image, const Visit& visit) const {
     const Patch& patch = patches_[image.triangle];
-    // A little more: where a place falls between boxes is rounded.
+    // A margin, because rounding decides in which box a place on a boundary falls.
     const float reach = 1 + 1e-3F;
     const auto number = [](float at, std::uint32_t count) {
         return static_cast<std::uint32_t>(
@@ -176,7 +174,7 @@ void CellFilter::fill_boxes(std::span<const CellImage> images) {
     std::size_t sum = 0;
     for (std::size_t& end : box_ends_) {
         const std::size_t count = end;
-        end = sum;  // Its first one; filling moves it to its end.
+        end = sum;  // The start of the box's list; filling moves it to the end.
         sum += count;
     }
     sightings_.resize(sum);
@@ -190,8 +188,8 @@ void CellFilter::fill_boxes(std::span<const CellImage> images) {
     }
 }
 
-/// For triangles from which no cell is seen: that of the triangle on the way to the next cell, or,
-/// on components without any, that nearest in space to the component's first triangle.
+/// Chooses substitutes for triangles without sightings: the cell of the triangle on the way to the
+/// nearest cell, or, in components without cells, that nearest in space to their first triangle.
 void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& cells) {
     std::vector<std::uint32_t> waiting;
     std::vector<bool> is_found(patches_.size());
@@ -217,7 +215,7 @@ void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& c
     };
     spread();
     const std::vector<std::uint32_t> components = connected_components(mesh);
-    std::vector<std::uint32_t> bare;  // The first triangles of components.
+    std::vector<std::uint32_t> bare;  // The first triangles of components without cells.
     std::vector<Vector3d> positions, bare_positions;
     std::uint32_t seen = 0;
     for (std::uint32_t t = 0; t < patches_.size(); ++t) {
@@ -237,7 +235,7 @@ void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& c
     spread();
 }
 
-/// Of all that are seen from the triangle, however far.
+/// The nearest of all cells seen from the triangle, at any distance.
 std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPoint place) const {
     std::uint32_t nearest = patch.otherwise;
     float least = INFINITY;
@@ -252,8 +250,8 @@ std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPoint place) cons
     return nearest;
 }
 
-/// Calls `visit(near)` once for each cell nearer than the radius. On each edge a distance is that
-/// of the edge's own sighting, so that both sides agree; inside a triangle it is between those.
+/// Calls `visit(near)` once for each cell within the radius. On an edge the distance is that of the
+/// edge's own sighting, so that both triangles agree; inside a triangle it is interpolated.
 template <typename Visit>
 void CellFilter::visit_near(const Patch& patch, FlatPoint place, const Visit& visit) const {
     const Vector3 position = patch.origin + patch.x_axis * place.x + patch.y_axis * place.y;

@@ -1,14 +1,13 @@
-// Values between the cells of a surface: what is known at their places, averaged so smoothly that
-// no cell is seen.
+// Smooth interpolation of cell values on a surface.
 //
 // G. Turk, "Texturing Surfaces Using Reaction-Diffusion" (thesis, 1992), section 5.4.1: the value
-// at a place is the average of those of the cells around it, each with the weight
+// at a place is the average of the values of the cells around it with the weights
 //
 //     w(d / s) = 2 (d / s)³ − 3 (d / s)² + 1    for d < s, and 0 beyond.
 //
-// Turk takes d in space and s = 2 r; here d runs along the surface where that is longer, so that
-// the two sides of a leaf have nothing to do with each other, and s is the radius of repulsion r =
-// 2 √(area / cells), which takes in a dozen cells.
+// Turk takes d in space and s = 2 r. Here d is the distance along the surface, where that is
+// longer, so that the two sides of a leaf do not mix; and s is the repulsion radius r = 2 √(area /
+// cells), which includes about twelve cells.
 #pragma once
 
 #include "core/parallel.h"
@@ -22,53 +21,49 @@
 
 namespace cascade {
 
-/// How much of a cell is seen at a place.
+/// The weight of a cell at a place.
 struct CellShare {
     std::uint32_t cell = 0;
     float weight = 0;
 };
 
-/// The same, with its change along the surface, in the plane of the triangle, per radius of the
-/// filter.
+/// A cell's weight and its gradient in the plane of the triangle, per radius of the filter.
 struct SlopedShare {
     std::uint32_t cell = 0;
     float weight = 0;
     Vector3 slope;
 };
 
-/// Safe to use from several threads at once. It keeps nothing of the cells and needs the mesh no
-/// longer than its constructor runs.
+/// Thread-safe. Keeps no reference to the cells or the mesh.
 class CellFilter {
 public:
-    /// Finds out from where each cell is seen. There is at least one cell. The same on any number
+    /// Finds the triangles within each cell's reach. There must be a cell. The same on any number
     /// of threads. Throws std::bad_alloc.
     CellFilter(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team);
 
-    /// The cells near a place, by their numbers, with weights ≥ 0 that sum to 1. There is always
-    /// one: where none is near it is the nearest, along the surface if its component has cells.
-    /// Replaces `out`.
+    /// The cells near a place, in ascending order, with weights ≥ 0 that sum to 1. If none is near,
+    /// the nearest one, along the surface if the place's component has cells. Replaces `out`.
     void shares(const SurfacePlace& place, std::vector<CellShare>& out) const;
 
-    /// The same cells with slopes that sum to 0, true to some hundredths where the surface is
-    /// curved.
+    /// The same cells with gradients that sum to 0, exact to a few hundredths on curved surfaces.
     void sloped_shares(const SurfacePlace& place, std::vector<SlopedShare>& out) const;
 
-    /// s: no cell farther than this has a share.
+    /// s: cells farther away have no weight.
     double radius() const { return radius_; }
 
 private:
-    /// A triangle laid flat, its longest edge along the x axis from the origin. Lengths are in
-    /// units of the radius, boxes are one wide and high.
+    /// A triangle laid flat, with its longest edge along the x axis from the origin. The unit of
+    /// length is the radius; boxes have side 1.
     struct Patch {
         Vector3 origin;
         Vector3 x_axis, y_axis;                        ///< In space, of length 1.
-        float second_x = 0, third_x = 0, third_y = 0;  ///< Of the corners.
-        std::uint32_t first_corner = 0;                ///< Which one is the origin.
+        float second_x = 0, third_x = 0, third_y = 0;  ///< Of the second and third corner.
+        std::uint32_t first_corner = 0;                ///< The one at the origin.
         std::uint32_t columns = 1, rows = 1;
-        std::uint32_t otherwise = 0;  ///< The cell that is taken if there is none.
+        std::uint32_t otherwise = 0;  ///< The cell to use if none is near.
         std::size_t first_box = 0;
     };
-    /// Where a cell is seen near some edges of a triangle, unfolded into its plane.
+    /// The position of a cell unfolded into a triangle's plane, as seen near some of its edges.
     struct Sighting {
         std::uint32_t cell = 0;
         std::uint32_t edges = 0;  ///< A bit for each of the three.
@@ -78,13 +73,13 @@ private:
     struct Near {
         std::uint32_t cell = 0;
         float square = 0;    ///< Of its distance.
-        float x = 0, y = 0;  ///< From it to the place.
+        float x = 0, y = 0;  ///< From the cell to the place.
     };
     struct FlatPoint {
         float x = 0, y = 0;
-        std::array<float, 3> edges{};  ///< How near they are: 1 on an edge, and together 1.
+        std::array<float, 3> edges{};  ///< Weights of the edges: 1 on an edge, with sum 1.
     };
-    /// What an image is in the boxes.
+    /// The sightings of one image.
     struct Sightings {
         std::array<Sighting, 3> all;
         std::size_t count = 0;
@@ -104,10 +99,10 @@ private:
     void find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& cells);
 
     double radius_ = 0;
-    std::vector<Vector3> positions_;     ///< Of the cells in space, from the first one.
-    std::vector<Patch> patches_;         ///< One a triangle.
+    std::vector<Vector3> positions_;     ///< Of the cells in space, relative to the first.
+    std::vector<Patch> patches_;         ///< One per triangle.
     std::vector<std::size_t> box_ends_;  ///< Box b's sightings end before sightings_[box_ends_[b]].
-    std::vector<Sighting> sightings_;    ///< In each box by the numbers of the cells.
+    std::vector<Sighting> sightings_;    ///< In each box in the order of cells.
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// A weighted least-squares fit to the unfolded neighbours, by a pseudo-inverse of a 2 x 2 matrix.
+// A weighted least-squares fit to the unfolded neighbours, by the pseudo-inverse of a 2 × 2 matrix.
 #include "surface/cell_gradient.h"
 
 #include "surface/cell_unfolding.h"
@@ -11,10 +11,11 @@ namespace cascade {
 
 namespace {
 
-/// Neighbours are on one line if their spread across it is this part of that along it (squared).
+/// Neighbours are collinear if the ratio of the (squared) spreads across and along a line is below
+/// this.
 constexpr double on_a_line = 1e-3;
 
-/// Neighbours nearer than this part of the cell's extent are in its own place.
+/// Neighbours nearer than this fraction of the cell's extent coincide with the cell.
 constexpr double same_place = 1e-9;
 
 /// A symmetric 2 × 2 matrix [xx, xy; xy, yy].
@@ -28,7 +29,7 @@ struct Spread {
     }
 };
 
-/// The inverse, or that on the one direction in which there is any spread, or 0.
+/// The inverse; for rank 1 the pseudo-inverse; else 0.
 Spread pseudo_inverse(const Spread& m) {
     const double half = (m.xx + m.yy) / 2, apart = std::hypot((m.xx - m.yy) / 2, m.xy);
     const double large = half + apart;
@@ -46,7 +47,7 @@ Spread pseudo_inverse(const Spread& m) {
 /// Writes the weights of one cell.
 void fit(const TangentFrame& frame, std::span<const VoronoiEdge> edges,
          std::span<const UnfoldedNeighbour> neighbours, std::span<Vector3d> weights) {
-    // Distances in units of the farthest, so that models of any size are fitted alike.
+    // Distances are relative to the longest, so that the scale of a model does not matter.
     double size = 0, longest = 0;
     for (std::size_t k = 0; k < edges.size(); ++k) {
         size = std::max(size, length(neighbours[k].place));

@@ -1,6 +1,6 @@
-// From the triangle of a place its image is handed on over edges, the nearest first, each edge
-// once. A strip of triangles that is unfolded may wind back to where it came from; that no way
-// along the surface is shorter than that through space keeps it from going on.
+// From the triangle of a place its image is propagated over edges, the nearest first, over each
+// edge once. An unfolded strip of triangles may wind back to its start; it ends there because a
+// path along the surface that is shorter than the distance in space is rejected.
 #include "surface/cell_images.h"
 
 #include <algorithm>
@@ -49,13 +49,13 @@ public:
 private:
     static constexpr std::uint32_t none = 3;
 
-    /// A triangle that was reached.
+    /// A visited triangle.
     struct Seen {
         std::uint32_t triangle = 0;
-        std::array<bool, 3> is_reached{};  ///< Edges over which an image came or went.
+        std::array<bool, 3> is_reached{};  ///< Edges crossed by an image.
         std::array<Vector2d, 3> from_edges;
     };
-    /// An edge of a triangle that was reached.
+    /// An edge of a visited triangle.
     struct Front {
         double square_distance = 0;
         std::uint32_t seen = 0;
@@ -65,7 +65,7 @@ private:
                    std::tie(b.square_distance, b.seen, b.edge);
         }
     };
-    /// Its number in seen_, if it is one of this cell.
+    /// The index in seen_ of a triangle's visit from `cell`.
     struct LastSeen {
         std::uint32_t cell = TriangleEdge::none;
         std::uint32_t number = 0;
@@ -102,7 +102,7 @@ private:
         there.from_edges[other.edge] = source;
     }
 
-    /// A point of the plane of the one triangle in that of the other.
+    /// Maps a point from the plane of one triangle to that of the other.
     Vector2d carried(TriangleEdge edge, TriangleEdge other, Vector2d point) const {
         const FlatTriangle& from = frames_[edge.triangle];
         const FlatTriangle& into = frames_[other.triangle];
@@ -122,7 +122,7 @@ private:
     Vector3d position_;
     std::vector<LastSeen> last_seen_;  ///< Per triangle.
     std::vector<Seen> seen_;
-    std::vector<Front> fronts_;  ///< A heap; the nearest comes out first.
+    std::vector<Front> fronts_;  ///< A heap; the nearest comes first.
 };
 
 }  // namespace

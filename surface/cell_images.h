@@ -1,4 +1,4 @@
-// Where the cells of a surface are seen from its triangles, when the surface is unfolded.
+// The positions of cells in the planes of triangles into which the surface is unfolded.
 #pragma once
 
 #include "core/parallel.h"
@@ -11,16 +11,15 @@
 
 namespace cascade {
 
-/// A triangle's longest edge.
+/// The index of a triangle's longest edge.
 std::uint32_t longest_edge(const SurfaceMesh& mesh, std::uint32_t triangle);
 
 /// The triangle with the start of its longest edge at the origin and that edge along the x axis.
 FlatTriangle longest_edge_frame(const SurfaceMesh& mesh, std::uint32_t triangle);
 
-/// A cell as it is seen from a triangle that the surface between them is unfolded into: where its
-/// place lies in the plane of longest_edge_frame, in units of the radius. Around a corner at which
-/// the surface is curved a triangle is reached in several ways, so each edge has its own, and both
-/// triangles at an edge have the same one there.
+/// The position of a cell in the plane of a triangle (longest_edge_frame), in units of the radius,
+/// with the surface between them unfolded. Around a corner of a curved surface, several unfoldings
+/// lead to a triangle, so each edge has its own position, which both triangles at an edge share.
 struct CellImage {
     struct Point {
         float x = 0, y = 0;
@@ -30,9 +29,9 @@ struct CellImage {
     std::array<Point, 3> from_edges;
 };
 
-/// The images of all places on all triangles that are reached within `radius` of them, along the
-/// surface and in space, by the numbers of the places. An edge that is not reached has the image of
-/// one that is: from there the place is farther than the radius. The same on any number of threads.
+/// The images of all places in all triangles reached within `radius` of them, along the surface and
+/// in space, in the order of places. An edge out of reach has the image of one that is reached,
+/// from which the place is farther than the radius. The same on any number of threads.
 std::vector<CellImage> cell_images(const SurfaceMesh& mesh, std::span<const SurfacePlace> places,
                                    double radius, Team& team);
 

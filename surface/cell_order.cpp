@@ -1,6 +1,5 @@
-// Hilbert's curve orders cells by place; breadth-first levels along links, as in Cuthill and
-// McKee's algorithm, order them for steps. Within a window, cells with equally many links stand
-// together.
+// Orders cells by position along a Hilbert curve, or, for time steps, by breadth-first levels along
+// links (Cuthill and McKee). Within a window, cells with equally many links are adjacent.
 #include "surface/cell_order.h"
 
 #include "core/check.h"
@@ -14,9 +13,9 @@
 namespace cascade {
 namespace {
 
-constexpr int bits = 21;  // An axis; three fit into a key.
+constexpr int bits = 21;  // Per axis; three fit into a key.
 
-/// How far along the curve a box lies.
+/// The position of a box along the curve.
 std::uint64_t curve_key(std::array<std::uint32_t, 3> box) {
     // Undoes the rotations and reflections of each level, from the coarsest on.
     for (std::uint32_t bit = 1U << (bits - 1); bit > 1; bit >>= 1) {
@@ -31,7 +30,7 @@ std::uint64_t curve_key(std::array<std::uint32_t, 3> box) {
             }
         }
     }
-    // Octants are numbered by Gray's code.
+    // Octants are numbered by the Gray code.
     box[1] ^= box[0];
     box[2] ^= box[1];
     std::uint32_t inverted = 0;
@@ -49,7 +48,7 @@ std::size_t link_count(const LinkList& links, std::uint32_t cell) {
     return links.ends[cell] - (cell == 0 ? 0 : links.ends[cell - 1]);
 }
 
-/// The boxes of all positions.
+/// The cube of boxes around all positions.
 class Cube {
 public:
     explicit Cube(std::span<const Vector3d> positions) {
@@ -72,7 +71,7 @@ private:
 
     std::uint32_t part(double value, double low) const {
         const double place = (value - low) * scale_ * last;
-        // NaN, of places that are none and of cubes without extent, is 0 as well.
+        // NaN, from cells without a position and cubes without extent, becomes 0.
         return place > 0 ? static_cast<std::uint32_t>(std::fmin(place, last)) : 0;
     }
 
@@ -80,17 +79,17 @@ private:
     double scale_ = 0;
 };
 
-/// Walks from cell to cell along links, over cells that are not ordered yet.
+/// Breadth-first search along links over cells that are not ordered yet.
 class LevelWalk {
 public:
     explicit LevelWalk(const LinkList& links)
         : links_(links), seen_(links.ends.size(), 0), is_ordered_(links.ends.size(), false) {}
 
     struct Reached {
-        std::vector<std::uint32_t>
-            cells;  ///< Level by level, those of a cell that has few links first.
+        /// Level by level; the neighbours of a cell in ascending order of their links.
+        std::vector<std::uint32_t> cells;
         std::size_t levels = 0;
-        std::size_t last_level = 0;  ///< Where it begins.
+        std::size_t last_level = 0;  ///< Index of its first cell.
     };
     Reached from(std::uint32_t start) {
         ++round_;
@@ -106,10 +105,9 @@ public:
         return reached;
     }
 
-    /// From a cell at the rim of what `start` reaches: each is one of the farthest from the one
-    /// before.
+    /// The levels from a peripheral cell: each trial starts from one of the last one's farthest.
     Reached from_rim(std::uint32_t start) {
-        constexpr int most_trials = 8;  // Two or three do.
+        constexpr int most_trials = 8;  // Two or three suffice.
         Reached best = from(start);
         for (int trial = 1; trial < most_trials; ++trial) {
             const auto rim = best.cells.begin() + static_cast<std::ptrdiff_t>(best.last_level);
@@ -146,7 +144,7 @@ private:
     }
 
     const LinkList& links_;
-    std::vector<std::uint32_t> seen_;  ///< In which walk last.
+    std::vector<std::uint32_t> seen_;  ///< The last search that visited the cell.
     std::vector<bool> is_ordered_;
     std::uint32_t round_ = 0;
 };
@@ -175,7 +173,7 @@ std::vector<std::uint32_t> order_by_levels(const LinkList& links) {
     for (std::uint32_t cell = 0; cell < links.ends.size(); ++cell) {
         if (walk.is_ordered(cell)) continue;
         walk.add_to(order, walk.from_rim(cell));
-        // Where links go one way only, the rim need not reach the cell.
+        // If links are not symmetric, the peripheral cell may not reach this one.
         if (!walk.is_ordered(cell)) walk.add_to(order, walk.from(cell));
     }
     return order;

@@ -1,4 +1,4 @@
-// Directions in tangent planes as complex numbers: how they are added, carried and smoothed.
+// Directions in tangent planes as complex numbers: sums, transport and smoothing.
 #pragma once
 
 #include "surface/direction_field.h"
@@ -7,28 +7,28 @@
 
 namespace cascade {
 
-/// Sums of directions shorter than this part of what was added cancel out.
+/// Directions whose sum is shorter than this fraction of the sum of their lengths cancel out.
 constexpr double cancelled_part = 1e-6;
 
-/// Directions in the frames of their planes; those of lines have twice the angle, so that v and −v
-/// are the same and lines at right angles cancel out.
+/// Directions in the frames of their planes. Those of lines have twice the angle, so that v and −v
+/// are equal and perpendicular lines cancel out.
 class CodedDirections {
 public:
     CodedDirections(const TangentPlanes& planes, DirectionKind kind)
         : planes_(planes), kind_(kind) {}
 
-    /// Keeps the length.
+    /// The code of a vector; it has the same length.
     Vector2d of(std::size_t plane, Vector3d v) const {
         const Vector2d flat = planes_.frames[plane].in_plane(v);
         if (kind_ == DirectionKind::arrows) return flat;
         return product(flat, unit_of(flat));
     }
-    /// Of length 1, whatever the length of the code.
+    /// The direction of a code, with length 1.
     Vector3d in_space(std::size_t plane, Vector2d code) const {
         const double angle = std::atan2(code.y, code.x) / symmetry();
         return planes_.frames[plane].in_space({std::cos(angle), std::sin(angle)});
     }
-    /// What brings a neighbour's direction here, of length 1.
+    /// The factor, of length 1, that transports a neighbour's code here.
     Vector2d turn(const TangentLink& link) const {
         const double angle = link.turn * symmetry();
         return {std::cos(angle), std::sin(angle)};

@@ -1,4 +1,4 @@
-// Convex regions of a plane whose edges know what lies beyond them.
+// Convex regions of a plane with a label on each edge: the region beyond it.
 #pragma once
 
 #include "mesh/flat.h"
@@ -12,7 +12,7 @@ class ConvexRegion {
 public:
     static constexpr std::uint32_t nothing = 0xffffffff;
     struct Edge {
-        Vector2d from;  ///< It ends where the next one begins, counterclockwise.
+        Vector2d from;  ///< Ends where the next one begins, counterclockwise.
         std::uint32_t beyond = nothing;
     };
 
@@ -23,15 +23,14 @@ public:
     bool empty() const { return edges_.empty(); }
     void clear() { edges_.clear(); }
     double area() const;
-    /// The mean of the corners; of none the origin.
+    /// The mean of the corners; the origin if there are none.
     Vector2d middle() const;
-    /// Of the corner farthest from the origin.
+    /// The distance of the farthest corner from the origin.
     double farthest() const;
 
-    /// Keeps what lies to the left of the line from a to b; a new edge along it has `beyond`
-    /// beyond.
+    /// Keeps the part to the left of the line from a to b; the new edge gets the label `beyond`.
     void cut(Vector2d a, Vector2d b, std::uint32_t beyond);
-    /// Keeps what is nearer to the origin than to a point.
+    /// Keeps the part that is nearer to the origin than to `point`.
     void cut_halfway(Vector2d point, std::uint32_t beyond) {
         const Vector2d middle = point * 0.5;
         cut(middle, middle + Vector2d{-point.y, point.x}, beyond);

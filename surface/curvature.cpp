@@ -1,5 +1,5 @@
 // The second fundamental form of each triangle, by least squares from the normals at its corners,
-// turned into the tangent planes of these and averaged there.
+// is rotated into the tangent planes at the corners and averaged there.
 #include "surface/curvature.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-/// Triangles flatter than this part of their longest edge squared say nothing of curvature.
+/// Triangles with a smaller ratio of area to the square of their longest edge are ignored.
 constexpr double least_shape = 1e-8;
 
 /// The triangle's angle at its corner k, 0 … π.
@@ -39,7 +39,7 @@ std::array<double, 3> corner_areas(const SurfaceMesh& mesh, std::size_t triangle
         return shares;
     }
     for (std::size_t k = 0; k < 3; ++k) {
-        // Of the two edges at the corner, each with the cotangent of the angle opposite.
+        // From the two edges at the corner, each with the cotangent of the opposite angle.
         const std::size_t a = corner_after(k), b = corner_after(a);
         shares[k] = (squares[a] / std::tan(angles[a]) + squares[b] / std::tan(angles[b])) / 8;
     }
@@ -47,12 +47,12 @@ std::array<double, 3> corner_areas(const SurfaceMesh& mesh, std::size_t triangle
     return shares;
 }
 
-/// A symmetric form on a tangent plane.
+/// A symmetric bilinear form on a tangent plane.
 struct Form {
     double uu = 0, uv = 0, vv = 0;
 };
 
-/// Two directions at right angles to each other and to a normal, of length 1.
+/// Two unit vectors perpendicular to each other and to a normal.
 struct Axes {
     Vector3d u, v;
 };
@@ -65,18 +65,18 @@ Axes axes_around(Vector3d normal) {
     return {u, cross(normal, u)};
 }
 
-/// Axes of one plane turned into that of another by the shortest way.
+/// Rotates the axes of one plane into another plane by the smallest rotation.
 Axes turned(const Axes& axes, Vector3d from, Vector3d to) {
     const double cosine = dot(from, to);
     if (cosine <= -1 + 1e-12) return {-axes.u, -axes.v};
-    // v less what it has along the mean of the normals, twice: two reflections.
+    // Two reflections: v minus twice its component along the mean of the normals.
     const Vector3d sum = from + to;
     const auto turn = [&](Vector3d v) { return v - sum * (dot(v, to) / (1 + cosine)); };
     return {turn(axes.u), turn(axes.v)};
 }
 
-/// The form of one triangle: form · e is how the normal changes along e, by least squares over its
-/// edges e, each of which gives two equations for uu, uv and vv.
+/// The form of one triangle: form · e is the change of the normal along e, by least squares over
+/// its edges e, each of which gives two equations for uu, uv and vv.
 struct TriangleForm {
     bool is_known = false;
     Axes axes;
@@ -114,7 +114,7 @@ TriangleForm form_of(const SurfaceMesh& mesh, const std::vector<Vector3d>& norma
         s += x * dy + y * dx;
         t += y * dy;
     }
-    // Solved for uv first; a c − b² is the spread of the edges and above 0.
+    // Solved for uv first; a c − b² measures the spread of the edges and is positive.
     const double determinant = (a * c - b * b) * (a + c);
     const double uv = (a * c * s - b * c * r - a * b * t) / determinant;
     result.form = {(r - b * uv) / a / size, uv / size, (t - b * uv) / c / size};
@@ -123,7 +123,7 @@ TriangleForm form_of(const SurfaceMesh& mesh, const std::vector<Vector3d>& norma
     return result;
 }
 
-/// A form on other axes of the same plane.
+/// The form on other axes of the same plane.
 Form on_axes(const TriangleForm& triangle, const Axes& axes) {
     const auto apply = [&](Vector3d a, Vector3d b) {
         const double ax = dot(a, triangle.axes.u), ay = dot(a, triangle.axes.v);
@@ -167,7 +167,7 @@ std::vector<Vector3d> sphere_normals(const SurfaceMesh& mesh) {
         const double size = length(sums[p]);
         sums[p] = size > 0 && std::isfinite(size) ? sums[p] * (1 / size) : Vector3d{};
     }
-    // Where the triangles around a point face all ways, that of one of them.
+    // If the normals around a point cancel out, takes that of one of its triangles.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (const std::uint32_t point : mesh.triangles[t]) {
             if (length(sums[point]) > 0.5) continue;
@@ -191,7 +191,8 @@ std::vector<double> angle_defects(const SurfaceMesh& mesh) {
     std::vector<double> defects(mesh.points.size(), 2 * std::numbers::pi);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
-            // As many boundaries go through a point as edges of them begin there.
+            // The number of boundaries through a point is the number of boundary edges that begin
+            // there.
             if (!mesh.across[t][k].exists()) defects[mesh.triangles[t][k]] -= std::numbers::pi;
         }
     }
@@ -246,7 +247,7 @@ std::vector<double> turk_radii(const SurfaceMesh& mesh, int rounds) {
         const Vector3d edge = mesh.points[q] - mesh.points[p];
         const double size = length(edge);
         for (const std::uint32_t end : {p, q}) {
-            // |tan θ| |P − Q| / 2, θ being the angle between the edge and the normal.
+            // tan θ| |P − Q| / 2, where θ is the angle between the edge and the normal.
             const double cosine = std::abs(dot(normals[end], unit(edge)));
             const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
             if (sine * size / 2 < radii[end] * cosine) radii[end] = sine * size / 2 / cosine;

@@ -1,5 +1,5 @@
-// Lines are added as vectors of twice their angle, since a line has no head; what is open is filled
-// in layers from what is known.
+// Lines are added as vectors of twice their angle, because they have no sign; undetermined
+// directions are filled in layers from the known ones.
 #include "surface/direction_field.h"
 
 #include "surface/coded_directions.h"
@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
 
-/// Principal curvatures that differ by less than this part of both are the same.
+/// Principal curvatures with a smaller relative difference count as equal.
 constexpr double least_difference = 1e-3;
 
-/// Gives planes without a direction (0) one, layer after layer.
+/// Assigns directions to planes without one (0), layer after layer.
 class Filling {
 public:
     Filling(const TangentPlanes& planes, const CodedDirections& coded, std::vector<Vector2d>& codes)
@@ -69,8 +69,7 @@ private:
     const TangentPlanes& planes_;
     const CodedDirections& coded_;
     std::vector<Vector2d>& codes_;
-    std::vector<std::uint32_t>
-        layers_;  ///< How far each is from what is known; none where it is not yet.
+    std::vector<std::uint32_t> layers_;  ///< Distance from a known plane in links, or none.
 };
 
 }  // namespace
@@ -78,7 +77,7 @@ private:
 std::vector<Vector3d> directions(const TangentPlanes& planes, std::span<const Vector3d> vectors,
                                  DirectionKind kind, double least_part) {
     const CodedDirections coded(planes, kind);
-    // In units of the longest, so that squares neither overflow nor vanish.
+    // Relative to the longest, so that squares neither overflow nor vanish.
     double longest = 0;
     for (const Vector3d& v : vectors) {
         if (is_finite(v))
@@ -137,7 +136,7 @@ std::vector<Vector3d> curvature_lines(const SurfaceMesh& mesh, const TangentPlan
             sum = sum + coded.of(k, curvature.high_direction[point]) * (apart * place.weights[c]);
         }
         if (!(length(sum) > least_difference * size)) sum = {};
-        // The other direction is at right angles, which is the opposite of what is doubled.
+        // The other direction is perpendicular, which is the negative of the doubled angle.
         if (which == Principal::low) sum = sum * -1.0;
         lines.push_back(coded.in_space(k, sum) * length(sum));
     }

@@ -1,8 +1,7 @@
-// Directions along a surface, for diffusion that differs by direction.
+// Direction fields on a surface, for anisotropic diffusion.
 //
-// A field is one vector of length 1 for each of some tangent planes, those of triangles or of
-// cells, in space. Where vectors that are asked for leave a direction open, it is filled from
-// around.
+// A field has one unit vector in space for each tangent plane. Undetermined directions are filled
+// in from their surroundings.
 #pragma once
 
 #include "surface/curvature.h"
@@ -13,30 +12,29 @@
 
 namespace cascade {
 
-/// Whether v and −v are different directions. Lines come with either of the two vectors.
+/// Whether v and −v are different directions. For lines either of the two vectors is returned.
 enum class DirectionKind { arrows, lines };
 
-/// Vectors brought into the planes, of which each has one. Where a vector is not finite, or less
-/// than `least_part` of the longest of all is left of it in its plane, the plane takes the mean of
-/// its neighbours, carried over as if the surface were unfolded, from what is known outwards. On a
-/// component where nothing is known one plane takes the x axis of its frame. Always of length 1 and
-/// finite.
+/// Projects vectors, one per plane, into the planes. If a vector is not finite, or its projection
+/// is shorter than `least_part` of the longest vector, the plane gets the mean of its neighbours'
+/// directions, transported as if the surface were unfolded, from the known planes outwards. In a
+/// component without known directions one plane gets its x axis. Results are finite unit vectors.
 std::vector<Vector3d> directions(const TangentPlanes& planes, std::span<const Vector3d> vectors,
                                  DirectionKind kind, double least_part = 1e-6);
 
-/// Where an axis, of any length, points in each plane: `directions` of the same vector everywhere.
+/// The projection of an axis of any length into each plane: `directions` of one vector everywhere.
 std::vector<Vector3d> axis_directions(const TangentPlanes& planes, Vector3d axis,
                                       DirectionKind kind);
 
-/// The gradient of values at the points of the mesh, linear in each triangle, at each plane's
-/// place: vectors for `directions`. In values by units of the model. For values of cells there is
+/// The gradient, at each plane's place, of values at the points of the mesh, linear in each
+/// triangle: vectors for `directions`, per unit of the model. For cells see
 /// surface/cell_gradient.h.
 std::vector<Vector3d> gradients_of_points(const SurfaceMesh& mesh, const TangentPlanes& planes,
                                           std::span<const double> values);
 
 enum class Principal { high, low };
-/// Lines along which curvature is highest or lowest, vectors for `directions`: as long as the two
-/// curvatures differ, and 0 where they differ by less than a thousandth.
+/// Lines along which the curvature is highest or lowest, as vectors for `directions`. Their length
+/// is the difference of the two curvatures, or 0 if it is less than a thousandth of them.
 std::vector<Vector3d> curvature_lines(const SurfaceMesh& mesh, const TangentPlanes& planes,
                                       const PrincipalCurvatures& curvature, Principal which);
 

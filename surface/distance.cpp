@@ -1,5 +1,4 @@
-// Distances spread from point to point over unfolded triangles, the least first, on a mesh whose
-// long edges are cut.
+// Distances spread from point to point over unfolded triangles, in ascending order.
 #include "surface/distance.h"
 
 #include <algorithm>
@@ -16,27 +15,25 @@ using Reach = SurfaceDistance::Reach;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Reach unreached = {infinity, SurfaceDistance::no_source};
 
-/// A point is visited again only if the new way is shorter by this part of it.
+/// A point is visited again only if the relative gain of the new path exceeds this.
 constexpr double least_gain = 1e-12;
 
-/// No more visits than this for each point: more are only thinkable on meshes of slivers, and what
-/// they would gain is small.
+/// Limit of visits per point, which only slivers could exceed, and with little gain.
 constexpr std::size_t most_visits = 60;
 
 bool is_shorter(const Reach& a, const Reach& b) {
     return std::tie(a.distance, a.source) < std::tie(b.distance, b.source);
 }
 
-/// Cuts that leave triangles of about the area that is asked for.
+/// The longest edge for which refinement gives triangles of about the requested area.
 double edge_for(double area, std::size_t triangles) {
-    // √(4/√3) is the edge of the equilateral triangle of area 1. Halving leaves edges of between a
-    // half and the whole of the longest that is allowed.
+    // √(4/√3) is the edge of the equilateral triangle of area 1. 1.4 allows for halved edges.
     return 1.5197 * 1.4 *
            std::sqrt(area / static_cast<double>(std::max<std::size_t>(triangles, 1)));
 }
 
-/// The way to a point p over the edge from a to b or along its ends, from how a and b were reached.
-/// All places are in one plane, and what reaches the edge comes from the other side of it than p.
+/// The shortest path to a point p through the edge from a to b or its ends, given the paths to a
+/// and b. All points are in one plane; paths reach the edge from the other side than p.
 Reach over_edge(Vector2d a, const Reach& to_a, Vector2d b, const Reach& to_b, Vector2d p) {
     const Reach along_a = {to_a.distance + length(p - a), to_a.source};
     const Reach along_b = {to_b.distance + length(p - b), to_b.source};
@@ -46,7 +43,7 @@ Reach over_edge(Vector2d a, const Reach& to_a, Vector2d b, const Reach& to_b, Ve
     const Vector2d edge = b - a;
     const double size = length(edge);
     if (!(size > 0)) return best;
-    // Along the edge from a, and away from it on the side of p.
+    // Coordinates of p: along the edge from a, and away from the edge.
     const double along = dot(p - a, edge) / size, height = std::abs(cross(edge, p - a)) / size;
     const double difference = (to_a.distance - to_b.distance) / size;
     const double origin = (size + difference * (to_a.distance + to_b.distance)) / 2;

@@ -1,4 +1,4 @@
-// How far places of a surface are from given ones, along the surface.
+// Distances along a surface.
 #pragma once
 
 #include "surface/refinement.h"
@@ -12,40 +12,40 @@
 namespace cascade {
 
 struct DistanceOptions {
-    /// The mesh is refined to about this many triangles of equal size where its own are larger.
+    /// The mesh is refined to about this many triangles of equal area if it is coarser.
     std::size_t triangles = 30'000;
 };
 
-/// The length of the shortest way along the surface from the nearest of some places, the sources.
+/// The shortest distance along the surface from the nearest of some places, the sources.
 ///
-/// A front goes over the mesh as in Dijkstra's algorithm. What reaches an edge is taken to come
-/// from one place: the point in the plane of the next triangle that is as far from the ends of the
-/// edge as was found; from there it goes straight to the third corner (M. Novotni and R. Klein,
-/// "Computing geodesic distances on triangular meshes", WSCG 2002). A point to which a shorter way
-/// is found later is visited again, so that obtuse angles need no care. On planes and around the
-/// edges of convex bodies this is exact, which plane fronts (R. Kimmel and J. Sethian, "Computing
-/// geodesic paths on manifolds", PNAS 95, 1998) are nowhere; exact windows (J. Mitchell, D. Mount
-/// and C. Papadimitriou, "The discrete geodesic problem", 1987) take much longer. On curved
-/// surfaces the error is of the order of the triangles' size: on a sphere of 30 000 triangles
-/// 0.0021 radii in the mean, and ten times that where ways from all directions meet. Time is n log
-/// n and does not depend on the number of sources.
+/// A front propagates over the mesh as in Dijkstra's algorithm. The paths to an edge are taken to
+/// come from one point: the one in the plane of the next triangle that has the computed distances
+/// from the ends of the edge. From there they go straight to the third corner (M. Novotni and R.
+/// Klein, "Computing geodesic distances on triangular meshes", WSCG 2002). A point to which a
+/// shorter path is found later is visited again, so obtuse angles need no special case. The result
+/// is exact on planes and around the edges of convex bodies, where methods with plane fronts (R.
+/// Kimmel and J. Sethian, "Computing geodesic paths on manifolds", PNAS 95, 1998) never are; exact
+/// windows (J. Mitchell, D. Mount and C. Papadimitriou, "The discrete geodesic problem", 1987) take
+/// much longer. On curved surfaces the error is of the order of the triangles' size: on a sphere of
+/// 30 000 triangles 0.0021 radii on average, and ten times that where paths from all directions
+/// meet. Time is O(n log n), independent of the number of sources.
 ///
-/// What is not connected with a source is infinitely far. Places must be on the mesh. Means
-/// nothing if `cancel` became true.
+/// Points that are not connected with a source are infinitely far. Places must be on the mesh.
+/// Undefined if `cancel` became true.
 class SurfaceDistance {
 public:
     static constexpr std::uint32_t no_source = 0xffffffff;
     struct Reach {
-        double distance = 0;  ///< In units of the model; infinite where nothing leads there.
-        std::uint32_t source = no_source;  ///< The number of the nearest source.
+        double distance = 0;               ///< In units of the model; infinite if no path exists.
+        std::uint32_t source = no_source;  ///< The index of the nearest source.
     };
 
     SurfaceDistance(const SurfaceMesh& mesh, std::span<const SurfacePlace> sources,
                     const std::atomic<bool>& cancel, const DistanceOptions& options = {});
 
-    /// At a point of the mesh.
+    /// The distance of a point of the mesh.
     Reach at_point(std::uint32_t point) const { return reached_[point]; }
-    /// At any place of the mesh.
+    /// The distance of any place of the mesh.
     Reach at(const SurfacePlace& place) const;
 
 private:
@@ -58,7 +58,7 @@ private:
     std::span<const LocalSource> sources_in(std::uint32_t triangle) const;
 
     Refinement refinement_;
-    std::vector<LocalSource> sources_;  ///< By triangles of the refined mesh.
+    std::vector<LocalSource> sources_;  ///< By triangle of the refined mesh.
     std::vector<Reach> reached_;        ///< Of the points of the refined mesh.
 };
 

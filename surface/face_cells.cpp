@@ -1,5 +1,5 @@
-// Triangles of one polygon are one cell; its edges take the place of Voronoi edges, and distances
-// the sums of the two centres' heights above them.
+// The triangles of one polygon form a cell, with the polygon's edges as Voronoi edges. The distance
+// of two cells is the sum of the heights of their centres above their edge.
 #include "surface/face_cells.h"
 
 #include "surface/voronoi_edge_list.h"
@@ -13,23 +13,22 @@ namespace cascade {
 
 namespace {
 
-/// The least weight of a corner in the middle of a triangle; in the centroid it is 1/3.
+/// The smallest weight of a corner in a triangle's centre; in the centroid it is 1/3.
 constexpr double least_weight = 1.0 / 9;
 
-/// What is added up of a face.
+/// Sums over a face.
 struct Face {
     std::uint32_t triangles = 0;
     double area = 0;
-    Vector3d moment;  ///< Area times centroid.
-    double nearest =
-        std::numeric_limits<double>::infinity();  ///< A triangle to the centroid, squared.
+    Vector3d moment;                                           ///< Area times centroid.
+    double nearest = std::numeric_limits<double>::infinity();  ///< Squared, to the centroid.
 };
 
 Vector3d centroid_of(const SurfaceMesh& mesh, std::uint32_t t) {
     return (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) * (1.0 / 3);
 }
 
-/// The place of a triangle nearest to a point, or nearly so where that is at its border.
+/// The place of a triangle nearest to a point, or approximately so if that is at its border.
 SurfacePlace place_near(const SurfaceMesh& mesh, std::uint32_t t, Vector3d point) {
     const Vector3d origin = mesh.corner(t, 0);
     const Vector3d x = unit(mesh.corner(t, 1) - origin);
@@ -38,9 +37,9 @@ SurfacePlace place_near(const SurfaceMesh& mesh, std::uint32_t t, Vector3d point
     return {t, weights_at(own_frame(mesh, t), {dot(from, x), dot(from, y)})};
 }
 
-/// The circumcentre of a triangle, brought inside where it is near an edge or beyond.
+/// The circumcentre of a triangle, moved inside if it is near an edge or outside.
 SurfacePlace middle_of(const SurfaceMesh& mesh, std::uint32_t t) {
-    // A corner's weight is as the sine of twice its angle.
+    // Barycentric weights of the circumcentre are proportional to the sine of twice the angle.
     std::array<double, 3> weights;
     double sum = 0;
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -57,7 +56,7 @@ SurfacePlace middle_of(const SurfaceMesh& mesh, std::uint32_t t) {
     return {t, weights};
 }
 
-/// How far a point is from the line of an edge.
+/// The distance of a point from the line of an edge.
 double height_above(const SurfaceMesh& mesh, TriangleEdge edge, Vector3d point) {
     const Vector3d start = mesh.corner(edge.triangle, edge.edge);
     const Vector3d along = mesh.corner(edge.triangle, corner_after(edge.edge)) - start;
@@ -105,8 +104,7 @@ SurfaceCells face_cells(const SurfaceMesh& mesh) {
     }
     for (const Face& face : faces) cells.areas.push_back(face.area);
 
-    // A centroid in a dent of its polygon may lie on the line of an edge, but that is as near as it
-    // counts.
+    // The centroid of a concave polygon may lie on the line of an edge, hence the lower bound.
     const auto height = [&](TriangleEdge edge) {
         const Vector3d middle = position_of(mesh, cells.places[cell_of[edge.triangle]]);
         const Vector3d least = position_of(mesh, middle_of(mesh, edge.triangle));

@@ -1,5 +1,4 @@
-// Cuts ears off the ring, the one with the best circumcircle first, from a priority queue in which
-// outdated ears are skipped.
+// Cuts ears off the ring, best circumcircle first, skipping outdated ears of the priority queue.
 #include "surface/fill_hole.h"
 
 #include <algorithm>
@@ -10,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-/// A tip that may be cut off, worth what it was when the ring around it had changed `age` times.
+/// A vertex that may be cut off; `age` counts the changes around it up to computing `reach`.
 struct Ear {
     double reach = 0;
     std::uint32_t tip = 0, age = 0;
@@ -50,7 +49,7 @@ public:
 private:
     RingTriangle around(std::uint32_t tip) const { return {previous_[tip], tip, next_[tip]}; }
 
-    /// Returns a neighbour.
+    /// Removes a vertex and returns a neighbour.
     std::uint32_t take_off(std::uint32_t tip) {
         const std::uint32_t before = previous_[tip], after = next_[tip];
         next_[before] = after;
@@ -63,8 +62,8 @@ private:
         return before;
     }
 
-    /// The origin sees the whole ring, so that a triangle to whose right or on whose third side it
-    /// lies has no other point of the ring within.
+    /// The whole ring is visible from the origin, so a triangle contains no other point of the ring
+    /// if the origin is to its right or on its third side.
     void consider(std::uint32_t tip) {
         if (!is_closed_ && (tip == 0 || tip + 1 == ring_.size())) return;
         const Vector2d a = ring_[previous_[tip]], b = ring_[tip], c = ring_[next_[tip]];

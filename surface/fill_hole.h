@@ -1,4 +1,4 @@
-// Cutting the hole that a point leaves into triangles.
+// Triangulation of the hole that a removed point leaves.
 #pragma once
 
 #include "mesh/flat.h"
@@ -9,36 +9,34 @@
 
 namespace cascade {
 
-/// The one-ring of a point, which is the origin, in a plane: distances are kept, and the angles
-/// between neighbours, given one after the other, are scaled to a full turn, or to half a turn
-/// between the first and the last where the point is at a boundary (one angle less than distances):
-/// the geodesic polar map of W. Welch and A. Witkin, "Free-Form Shape Design Using Triangulated
-/// Surfaces", SIGGRAPH 1994. Unlike in a projection to the tangent plane the triangles never
-/// overlap.
+/// Maps the one-ring of a point to a plane with the point at the origin. Distances are kept; the
+/// angles between consecutive neighbours are scaled to a full turn, or to half a turn for a point
+/// at a boundary (with one angle less than distances): the geodesic polar map of W. Welch and A.
+/// Witkin, "Free-Form Shape Design Using Triangulated Surfaces", SIGGRAPH 1994. Unlike in a
+/// projection to the tangent plane, the triangles never overlap.
 std::vector<Vector2d> unroll(std::span<const double> distances, std::span<const double> angles);
 
-/// Corners, as numbers of points of a ring, counterclockwise.
+/// Corners as indices of points of a ring, counterclockwise.
 using RingTriangle = std::array<std::uint32_t, 3>;
 
-/// Whether a triangle may be made. Its first and third corner are joined by a new edge if they are
-/// not neighbours on the ring.
+/// Whether a triangle is allowed. Its first and third corner get a new edge unless adjacent.
 using MayMake = std::function<bool(const RingTriangle& corners)>;
 
-/// Cuts the ears off a ring around the origin until a triangle is left, each time the one whose
-/// circle reaches least far beyond the origin, which makes the Delaunay triangulation of a convex
-/// ring (O. Devillers, "On deletion in Delaunay triangulations", SoCG 1999); an ear that may not be
-/// made waits for another to change it. Of an open ring the first and the last point are no tips of
-/// ears. Returns the triangles in order, the last what is left; nothing where no ear can be cut.
-/// O(n log n) but for those that may not be made.
+/// Cuts ears off a ring around the origin until a triangle is left, always the one whose
+/// circumcircle reaches least far beyond the origin. For a convex ring this gives the Delaunay
+/// triangulation (O. Devillers, "On deletion in Delaunay triangulations", SoCG 1999). An ear that
+/// is not allowed waits until a neighbouring ear changes it. The first and the last point of an
+/// open ring are no ears. Returns the triangles in order, with the remaining one last; nothing if
+/// it gets stuck. O(n log n), except for ears that are not allowed.
 std::vector<RingTriangle> cut_ears(std::span<const Vector2d> ring, bool is_closed,
                                    const MayMake& may_make);
 
-/// How good a triangle would be, 0 if it may not be made.
+/// The quality of a triangle, 0 if it is not allowed.
 using Worth = std::function<double(const RingTriangle& corners)>;
 
-/// Of all ways to cut a ring of `count` points into triangles the one whose worst triangle is best,
-/// found by G. T. Klincsek's dynamic programming ("Minimal triangulations of polygonal domains",
-/// 1980) in O(n³). Returns the triangles as cut_ears() does; nothing if there is no way.
+/// The triangulation of a ring of `count` points whose worst triangle is best, by the dynamic
+/// programming of G. T. Klincsek ("Minimal triangulations of polygonal domains", 1980), in O(n³).
+/// Returns the triangles in the order of cut_ears(); nothing if there is no triangulation.
 std::vector<RingTriangle> best_triangles(std::uint32_t count, const Worth& worth);
 
 }  // namespace cascade

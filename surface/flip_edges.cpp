@@ -1,4 +1,4 @@
-// Flips are OpenMesh's; which of them make a surface better is decided here.
+// Decides which flips improve a surface; OpenMesh does them.
 #include "surface/flip_edges.h"
 
 #include "surface/triangle_quality.h"
@@ -9,10 +9,10 @@ namespace cascade {
 
 namespace {
 
-constexpr double least_gain = 1e-9;   ///< Of a score: more than rounding can do.
+constexpr double least_gain = 1e-9;   ///< Of a score; above rounding errors.
 constexpr double upside_down = 0.05;  ///< A mean cosine.
 
-/// Of an edge between triangles: 1 up to a right angle, 0 where they lie on each other.
+/// Rates the fold at an edge between triangles: 1 up to a right angle, 0 if they lie on each other.
 double openness_between(Vector3d one, Vector3d other) { return std::min(1.0, 1 + dot(one, other)); }
 
 }  // namespace
@@ -22,7 +22,7 @@ EdgeFlipper::EdgeFlipper(HalfEdges& mesh, std::span<const Vector3d> normals)
     for (const FaceHandle f : mesh.faces()) look_at(f);
 }
 
-/// An edge waits once, which its tag says.
+/// Queues an edge once; its tag marks it as queued.
 void EdgeFlipper::suspect(HalfedgeHandle h) {
     const EdgeHandle e = mesh_.edge_handle(h);
     if (mesh_.status(e).tagged()) return;
@@ -58,14 +58,14 @@ EdgeFlipper::Face EdgeFlipper::face(VertexHandle a, VertexHandle b, VertexHandle
             unit(cross(at_b - at_a, at_c - at_a))};
 }
 
-/// Between a triangle and what lies across a side that it has.
+/// The rating of the fold between a triangle and its neighbour across a side.
 double EdgeFlipper::openness(const Face& one, HalfedgeHandle side) {
     const FaceHandle other = mesh_.opposite_face_handle(side);
     return other.is_valid() ? openness_between(one.direction, at(other).direction) : 1;
 }
 
-/// Flips an edge where the worst of its two triangles, of the edge and of their four sides becomes
-/// better.
+/// Flips an edge if that improves the worst of its triangles and of the folds at it and their
+/// sides.
 void EdgeFlipper::flip_if_better(EdgeHandle e) {
     const HalfedgeHandle h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
     const VertexHandle c = mesh_.opposite_vh(h), d = mesh_.opposite_vh(o);

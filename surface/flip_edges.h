@@ -1,4 +1,4 @@
-// Better triangles over the same points.
+// Improvement of triangles by flipping edges.
 #pragma once
 
 #include "mesh/half_edges.h"
@@ -9,26 +9,26 @@
 
 namespace cascade {
 
-/// Flips edges of a mesh where the worst of what changes becomes better: the two triangles
-/// (TriangleQuality::score()) and the folds at the edge and at their four sides. On a plane that is
-/// Lawson's way to the Delaunay triangulation, whose smallest angles are the largest (R. Sibson,
-/// "Locally equiangular triangulations", 1978). No triangle is turned upside down and no two points
-/// get a second edge.
+/// Flips edges of a mesh if that improves the worst of what changes: the two triangles
+/// (TriangleQuality::score()) and the folds at the edge and at the four sides. On a plane this is
+/// Lawson's algorithm for the Delaunay triangulation, which maximises the smallest angle (R.
+/// Sibson, "Locally equiangular triangulations", 1978). It turns no triangle upside down and
+/// creates no second edge between two points.
 class EdgeFlipper {
 public:
-    /// `normals` are those of the surface at the points. All faces are looked at first.
+    /// `normals` are those of the surface at the points. Queues the edges of all faces.
     EdgeFlipper(HalfEdges& mesh, std::span<const Vector3d> normals);
 
-    /// Notes that a face has changed, unless it is gone.
+    /// Queues the edges of a changed face, unless it is deleted.
     void look_at(FaceHandle f);
 
-    /// Looks at the edges of all faces that were noted, and then at those of faces it changes
-    /// itself. Ends because the scores of all triangles and edges, sorted, grow with every flip.
-    /// Stops early when `cancel` becomes true.
+    /// Processes the queue, including the edges of faces that change on the way. Terminates because
+    /// every flip increases the sorted list of the scores of all triangles and edges. Stops early
+    /// when `cancel` becomes true.
     void improve(const std::atomic<bool>& cancel);
 
 private:
-    /// A triangle as it is or might be.
+    /// The rating of an existing or possible triangle.
     struct Face {
         double score = 0;
         bool is_upright = true;
@@ -42,7 +42,7 @@ private:
 
     HalfEdges& mesh_;
     std::span<const Vector3d> normals_;
-    std::vector<Face> faces_;  ///< Of each face.
+    std::vector<Face> faces_;
     std::vector<EdgeHandle> suspects_;
 };
 

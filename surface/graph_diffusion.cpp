@@ -1,5 +1,4 @@
-// Implicit Euler steps, each solved by conjugate gradients; sums are taken in blocks of fixed size,
-// so that any number of threads gives the same bits.
+// Implicit Euler steps, solved by conjugate gradients.
 #include "surface/graph_diffusion.h"
 
 #include <algorithm>
@@ -14,12 +13,12 @@ constexpr int steps = 4;
 constexpr double residual_tolerance = 1e-6;
 constexpr double rounding = 1e-14;
 constexpr int most_rounds = 2'000;
-constexpr double longest_time = 100;  ///< In units of the total mass: nothing is left to smooth.
+constexpr double longest_time = 100;  ///< In units of the total mass: diffusion is complete then.
 
-/// Sums are taken of blocks of this many nodes, so that threads do not matter.
+/// Sums are taken over blocks of this many nodes, for the same bits on any number of threads.
 constexpr std::size_t block = 2'048;
 
-/// With fewer nodes than this for each thread, waiting for each other takes longer than the work.
+/// With fewer nodes per thread, synchronisation takes longer than the work.
 constexpr std::size_t least_for_thread = 50'000;
 
 double product(double a, double b) { return a * b; }
@@ -29,7 +28,7 @@ double inner(Vector2d a, Vector2d b) { return dot(a, b); }
 template <typename Number>
 class ImplicitStep {
 public:
-    /// Masses are taken in units of their mean: it is `unit`.
+    /// `unit` is the mean mass; masses are relative to it.
     ImplicitStep(const DiffusionGraph<Number>& graph, double time, double unit, Team& team)
         : graph_(graph),
           time_(time / unit),
@@ -49,7 +48,7 @@ public:
 
     void solve(std::vector<Number>& values, const std::atomic<bool>& cancel) {
         const std::size_t count = values.size();
-        // What remains of mass · values − (mass + time · L) values at first.
+        // The initial residual of mass · values − (mass + time · L) values.
         std::vector<Number> rest(count), towards(count), image(count);
         const double scale = sum([&](std::size_t k) {
             rest[k] = rest_at(values, k);

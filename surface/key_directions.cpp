@@ -1,4 +1,4 @@
-// Dijkstra's algorithm carries each key's direction to the planes nearest to it; smoothing is
+// Dijkstra's algorithm propagates each key's direction to the nearest planes; smoothing is
 // diffusion of the directions (surface/graph_diffusion).
 #include "surface/key_directions.h"
 
@@ -18,14 +18,14 @@ namespace cascade {
 
 namespace {
 
-/// A vector brought to length 1 without overflow; 0 if it is not finite.
+/// A vector scaled to length 1 without overflow; 0 if it is not finite.
 Vector3d safe_unit(Vector3d v) {
     const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (!(size > 0) || !is_finite(v)) return {};
     return unit(Vector3d{v.x / size, v.y / size, v.z / size});
 }
 
-/// Spreads directions from seeds over the planes by Dijkstra's algorithm.
+/// Propagates directions from seeds over the planes by Dijkstra's algorithm.
 class Flood {
 public:
     Flood(const TangentPlanes& planes, const CodedDirections& coded)
@@ -53,7 +53,7 @@ public:
                 const double reached = distance + link.distance;
                 if (!(reached < distances_[link.neighbour])) continue;
                 distances_[link.neighbour] = reached;
-                // From here to there: the turn the other way.
+                // From here to there: the inverse rotation.
                 const Vector2d turn = coded_.turn(link);
                 codes_[link.neighbour] = product(codes_[node], {turn.x, -turn.y});
                 waiting_.push({reached, link.neighbour});
@@ -71,7 +71,7 @@ private:
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting_;
 };
 
-/// The direction of a key in a plane; 0 where it stands upright there.
+/// The code of a key's direction in a plane; 0 if it is perpendicular to it.
 Vector2d code_of(const CodedDirections& coded, std::uint32_t plane, const KeyDirection& key) {
     const Vector2d code = coded.of(plane, safe_unit(key.direction));
     return length(code) > cancelled_part ? unit_of(code) : Vector2d{};

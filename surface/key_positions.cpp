@@ -35,7 +35,7 @@ std::vector<double> nearest_key_values(const SurfaceMesh& mesh, const SurfaceCel
     std::vector<double> values(cells.places.size());
     if (placed.empty()) return values;
     const SurfaceDistance distance(mesh, places, cancel);
-    // The first cell of a component that no key reaches chooses for all of the component.
+    // In a component that no key reaches, the first cell determines the key for all.
     std::vector<std::uint32_t> components;
     std::vector<const KeyValue*> chosen;
     for (std::size_t cell = 0; cell < values.size() && !cancel; ++cell) {
@@ -69,7 +69,7 @@ std::vector<double> smoothed(const SurfaceCells& cells, std::vector<double> valu
     }
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     const double least = *low, largest = *high;
-    // What spreads for a time t has the variance 2t.
+    // Diffusion for a time t has the variance 2t.
     values = diffused(graph, std::move(values), length * length / 2, team, cancel);
     for (double& value : values) value = std::clamp(value, least, largest);
     return values;

@@ -1,4 +1,4 @@
-// Checks what is asked for, then calls the maker of each kind.
+// Validates the options, then calls the function for each kind of cells.
 #include "surface/make_cells.h"
 
 #include "core/counted.h"

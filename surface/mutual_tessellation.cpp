@@ -1,5 +1,5 @@
 // Inserts places one by one, in random rounds along a curve, and flips edges until the triangles
-// within each old one are Delaunay. Places are found by walks over edges.
+// within each old one are Delaunay. Places are located by walking over edges.
 #include "surface/mutual_tessellation.h"
 
 #include "core/hash.h"
@@ -14,7 +14,7 @@ namespace cascade {
 
 namespace {
 
-/// The bits of two numbers by turns: places near each other on this curve are near in the triangle.
+/// Interleaves the bits of two numbers: the position on a curve along which near places are near.
 std::uint64_t along_curve(const Steps& steps) {
     std::uint64_t key = 0;
     for (int bit = 24; bit >= 0; --bit) {
@@ -24,8 +24,8 @@ std::uint64_t along_curve(const Steps& steps) {
     return key;
 }
 
-/// Triangle by triangle; within one in rounds of twice as many places each, chosen by chance, and
-/// in each round along a curve.
+/// The order by triangle; within a triangle in random rounds, each of twice as many places as the
+/// one before, and within a round along a curve.
 std::vector<std::uint32_t> insertion_order(const std::vector<LatticePlace>& places) {
     using Entry = std::tuple<std::uint32_t, int, std::uint64_t, std::uint32_t>;
     std::vector<Entry> entries;
@@ -40,7 +40,7 @@ std::vector<std::uint32_t> insertion_order(const std::vector<LatticePlace>& plac
     return order;
 }
 
-/// Above 0 where d lies within the circle through a, b, c, by more than rounding can do.
+/// Whether d is inside the circle through a, b, c, by more than rounding errors.
 bool is_in_circle(Vector2d a, Vector2d b, Vector2d c, Vector2d d) {
     a = a - d;
     b = b - d;
@@ -82,11 +82,11 @@ public:
     }
 
 private:
-    /// The old triangle in which a face lies. Splitting a face or an edge hands it on.
+    /// The old triangle that contains a face. Splitting a face or an edge copies it.
     std::uint32_t& origin(FaceHandle f) { return mesh_.property(origin_, f); }
     std::uint32_t origin(FaceHandle f) const { return mesh_.property(origin_, f); }
 
-    /// Of the old points, from the triangles around them by their areas.
+    /// The area-weighted normals of the old points.
     void take_normals() {
         made_.normals.resize(old_.points.size());
         for (std::size_t t = 0; t < old_.triangles.size(); ++t) {
@@ -97,7 +97,7 @@ private:
         for (Vector3d& normal : made_.normals) normal = unit(normal);
     }
 
-    /// In the order of places, which is why their numbers do not depend on that of insertion.
+    /// In the order of places, so that indices do not depend on the order of insertion.
     void add_points() {
         for (std::size_t k = 0; k < places_.size(); ++k) {
             const LatticePlace& place = places_[k];
@@ -122,7 +122,7 @@ private:
         }
     }
 
-    /// Where a point of a triangle of the old mesh, or of its sides, lies in it.
+    /// The position in an old triangle of a point in it or on its sides.
     Steps steps_in(std::uint32_t triangle, VertexHandle v) const {
         const std::uint32_t point = number(v);
         if (point < old_.points.size()) {
@@ -143,15 +143,14 @@ private:
                frame_[2] * (static_cast<double>(steps[2]) / lattice_steps);
     }
 
-    /// Where the walk to a point ends: a face, and one of its edges if the point lies on it.
+    /// The result of a walk to a point: a face, and one of its edges if the point lies on it.
     struct Found {
         FaceHandle face;
         HalfedgeHandle edge;
     };
 
-    /// Walks over the edges that lie between, which of two first is left to chance: O. Devillers,
-    /// S. Pion and M. Teillaud, "Walking in a triangulation", 2002. That never goes round in
-    /// circles.
+    /// Walks over the edges that separate the face from the point, in random order, so that it
+    /// cannot cycle: O. Devillers, S. Pion and M. Teillaud, "Walking in a triangulation", 2002.
     Found locate(const Steps& point, FaceHandle f) const {
         for (std::uint32_t step = 0;; ++step) {
             HalfedgeHandle h = mesh_.halfedge_handle(f), on, leave;
@@ -171,7 +170,7 @@ private:
         }
     }
 
-    /// Returns a face at the point, in the same old triangle as `near`.
+    /// Inserts a point near a face and returns a face at the point, in the same old triangle.
     FaceHandle insert(std::uint32_t point, FaceHandle near) {
         const Found found = locate(steps_in(origin(near), vertex(point)), near);
         if (found.edge.is_valid()) mesh_.split_copy(mesh_.edge_handle(found.edge), vertex(point));
@@ -180,8 +179,8 @@ private:
         return found.face;
     }
 
-    /// Flips edges that face a new point until all its triangles are Delaunay triangles. Each edge
-    /// is replaced by one of the point, of which there is a limited number.
+    /// Flips edges opposite a new point until all its triangles are Delaunay. Terminates because
+    /// each flip adds an edge to the point.
     void restore(VertexHandle point) {
         outgoing(mesh_, point, suspects_);
         std::erase_if(suspects_, [&](HalfedgeHandle h) { return mesh_.is_boundary(h); });

@@ -1,4 +1,5 @@
-// A tree of boxes, halved by the number of triangles; of equal distances the lower triangle wins.
+// A bounding volume hierarchy, split by the number of triangles. Of equal distances the lower
+// triangle wins.
 #include "surface/nearest_place.h"
 
 #include <algorithm>
@@ -11,8 +12,8 @@ namespace {
 
 constexpr std::uint32_t most_in_leaf = 4;
 
-/// Points farther away than so many sizes of the model are brought nearer along a straight line:
-/// what is nearest to them stays so, and distances stay different from each other.
+/// Points farther away, in sizes of the model, are moved nearer along a straight line. This keeps
+/// the nearest place and lets distances differ despite rounding.
 constexpr double farthest = 1e5;
 
 /// The part of the way from a to b at which a point is nearest.
@@ -57,7 +58,7 @@ std::array<double, 3> nearest_weights(const std::array<Vector3d, 3>& corners, Ve
         for (double& weight : weights) weight /= sum;
         return weights;
     }
-    // Beyond an edge the nearest point lies on some edge.
+    // If the projection is outside, the nearest point is on an edge.
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
         const Vector3d a = corners[k], b = corners[(k + 1) % 3];
@@ -87,8 +88,7 @@ NearestPlace::NearestPlace(const SurfaceMesh& mesh) : mesh_(mesh), order_(mesh.t
         middles.push_back((a + b + c) * (1.0 / 3));
     }
     boxes_.push_back({{}, {}, 0, static_cast<std::uint32_t>(order_.size()), 0});
-    // Boxes are halved by number of triangles, so the list grows to less than the triangles'
-    // number.
+    // The list grows during the loop to fewer boxes than triangles.
     for (std::uint32_t box = 0; box < boxes_.size(); ++box) {
         fit(boxes_[box]);
         if (boxes_[box].count > most_in_leaf) split(box, middles);
@@ -132,7 +132,7 @@ void NearestPlace::search(const Box& box, Vector3d point, Best& best) const {
             std::swap(near, far);
             std::swap(to_near, to_far);
         }
-        // Equal is looked at too: a triangle of a lower number may be there.
+        // A box at equal distance may have a triangle of lower index, so it is searched too.
         if (to_near <= best.distance) search(*near, point, best);
         if (to_far <= best.distance) search(*far, point, best);
         return;
@@ -153,7 +153,7 @@ std::optional<SurfacePlace> NearestPlace::find(Vector3d point) const {
     const Box& all = boxes_[0];
     const Vector3d middle = (all.low + all.high) * 0.5;
     const double size = length(all.high - all.low);
-    // A quarter of the way there, which is finite however large the numbers are.
+    // A quarter of the vector, which is finite for all finite numbers.
     const Vector3d part = point * 0.25 - middle * 0.25;
     const double away = std::hypot(part.x, part.y, part.z);
     if (away > farthest * size / 4) {

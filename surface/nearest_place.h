@@ -1,4 +1,4 @@
-// The place on a surface that is nearest to a point in space.
+// The place of a surface that is nearest to a point in space.
 #pragma once
 
 #include "mesh/flat.h"
@@ -9,10 +9,10 @@
 
 namespace cascade {
 
-/// The triangles of a mesh in a tree of boxes, each halved along its longest side at the middle one
-/// of its triangles. A search visits few of them: O(log n) where the point is near the surface. Of
-/// places that are equally near the one on the triangle of the lowest number is found. The mesh
-/// must stay as it is while this is used; any number of threads may search at once.
+/// The triangles of a mesh in a tree of bounding boxes, each split along its longest side at the
+/// median triangle. A search takes O(log n) if the point is near the surface. Of equally near
+/// places it finds the one on the triangle with the lowest index. The mesh must outlive it
+/// unchanged; searches are thread-safe.
 class NearestPlace {
 public:
     explicit NearestPlace(const SurfaceMesh& mesh);
@@ -23,7 +23,7 @@ public:
 private:
     struct Box {
         Vector3d low, high;
-        std::uint32_t first = 0, count = 0;  ///< Of `order_`; count 0 where it has two parts.
+        std::uint32_t first = 0, count = 0;  ///< Of `order_`; count 0 if it has two parts.
         std::uint32_t part = 0;              ///< The first part; the second one follows it.
     };
     struct Best;
@@ -33,7 +33,7 @@ private:
 
     const SurfaceMesh& mesh_;
     std::vector<std::uint32_t> order_;  ///< Triangles, those of a box together.
-    std::vector<Box> boxes_;            ///< The first holds everything.
+    std::vector<Box> boxes_;            ///< The first is the root.
 };
 
 /// The point of a triangle nearest to a point, as weights of its corners.

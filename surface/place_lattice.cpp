@@ -1,4 +1,4 @@
-// Weights are rounded to whole steps; places that coincide move to the next free ones of a spiral.
+// Weights are rounded to integral steps; coinciding places move to the next free ones of a spiral.
 #include "surface/place_lattice.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace cascade {
 namespace {
 
 constexpr double weight_tolerance = 1e-6;  ///< Of weights.
-constexpr std::int64_t stride = 1 << 6;    ///< Steps between places that coincided.
+constexpr std::int64_t stride = 1 << 6;    ///< Steps between separated places.
 
 bool is_on(const SurfaceMesh& mesh, const SurfacePlace& place) {
     double sum = 0;
@@ -35,8 +35,8 @@ LatticePlace nearest(const SurfacePlace& place) {
     return {place.triangle, {first, second, lattice_steps - first - second}};
 }
 
-/// The same for all names of one place: a point, an edge and how far along it, or a triangle and
-/// steps in it.
+/// A key that is equal for all representations of one place: a point, an edge and the position
+/// along it, or a triangle and the steps in it.
 struct Key {
     int kind = 0;
     std::uint32_t owner = 0, edge = 0;
@@ -59,8 +59,7 @@ Key key_of(const SurfaceMesh& mesh, const LatticePlace& place) {
     return {2, place.triangle, 0, place.steps[0], place.steps[1]};
 }
 
-/// Point number k = 1, 2, … of a spiral around (0, 0) that visits all points with whole
-/// coordinates.
+/// Point k = 1, 2, … of a spiral around (0, 0) through all points with integer coordinates.
 std::array<std::int64_t, 2> on_spiral(std::int64_t k) {
     // The larger coordinate; (2 ring − 1)² points come before.
     const auto ring = static_cast<std::int64_t>((std::sqrt(static_cast<double>(k)) + 1) / 2);
@@ -74,7 +73,7 @@ std::array<std::int64_t, 2> on_spiral(std::int64_t k) {
     }
 }
 
-/// Finds places of their own for those that coincide.
+/// Separates coinciding places.
 class Separation {
 public:
     Separation(const SurfaceMesh& mesh, std::vector<LatticePlace>& places)
@@ -86,7 +85,7 @@ public:
     }
 
     void separate() {
-        std::int64_t tried = 0;  // Of the spiral; each place begins where the last one ended.
+        std::int64_t tried = 0;  // Index on the spiral; a place continues after the one before.
         for (std::size_t k = 1; k < order_.size(); ++k) {
             if (order_[k].first != order_[k - 1].first) tried = 0;
             else move_away(places_[order_[k].second], tried);

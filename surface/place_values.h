@@ -1,4 +1,4 @@
-// What is known at the points of a mesh, at places between them.
+// Interpolation of values at the points of a mesh.
 #pragma once
 
 #include "mesh/flat.h"
@@ -9,8 +9,7 @@
 
 namespace cascade {
 
-/// Linear between the corners of the place's triangle. One value per point of the mesh; Number is a
-/// float or a double.
+/// Linear interpolation in the place's triangle of one value per point of the mesh.
 template <typename Number>
 double value_at(const SurfaceMesh& mesh, const std::vector<Number>& point_values,
                 const SurfacePlace& place) {
@@ -22,7 +21,7 @@ double value_at(const SurfaceMesh& mesh, const std::vector<Number>& point_values
     return value;
 }
 
-/// The same at many places, such as those of cells.
+/// value_at() for many places, such as those of cells.
 template <typename Number>
 std::vector<double> values_at(const SurfaceMesh& mesh, const std::vector<Number>& point_values,
                               std::span<const SurfacePlace> places) {
@@ -32,10 +31,9 @@ std::vector<double> values_at(const SurfaceMesh& mesh, const std::vector<Number>
     return values;
 }
 
-/// Where a place of the surface lies in its texture, (0, 0) the lower left and (1, 1) the upper
-/// right of the image; beyond these it repeats. Linear between the corners of the triangle, each of
-/// which has places of its own, so seams are where the model has them. Nothing if the model has
-/// none.
+/// The texture coordinates of a place, (0, 0) at the lower left and (1, 1) at the upper right of
+/// the image, which repeats beyond. Linear in each triangle, whose corners have their own
+/// coordinates, so that seams are possible. Nothing if the model has no texture coordinates.
 inline std::optional<std::array<double, 2>> texture_place_at(const SurfaceMesh& mesh,
                                                              const SurfacePlace& place) {
     if (mesh.texture.empty()) return std::nullopt;

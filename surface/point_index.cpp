@@ -1,5 +1,4 @@
-// Points sorted by the slots of a hash table, in which a slot stands for a box as wide as the
-// reach.
+// A hash table whose slots represent boxes; points are sorted by slot.
 #include "surface/point_index.h"
 
 #include <algorithm>
@@ -10,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-// Boxes are numbered within this; farther ones are all the last one's neighbours.
+// Box coordinates are clamped to this range; points beyond share the outermost boxes.
 constexpr double most_boxes = 1 << 30;
 
 std::int32_t number_of(double place) {

@@ -1,4 +1,4 @@
-// Finding the points near a point, by boxes of one size.
+// Neighbour search for points, by boxes of one size.
 #pragma once
 
 #include "core/vector3.h"
@@ -11,16 +11,15 @@
 
 namespace cascade {
 
-/// Points sorted by the box of side `reach` in which they lie.
+/// Points sorted by the box of side `reach` that contains them.
 class PointIndex {
 public:
-    /// `reach` is above 0: about how far from a point others are looked for. The points must stay
-    /// where they are as long as the index is used.
+    /// `reach`, positive, is about the usual search radius. The points must outlive it unchanged.
     PointIndex(std::span<const Vector3d> points, double reach);
 
-    /// Calls `visit(number)` for all points no farther than `radius` from `centre`, itself
-    /// included, in an order that depends on the points only. Many boxes are looked at where
-    /// `radius` is many times `reach`, but never more than there are points.
+    /// Calls `visit(number)` for all points at most `radius` from `centre`, including a point at
+    /// `centre`, in an order that only depends on the points. A radius of many times `reach`
+    /// searches many boxes, but never more than there are points.
     template <typename Visit>
     void near(Vector3d centre, double radius, const Visit& visit) const {
         const auto look_at = [&](const Entry& entry) {

@@ -1,4 +1,4 @@
-// Cuts the longest edge first, from a priority queue, and remembers the cuts of each triangle, so
+// Cuts the longest edge first, from a priority queue, and records the cuts of each triangle, so
 // that places of the old mesh can be found in the new one.
 #include "surface/refinement.h"
 
@@ -9,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-/// An edge that may be cut. It is out of date where its triangle has it no more.
+/// An edge that may be cut; outdated if its triangle no longer has it.
 struct LongEdge {
     double length = 0;
     TriangleEdge place;
@@ -21,7 +21,7 @@ struct LongEdge {
     }
 };
 
-/// The longest comes out first, of equal ones that of the triangle of the lowest number.
+/// A queue of edges, the longest first; of equal ones that of the triangle with the lowest index.
 class LongEdges {
 public:
     LongEdges(const SurfaceMesh& mesh, double longest) : mesh_(mesh), longest_(longest) {
@@ -39,7 +39,7 @@ public:
         }
     }
 
-    /// One that exists, or nothing.
+    /// The longest edge that still exists, or none.
     TriangleEdge take() {
         while (!heap_.empty()) {
             std::pop_heap(heap_.begin(), heap_.end());
@@ -70,7 +70,7 @@ void Refinement::link(TriangleEdge a, TriangleEdge b) {
 std::uint32_t Refinement::cut_triangle(TriangleEdge edge, std::uint32_t middle) {
     const auto [t, k] = edge;
     const auto u = static_cast<std::uint32_t>(mesh_.triangles.size());
-    // Each part has the middle in the place of the corner that it lost.
+    // In each part, the new point replaces the corner that the part lost.
     mesh_.triangles.push_back(mesh_.triangles[t]);
     mesh_.triangles[u][k] = middle;
     mesh_.triangles[t][corner_after(k)] = middle;

@@ -1,5 +1,5 @@
-// Rounds of repulsion on lists of neighbours with a skin (Verlet lists, as molecular dynamics has
-// them), made anew when places have moved too far.
+// Rounds of repulsion on neighbour lists with a skin (Verlet lists, as in molecular dynamics),
+// rebuilt when places have moved too far.
 #include "surface/relax.h"
 
 #include "core/hash.h"
@@ -15,22 +15,22 @@ namespace cascade {
 namespace {
 
 constexpr double strength = 0.15;
-/// Lists of others reach this much farther than the force, in radii.
+/// The neighbour lists reach this much farther than the force, in radii.
 constexpr double skin = 0.25;
-/// A place moves no farther than this in a round, in radii. Where a surface is folded a place has
-/// so many others that they would throw it to and fro.
+/// The longest move of a place in a round, in radii. Where a surface is folded a place has so many
+/// neighbours that it would oscillate.
 constexpr double longest_step = 0.06;
-/// Two places as near as this, in radii, are pushed apart so much harder: a force that grows
-/// towards 0 no more than linearly lets the others press them together for good. Even places are
-/// 0.54 apart.
+/// Two places nearer than this, in radii, are pushed apart by a stronger force: with a force that
+/// only grows linearly towards 0, other places could press them together permanently. Even places
+/// are 0.54 apart.
 constexpr float core = 0.35F, core_strength = 4;
-/// Lists are made anew when more than one place in so many has moved half the skin: few are always
-/// thrown about, and evenness is no better for knowing them exactly.
+/// Lists are rebuilt when more than one in this many places has moved half the skin. A few places
+/// always move far, and exact lists for them do not improve evenness.
 constexpr std::size_t places_per_far_one = 100;
-/// … and no sooner than after one round in so many of those done: the first ones move places
+/// A list serves at least one in this many of the rounds done, because the first ones move places
 /// farthest.
 constexpr int rounds_per_age = 4;
-/// In the end those that have another nearer than `crowd` radii are pushed in rounds of their own.
+/// At the end, places with another one nearer than `crowd` radii are pushed in separate rounds.
 constexpr int settling_rounds = 12;
 constexpr double crowd = 0.4;
 
@@ -38,15 +38,15 @@ struct Vector2f {
     float x = 0, y = 0;
 };
 
-/// One place as another one sees it: where it stood when the list was made, in radii and in the
-/// frame in which the other stood then, and how its own frame is turned in that.
+/// A neighbour of a place: its position when the list was made, in radii and in the frame of the
+/// place at that time, and the rotation of its own frame relative to that.
 struct Other {
     std::uint32_t number = 0;
     Vector2f stood;
     Vector2f turn;
 };
 
-/// Coinciding places are pushed apart, each in a direction of its own.
+/// The direction in which a place is pushed apart from one that coincides with it.
 Vector2d own_direction(std::uint32_t number) {
     const double angle = 2 * std::numbers::pi / 4294967296.0 * pcg4d({number, 0, 0, 0})[0];
     return {std::cos(angle), std::sin(angle)};
@@ -87,7 +87,7 @@ public:
     }
 
 private:
-    /// What belongs to one thread.
+    /// The data of one thread.
     struct Part {
         RowRange range;
         std::vector<Other> others;  ///< Place after place.
@@ -104,7 +104,7 @@ private:
         return anisotropy_ ? anisotropy_->of(mesh_, place.triangle) : Stretch{};
     }
 
-    /// Those that old lists let run into others come apart, the rest standing still.
+    /// Separates places that outdated lists let collide; the others stay.
     void settle() {
         for (int round = 0; round < settling_rounds && !cancel_; ++round) {
             find_others(true);
@@ -113,7 +113,7 @@ private:
         }
     }
 
-    /// Whether another place may be so near that no even places are.
+    /// Whether another place is nearer than evenly spread places ever are.
     bool is_crowded(std::size_t k, std::span<const Vector3d> positions,
                     const PointIndex& index) const {
         bool crowded = false;
@@ -122,7 +122,8 @@ private:
         return crowded;
     }
 
-    /// Makes the lists anew; with `only_crowded` those of all other places are empty.
+    /// Rebuilds the lists; with `only_crowded`, only those of crowded places, and the others become
+    /// empty.
     void find_others(bool only_crowded = false) {
         std::vector<Vector3d> positions;
         positions.reserve(places_.size());
@@ -162,7 +163,7 @@ private:
         stand_still(k, part);
     }
 
-    /// As a place stands when its list has been made.
+    /// Resets the movement of a place whose list has been made.
     void stand_still(std::size_t k, const Part& part) {
         ends_[k] = part.others.size();
         turns_[k] = {1, 0};
@@ -194,7 +195,7 @@ private:
         }
     }
 
-    /// What pushes a place, as lengths count, in radii.
+    /// The sum of the forces on a place in the anisotropic metric, in radii.
     Vector2d push_on(std::size_t k, std::span<const Other> others, const Stretch& stretch) const {
         const Vector2f here = moved_[k];
         const auto xx = static_cast<float>(stretch.xx), xy = static_cast<float>(stretch.xy),
@@ -217,7 +218,6 @@ private:
         return {push.x, push.y};
     }
 
-    /// Where the x axis of a frame turned first by one and then by another turn lies.
     static Vector2d composed(Vector2d first, Vector2d second) {
         return {first.x * second.x - first.y * second.y, first.x * second.y + first.y * second.x};
     }
@@ -229,12 +229,12 @@ private:
     const Anisotropy* anisotropy_;
     double radius_;
     EdgeShapes shapes_;
-    /// Since the lists were made: the frame of each place's triangle and how far it has moved (in
-    /// radii), as seen from the frame in which it stood then. A round reads `moved_` and writes
-    /// `moving_`.
+    /// Since the lists were made: the rotation of the frame of each place's triangle and the
+    /// movement of the place (in radii), in the frame of that time. A round reads `moved_` and
+    /// writes `moving_`.
     std::vector<Vector2d> turns_;
     std::vector<Vector2f> moved_, moving_;
-    std::vector<std::size_t> ends_;  ///< Of a place's others in those of its thread.
+    std::vector<std::size_t> ends_;  ///< The ends of the places' lists in those of their threads.
     std::vector<Part> parts_;
 };
 

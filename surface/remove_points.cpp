@@ -1,4 +1,4 @@
-// Which points may go, and how a hole is filled; OpenMesh flips and collapses.
+// Decides which points may be removed and how holes are filled; OpenMesh flips and collapses.
 #include "surface/remove_points.h"
 
 #include <algorithm>
@@ -10,8 +10,7 @@ namespace {
 constexpr double boundary_may_move = 0.1;            ///< Spacings.
 constexpr double longest_boundary_edge = 2;          ///< Spacings.
 constexpr double high_care = 0.26, low_care = 0.09;  ///< Cosines of 75° and 85°.
-constexpr std::size_t most_tried =
-    24;  ///< Points of a ring of which all ways to fill it are tried.
+constexpr std::size_t most_tried = 24;  ///< Largest ring of which all triangulations are tried.
 constexpr double least_sine = 1e-9;
 
 bool is_fine(const TriangleQuality& quality, Care care) {
@@ -36,7 +35,7 @@ void PointRemoval::take_ring(std::uint32_t point) {
         ring_.push_back(number(mesh_.to_vertex_handle(spoke)));
 }
 
-/// The boundary comes from the ring's last point and goes on to its first.
+/// The boundary runs from the ring's last point through this one to its first.
 bool PointRemoval::may_leave_boundary(std::uint32_t point) {
     const Vector3d from = place(ring_.back()), to = place(ring_.front());
     const double moved =
@@ -57,7 +56,8 @@ bool PointRemoval::has_point_twice() {
     return std::adjacent_find(sorted_.begin(), sorted_.end()) != sorted_.end();
 }
 
-/// Whether the hole's last edge, or a hole of three corners as a whole, meets nothing of the kind.
+/// Whether closing the hole's last edge, or a hole of three corners, duplicates no edge or
+/// triangle.
 bool PointRemoval::may_close() {
     const HalfedgeHandle beyond =
         mesh_.opposite_halfedge_handle(mesh_.next_halfedge_handle(spokes_[0]));
@@ -87,7 +87,7 @@ TriangleQuality PointRemoval::quality(const RingTriangle& corners) const {
     return quality_of({place(a), place(b), place(c)}, {normals_[a], normals_[b], normals_[c]});
 }
 
-/// Whether the line from the first to the third corner is a side of the ring or no edge yet.
+/// Whether the first and third corner are neighbours on the ring or not yet joined by an edge.
 bool PointRemoval::is_new(const RingTriangle& corners) {
     const std::uint32_t reach =
         corners[2] > corners[0] ? corners[2] - corners[0] : corners[0] - corners[2];
@@ -98,10 +98,10 @@ bool PointRemoval::is_new(const RingTriangle& corners) {
     return !is_there;
 }
 
-/// All ways to fill the hole are tried.
+/// The best of all triangulations of the hole.
 std::vector<RingTriangle> PointRemoval::best_filling(Care care) {
     const auto count = static_cast<std::uint32_t>(ring_.size());
-    RingTriangle asked{};  // Triangles on the same edge come after each other.
+    RingTriangle asked{};  // Triangles on the same edge are asked for consecutively.
     bool may_be = false;
     return best_triangles(count, [&](const RingTriangle& corners) {
         const TriangleQuality found = quality(corners);
@@ -112,7 +112,7 @@ std::vector<RingTriangle> PointRemoval::best_filling(Care care) {
     });
 }
 
-/// The same ear by ear, in the plane into which the ring is unrolled.
+/// A triangulation by cutting ears, in the plane into which the ring is unrolled.
 std::vector<RingTriangle> PointRemoval::cut_ears_around(std::uint32_t point, Care care) {
     unroll_ring(point);
     return cut_ears(flat_, is_closed_, [&](const RingTriangle& corners) {
@@ -120,8 +120,8 @@ std::vector<RingTriangle> PointRemoval::cut_ears_around(std::uint32_t point, Car
     });
 }
 
-/// Flipping the edge from the point to the tip of an ear cuts the ear off. In the end the point is
-/// in three triangles, which become one, or in one at the boundary.
+/// Cuts off each ear by flipping the edge from the point to its tip. The point then has three
+/// triangles left, which become one, or one at the boundary.
 void PointRemoval::fill(std::span<const RingTriangle> triangles) {
     changed_.clear();
     for (const HalfedgeHandle spoke : spokes_) {

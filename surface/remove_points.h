@@ -1,5 +1,4 @@
-// Taking points away from a surface without opening it: the second part of G. Turk's re-tiling
-// (thesis, section 5.3.1).
+// Removal of points from a surface: the second part of G. Turk's re-tiling (thesis, section 5.3.1).
 #pragma once
 
 #include "mesh/half_edges.h"
@@ -13,30 +12,26 @@ namespace cascade {
 
 /// How closely new triangles must follow the surface.
 enum class Care {
-    high,  ///< They lean less than 75° against each corner's normal.
-    low,   ///< They lean less than 85° against the mean of these.
+    high,  ///< Within 75° of each corner's normal.
+    low,   ///< Within 85° of the mean of these normals.
 };
 
 /// Removes points of one mesh.
 class PointRemoval {
 public:
-    /// `normals` are those of the surface at the points, of length 1; `spacing` is how far
-    /// places are apart.
+    /// `normals` are the surface's unit normals at the points, `spacing` is the distance of places.
     PointRemoval(HalfEdges& mesh, const std::vector<Vector3d>& normals, double spacing)
         : mesh_(mesh), normals_(normals), spacing_(spacing), moved_(mesh.n_vertices()) {}
 
-    /// Takes a point away and fills the hole with triangles over its one-ring: of all ways the one
-    /// whose worst triangle has the best score. Turk projects the ring to a tangent plane, where it
-    /// may overlap itself; this needs no plane. A ring of more than 24 points, for which that would
-    /// take long, is unrolled into a plane and its ears are cut off.
-    ///
-    /// Leaves everything as it is and says why where the point must stay. A point at a boundary
-    /// goes only where the boundary stays within 1/10 of the spacing and the new edge is no longer
-    /// than twice the spacing.
+    /// Removes a point and triangulates the hole over its one-ring such that the worst triangle has
+    /// the best score. Turk projects the ring to a tangent plane, where it may overlap itself; this
+    /// needs no plane. A ring of more than 24 points, for which that would take long, is unrolled
+    /// into a plane and its ears are cut off. If the point must stay, changes nothing and returns
+    /// the reason. A point at a boundary is removed only if the boundary moves by at most 1/10 of
+    /// the spacing and the new edge is no longer than twice the spacing.
     std::optional<WhyKept> remove(std::uint32_t point, Care care);
 
-    /// The faces that were around the point removed last: some fill its hole, the others are
-    /// deleted.
+    /// The faces that were around the last removed point; those not deleted fill its hole.
     const std::vector<FaceHandle>& changed() const { return changed_; }
 
 private:
@@ -56,12 +51,11 @@ private:
     HalfEdges& mesh_;
     const std::vector<Vector3d>& normals_;
     double spacing_;
-    std::vector<double>
-        moved_;  ///< How far the boundary edge that begins at a point has moved at most.
-    std::vector<HalfedgeHandle> spokes_;  ///< Out of the point that is to go, counterclockwise.
+    std::vector<double> moved_;  ///< Largest movement of the boundary edge that begins at a point.
+    std::vector<HalfedgeHandle> spokes_;  ///< From the point to be removed, counterclockwise.
     std::vector<std::uint32_t> ring_;     ///< Their ends.
     bool is_closed_ = false;              ///< The point is not at a boundary.
-    bool meets_edge_ = false;  ///< A triangle was refused because two points had an edge already.
+    bool meets_edge_ = false;  ///< A triangle was refused because an edge existed already.
     std::vector<FaceHandle> changed_;
     std::vector<std::uint32_t> sorted_;
     std::vector<double> distances_, angles_;

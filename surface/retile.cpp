@@ -1,5 +1,5 @@
-// Old points are removed in rounds, with edges improved after each, first under strict tests of the
-// new triangles and then under weaker ones.
+// Old points are removed in rounds, with edges improved after each, first under strict and then
+// under weaker tests of the new triangles.
 #include "surface/retile.h"
 
 #include "surface/flip_edges.h"
@@ -13,7 +13,7 @@ namespace cascade {
 
 namespace {
 
-constexpr int most_rounds = 16;  ///< Of tries to remove what could not be removed before.
+constexpr int most_rounds = 16;  ///< Attempts to remove points that could not be removed before.
 
 class Retiler {
 public:
@@ -48,12 +48,12 @@ public:
     }
 
 private:
-    /// The side of the square that is a place's share of the surface.
+    /// The side of a square with a place's share of the area.
     static double spacing(const SurfaceMesh& mesh, std::size_t places) {
         return std::sqrt(mesh.total_area() / static_cast<double>(std::max<std::size_t>(places, 1)));
     }
 
-    /// Whether any point went.
+    /// Returns whether any point was removed.
     bool remove_all(Care care, const std::atomic<bool>& cancel) {
         const std::size_t before = left_.size();
         std::erase_if(left_, [&](KeptPoint& kept) {
@@ -98,7 +98,7 @@ private:
     MutualTessellation made_;
     PointRemoval removal_;
     EdgeFlipper flipper_;
-    std::vector<KeptPoint> left_;  ///< Old points that are still there.
+    std::vector<KeptPoint> left_;  ///< Old points that remain.
 };
 
 }  // namespace

@@ -1,12 +1,10 @@
-// A surface over new points: G. Turk, "Re-Tiling Polygonal Surfaces" (Computer Graphics 26(2),
-// SIGGRAPH 1992), which is section 5.3.1 of his "Texturing Surfaces Using Reaction-Diffusion"
-// (thesis, 1992).
+// Retiling: a surface with new points (G. Turk, "Re-Tiling Polygonal Surfaces", Computer Graphics
+// 26(2), SIGGRAPH 1992, which is section 5.3.1 of his thesis "Texturing Surfaces Using
+// Reaction-Diffusion", 1992).
 //
-// The old triangles are cut so that the places are among their points
-// (surface/mutual_tessellation.h), then the old points are taken away one by one
-// (surface/remove_points.h), and at the end edges are flipped for better ones
-// (surface/flip_edges.h). At every moment there is a surface of the same topology, so nothing
-// can tear.
+// The places are inserted into the old triangles as points (surface/mutual_tessellation.h), then
+// the old points are removed one by one (surface/remove_points.h), and finally edges are flipped to
+// improve triangles (surface/flip_edges.h). The topology never changes, so nothing can tear.
 #pragma once
 
 #include "core/result.h"
@@ -19,45 +17,43 @@
 
 namespace cascade {
 
-/// Why a point could not be taken away.
+/// Why a point could not be removed.
 enum class WhyKept {
-    boundary,  ///< The boundary would move, or have an edge much longer than places are apart.
-    topology,  ///< Two points would have two edges, or a component or a boundary would vanish.
-    fold,      ///< A new triangle would lie upside down or have no area.
+    boundary,  ///< The boundary would move, or get an edge much longer than the spacing.
+    topology,  ///< Two points would get two edges, or a component or a boundary would vanish.
+    fold,      ///< A new triangle would be upside down or have no area.
 };
 
-/// A point of the old surface that is one of the new surface too.
+/// An old point that remains in the new surface.
 struct KeptPoint {
     std::uint32_t old_point = 0;
     WhyKept why = WhyKept::topology;
 };
 
 struct Retiled {
-    /// Point i is place i; after them come the kept points, in order. Attributes of the old surface
-    /// are carried along, linear within its triangles; its texture is not.
+    /// Point i is place i; the kept points follow, in order. Attributes of the old surface are
+    /// interpolated linearly within its triangles; texture coordinates are dropped.
     SurfaceMesh mesh;
     std::vector<KeptPoint> kept;
 };
 
 /// The surface as triangles whose corners are the places, in their order. It has the same
-/// components, boundaries and Euler characteristic, and no two points have two edges if they had
-/// not before. The normal of a triangle and the mean of the old normals at its corners are less
-/// than 90° apart, unless it was so before. Old points stay where a boundary bends or has no
-/// places, where too few places are left for the topology (a sphere takes 4 points, a torus 7), and
-/// where only triangles upside down could replace them. A point lies within 10⁻⁷ of its place,
-/// measured by the place's old triangle; where places coincide all but the first move by some
+/// components, boundaries and Euler characteristic, and no two points have two edges unless they
+/// had before. The normal of a triangle differs by less than 90° from the mean of the old normals
+/// at its corners, unless it did not before. Old points stay where a boundary bends or has no
+/// places, where too few places remain for the topology (a sphere needs 4 points, a torus 7), and
+/// where only triangles upside down could replace them. A point is within 10⁻⁷ of its place,
+/// relative to the place's old triangle; of coinciding places, all but the first move by some
 /// 4·10⁻⁶.
 ///
-/// The same for the same arguments. Takes O((n + m) log (n + m)) of n points and m places, where no
-/// point has very many neighbours. Fails where a place is on no triangle, as half_edges() does,
-/// where there would be more points or triangles than it can number, and when `cancel` becomes
-/// true. Throws std::bad_alloc.
+/// Deterministic. Takes O((n + m) log (n + m)) for n points and m places if no point has very many
+/// neighbours. Fails if a place is on no triangle, as half_edges() does, if there would be more
+/// points or triangles than it can index, and when `cancel` becomes true. Throws std::bad_alloc.
 Result<Retiled> retile(const SurfaceMesh& mesh, std::span<const SurfacePlace> places,
                        const std::atomic<bool>& cancel);
 
-/// Values of places as an attribute of the new surface. A kept point gets the mean of its
-/// neighbours that have a value, those next to places first; on a component without any place all
-/// stay NaN. `values` has one for each place.
+/// Values of places (one each) as an attribute of the new surface. A kept point gets the mean of
+/// its neighbours with a value, those next to places first; components without places get NaN.
 PointAttribute attribute_of(const Retiled& retiled, std::string name,
                             std::span<const float> values);
 

@@ -1,4 +1,4 @@
-// Points that were kept take a mean of the values around them, front by front from the new points.
+// Kept points take the mean of the values around them, layer by layer from the new points.
 #include "surface/retile.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Stratified sampling along Morton's curve: within a connected component each place has an equal
-// share of the area and falls at random within it.
+// Stratified sampling along a Morton curve: within a connected component each place has an equal
+// share of the area and is random within it.
 #include "surface/scatter.h"
 
 #include "core/hash.h"
@@ -13,17 +13,17 @@ namespace cascade {
 
 namespace {
 
-/// In (0, 1).
+/// A number in (0, 1) from a random word.
 double uniform(std::uint32_t word) { return (word + 0.5) / 4294967296.0; }
 
-/// Of two random numbers a place in a triangle (G. Turk, "Generating random points in triangles",
-/// Graphics Gems, 1990).
+/// The weights of a random place in a triangle, from two random numbers (G. Turk, "Generating
+/// random points in triangles", Graphics Gems, 1990).
 std::array<double, 3> place_in_triangle(double s, double t) {
     const double root = std::sqrt(t);
     return {1 - root, (1 - s) * root, s * root};
 }
 
-/// Spreads the lower 21 bits to every third.
+/// Spreads the lower 21 bits to every third bit.
 std::uint64_t every_third(std::uint64_t bits) {
     bits &= 0x1fffff;
     bits = (bits | bits << 32) & 0x001f00000000ffff;
@@ -33,8 +33,8 @@ std::uint64_t every_third(std::uint64_t bits) {
     return (bits | bits << 2) & 0x1249249249249249;
 }
 
-/// The triangles, component after component, each along Morton's curve through the cube around the
-/// surface (G. M. Morton, "A computer oriented geodetic data base", IBM, 1966).
+/// The triangles, component after component, each in the order of a Morton curve through the cube
+/// around the surface (G. M. Morton, "A computer oriented geodetic data base", IBM, 1966).
 std::vector<std::uint32_t> in_order(const SurfaceMesh& mesh,
                                     const std::vector<std::uint32_t>& components) {
     const auto [low, high] = mesh.box();
@@ -59,13 +59,13 @@ std::vector<std::uint32_t> in_order(const SurfaceMesh& mesh,
     return order;
 }
 
-/// How many of `count` places each component gets: by area, and one at least if there are enough.
+/// The number of places of each component: by area, and at least 1 if there are enough.
 std::vector<std::size_t> shared_out(const std::vector<double>& areas, std::size_t count) {
     std::vector<std::size_t> shares(areas.size(), 0);
     double area = std::accumulate(areas.begin(), areas.end(), 0.0);
     std::size_t left = count;
-    // Components that would get less than one get one, and the others have the rest: which may make
-    // more of them too small.
+    // Components whose share is below 1 get one place, and the others share the rest, which may
+    // make more of them too small.
     for (bool is_found = count >= areas.size(); is_found;) {
         is_found = false;
         const double each = area / static_cast<double>(left);
@@ -98,7 +98,7 @@ std::vector<std::size_t> shared_out(const std::vector<double>& areas, std::size_
 std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, std::uint32_t seed) {
     const std::vector<std::uint32_t> components = connected_components(mesh);
     const std::vector<std::uint32_t> order = in_order(mesh, components);
-    std::vector<double> sums;       // Of areas in that order, within each component.
+    std::vector<double> sums;       // Running sums of areas in that order, within each component.
     std::vector<std::size_t> ends;  // Of components in it.
     for (std::size_t k = 0; k < order.size(); ++k) {
         const bool is_first = k == 0 || components[order[k]] != components[order[k - 1]];

@@ -1,11 +1,11 @@
-// Gram and Schmidt's orthogonalisation from two edges of the triangle, brought to length 1 first.
+// Gram-Schmidt orthogonalisation of two edges of the triangle, normalised first.
 #include "surface/tangent_frame.h"
 
 namespace cascade {
 
 namespace {
 
-/// Some direction at right angles to one of length 1.
+/// Some unit vector perpendicular to a unit vector.
 Vector3d any_normal_to(Vector3d v) {
     const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
     const Vector3d least = x <= y && x <= z ? Vector3d{1, 0, 0}
@@ -18,12 +18,12 @@ Vector3d any_normal_to(Vector3d v) {
 
 TangentFrame tangent_frame(const SurfaceMesh& mesh, std::uint32_t triangle) {
     const Vector3d a = mesh.corner(triangle, 0);
-    // Unit edges first: their product does not underflow where the triangle is tiny.
+    // The edges are normalised first, so that their product does not underflow in tiny triangles.
     Vector3d along = unit(mesh.corner(triangle, 1) - a);
     const Vector3d side = unit(mesh.corner(triangle, 2) - a);
     if (length(along) == 0) along = length(side) > 0 ? side : Vector3d{1, 0, 0};
     Vector3d normal = unit(cross(along, side));
-    // Where the edges are nearly parallel rounding has turned what is left.
+    // With nearly parallel edges, rounding has tilted the cross product.
     normal = unit(normal - along * dot(normal, along));
     if (!(length(normal) > 0.5)) normal = any_normal_to(along);
     return {along, unit(cross(normal, along)), normal};

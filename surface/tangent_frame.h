@@ -1,19 +1,19 @@
-// Between directions in space and those of a triangle's plane.
+// Conversion between directions in space and in a triangle's plane.
 #pragma once
 
 #include "mesh/flat.h"
 
 namespace cascade {
 
-/// Three directions of length 1 at right angles: two of a triangle's own frame (mesh/flat.h) and
-/// its normal, outwards. A triangle without area has some such frame that holds its longest edge.
+/// Three perpendicular unit vectors: the axes of a triangle's own frame (mesh/flat.h) and its
+/// outward normal. For a triangle without area, some such frame that contains its longest edge.
 struct TangentFrame {
     Vector3d along;   ///< The x axis: from corner 0 to corner 1.
     Vector3d across;  ///< The y axis, to the left of it.
     Vector3d normal;
 
     Vector3d in_space(Vector2d v) const { return along * v.x + across * v.y; }
-    /// What is left of a vector in the plane.
+    /// The projection of a vector into the plane.
     Vector2d in_plane(Vector3d v) const { return {dot(along, v), dot(across, v)}; }
 };
 

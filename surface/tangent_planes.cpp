@@ -1,4 +1,4 @@
-// A link's turn is the difference of the angles at which the two planes see the edge between them.
+// The turn of a link is the difference of the angles of the edge in the two planes.
 #include "surface/tangent_planes.h"
 
 #include "surface/cell_unfolding.h"
@@ -28,14 +28,14 @@ TangentLink link_over(const SurfaceMesh& mesh, TriangleEdge here, TriangleEdge t
     const Vector3d half_way = from + along * 0.5;
     TangentLink link;
     link.neighbour = there.triangle;
-    // The other triangle has the edge the other way. The lower one is reckoned from, so that the
-    // two sides are each other's negatives to the last bit.
+    // The other triangle has the edge in the opposite direction. The triangle with the lower index
+    // is the reference, so that the two sides are exact negatives.
     const double out = edge_angle(mesh, here), back = edge_angle(mesh, there);
     constexpr double half_turn = std::numbers::pi;
     link.turn = here.triangle < there.triangle ? out - back - half_turn : -(back - out - half_turn);
     link.distance = length(middle_of(mesh, here.triangle) - half_way) +
                     length(half_way - middle_of(mesh, there.triangle));
-    // The middles are a third of the triangles' heights away from the edge.
+    // The centroids are a third of the triangles' heights away from the edge.
     const double areas = mesh.area(here.triangle) + mesh.area(there.triangle);
     const double weight = 1.5 * dot(along, along) / areas;
     link.weight = std::isfinite(weight) ? weight : 0;

@@ -1,4 +1,4 @@
-// The tangent planes of triangles or of cells, and how a direction goes from one to the next.
+// The tangent planes of triangles or of cells, and the transport of directions between them.
 #pragma once
 
 #include "core/parallel.h"
@@ -12,19 +12,18 @@
 
 namespace cascade {
 
-/// A neighbour's plane, brought into that of its node as if the surface between them were unfolded:
-/// parallel transport (K. Crane, M. Desbrun and P. Schröder, "Trivial connections on discrete
-/// surfaces", 2010, for triangles).
+/// A neighbouring plane. Directions are transported as if the surface between the planes were
+/// unfolded: parallel transport (K. Crane, M. Desbrun and P. Schröder, "Trivial connections on
+/// discrete surfaces", 2010, for triangles).
 struct TangentLink {
     std::uint32_t neighbour = 0;
-    /// What has direction φ in the neighbour's frame has φ + turn here; the negative on the other
-    /// side.
+    /// Direction φ in the neighbour's frame is φ + turn here; the other side has the negative turn.
     double turn = 0;
     double distance = 0;  ///< Between the places of the two, in units of the model.
-    double weight = 0;    ///< Length of what they share over the distance between them.
+    double weight = 0;    ///< Length of the shared edge over the distance.
 };
 
-/// Nodes with a place and the frame of the place's triangle each.
+/// Nodes, each with a place and the frame of the place's triangle.
 struct TangentPlanes {
     std::vector<SurfacePlace> places;
     std::vector<TangentFrame> frames;
@@ -39,10 +38,10 @@ struct TangentPlanes {
     }
 };
 
-/// One for each triangle, its place the middle; linked over Voronoi edges.
+/// One plane for each triangle, at its centroid; linked over its edges.
 TangentPlanes planes_of_triangles(const SurfaceMesh& mesh);
 
-/// One for each cell; linked over Voronoi edges. Means nothing if `cancel` became true.
+/// One plane for each cell; linked over Voronoi edges. Undefined if `cancel` became true.
 TangentPlanes planes_of_cells(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team,
                               const std::atomic<bool>& cancel);
 

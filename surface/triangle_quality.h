@@ -1,4 +1,4 @@
-// How good a triangle is on a surface that is known by its normals.
+// The quality of a triangle relative to the normals of a surface.
 #pragma once
 
 #include "core/vector3.h"
@@ -9,18 +9,16 @@
 
 namespace cascade {
 
-/// A triangle against the surface it is to follow.
 struct TriangleQuality {
-    double least_sine = 0;    ///< Of its smallest angle; 0 if its corners lie on a line.
+    double least_sine = 0;    ///< Of its smallest angle; 0 if its corners are collinear.
     double least_cosine = 0;  ///< Between its normal and those of the surface at its corners.
-    double mean_cosine = 0;   ///< Between its normal and the mean of those; below 0 upside down.
+    double mean_cosine = 0;  ///< Between its normal and the mean of those; negative if upside down.
 
-    /// What flipping edges makes as large as it can: angles, and where the triangle leaves the
-    /// surface steeply, how well it follows it.
+    /// The score that flips maximise: the smallest angle, reduced for deviation from the surface.
     double score() const { return least_sine * std::clamp(least_cosine / 0.9, 0.01, 1.0); }
 };
 
-/// `normals` are those of the surface at the corners, of length 1 (or 0 where it has none).
+/// `normals` are the unit normals of the surface at the corners (or 0 where it has none).
 inline TriangleQuality quality_of(const std::array<Vector3d, 3>& corners,
                                   const std::array<Vector3d, 3>& normals) {
     const Vector3d ab = corners[1] - corners[0], bc = corners[2] - corners[1];

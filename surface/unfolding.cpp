@@ -1,4 +1,4 @@
-// Spreads over edges from the place's triangle, turning each next one into the plane, until all
+// Spreads over edges from the place's triangle, rotating each next one into the plane, until all
 // edges of the front are out of reach.
 #include "surface/unfolding.h"
 
@@ -9,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-/// The square of the distance from the origin to the line between two points.
+/// The square of the distance from the origin to the segment between two points.
 double square_to(Vector2d a, Vector2d b) {
     const Vector2d along = b - a;
     const double square = dot(along, along), part = -dot(a, along);
@@ -50,7 +50,7 @@ void Unfolding::add(std::uint32_t triangle, const FlatTriangle& flat, std::uint3
     }
 }
 
-/// The square of the distance from the place to an edge in space.
+/// The square of the distance in space from the place to an edge.
 double Unfolding::square_in_space(std::uint32_t triangle, std::uint32_t edge) const {
     const Vector3d a = mesh_.corner(triangle, edge) - position_;
     const Vector3d along = mesh_.corner(triangle, corner_after(edge)) - position_ - a;

@@ -1,4 +1,4 @@
-// The surface around a place, unfolded into the plane of its triangle.
+// Unfolding of the surface around a place into the plane of its triangle.
 #pragma once
 
 #include "mesh/flat.h"
@@ -8,8 +8,9 @@
 
 namespace cascade {
 
-/// The shape of every triangle as it is seen from each of its edges: where the third corner lies,
-/// in lengths of the edge, along it and to its left. 48 bytes a triangle; for all threads.
+/// The shape of every triangle relative to each of its edges: the position of the third corner
+/// along the edge and to its left, in units of the edge's length. 48 bytes per triangle;
+/// thread-safe.
 class EdgeShapes {
 public:
     explicit EdgeShapes(const SurfaceMesh& mesh);
@@ -25,18 +26,17 @@ private:
     std::vector<std::array<Vector2d, 3>> shapes_;
 };
 
-/// Unfolds patches of one surface, each reached triangle once, over edges near the place first.
-/// Where the surface is curved triangles in the plane may overlap or leave gaps; G. Turk,
-/// "Texturing Surfaces Using Reaction-Diffusion" (1992), section 4.3.2, unfolds adjacent polygons
-/// exactly and others approximately. One object serves one thread at a time; it keeps four bytes a
-/// triangle.
+/// Unfolds patches of one surface, nearest edges first, and each triangle once. Where the surface
+/// is curved, triangles may overlap or leave gaps in the plane; G. Turk, "Texturing Surfaces Using
+/// Reaction-Diffusion" (1992), section 4.3.2, unfolds adjacent polygons exactly and others
+/// approximately. Not thread-safe; takes four bytes per triangle.
 ///
-/// No way along a surface is shorter than the straight one, but an image in the plane may be
-/// nearer, where the straight line to it leaves the unfolded triangles: `is_image` tells those that
-/// mean nothing, and what lies out of reach in space is not unfolded at all.
+/// A path along a surface is at least as long as the straight line in space. An image in the plane
+/// may be nearer if the straight line to it leaves the unfolded triangles; `is_image` rejects
+/// those. Triangles out of reach in space are not unfolded.
 class Unfolding {
 public:
-    /// The surface and its shapes must stay as long as the unfolding is used.
+    /// The surface and its shapes must outlive the unfolding.
     Unfolding(const SurfaceMesh& mesh, const EdgeShapes& shapes)
         : mesh_(mesh), shapes_(shapes), marks_(mesh.triangles.size()) {}
 
@@ -45,29 +45,27 @@ public:
         FlatTriangle flat;
     };
 
-    /// Whether what lies in the plane at a distance of this square from the place can be the image
-    /// of what lies in space at one of that square. A tenth is allowed for, as unfolding is not
-    /// exact.
+    /// Whether a point in the plane, at this squared distance from the place, can be the image of
+    /// one at that squared distance in space, with a margin of a tenth, as unfolding is not exact.
     static bool is_image(double square_in_plane, double square_in_space) {
         return square_in_plane >= 0.81 * square_in_space;
     }
 
-    /// All triangles that a way no longer than `radius` reaches from the place, which is the
-    /// origin; directions are those of the frame of its triangle. Valid until the next call.
+    /// All triangles reached by a path of at most `radius` from the place, which is the origin, in
+    /// the frame of the place's triangle. Valid until the next call.
     std::span<const Piece> around(const SurfacePlace& place, double radius);
 
-    /// Of the patch that was unfolded last: is it all that is connected with the place?
+    /// Whether the last patch contains all triangles connected with the place.
     bool is_everything() const { return is_everything_; }
 
-    /// Where another place lies in the patch that was unfolded last; null if it is not in it.
+    /// The triangle in the last patch; null if it is not in it.
     const FlatTriangle* flat_of(std::uint32_t triangle) const {
         const std::uint32_t mark = marks_[triangle];
         return mark > first_mark_ ? &pieces_[mark - first_mark_ - 1].flat : nullptr;
     }
 
 private:
-    /// An edge beyond which lies a triangle that has not been looked at. A heap of them has the
-    /// nearest on top.
+    /// An edge to a triangle that has not been visited, in a heap with the nearest on top.
     struct Front {
         double square = 0;  ///< Of its distance.
         std::uint32_t piece = 0, edge = 0;
@@ -82,7 +80,7 @@ private:
     std::vector<Piece> pieces_;
     std::vector<Front> fronts_;
     Vector3d position_;                 ///< Of the place.
-    std::vector<std::uint32_t> marks_;  ///< first_mark_ + 1 + its piece for triangles in the patch.
+    std::vector<std::uint32_t> marks_;  ///< Per triangle: first_mark_ + 1 + index of its piece.
     std::uint32_t first_mark_ = 0;
     bool is_everything_ = false;
 };

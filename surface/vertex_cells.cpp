@@ -1,5 +1,5 @@
-// Areas and cotangents of the intrinsic Delaunay triangulation (mesh/intrinsic_delaunay), so that
-// no weight of a Voronoi edge is negative.
+// Areas and cotangents of the intrinsic Delaunay triangulation (mesh/intrinsic_delaunay), which
+// make all weights of Voronoi edges non-negative.
 #include "surface/vertex_cells.h"
 
 #include "mesh/intrinsic_delaunay.h"
@@ -11,11 +11,11 @@ namespace cascade {
 
 namespace {
 
-/// Weights below this are zero but for rounding: of the diagonals of squares.
+/// Smaller weights, such as those of the diagonals of squares, are rounding errors of zero.
 constexpr double least_weight = 1e-9;
 
-/// Shares the area of a triangle among its corners: as Voronoi regions do, or, where an angle is
-/// obtuse, a half to it and a quarter to the others (Meyer et al., figure 4).
+/// Distributes the area of a triangle to its corners: by Voronoi regions, or, if an angle is
+/// obtuse, one half to it and a quarter each to the others (Meyer et al., figure 4).
 void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>& areas) {
     const double area = mesh.area(t);
     std::array<double, 3> cotangents;
@@ -23,7 +23,7 @@ void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>&
     const auto& corners = mesh.triangles[t];
     for (std::uint32_t k = 0; k < 3; ++k) {
         if (cotangents[k] >= 0) continue;
-        const std::uint32_t obtuse = corner_before(k);  // The corner that faces edge k.
+        const std::uint32_t obtuse = corner_before(k);  // The corner opposite edge k.
         for (std::uint32_t j = 0; j < 3; ++j)
             areas[corners[j]] += area * (j == obtuse ? 0.5 : 0.25);
         return;

@@ -5,17 +5,16 @@
 
 namespace cascade {
 
-/// A cell around each point, with the number of the point: its area is the mixed Voronoi area, the
-/// weight of the Voronoi edge to a point at the other end of an edge is (cot α + cot β) / 2 of the
-/// angles that face the edge (M. Meyer, M. Desbrun, P. Schröder and A. Barr, "Discrete
+/// One cell around each point, with the point's index. Its area is the mixed Voronoi area. The
+/// weight of the Voronoi edge across an edge is (cot α + cot β) / 2, where α and β are the angles
+/// opposite that edge (M. Meyer, M. Desbrun, P. Schröder and A. Barr, "Discrete
 /// Differential-Geometry Operators for Triangulated 2-Manifolds", 2003, sections 3.3 and 3.5):
 /// linear finite elements with lumped masses.
 ///
-/// Weights below zero, which obtuse angles give and which would let diffusion run uphill, are
-/// avoided: areas and weights are those of the intrinsic Delaunay triangulation of the same surface
-/// (mesh/intrinsic_delaunay.h), which changes nothing where no two angles have more than 180°.
-/// At a boundary an angle alone may be obtuse: such an edge has no Voronoi edge. The areas sum to
-/// that of the surface.
+/// Obtuse angles could give negative weights, which let diffusion run uphill. So areas and weights
+/// are those of the intrinsic Delaunay triangulation of the surface (mesh/intrinsic_delaunay.h),
+/// which is the same if no two opposite angles exceed 180° together. A boundary edge opposite an
+/// obtuse angle has no Voronoi edge. The areas sum to that of the surface.
 SurfaceCells vertex_cells(const SurfaceMesh& mesh);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Each cell unfolds what lies around it and cuts the triangles by the bisectors to its neighbours;
-// what the two cells of a Voronoi edge see is averaged afterwards.
+// Each cell unfolds its surroundings and cuts the triangles by the bisectors to its neighbours; the
+// results of the two cells of a Voronoi edge are averaged afterwards.
 #include "surface/voronoi_cells.h"
 
 #include "surface/convex_region.h"
@@ -14,20 +14,20 @@ namespace cascade {
 
 namespace {
 
-/// Part of a triangle that a cell claims.
+/// The part of a triangle that belongs to a cell.
 struct Claim {
     std::uint32_t triangle = 0;
     std::uint32_t cell = 0;
     double area = 0;
 };
 
-/// What one thread found, cell after cell.
+/// The results of one thread, cell after cell.
 struct Found {
     std::vector<Claim> claims;
-    std::vector<VoronoiEdge> edges;  ///< As their cells see them, by the numbers of the neighbours.
+    std::vector<VoronoiEdge> edges;  ///< As seen by their cells, in ascending order of neighbours.
 };
 
-/// Finds the regions of some cells; one a thread.
+/// Finds the regions of some cells; one per thread.
 class RegionFinder {
 public:
     RegionFinder(const SurfaceMesh& mesh, const EdgeShapes& shapes,
@@ -40,7 +40,7 @@ public:
           anisotropy_(anisotropy),
           unfolding_(mesh, shapes) {}
 
-    /// Unfolds as much of the surface as the region of a cell depends on, `reach` at least.
+    /// Unfolds all of the surface that affects the region of a cell, at least to `reach`.
     void find(std::uint32_t cell, double reach, Found& found) {
         position_ = positions_[cell];
         double ratio = 1;
@@ -50,7 +50,7 @@ public:
         }
         const std::size_t claims = found.claims.size();
         for (;; reach *= 2) {
-            // Within `reach` as lengths count lies what is within `wide` on the surface.
+            // The set within `reach` in the anisotropic metric is within `wide` on the surface.
             const double wide = reach * std::sqrt(ratio);
             const auto pieces = unfolding_.around(places_[cell], wide);
             collect_neighbours(cell, wide);
@@ -77,7 +77,7 @@ private:
         Vector2d place;
     };
 
-    /// Of the corner of a patch that is farthest away.
+    /// The distance of the farthest corner of a patch.
     double size_of(std::span<const Unfolding::Piece> pieces) const {
         double size = 0;
         for (const Unfolding::Piece& piece : pieces) {
@@ -105,7 +105,7 @@ private:
                   });
     }
 
-    /// Claims what is nearer to the cell than to its neighbours; how far that goes.
+    /// Claims all points nearer to the cell than to its neighbours; returns the largest distance.
     double claim_all(std::uint32_t cell, std::span<const Unfolding::Piece> pieces, double reach,
                      Found& found) {
         ConvexRegion region = ConvexRegion::square(reach);
@@ -151,7 +151,7 @@ private:
         }
     }
 
-    /// Whether a stretched point of a piece can be what lies there on the surface.
+    /// Whether a stretched point of a piece can be the image of its point on the surface.
     bool is_image(Vector2d point, const Unfolding::Piece& piece, const FlatTriangle& flat) const {
         const SurfacePlace place = {piece.triangle, weights_at(flat, point)};
         const Vector2d image = position_of(piece.flat, place.weights);
@@ -172,7 +172,7 @@ private:
     ConvexRegion part_;
 };
 
-/// The threads' findings one after the other, which is in order of cells.
+/// Concatenates the threads' results, which puts them in the order of cells.
 template <typename T>
 std::vector<T> joined(std::vector<Found>& found, std::vector<T> Found::*part) {
     std::vector<T> all;
@@ -186,8 +186,8 @@ std::vector<T> joined(std::vector<Found>& found, std::vector<T> Found::*part) {
     return all;
 }
 
-/// Gives each triangle to those who claim it. One that nobody claims, in a dent that unfolding
-/// overlooks, goes to the cell that claims most of one beside it.
+/// Divides each triangle among the cells that claim it. A triangle without claims, in a dent that
+/// unfolding misses, goes to the cell with the largest claim to a neighbouring triangle.
 void share_areas(const SurfaceMesh& mesh, const std::vector<Claim>& claims, SurfaceCells& cells) {
     std::vector<double> claimed(mesh.triangles.size());
     std::vector<Claim> most(mesh.triangles.size());
@@ -198,8 +198,7 @@ void share_areas(const SurfaceMesh& mesh, const std::vector<Claim>& claims, Surf
     for (const Claim& claim : claims) {
         cells.areas[claim.cell] += claim.area / claimed[claim.triangle] * mesh.area(claim.triangle);
     }
-    std::vector<std::uint32_t>
-        next;  // Triangles that have an owner and may have neighbours without.
+    std::vector<std::uint32_t> next;  // Owned triangles that may have neighbours without owners.
     for (std::uint32_t t = 0; t < claimed.size(); ++t) {
         if (claimed[t] <= 0) continue;
         const auto& around = mesh.across[t];
@@ -223,7 +222,7 @@ void share_areas(const SurfaceMesh& mesh, const std::vector<Claim>& claims, Surf
     }
 }
 
-/// The edge to a neighbour in one of the lists, which are sorted; null if there is none.
+/// The edge to a neighbour in a sorted list; null if there is none.
 const VoronoiEdge* edge_to(std::uint32_t neighbour, std::span<const VoronoiEdge> edges) {
     const auto found = std::lower_bound(edges.begin(), edges.end(), neighbour,
                                         [](const VoronoiEdge& edge, std::uint32_t number) {
@@ -232,11 +231,11 @@ const VoronoiEdge* edge_to(std::uint32_t neighbour, std::span<const VoronoiEdge>
     return found != edges.end() && found->neighbour == neighbour ? &*found : nullptr;
 }
 
-/// Takes the mean of what the two cells of an edge see; one that one cell alone sees is half as
-/// long. `cells` has the edges as they are seen.
+/// Averages the values that the two cells of an edge see; an edge that only one cell sees has half
+/// its length. The edges of `cells` are those seen by each cell.
 void match_edges(SurfaceCells& cells) {
     SurfaceCells matched;
-    // Cells and the edges that their neighbours see but they do not.
+    // Edges that the neighbour sees, but the cell does not.
     std::vector<std::pair<std::uint32_t, VoronoiEdge>> unseen;
     for (std::uint32_t cell = 0; cell < cells.ends.size(); ++cell) {
         for (const VoronoiEdge& edge : cells.edges_of(cell)) {

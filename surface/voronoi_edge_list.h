@@ -1,4 +1,4 @@
-// Voronoi edges in any order made into those of cells.
+// Assembles Voronoi edges, added in any order, into those of cells.
 #pragma once
 
 #include "surface/surface_cells.h"
@@ -9,13 +9,12 @@ namespace cascade {
 
 class VoronoiEdgeList {
 public:
-    /// An edge between two cells; several between the same two become one. One from a cell to
-    /// itself is nothing, and so is one without length. `distance` is above 0.
+    /// Adds an edge between two cells; edges of the same pair are merged. Ignores edges from a cell
+    /// to itself and edges without length. `distance` is positive.
     void add(std::uint32_t a, std::uint32_t b, double length, double distance);
 
-    /// Sets the edges of cells 0 … count − 1. Those that were put together have the sum of the
-    /// lengths and the distance with which that gives the sum of the weights. The order of adding
-    /// matters to rounding only.
+    /// Sets the edges of cells 0 … count − 1. Merged edges have the sum of the lengths, and the
+    /// distance that gives the sum of the weights. The order of add() only affects rounding.
     void put_into(SurfaceCells& cells, std::size_t count);
 
 private:
