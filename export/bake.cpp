@@ -1,5 +1,5 @@
-// Threads paint bands of rows of texels, each texel the mean of its samples in linear light; then
-// gaps are filled and colours stored. Normals are bent by J. F. Blinn's method (SIGGRAPH 1978).
+// Threads paint bands of rows of texels, each texel as the mean of its samples in linear light;
+// then gaps are filled and colours stored.
 #include "export/bake.h"
 
 #include "core/check.h"
@@ -20,19 +20,18 @@ namespace cascade {
 
 namespace {
 
-constexpr std::int64_t rows_of_band = 16;  ///< Texels; what one thread does at a time.
-constexpr double most_covered_area =
-    64;  ///< More is a picture that is repeated all over the model.
+constexpr std::int64_t rows_of_band = 16;  ///< Texels; a thread's unit of work.
+constexpr double most_covered_area = 64;   ///< Beyond it, the texture repeats all over the model.
 
-/// What one thread needs, made before it runs.
+/// Working memory of one thread, allocated in advance.
 struct Scratch {
     std::vector<std::uint32_t> owners;
-    std::vector<SurfacePlace> places;    ///< Of the samples of one row of texels.
+    std::vector<SurfacePlace> places;    ///< Of the samples in one row of texels.
     std::vector<Colour> lights;          ///< Of each sample.
     std::vector<float> heights;          ///< Likewise.
     std::vector<std::uint32_t> columns;  ///< The texel of each sample.
     PlacePainter painter;
-    std::int64_t covered = 0, again = 0;  ///< Samples.
+    std::int64_t covered = 0, again = 0;  ///< Numbers of samples.
 };
 
 class TextureBaker {
@@ -109,7 +108,7 @@ private:
         }
     }
 
-    /// The samples of a row of texels on the surface, texel after texel.
+    /// Collects the samples of a row of texels on the surface, texel after texel.
     void collect_row(std::int64_t y, std::span<const std::uint32_t> owners, Scratch& own) const {
         own.places.clear();
         own.columns.clear();
@@ -167,7 +166,7 @@ private:
             if (count == 0) return;
             relief_.texels[texel(x, y)][0] = static_cast<float>(sum / count);
             relief_.is_filled[texel(x, y)] = 1;
-            // That of the middle one stands for all.
+            // The normal of the middle sample represents all.
             const Vector3 normal = bumped_normal(own.places[(first + last) / 2], own.painter);
             if (!std::isfinite(normal.x + normal.y + normal.z)) return;
             slopes_.texels[texel(x, y)] = {normal.x, normal.y, normal.z};
@@ -175,7 +174,7 @@ private:
         });
     }
 
-    /// The normal of the raised surface, relative to the tangent, the bitangent and the smooth
+    /// The normal of the displaced surface, relative to the tangent, the bitangent and the smooth
     /// normal: J. Blinn, "Simulation of Wrinkled Surfaces" (SIGGRAPH 1978), for small heights.
     Vector3 bumped_normal(const SurfacePlace& place, PlacePainter& painter) const {
         const Vector3d rise = painter.rise_at(place);

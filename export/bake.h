@@ -1,5 +1,5 @@
-// Baking: what grew on a surface painted into a picture that other programs lay over the model by
-// its texture coordinates.
+// Baking: painting the pattern of a surface into a texture that other programs map onto the model
+// by its texture coordinates.
 #pragma once
 
 #include "core/result.h"
@@ -21,32 +21,31 @@ struct BakeOptions {
 
 struct Bake {
     Image colour;
-    /// Grey, 0 the smallest and 1 the largest height of a texel, which are `heights`; empty without
-    /// any.
+    /// Grey, from 0 to 1 over the range of the texels' heights, `heights`; empty without heights.
     Image relief;
     ValueRange heights;
-    /// Directions relative to the tangents of render_vertices(), −1 … 1 as 0 … 1, y upwards; empty
-    /// likewise.
+    /// Directions in the frames of render_vertices(), −1 … 1 stored as 0 … 1, y up; empty without
+    /// heights.
     Image normals;
-    double covered = 0;      ///< Part of the samples that lie on the surface.
-    double overlapping = 0;  ///< Part of the surface in the texture that lies behind another part.
+    double covered = 0;      ///< Fraction of the samples that are on the surface.
+    double overlapping = 0;  ///< Fraction of the surface covered by another part in the texture.
     std::vector<std::string> warnings;  ///< A sentence each.
 };
 
-/// Has the model texture coordinates to paint by? Fails, with a hint, where it has none, and where
-/// they cover the texture again and again, as those of pictures that repeat do.
+/// Checks that the model has texture coordinates suitable for baking. Fails, with a hint, if it has
+/// none, or if they cover the texture many times, as those for repeating textures do.
 Result<void> check_bakeable(const SurfaceMesh& mesh);
 
-/// Paints every texel with the mean, as amounts of light, over its samples on the surface, and all
-/// others by going on from those. Texture coordinates beyond 0 … 1 repeat the picture. Heights that
-/// are not finite are taken from around. The same on any number of threads. Fails as check_bakeable
-/// does, on coordinates that have no area, and where memory is short; gives what means nothing if
-/// `cancel` became true.
+/// Paints every texel with the mean, in linear light, over its samples on the surface, and
+/// extrapolates to all others. Texture coordinates outside of 0 … 1 repeat the picture. Heights
+/// that are not finite are replaced from their surroundings. The same on any number of threads.
+/// Fails as check_bakeable does, if the texture coordinates have no area, and if memory is short;
+/// undefined if `cancel` became true.
 Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel);
 
-/// The files that write_baked makes: the model itself, then NAME_color.png and, with heights,
-/// NAME_height.png and NAME_normal.png (16 bits) beside it.
+/// The files that write_baked makes: the model, then in the same folder NAME_color.png and, with
+/// heights, NAME_height.png and NAME_normal.png (16 bits).
 std::vector<std::filesystem::path> baked_paths(const std::filesystem::path& glb, bool has_heights);
 
 /// Writes a GLB file of the model with the maps inside, and the maps as PNG files with these texts.

@@ -1,4 +1,4 @@
-// Baked maps as files.
+// Writes baked maps to files.
 #include "core/file.h"
 #include "export/bake.h"
 #include "export/glb.h"
@@ -13,7 +13,7 @@ namespace {
 
 struct Maps {
     std::string colour, relief, normals;  ///< PNG files.
-    std::string normals_of_model;         ///< In 8 bits, which every viewer of GLB files knows.
+    std::string normals_of_model;         ///< In 8 bits, which all viewers of GLB files support.
 };
 
 Result<Maps> encode_maps(const Bake& bake, const PngTexts& texts) {

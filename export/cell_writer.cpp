@@ -1,4 +1,4 @@
-// Collects the same arrays for both formats; links are written once, from the lower cell number.
+// Collects the same arrays for both formats; each link is written once, from the lower cell.
 #include "export/cell_writer.h"
 
 #include "core/check.h"
@@ -33,10 +33,10 @@ PlacesAndNormals places_and_normals(const SurfaceMesh& mesh, const SurfaceCells&
     return result;
 }
 
-/// Arrays that become an archive.
+/// The arrays of an archive.
 class Arrays {
 public:
-    /// An array of rows × columns, or of rows where columns is 1; `type` as NumPy calls it.
+    /// Adds an array of rows × columns, or of rows if columns is 1; `type` is NumPy's.
     template <typename Number, typename Take>
     void add(const std::string& name, std::string_view type, std::size_t rows, std::size_t columns,
              const Take& take) {

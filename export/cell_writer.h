@@ -1,5 +1,4 @@
-// Cells of a surface with what grew in them, as files for other programs: NumPy's .npz and VTK's
-// .vtp.
+// Cells of a surface with their results, as files for other programs: NumPy's .npz and VTK's .vtp.
 #pragma once
 
 #include "core/result.h"
@@ -17,25 +16,27 @@ struct CellResults {
     std::span<const Channel> channels;  ///< One number per cell each.
 };
 
-/// An archive of arrays for numpy.load, all little-endian, n cells, m links:
+/// An archive of arrays for numpy.load, all little-endian, for n cells and m links:
 ///
-///     points  n × 3 float64   places of the cells       links    m × 2 uint32   i < j, ascending
-///     normals n × 3 float64   smooth, of length 1       weights  m float64      length of the
-///     Voronoi edge over distance areas   n float64                                 colors   n × 3
-///     float32  where there are any
+///     points   n × 3 float64  places of the cells
+///     normals  n × 3 float64  smooth, of length 1
+///     areas    n     float64
+///     links    m × 2 uint32   pairs i < j, ascending
+///     weights  m     float64  length of the Voronoi edge over distance
+///     colors   n × 3 float32  if there are any
 ///
-/// and each channel as n × float32 under its name, which has an underscore added if it is one of
-/// these. A step of diffusion is u_i += D dt / areas_i · Σ weights (u_j − u_i). Fails above 4 GiB.
+/// and each channel as n × float32 under its name, with an underscore added if it is one of these.
+/// A diffusion step is u_i += D dt / areas_i · Σ weights (u_j − u_i). Fails above 4 GiB.
 Result<std::string> encode_npz(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                const CellResults& results);
 
-/// VTK's XML PolyData: each cell a vertex at its place, with its normal, `area`, colour as `color`
-/// and channels as point data.
+/// VTK's XML PolyData: each cell is a vertex at its place, with its normal, `area`, colour as
+/// `color` and channels as point data.
 std::string encode_vtp(const SurfaceMesh& mesh, const SurfaceCells& cells,
                        const CellResults& results);
 
-/// Writes by the ending of the name, .npz or .vtp, atomically. Fails on another ending, and as
-/// encode_npz and write_file do.
+/// Writes the format of the name's extension, .npz or .vtp, atomically. Fails on other extensions,
+/// and as encode_npz and write_file do.
 Result<void> write_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
                          const SurfaceCells& cells, const CellResults& results);
 

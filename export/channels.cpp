@@ -1,4 +1,4 @@
-// Names that are taken get underscores; colours are clamped, and NaN has a colour of its own.
+// Names in use get underscores; colours are clamped, and NaN has a colour of its own.
 #include "export/channels.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What grew on a surface, as files take it: numbers with names, and colours.
+// The results on a surface for files: named numbers, and colours.
 #pragma once
 
 #include "core/palette.h"
@@ -12,18 +12,17 @@
 
 namespace cascade {
 
-/// Numbers with a name, one for each point of a mesh, or one for each cell.
+/// Named numbers, one for each point of a mesh, or one for each cell.
 using Channel = PointAttribute;
 
-/// The names of the channels, no two of them alike and none of them `reserved`: underscores are
-/// added until that is so.
+/// The names of the channels, made distinct from each other and from `reserved` by underscores.
 std::vector<std::string> distinct_names(std::span<const Channel> channels,
                                         std::initializer_list<std::string_view> reserved);
 
-/// The colour, clamped to 0 … 1, or that of NaN where a channel of it is none.
+/// The colour, clamped to 0 … 1, or the colour of NaN if one of its channels is NaN.
 Colour shown(const Colour& colour);
 
-/// Whether every coordinate of the points is 0 or a normal number of binary32.
+/// Whether every coordinate of the points is 0 or a normal binary32 number.
 bool are_single(std::span<const Vector3d> points);
 
 }  // namespace cascade

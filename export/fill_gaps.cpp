@@ -9,12 +9,12 @@ namespace cascade {
 
 namespace {
 
-/// Half as wide and high; each texel is the mean of those below it that have numbers.
+/// Half as wide and high; each texel is the mean of those below it that have values.
 PartialTexture halved(const PartialTexture& fine) {
     PartialTexture coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
     for (std::int64_t y = 0; y < coarse.height; ++y) {
         for (std::int64_t x = 0; x < coarse.width; ++x) {
-            std::array<double, 3> sum{};  // Of binary32 it could be infinite.
+            std::array<double, 3> sum{};  // In binary32 it could overflow.
             double count = 0;
             for (std::int64_t j = 2 * y; j < std::min(2 * y + 2, fine.height); ++j) {
                 for (std::int64_t i = 2 * x; i < std::min(2 * x + 2, fine.width); ++i) {
@@ -35,7 +35,7 @@ PartialTexture halved(const PartialTexture& fine) {
     return coarse;
 }
 
-/// The coarse texels on either side of a fine one's middle, and how much the second one counts.
+/// The coarse texels on either side of a fine one's centre, and the weight of the second one.
 struct Between {
     std::int64_t first = 0, second = 0;
     float part = 0;
@@ -49,7 +49,7 @@ Between between(std::int64_t fine, std::int64_t fine_size, std::int64_t coarse_s
             place - static_cast<float>(first)};
 }
 
-/// Fills from a coarse texture without gaps.
+/// Fills gaps from a coarse texture without gaps.
 void take_from(const PartialTexture& coarse, PartialTexture& fine) {
     for (std::int64_t y = 0; y < fine.height; ++y) {
         const Between down = between(y, fine.height, coarse.height);
@@ -88,7 +88,7 @@ void fill_gaps(PartialTexture& texture) {
     for (; has_gap(level(top)) && level(top).width * level(top).height > 1; ++top) {
         levels.push_back(halved(level(top)));
     }
-    if (has_gap(level(top))) return;  // Nothing is filled at all.
+    if (has_gap(level(top))) return;  // No texel has values.
     for (std::size_t k = top; k-- > 0;) take_from(level(k + 1), level(k));
 }
 

@@ -1,4 +1,4 @@
-// Filling what a picture lacks from what lies around it.
+// Filling of gaps in a texture from their surroundings.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace cascade {
 
-/// Three numbers a texel, rows from the top, and which of the texels have some.
+/// Three numbers per texel, rows from the top, and which of the texels have values.
 struct PartialTexture {
     std::int64_t width = 0, height = 0;
     std::vector<std::array<float, 3>> texels;
@@ -21,10 +21,10 @@ struct PartialTexture {
           is_filled(static_cast<std::size_t>(w * h)) {}
 };
 
-/// Gives every texel that has none numbers that go on smoothly from those around, so that neither
-/// interpolation nor a smaller copy of the picture brings in anything else: S. Gortler et al., "The
-/// Lumigraph" (SIGGRAPH 1996), section 3.4, pull and push. The picture repeats in all directions.
-/// Where no texel has numbers they stay 0.
+/// Gives every texel without values numbers that smoothly continue those around it, so that
+/// interpolation and reduced copies of the picture have no artefacts: pull and push of S. Gortler
+/// et al., "The Lumigraph" (SIGGRAPH 1996), section 3.4. The picture repeats in all directions. If
+/// no texel has values they stay 0.
 void fill_gaps(PartialTexture& texture);
 
 }  // namespace cascade

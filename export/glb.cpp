@@ -1,5 +1,5 @@
-// The JSON chunk by nlohmann's library, then the one binary buffer; coordinates that binary32
-// cannot hold are written relative to the model's middle, which the node's translation adds again.
+// The JSON chunk by nlohmann's library, then one binary buffer. Coordinates that binary32 cannot
+// represent are relative to the model's centre, which the node's translation adds.
 #include "export/glb.h"
 
 #include "core/check.h"
@@ -23,16 +23,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Names of numbers in the format.
+// Numeric codes of the format.
 constexpr int type_of_bytes16 = 5123, type_of_bytes32 = 5125, type_of_floats = 5126;
 constexpr int vertex_buffer = 34962, index_buffer = 34963;
 
 constexpr double least_size = 1e-30, largest_size = 1e30;
 
-/// One buffer with views of it, and accessors that say what is in the views.
+/// A buffer with views, and accessors that describe the views.
 class Buffer {
 public:
-    /// A view of what `write` appends to the bytes; `target` is 0 for pictures.
+    /// A view of the bytes that `write` appends; `target` is 0 for pictures.
     template <typename Write>
     std::size_t add_view(int target, const Write& write) {
         const std::size_t begin = bytes_.size();
@@ -82,8 +82,8 @@ float component(Vector3d v, std::size_t c) {
 
 struct Extent {
     Vector3d middle;
-    double size = 0;      ///< The longest side of the box around it.
-    double farthest = 0;  ///< Of a coordinate.
+    double size = 0;      ///< The longest side of its bounding box.
+    double farthest = 0;  ///< Largest magnitude of a coordinate.
 };
 
 Extent extent_of(const SurfaceMesh& mesh) {
@@ -137,7 +137,7 @@ private:
                 return component(vertices_.normals[k], c);
             });
         if (!vertices_.texture.empty()) {
-            // glTF counts from the upper left.
+            // glTF has the origin at the upper left.
             attributes["TEXCOORD_0"] =
                 buffer_.add_floats("VEC2", count, 2, [&](std::size_t k, std::size_t c) {
                     const float place = vertices_.texture[k][c];
@@ -212,7 +212,7 @@ private:
         return result;
     }
 
-    /// The number of its texture, which repeats beyond 0 … 1 as the format has it by default.
+    /// The index of its texture, which repeats outside of 0 … 1, the format's default.
     std::size_t add_picture(Json& file, std::string_view png) {
         const std::size_t view =
             buffer_.add_view(0, [&](std::string& bytes) { bytes.append(png); });

@@ -1,5 +1,5 @@
-// GLB files: a model with colours at its points or with pictures laid over it, as browsers, game
-// engines and modellers open it. The format: "glTF 2.0 Specification", Khronos Group, 2021.
+// GLB files: a model with vertex colours or with textures, for browsers, game engines and
+// modellers. The format is "glTF 2.0 Specification", Khronos Group, 2021.
 #pragma once
 
 #include "core/palette.h"
@@ -12,19 +12,19 @@
 
 namespace cascade {
 
-/// What a model looks like; all of it may be left out.
+/// The appearance of a model; all of it is optional.
 struct GlbLook {
     std::span<const Colour> colours;  ///< sRGB, one per point of the mesh.
-    std::string_view colour_map;      ///< A PNG file; it takes texture coordinates.
+    std::string_view colour_map;      ///< A PNG file; requires texture coordinates.
     std::string_view normal_map;      ///< Likewise, relative to the tangents of render_vertices().
-    float roughness = 0.6F;           ///< 0 … 1, the same everywhere. Nothing is metal.
+    float roughness = 0.6F;           ///< 0 … 1, uniform. Nothing is metallic.
 };
 
-/// The file in memory: one mesh, its normals smooth, with the texture coordinates and tangents that
-/// the mesh has. Colours of points (COLOR_0) are amounts of light, as the format wants them, of 16
-/// bits. A surface with boundaries is seen from both sides. Places are binary32, around the middle
-/// of the model where they are not exact otherwise. Fails on a model larger than 10³⁰ or smaller
-/// than 10⁻³⁰, which binary32 does not hold, and on more than 4 GiB.
+/// The file in memory: one mesh with smooth normals, and the texture coordinates and tangents that
+/// the mesh has. Vertex colours (COLOR_0) are linear, as the format requires, with 16 bits.
+/// Surfaces with boundaries are double-sided. Positions are binary32, relative to the model's
+/// centre if they would not be exact otherwise. Fails on models larger than 10³⁰ or smaller than
+/// 10⁻³⁰, which binary32 cannot represent, and above 4 GiB.
 Result<std::string> encode_glb(const SurfaceMesh& mesh, const GlbLook& look);
 
 }  // namespace cascade

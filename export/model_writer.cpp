@@ -1,4 +1,4 @@
-// Chooses the encoder by the ending of the file's name.
+// Selects the encoder by the extension of the file's name.
 #include "export/model_writer.h"
 
 #include "core/check.h"

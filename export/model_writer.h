@@ -1,4 +1,4 @@
-// Models with what grew on them, as files for other programs: PLY, OBJ, GLB and VTK's .vtp.
+// Models with results, as files for other programs: PLY, OBJ, GLB and VTK's .vtp.
 #pragma once
 
 #include "core/result.h"
@@ -10,34 +10,33 @@
 
 namespace cascade {
 
-/// What a file shows of a mesh, beside its shape.
+/// The data of a file besides the shape.
 struct PointResults {
     std::span<const Colour> colours;    ///< sRGB, one per point of the mesh; empty: none.
     std::span<const Channel> channels;  ///< One number per point each.
 };
 
-/// Binary PLY (G. Turk, "The PLY Polygon File Format", 1994): per point its place (`float`, or
-/// `double` where that is not exact), normal, colour as 8-bit `red green blue`, and each channel as
-/// a `float` of its name; per triangle its corners and, where the mesh has them, texture
-/// coordinates as `texcoord`. Names that readers take for something else, such as `u`, have an
-/// underscore added.
+/// Binary PLY (G. Turk, "The PLY Polygon File Format", 1994). Per point: position (`float`, or
+/// `double` if that is not exact), normal, colour as 8-bit `red green blue`, and each channel as a
+/// `float` of its name. Per triangle: its corners and, if the mesh has them, texture coordinates as
+/// `texcoord`. Names with another meaning to readers, such as `u`, get an underscore.
 std::string encode_ply(const SurfaceMesh& mesh, const PointResults& results);
 
-/// Wavefront OBJ as text: colours follow the place in `v`, as MeshLab and Blender read them.
-/// Numbers are the shortest that give the same number when read. It has no place for channels.
+/// Wavefront OBJ as text. Colours follow the position in `v`, as MeshLab and Blender read them.
+/// Numbers are the shortest that read back exactly. Channels cannot be represented.
 std::string encode_obj(const SurfaceMesh& mesh, const PointResults& results);
 
 /// VTK's XML PolyData with one appended raw block (The VTK User's Guide, 11th edition, Kitware
 /// 2010, chapter 19): triangles, normals, colours as `color` and each channel as point data.
 std::string encode_vtp(const SurfaceMesh& mesh, const PointResults& results);
 
-/// Writes by the ending of the name, .ply, .obj, .glb or .vtp, in upper or lower case, atomically.
-/// A NaN of a channel is a NaN in the file, a colour that is none is magenta. Fails on another
-/// ending, on what the format cannot hold (see export/glb.h), and as write_file does.
+/// Writes the format of the name's extension, .ply, .obj, .glb or .vtp in any case, atomically. NaN
+/// stays NaN in channels and is magenta in colours. Fails on other extensions, on models that the
+/// format cannot represent (see export/glb.h), and as write_file does.
 Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& mesh,
                          const PointResults& results);
 
-/// Whether write_model knows the ending.
+/// Whether write_model supports the extension.
 bool is_model_ending(const std::filesystem::path& path);
 
 }  // namespace cascade

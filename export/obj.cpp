@@ -27,7 +27,7 @@ std::string encode_obj(const SurfaceMesh& mesh, const PointResults& results) {
     for (const Vector3d& normal : normals.normals) {
         fmt::format_to(out, "vn {:.6g} {:.6g} {:.6g}\n", normal.x, normal.y, normal.z);
     }
-    std::vector<std::size_t> texture;  // Of each corner, the number of its place, from 1.
+    std::vector<std::size_t> texture;  // Index of each corner's coordinates, from 1.
     texture.reserve(3 * mesh.texture.size());
     std::map<TexturePlace, std::size_t> known;
     for (const auto& corners : mesh.texture) {
@@ -37,7 +37,7 @@ std::string encode_obj(const SurfaceMesh& mesh, const PointResults& results) {
             texture.push_back(entry->second);
         }
     }
-    text += "s 1\n";  // Smooth: some programs look at normals only then.
+    text += "s 1\n";  // Smooth: some programs use normals only then.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         text += 'f';
         for (std::size_t k = 0; k < 3; ++k) {

@@ -1,5 +1,5 @@
-// Weighs the values of nearby cells by the filter of surface/cell_filter, then colours the result:
-// values are blended and not colours.
+// Filters the values of nearby cells (surface/cell_filter), then maps the result to a colour:
+// values are blended, not colours.
 #include "export/painted_cells.h"
 
 #include "export/channels.h"

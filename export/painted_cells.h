@@ -1,4 +1,4 @@
-// What cells look like at any place of the surface.
+// The appearance of cells at any place of the surface.
 #pragma once
 
 #include "core/palette.h"
@@ -12,21 +12,20 @@
 
 namespace cascade {
 
-/// A colour (sRGB) out of the values of all channels at a place. Called from several threads at
-/// once; must not throw.
+/// The colour (sRGB) for the values of all channels at a place. Must be thread-safe and not throw.
 using PlaceColour = std::function<Colour(std::span<const float> values, const SurfacePlace& place)>;
 
-/// What is seen on the cells. Everything it refers to must stay while it is used.
+/// Values to paint and their mapping to colours. All that it refers to must outlive it.
 struct PaintedCells {
     std::size_t channels = 1;
-    std::span<const float> values;  ///< `channels` a cell, cell after cell.
-    /// Where a channel of a colour is NaN the colour is that of NaN.
+    std::span<const float> values;  ///< `channels` per cell, cell after cell.
+    /// If a channel of a colour is NaN, the colour of NaN is used.
     PlaceColour colour;
-    /// One a cell: how far it stands out, in the unit of the mesh. Empty: nothing does.
+    /// One per cell: its height above the surface, in the unit of the mesh. Empty: no heights.
     std::span<const float> heights;
 };
 
-/// Looks at places, one thread at a time.
+/// Paints places. Not thread-safe.
 class PlacePainter {
 public:
     PlacePainter(const CellFilter& filter, const PaintedCells& cells)
@@ -39,8 +38,8 @@ public:
     /// The colour of the filtered values, and the filtered height.
     Look at(const SurfacePlace& place);
 
-    /// How fast the height grows, as a vector in the plane of the triangle. Exactly 0 where heights
-    /// are the same all around.
+    /// The gradient of the height, in the plane of the triangle. Exactly 0 if heights are equal
+    /// around.
     Vector3d rise_at(const SurfacePlace& place);
 
 private:

@@ -13,15 +13,15 @@ namespace cascade {
 
 namespace {
 
-/// A name without white space, which would end it.
+/// Replaces white space, which would end the name.
 std::string one_word(std::string name) {
     std::replace_if(
         name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c == 127; }, '_');
     return name;
 }
 
-/// Names of channels that mean nothing else in a PLY file: G. Turk's own, and what readers take for
-/// texture coordinates and colours.
+/// Names of channels without another meaning in a PLY file: G. Turk's own, and those that readers
+/// take for texture coordinates and colours.
 std::vector<std::string> property_names(std::span<const Channel> channels) {
     std::vector<Channel> named;
     for (const Channel& channel : channels) named.push_back({one_word(channel.name), {}});

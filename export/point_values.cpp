@@ -1,11 +1,11 @@
-// Each point is a place in the first triangle that has it; threads filter ranges of places.
+// Each point is a place in its first triangle; threads filter ranges of places.
 #include "export/point_values.h"
 
 namespace cascade {
 
 std::vector<SurfacePlace> places_of_points(const SurfaceMesh& mesh) {
     std::vector<SurfacePlace> places(mesh.points.size());
-    for (std::size_t t = mesh.triangles.size(); t-- > 0;) {  // The first triangle stays.
+    for (std::size_t t = mesh.triangles.size(); t-- > 0;) {  // The first triangle wins.
         for (std::size_t k = 0; k < 3; ++k) {
             SurfacePlace& place = places[mesh.triangles[t][k]];
             place.triangle = static_cast<std::uint32_t>(t);

@@ -1,6 +1,5 @@
-// Halves all edges that are too long, again and again, and splits each triangle by which of its
-// edges are halved; of two diagonals the shorter one is taken. Links across edges are kept all the
-// way.
+// Repeatedly halves all edges that are too long, and splits each triangle depending on which of its
+// edges are halved; of two diagonals it takes the shorter one. Adjacency is maintained.
 #include "export/refine.h"
 
 #include <array>
@@ -18,9 +17,9 @@ using Weights = std::array<double, 3>;
 /// Corners of parts of a triangle: 0 … 2 are its own, 3 + k is the middle of its edge k.
 using Part = std::array<std::uint32_t, 3>;
 
-/// The parts of a triangle whose edges are halved or not. Of two halved edges the corner between
-/// them is cut off, and what remains along its diagonal, from the corner before them where
-/// `is_first_shorter`.
+/// The parts of a triangle, given its halved edges. With two halved edges the corner between them
+/// is cut off, and the remaining quadrilateral is split along one diagonal: the one from the corner
+/// before them if `is_first_shorter`.
 std::vector<Part> parts_of(const std::array<bool, 3>& is_halved, bool is_first_shorter) {
     const int count = is_halved[0] + is_halved[1] + is_halved[2];
     if (count == 0) return {{0, 1, 2}};
@@ -33,7 +32,7 @@ std::vector<Part> parts_of(const std::array<bool, 3>& is_halved, bool is_first_s
     return {{3 + a, b, 3 + b}, {a, 3 + a, c}, {3 + a, 3 + b, c}};
 }
 
-/// Triangles that know where in the first mesh they lie.
+/// Triangles with their positions in the first mesh.
 class Refiner {
 public:
     explicit Refiner(const SurfaceMesh& mesh)
@@ -49,8 +48,7 @@ public:
         }
     }
 
-    /// Halves all edges that are too long, once. False where there is none or that would be too
-    /// much.
+    /// Halves all edges that are too long, once. False if there are none or too many.
     bool halve(double longest, std::size_t most_triangles) {
         find_middles(longest);
         std::size_t count = triangles_.size();
@@ -89,7 +87,7 @@ public:
 private:
     static constexpr std::uint32_t none = TriangleEdge::none;
 
-    /// The triangle of the first mesh, and in it the corners of this one.
+    /// A triangle of the first mesh, and the corners of this one in it.
     struct Source {
         std::uint32_t triangle = 0;
         std::array<Weights, 3> corners;
@@ -134,7 +132,7 @@ private:
         std::vector<Triangle> triangles;
         std::vector<Source> sources;
         std::vector<std::array<TriangleEdge, 3>> across;
-        // What became of each edge, or of its first and its second half.
+        // The successors of each edge: itself, or its first and second half.
         std::vector<std::array<std::array<TriangleEdge, 2>, 3>> pieces(triangles_.size());
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
             const auto first = static_cast<std::uint32_t>(triangles.size());
@@ -187,7 +185,7 @@ private:
         return parts_of(is_halved, is_first_shorter);
     }
 
-    /// Links parts of a triangle with each other and finds the pieces of its edges.
+    /// Links the parts of a triangle with each other and finds the pieces of its edges.
     static void link_parts(std::span<const Part> parts, std::uint32_t first,
                            std::vector<std::array<TriangleEdge, 3>>& across,
                            std::array<std::array<TriangleEdge, 2>, 3>& pieces) {
@@ -205,7 +203,7 @@ private:
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t from = parts[p][k], to = parts[p][corner_after(k)];
                 if (const auto beyond = find(to, from)) across[first + p][k] = *beyond;
-                else pieces[from % 3][from < 3 ? 0 : 1] = {first + p, k};  // The whole is a first.
+                else pieces[from % 3][from < 3 ? 0 : 1] = {first + p, k};  // The first if whole.
             }
         }
     }

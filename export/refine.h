@@ -1,5 +1,4 @@
-// A finer mesh of the same shape, for files that have colours at points only: a pattern is no finer
-// than the points that show it.
+// Refinement of a mesh for files with vertex colours only.
 #pragma once
 
 #include "mesh/flat.h"
@@ -11,14 +10,12 @@ namespace cascade {
 
 struct RefinedMesh {
     SurfaceMesh mesh;
-    std::vector<SurfacePlace>
-        places;  ///< Where each point of it lies in the mesh it was made from.
+    std::vector<SurfacePlace> places;  ///< The place of each point in the original mesh.
 };
 
-/// Halves edges longer than `longest_edge`, which is above 0, together with the triangles beside
-/// them, until none is left or the mesh would have more than `most_triangles`. Points of the mesh
-/// stay and come first; texture coordinates and attributes of new ones lie between theirs. Throws
-/// std::bad_alloc.
+/// Halves edges longer than `longest_edge` (positive), splitting the triangles at them, until none
+/// is left or the mesh would exceed `most_triangles`. The mesh's points come first, unchanged;
+/// texture coordinates and attributes of new points are interpolated. Throws std::bad_alloc.
 RefinedMesh refined(const SurfaceMesh& mesh, double longest_edge, std::size_t most_triangles);
 
 }  // namespace cascade

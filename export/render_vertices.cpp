@@ -1,5 +1,5 @@
-// Sorts corners by normal, side and texture place; those that agree are one vertex. A tangent is
-// the mean of its triangles', weighed by their angles.
+// Sorts corners by normal, side and texture coordinates; equal ones become one vertex. A tangent is
+// the mean of its triangles' tangents, weighted by angle.
 #include "export/render_vertices.h"
 
 #include "mesh/flat.h"
@@ -20,9 +20,10 @@ TexturePlace finite(TexturePlace place) {
     return place;
 }
 
-/// How a triangle lies in the texture.
+/// The orientation of a triangle in the texture.
 struct TriangleTangent {
-    Vector3d direction;  ///< In which the first coordinate grows; zero where it has no area there.
+    Vector3d direction;  ///< Direction of growth of the first coordinate; zero without an area in
+                         ///< the texture.
     int side = 1;
 };
 
@@ -47,13 +48,13 @@ double angle_at(const SurfaceMesh& mesh, std::size_t t, std::size_t k) {
     return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
-/// What is left of a vector at right angles to a normal, of length 1; zero where nothing is.
+/// The component of a vector perpendicular to a normal, normalised; zero if it vanishes.
 Vector3d across(Vector3d vector, Vector3d normal) {
     const Vector3d left = vector - normal * dot(vector, normal);
     return length(left) > 1e-6 ? unit(left) : Vector3d{};
 }
 
-/// Some direction at right angles to a normal.
+/// Some unit vector perpendicular to a normal.
 Vector3d any_across(Vector3d normal) {
     return across(std::abs(normal.x) < 0.9 ? Vector3d{1, 0, 0} : Vector3d{0, 1, 0}, normal);
 }

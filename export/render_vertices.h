@@ -1,5 +1,5 @@
-// Vertices as renderers want them: each with one normal and one place in the texture, so that
-// points on creases and along the seams of the texture become several vertices.
+// Vertices for renderers, with one normal and one pair of texture coordinates each: points on
+// creases and texture seams become several vertices.
 #pragma once
 
 #include "mesh/normals.h"
@@ -10,9 +10,9 @@
 
 namespace cascade {
 
-/// What a normal map is relative to: the direction in which the first texture coordinate grows, at
-/// right angles to the smooth normal and of length 1, and whether the second one grows to the left
-/// of it (1) or to the right (−1, where the texture is mirrored), seen from outside.
+/// The frame of a normal map: the unit vector, perpendicular to the smooth normal, in which the
+/// first texture coordinate grows, and whether the second one grows to the left of it (1) or to the
+/// right (−1, if the texture is mirrored), seen from outside.
 struct Tangent {
     Vector3d direction;
     int side = 1;
@@ -21,16 +21,16 @@ struct Tangent {
 struct RenderVertices {
     std::vector<std::uint32_t> points;  ///< Of the mesh, in ascending order, each at least once.
     std::vector<Vector3d> normals;      ///< One per vertex, of length 1.
-    std::vector<TexturePlace> texture;  ///< Finite; empty where the mesh has none.
+    std::vector<TexturePlace> texture;  ///< Finite; empty if the mesh has none.
     std::vector<Tangent> tangents;      ///< Likewise.
-    /// Those of the mesh in their order, over the vertices.
+    /// Those of the mesh, in their order.
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
 /// Without texture coordinates there is a vertex for each normal. With them there is one for each
-/// normal, place in the texture and side; its tangent is the sum over its triangles, each weighted
-/// by its angle there (M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, does the
-/// same). Coordinates that are not finite become 0.
+/// normal, pair of texture coordinates and side; its tangent is the sum over its triangles,
+/// weighted by their angles there (as in M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited",
+/// 2008). Coordinates that are not finite become 0.
 RenderVertices render_vertices(const SurfaceMesh& mesh, const CornerNormals& normals);
 
 }  // namespace cascade

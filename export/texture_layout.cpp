@@ -1,5 +1,5 @@
-// Rasterises triangles by edge functions with a rule for points on edges (as graphics cards have),
-// so that two triangles that share an edge never share a sample.
+// Rasterises triangles by edge functions with a fill rule for points on edges (as GPUs have), so
+// that two triangles with a common edge never share a sample.
 #include "export/texture_layout.h"
 
 #include <algorithm>
@@ -10,14 +10,13 @@ namespace cascade {
 
 namespace {
 
-/// Above 0 where `point` is to the left of the way from a to b, exactly the opposite for the way
-/// back.
+/// Positive if `point` is to the left of the line from a to b; exactly negated by swapping a and b.
 double side_of(Vector2d a, Vector2d b, Vector2d point) {
     if (b.x < a.x || (b.x == a.x && b.y < a.y)) return -cross(a - b, point - b);
     return cross(b - a, point - a);
 }
 
-/// The number of a sample that counts the repetitions of the texture, without them.
+/// The index of a sample without repetitions of the texture.
 std::int64_t wrapped(std::int64_t number, std::int64_t size) {
     const std::int64_t rest = number % size;
     return rest < 0 ? rest + size : rest;
@@ -27,7 +26,7 @@ std::int64_t divided_down(std::int64_t number, std::int64_t size) {
     return (number - wrapped(number, size)) / size;
 }
 
-/// The first and the last sample whose middles are no smaller and no larger than a number.
+/// The first and the last sample whose centres are not below and not above a number.
 std::int64_t first_from(double low) { return static_cast<std::int64_t>(std::ceil(low - 0.5)); }
 std::int64_t last_to(double high) { return static_cast<std::int64_t>(std::floor(high - 0.5)); }
 
@@ -74,7 +73,7 @@ bool TextureLayout::holds(const Drawn& triangle, Vector2d point, std::array<doub
         const Vector2d a = triangle.corners[k], b = triangle.corners[(k + 1) % 3];
         inside[k] = triangle.sign * side_of(a, b, point);
         if (inside[k] > 0) continue;
-        // On the edge: as if the point were a trace to the right and even less below.
+        // On the edge: decided as if the point were slightly to the right and even less below.
         const Vector2d along = (b - a) * triangle.sign;
         const bool has_edge = along.y < 0 || (along.y == 0 && along.x > 0);
         if (inside[k] < 0 || !has_edge) return false;
@@ -94,7 +93,7 @@ void TextureLayout::visit_columns(const Drawn& triangle, std::int64_t row, const
         high = std::max(high, x);
     }
     if (!(low <= high)) return;
-    // One more at either end: where the edge is rounding must not say.
+    // One more at either end, to be safe against rounding.
     std::array<double, 3> inside{};
     for (std::int64_t column = first_from(low) - 1; column <= last_to(high) + 1; ++column) {
         if (holds(triangle, middle_of(column, row), inside)) visit(column);
@@ -142,7 +141,7 @@ SurfacePlace TextureLayout::place_at(std::uint32_t triangle, std::int64_t column
             if (!holds(drawn, point, inside)) continue;
             const double sum = inside[0] + inside[1] + inside[2];
             if (!(sum > 0)) continue;
-            // Across from each corner lies the edge that does not touch it.
+            // The edge opposite each corner is the one that does not touch it.
             place.weights = {inside[1] / sum, inside[2] / sum, inside[0] / sum};
             return place;
         }

@@ -1,5 +1,4 @@
-// Which place of a surface lies where in its texture: triangles drawn into the plane of their
-// texture coordinates.
+// The mapping from a texture to places on the surface: triangles rasterised in texture coordinates.
 #pragma once
 
 #include "mesh/flat.h"
@@ -11,8 +10,7 @@
 
 namespace cascade {
 
-/// A texture of `width` × `height` samples, its rows counted from the top, that repeats in all
-/// directions. Safe to use from several threads at once.
+/// A repeating texture of `width` × `height` samples, rows from the top. Thread-safe.
 class TextureLayout {
 public:
     TextureLayout(const SurfaceMesh& mesh, std::int64_t width, std::int64_t height);
@@ -22,35 +20,34 @@ public:
 
     /// Triangles that cannot be drawn.
     struct Skipped {
-        std::size_t without_area = 0;  ///< In the texture.
-        std::size_t without_place =
-            0;  ///< Coordinates that are not finite or beyond ±largest_place.
+        std::size_t without_area = 0;   ///< In the texture.
+        std::size_t without_place = 0;  ///< Not finite, or beyond ±largest_place.
     };
     const Skipped& skipped() const { return skipped_; }
-    /// Of all triangles together, in areas of the texture; above 1 they must overlap.
+    /// The total area of all triangles, in areas of the texture; above 1 they must overlap.
     double covered_area() const { return covered_area_; }
     static constexpr float largest_place = 256;
 
-    /// Finds what lies at the middles of samples in rows first … last − 1: row by row the number of
-    /// the triangle, `nothing` where there is none, the first one where there are several. A sample
-    /// on the edge between two triangles is in one of them. Returns how often a sample is in a
+    /// Finds the triangles at the centres of samples in rows first … last − 1, row by row: the
+    /// first triangle if there are several, `nothing` if there is none. A sample on the edge
+    /// between two triangles is in one of them. Returns the number of times that a sample is in a
     /// further triangle. `owners` has (last − first) · width() elements.
     std::int64_t find_owners(std::int64_t first, std::int64_t last,
                              std::span<std::uint32_t> owners) const;
     static constexpr std::uint32_t nothing = 0xffffffff;
 
-    /// The place of a triangle at the middle of a sample which find_owners found in it.
+    /// The place in a triangle at the centre of a sample for which find_owners found it.
     SurfacePlace place_at(std::uint32_t triangle, std::int64_t column, std::int64_t row) const;
 
 private:
-    /// A triangle in units of samples, y growing downwards.
+    /// A triangle in units of samples, with y down.
     struct Drawn {
         FlatTriangle corners;
-        double sign = 0;                   ///< Of its area; 0: it is not drawn.
-        std::int64_t first = 0, last = 0;  ///< Its rows, as if the texture did not repeat.
+        double sign = 0;                   ///< Of its area; 0 if it is not drawn.
+        std::int64_t first = 0, last = 0;  ///< Its rows, without wrapping.
     };
-    /// How far a point lies inside of each edge, if it is in the triangle. Of two triangles that
-    /// share an edge exactly one has the points on it.
+    /// Whether a point is in the triangle, and its distances from the edges. Of two triangles with
+    /// a common edge exactly one contains the points on it.
     static bool holds(const Drawn& triangle, Vector2d point, std::array<double, 3>& inside);
     template <typename Visit>
     static void visit_columns(const Drawn& triangle, std::int64_t row, const Visit& visit);

@@ -1,4 +1,4 @@
-// The XML head and the raw block grow together, array by array.
+// The XML header and the raw block are built together, array by array.
 #include "export/vtp.h"
 
 #include "export/model_writer.h"
@@ -15,7 +15,7 @@ namespace cascade {
 
 namespace {
 
-/// The head and the block after it, which grow together.
+/// The header and the block after it.
 class VtpFile {
 public:
     explicit VtpFile(const VtpPoints& points) : points_(points) {}
@@ -50,7 +50,7 @@ private:
         return fmt::format("{}{}", kind, 8 * sizeof(Number));
     }
 
-    /// An array of `count` × `components` numbers, each taken from `number(k)`.
+    /// Adds an array of `count` × `components` numbers, each taken from `number(k)`.
     template <typename Number, typename Take>
     void add(std::string_view name, std::size_t count, std::size_t components, const Take& take) {
         head_ += fmt::format(

@@ -1,4 +1,4 @@
-// Writing what an encoder makes, with its faults and a lack of memory told with the file's name.
+// Writes the result of an encoder; errors and a lack of memory are reported with the file's name.
 #pragma once
 
 #include "core/file.h"
@@ -12,8 +12,7 @@
 
 namespace cascade {
 
-/// Writes the bytes that `encode()` gives, a Result<std::string>, atomically. Fails as it and
-/// write_file do.
+/// Writes the bytes of `encode()`, a Result<std::string>, atomically. Fails as either does.
 template <typename Encode>
 Result<void> write_encoded(const std::filesystem::path& path, const Encode& encode) {
     try {

@@ -23,7 +23,7 @@ void append32(std::string& bytes, std::size_t number) {
     append_number(bytes, static_cast<std::uint32_t>(number));
 }
 
-/// What is said of an entry both before it and in the directory at the end.
+/// The description of an entry, both before it and in the directory at the end.
 std::string description_of(const ZipEntry& entry) {
     const std::size_t checksum =
         crc32_z(0, reinterpret_cast<const Bytef*>(entry.bytes.data()), entry.bytes.size());

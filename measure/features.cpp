@@ -1,5 +1,4 @@
-// A field that is even has a mean and nothing to measure; spots are counted halfway between the
-// ends.
+// Even fields only have a mean; spots are counted at the level halfway from smallest to largest.
 #include "measure/features.h"
 
 #include "core/spread.h"
@@ -17,7 +16,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Mean, deviation and ends; NaN where there is no cell.
+/// Sets mean, deviation, smallest and largest; NaN if there are no cells.
 Spread measure_values(const Samples& samples, Features& features) {
     const Spread spread = spread_of([&](const auto& take) {
         for (const double value : samples.values) take(value);

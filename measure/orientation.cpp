@@ -1,4 +1,4 @@
-// Sums products of central differences; the eigenvectors of a symmetric 2 x 2 matrix by atan2.
+// Sums products of central differences; the eigenvectors of a symmetric 2 × 2 matrix by atan2.
 #include "measure/orientation.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@ namespace cascade::measure {
 
 namespace {
 
-/// Twice the derivative along an axis, in cells; a neighbour outside counts as the cell itself.
+/// Twice the derivative along an axis, per cell; a neighbour outside counts as the cell itself.
 double difference(const Samples& samples, std::size_t cell, std::size_t axis) {
     const double here = samples.values[cell];
     const double ahead = samples.values[samples.neighbour(cell, axis, true)];

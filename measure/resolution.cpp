@@ -1,4 +1,4 @@
-// The correlation of neighbours, which is cheap, decides whether a spectrum is computed at all.
+// The correlation of neighbours, which is cheap, decides whether a spectrum is computed.
 #include "measure/resolution.h"
 
 #include "core/spread.h"
@@ -12,11 +12,11 @@ namespace cascade::measure {
 
 namespace {
 
-/// One wavelength is meant where the spectrum's peak has this part of the variance.
+/// A field has one wavelength if the spectrum's peak has this fraction of the variance.
 constexpr double regular_share = 0.75;
 
-/// Neighbours along one axis at least are correlated less where waves have at most four cells: the
-/// worst ones, along the diagonal of a volume, have cos(2π / (4 √3)) = 0.62.
+/// If waves have at most four cells, neighbours along some axis are correlated less than this: the
+/// worst case, a diagonal wave in a volume, has cos(2π / (4 √3)) = 0.62.
 constexpr double close_correlation = 0.65;
 
 double correlation_along(const Samples& samples, const Spread& spread, std::size_t axis) {
@@ -31,7 +31,7 @@ double correlation_along(const Samples& samples, const Spread& spread, std::size
     return pairs > 0 ? products / pairs / (spread.squares / spread.count) : 1;
 }
 
-/// Do neighbours differ so much that waves may be that short?
+/// Whether the correlation of neighbours allows waves that short.
 bool may_be_unresolved(const Samples& samples) {
     const Spread spread = spread_of([&](const auto& take) {
         for (const double value : samples.values) take(value);
@@ -53,7 +53,7 @@ double unresolved_wavelength(const Samples& samples) {
     if (!may_be_unresolved(samples)) return none;
     const Spectrum spectrum = radial_spectrum(samples);
     const double cells = peak_wavelength(spectrum) / samples.spacing;
-    // Below two cells there is only the chequerboard, of which others tell.
+    // Two cells per wave is a chequerboard, which is reported elsewhere.
     const bool is_short =
         cells > 2 && cells < fewest_cells_a_wave && peak_share(spectrum) >= regular_share;
     return is_short ? cells : none;

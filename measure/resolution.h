@@ -1,24 +1,21 @@
-// Has a pattern enough cells for its waves?
+// Whether a grid resolves the waves of a pattern.
 #pragma once
 
 #include "measure/samples.h"
 
 namespace cascade::measure {
 
-/// Shorter waves are made by the grid as much as by the equations: along an axis the Laplacian of
-/// differences takes less than 0.81 = 2 (1 − cos(2π/4)) / (2π/4)² of the square of their wave
-/// number, and more of it along a diagonal.
+/// Shorter waves are distorted by the grid: along an axis, the discrete Laplacian gives less than
+/// 0.81 = 2 (1 − cos(2π/4)) / (2π/4)² of the square of their wave number; along a diagonal more.
 inline constexpr double fewest_cells_a_wave = 4;
 
-/// The wavelength in cells of a field whose waves have fewer than `fewest_cells_a_wave`, but more
-/// than the two of a chequerboard; NaN for all other fields, and for those that have no wavelength
-/// to speak of, such as noise. Costs a Fourier transform only where neighbours differ so much that
-/// it may be so.
+/// The wavelength in cells of a field whose waves have fewer than `fewest_cells_a_wave` cells, but
+/// more than the two of a chequerboard. NaN for all other fields, and for those without a
+/// wavelength, such as noise. Needs a Fourier transform only if neighbours are weakly correlated.
 double unresolved_wavelength(const Samples& samples);
 
-/// The part of a field's variance that is in waves of fewer than `fewest_cells_a_wave` cells, 0 …
-/// 1: in a plane 1 − π/16 = 0.80 of white noise. 0 where it is known to be small without a Fourier
-/// transform.
+/// The fraction of a field's variance in waves of fewer than `fewest_cells_a_wave` cells, 0 … 1;
+/// for white noise in a plane 1 − π/16 = 0.80. 0 if correlations already show that it is small.
 double unresolved_part(const Samples& samples);
 
 }  // namespace cascade::measure

@@ -1,6 +1,5 @@
-// FFTW's transform along each axis, Fourier where it is periodic and cosines elsewhere; the power
-// is summed over rings of wave numbers, and the wavelength is the mean of those around the
-// strongest.
+// FFTW transforms each axis, by a Fourier transform if it is periodic and a cosine transform
+// otherwise. Power is summed over rings of wave numbers; the rings at the peak give the wavelength.
 #include "measure/spectrum.h"
 
 #include "core/transform_planner.h"
@@ -18,7 +17,7 @@ namespace cascade::measure {
 
 namespace {
 
-/// From a peak to its ends: below √2, where the second wave of a square lattice lies.
+/// The ratio of a peak's ends to its centre; less than √2, the second wave of a square lattice.
 constexpr double peak_breadth = 1.3;
 
 struct FreeBuffer {
@@ -26,7 +25,7 @@ struct FreeBuffer {
 };
 using Buffer = std::unique_ptr<double[], FreeBuffer>;
 
-/// The values without their mean; cells outside of the domain get 0.
+/// The values minus their mean; 0 for cells outside of the domain.
 Buffer centred(const Samples& samples) {
     Buffer buffer(fftw_alloc_real(samples.count()));
     double sum = 0;
@@ -44,8 +43,8 @@ Buffer centred(const Samples& samples) {
     return buffer;
 }
 
-/// In place, slowest axis first as FFTW counts them. R2HC is FFTW's real Fourier transform: cosine
-/// parts from the front, sine parts from the back. REDFT10 is the DCT-II.
+/// Transforms in place; FFTW orders axes from the slowest. R2HC is FFTW's real Fourier transform,
+/// with cosine parts from the start and sine parts from the end. REDFT10 is the DCT-II.
 void transform(const Samples& samples, double* values) {
     int sizes[3];
     fftw_r2r_kind kinds[3];
@@ -63,7 +62,7 @@ void transform(const Samples& samples, double* values) {
     fftw_destroy_plan(plan);
 }
 
-/// Along one axis: the wave number of every coefficient, and its share in Parseval's sum.
+/// Along one axis: the wave number of every coefficient, and its weight in Parseval's sum.
 struct AxisModes {
     std::vector<double> wave_number;
     std::vector<double> weight;
@@ -98,7 +97,7 @@ double ring_width_of(const Samples& samples) {
     return std::isfinite(finest) ? finest : 1;
 }
 
-/// What the rings around the strongest one have.
+/// Sums over the rings around the strongest one.
 struct Peak {
     double power = 0;
     double moment = 0;

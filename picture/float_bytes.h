@@ -1,4 +1,4 @@
-// Numbers as bytes of files, little-endian.
+// Numbers as little-endian bytes of files.
 #pragma once
 
 #include "core/plane.h"
@@ -14,8 +14,7 @@ namespace cascade {
 
 static_assert(std::endian::native == std::endian::little);
 
-/// Appends a number; every NaN as one, 0x7fc00000 or 0x7ff8000000000000, so that equal runs give
-/// equal files.
+/// Appends a number; all NaNs as 0x7fc00000 or 0x7ff8000000000000, so that files are reproducible.
 template <typename Number>
 void append_number(std::string& bytes, Number number) {
     static_assert(std::is_arithmetic_v<Number>);
@@ -26,8 +25,7 @@ void append_number(std::string& bytes, Number number) {
     bytes.append(element.data(), element.size());
 }
 
-/// Appends the cells of a field, row by row through all slices, as float32 or float64, as its
-/// precision is.
+/// Appends the cells of a field, row by row through all slices, in its precision.
 void append_floats(std::string& bytes, const Field& field);
 
 }  // namespace cascade

@@ -126,7 +126,7 @@ std::u32string label_characters(std::string_view label) {
     std::u32string characters;
     for (std::size_t i = 0; i < label.size(); ++i) {
         const auto byte = static_cast<unsigned char>(label[i]);
-        if ((byte & 0xc0U) == 0x80U) continue;  // After the first byte of its character.
+        if ((byte & 0xc0U) == 0x80U) continue;  // A continuation byte.
         const bool ellipsis = label.substr(i, 3) == "\u2026";
         characters += byte < 0x80 ? char32_t{byte} : (ellipsis ? U'\u2026' : U'\ufffd');
     }

@@ -33,7 +33,7 @@ void fill_rectangle(Image& image, std::int64_t x, std::int64_t y, std::int64_t w
 
 std::int64_t text_width(std::string_view text, std::int64_t dot) {
     const auto count = static_cast<std::int64_t>(label_characters(text).size());
-    // The last character needs no room after it.
+    // The last character needs no gap after it.
     return count == 0 ? 0 : (count * glyph_advance - (glyph_advance - glyph_width)) * dot;
 }
 
@@ -59,7 +59,7 @@ void draw_framed(Image& image, const Image& picture, std::int64_t x, std::int64_
     const std::int64_t width = picture.width * factor;
     fill_rectangle(image, x - 1, y - 1, width + 2, height + 2, sheet_frame);
     for (std::int64_t j = 0; j < height; ++j) {
-        // Rows follow the factor, or are spread over the band of a picture of few rows.
+        // Rows are enlarged, or stretched to the band of a picture of few rows.
         const std::int64_t row = j * picture.height / height;
         for (std::int64_t i = 0; i < width; ++i) {
             const Colour& pixel = picture.at(i / factor, row);

@@ -1,4 +1,4 @@
-// Text and rectangles on an image: what contact sheets and maps are labelled with.
+// Text and rectangles on an image, for contact sheets and maps.
 #pragma once
 
 #include "picture/image.h"
@@ -13,23 +13,22 @@ inline constexpr Colour sheet_ground{0.96F, 0.955F, 0.94F};
 inline constexpr Colour sheet_frame{0.72F, 0.71F, 0.69F};
 inline constexpr Colour sheet_ink{0.16F, 0.16F, 0.17F};
 
-/// Pixels (x, y) … (x + width − 1, y + height − 1), all within the image.
+/// Fills pixels (x, y) … (x + width − 1, y + height − 1), which must be within the image.
 void fill_rectangle(Image& image, std::int64_t x, std::int64_t y, std::int64_t width,
                     std::int64_t height, Colour colour);
 
-/// Pixels that a line of text takes, each dot of the font `dot` pixels wide.
+/// The width in pixels of a line of text, each dot of the font being `dot` pixels wide.
 std::int64_t text_width(std::string_view text, std::int64_t dot);
-/// Pixels from the top of a line to the lowest letter's end.
+/// The height in pixels of a line of text, descenders included.
 std::int64_t text_height(std::int64_t dot);
 
-/// A line of UTF-8 text whose upper left corner is at (x, y). What is wider than `room` ends in
-/// "…"; where not even that fits, nothing is drawn.
+/// Draws a line of UTF-8 text with its upper left corner at (x, y). Text wider than `room` ends in
+/// "…"; if not even that fits, draws nothing.
 void draw_text(Image& image, std::string_view text, std::int64_t x, std::int64_t y,
                std::int64_t room, std::int64_t dot);
 
-/// A picture with every pixel as a square of `factor` pixels, a frame of one pixel around it. Of a
-/// picture of few rows a band of `height` pixels is made; else `height` is that of the picture,
-/// enlarged.
+/// Draws a picture enlarged by `factor` in a frame of one pixel. `height` is that of the enlarged
+/// picture, or that of the band to which a picture of few rows is stretched.
 void draw_framed(Image& image, const Image& picture, std::int64_t x, std::int64_t y,
                  std::int64_t factor, std::int64_t height);
 

@@ -1,5 +1,4 @@
-// Lays out tiles, labels and margins in whole pixels first, then draws; the vertical axis points
-// up.
+// Lays out tiles, labels and margins in whole pixels, then draws; the vertical axis points up.
 #include "picture/map.h"
 
 #include "core/check.h"
@@ -12,13 +11,13 @@ namespace cascade {
 
 namespace {
 
-constexpr std::int64_t comfortable_side = 128;  // Pictures below half of it are enlarged.
-constexpr std::int64_t least_height = 24;       // A line of cells becomes a band so high.
+constexpr std::int64_t comfortable_side = 128;  // Pictures below half of this are enlarged.
+constexpr std::int64_t least_height = 24;       // Height of the band drawn for a line of cells.
 constexpr std::int64_t margin = 16;             // Around everything.
 constexpr std::int64_t gap = 6;                 // Between tiles, and between tiles and labels.
 constexpr Colour empty_place{0.90F, 0.893F, 0.875F};
 
-/// Where everything goes, in pixels.
+/// Positions and sizes in pixels.
 struct MapLayout {
     std::int64_t factor = 1, dot = 1;
     std::int64_t tile_width = 0, tile_height = 0;
@@ -54,7 +53,7 @@ MapLayout lay_out(std::span<const MapTile> tiles, const MapAxis& across, const M
             widest = std::max(widest, text_width(value, layout.dot));
         }
         layout.left += widest + 2 * gap;
-        layout.top += line + gap;  // The axis's name stands above its values.
+        layout.top += line + gap;  // The axis's name is above its values.
     }
     const auto columns = static_cast<std::int64_t>(across.values.size());
     const auto rows = static_cast<std::int64_t>(up.values.size());
@@ -68,7 +67,7 @@ MapLayout lay_out(std::span<const MapTile> tiles, const MapAxis& across, const M
     return layout;
 }
 
-/// Centred between x and x + width.
+/// Draws text centred between x and x + width.
 void draw_centred(Image& map, const std::string& text, std::int64_t x, std::int64_t width,
                   std::int64_t y, std::int64_t dot) {
     const std::int64_t taken = std::min(text_width(text, dot), width);

@@ -1,4 +1,4 @@
-// Maps: one small picture for each pair of two numbers, with the numbers along the axes.
+// Maps: a small picture for each pair of two parameters, with their values along the axes.
 #pragma once
 
 #include "picture/image.h"
@@ -9,21 +9,21 @@
 
 namespace cascade {
 
-/// What runs along a side of a map. An axis without a name has one value and no labels.
+/// An axis of a map. An axis without a name has one value and no labels.
 struct MapAxis {
     std::string name;
     std::vector<std::string> values;
 };
 
-/// One place of a map. Without an image it is left empty, with its remark in it.
+/// A cell of a map. Without an image it is left empty, with the remark in it.
 struct MapTile {
     Image image;
     std::string remark;
 };
 
-/// Tiles in rows, the lowest first: as in a diagram, `up` grows upwards. There is one for every
-/// pair of values, tile row · across.values.size() + column. All images are enlarged by one whole
-/// factor, so that small ones can be seen; a picture of a few rows is drawn as a band.
+/// A map of tiles in rows, the lowest first: as in a diagram, `up` increases upwards. The tile of a
+/// pair of values is row · across.values.size() + column. All images are enlarged by a common
+/// integral factor so that small ones are visible; a picture of a few rows is drawn as a band.
 Image make_map(std::span<const MapTile> tiles, const MapAxis& across, const MapAxis& up);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Parses the headers of .npy files: a little reader of Python literals.
+// Parses the headers of .npy files, which are Python literals.
 #include "picture/npy_header.h"
 
 #include <fmt/format.h>
@@ -11,10 +11,10 @@ namespace cascade {
 namespace {
 
 constexpr std::string_view magic("\x93NUMPY", 6);
-constexpr std::size_t longest_header = 1 << 16;  // NumPy's own are of some 120 bytes.
+constexpr std::size_t longest_header = 1 << 16;  // NumPy writes some 120 bytes.
 
-/// Reads the dictionary from left to right. Every member function returns false, or nothing, where
-/// the text is not of the form that it stands for; the position is then of no further use.
+/// Parses the dictionary from left to right. Member functions return false, or nothing, if the text
+/// does not match; the position is undefined then.
 class DictionaryReader {
 public:
     explicit DictionaryReader(std::string_view text) : text_(text) {}
@@ -98,7 +98,7 @@ bool DictionaryReader::type(NpyHeader& header) {
     return skip_list();
 }
 
-/// Steps over the list that describes a structured type; its brackets are not matched by kind.
+/// Skips the list that describes a structured type, without matching kinds of brackets.
 bool DictionaryReader::skip_list() {
     skip_blanks();
     if (position_ == text_.size() || text_[position_] != '[') return false;
@@ -133,7 +133,7 @@ bool DictionaryReader::shape(NpyHeader& header) {
         if (!size) return false;
         header.shape.push_back(*size);
         const bool comma = take(',');
-        if (take(')')) return comma || header.shape.size() > 1;  // (3) is no tuple in Python.
+        if (take(')')) return comma || header.shape.size() > 1;  // In Python, (3) is no tuple.
         if (!comma) return false;
     }
 }
@@ -158,7 +158,7 @@ bool DictionaryReader::read(NpyHeader& header) {
     return position_ == text_.size() && has_type_ && has_order_ && has_shape_;
 }
 
-/// Little-endian, of `count` bytes.
+/// A little-endian number of `count` bytes.
 std::size_t unsigned_at(std::string_view bytes, std::size_t begin, std::size_t count) {
     std::size_t value = 0;
     for (std::size_t i = count; i-- > 0;) {

@@ -1,4 +1,4 @@
-// Fields to images: ranges, palettes, enlarging.
+// Drawing of fields as images: ranges, palettes, enlargement.
 #include "core/check.h"
 #include "picture/image.h"
 
@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace cascade {
-/// In double, so that no float range overflows.
+/// Computed in double, so that no range overflows.
 double position_in(ValueRange range, float value) {
     if (std::isnan(value)) return std::numeric_limits<double>::quiet_NaN();
     const double low = static_cast<double>(range.low);

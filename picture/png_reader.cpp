@@ -1,4 +1,4 @@
-// The callbacks that libpng calls: they take bytes from memory, and leave by longjmp on an error.
+// Callbacks for libpng: they read bytes from memory, and leave by longjmp on an error.
 #include "picture/png_reader.h"
 
 #include <cstring>

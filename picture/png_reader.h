@@ -1,7 +1,7 @@
-// What readers of PNG files share (internal to picture/): libpng over bytes in memory.
+// The common part of the PNG readers (internal to picture/): libpng on bytes in memory.
 //
-// libpng reports errors by a jump over our frames. It lands in `guarded` and skips only frames that
-// own nothing: an action given to it may have no object with a destructor of its own.
+// libpng reports errors by longjmp to `guarded`. This is safe only if the skipped frames have no
+// destructors, so actions must not contain objects with a destructor.
 #pragma once
 
 #include <png.h>
@@ -20,10 +20,10 @@ public:
     PngReader(const PngReader&) = delete;
     PngReader& operator=(const PngReader&) = delete;
 
-    /// Makes libpng's structures. False, with an error, where memory is short.
+    /// Creates libpng's structures. False, with an error, if memory is short.
     bool open();
 
-    /// Runs an action that calls libpng; false, with an error, where libpng gave up.
+    /// Runs an action that calls libpng; false, with an error, if libpng fails.
     template <typename Action>
     bool guarded(const Action& action) {
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
@@ -46,7 +46,7 @@ private:
     png_infop info_ = nullptr;
 };
 
-/// Whether bytes begin as every PNG file does.
+/// Whether the bytes begin with the PNG signature.
 bool has_png_signature(std::string_view bytes);
 
 }  // namespace cascade

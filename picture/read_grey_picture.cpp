@@ -1,4 +1,4 @@
-// Pixels of PNG files as numbers.
+// Reads the pixels of PNG files as numbers.
 #include "core/file.h"
 #include "picture/grey_picture.h"
 #include "picture/png_reader.h"
@@ -12,22 +12,22 @@
 namespace cascade {
 namespace {
 
-// Deflate makes at most 1032 bytes of one: a small file that promises more is damaged.
+// Deflate expands data at most 1032 times: a small file that promises more is damaged.
 constexpr std::uint64_t largest_growth = 1100;
 constexpr std::uint64_t many_pixels = std::uint64_t{1} << 24;
 
 struct Format {
     std::int64_t width = 0;
     std::int64_t height = 0;
-    std::uint64_t packed_bytes = 0;  ///< Of all rows, as they are compressed in the file.
+    std::uint64_t packed_bytes = 0;  ///< Of all rows, before compression.
     std::size_t row_bytes = 0;
     int channels = 0;  ///< Grey, grey and alpha, colour, colour and alpha.
-    int depth = 0;     ///< 8 or 16 bits a channel.
-    int passes = 1;    ///< More than one where the picture is interlaced.
+    int depth = 0;     ///< Bits per channel, 8 or 16.
+    int passes = 1;    ///< More than 1 if the picture is interlaced.
 };
 
-/// Reads the header. Nothing as large as a row is allocated. What may stand beside the pixels
-/// (texts and profiles, which may inflate to anything) is passed over.
+/// Reads the header without allocating as much as a row. Skips ancillary chunks (texts and
+/// profiles), which may inflate to any size.
 bool read_header(PngReader& reader, Format& format) {
     return reader.open() && reader.guarded([&] {
         png_structp png = reader.png();
@@ -44,7 +44,7 @@ bool read_header(PngReader& reader, Format& format) {
     });
 }
 
-/// Asks for whole channels of 8 or 16 bits; libpng allocates its rows.
+/// Requests whole channels of 8 or 16 bits; libpng allocates its rows.
 bool start_rows(PngReader& reader, Format& format) {
     return reader.guarded([&] {
         png_structp png = reader.png();
@@ -57,7 +57,7 @@ bool start_rows(PngReader& reader, Format& format) {
     });
 }
 
-/// One channel of a pixel, 0 … 1. Words of 16 bits are stored with the upper byte first.
+/// One channel of a pixel, 0 … 1. 16-bit words are stored big-endian.
 float level(const png_byte* row, std::size_t channel, int depth) {
     if (depth == 8) return static_cast<float>(row[channel]) / 255.0F;
     const unsigned word = row[2 * channel] * 256U + row[2 * channel + 1];
@@ -78,7 +78,7 @@ float lightness(const png_byte* row, std::size_t pixel, const Format& format) {
 }
 
 /// Reads all pixels row by row; a pass of an interlaced picture has some of the rows and columns.
-/// The end of the file is read too, so that one that is cut off after the pixels is known.
+/// Also reads the end of the file, to detect truncation after the pixels.
 bool read_pixels(PngReader& reader, const Format& format, std::vector<png_byte>& row,
                  std::vector<float>& values) {
     const bool is_interlaced = format.passes > 1;
@@ -114,7 +114,7 @@ Result<GreyPicture> parse(std::string_view bytes) {
                                    format.height, most_pixels),
                        "make the picture smaller");
     }
-    // Of many pixels in a few bits each, a byte may hold more than the memory is worth.
+    // For many pixels of few bits each, a byte of the file would otherwise allow too much memory.
     const auto pixels = static_cast<std::uint64_t>(format.width * format.height);
     const std::uint64_t least =
         pixels > many_pixels ? std::max(pixels, format.packed_bytes) : format.packed_bytes;

@@ -21,7 +21,7 @@ static_assert(std::endian::native == std::endian::little);
 constexpr std::uint64_t most_elements = std::uint64_t{1} << 31;
 static_assert(largest_npy_file >= most_elements * 8);
 
-/// Turns the elements of a file into numbers; `swapped` says that they are big-endian.
+/// Converts the elements of a file to numbers; `swapped` means big-endian.
 using Convert = void (*)(std::string_view bytes, bool swapped, std::vector<double>& values);
 
 /// Each element of type T is rounded to Number, once.
@@ -61,7 +61,7 @@ constexpr std::array<ElementType, 11> element_types{{
     element_type<std::uint8_t>("b1"),
 }};
 
-/// The type without its byte order, or nullptr. Only a type of one byte may have none ('|').
+/// The type without its byte order, or nullptr. Only one-byte types may have none ('|').
 const ElementType* find_type(std::string_view type) {
     if (type.size() != 3 || std::string_view("<>=|").find(type[0]) == std::string_view::npos) {
         return nullptr;
@@ -73,7 +73,7 @@ const ElementType* find_type(std::string_view type) {
     return nullptr;
 }
 
-/// A type's name from a file, fit for a message.
+/// A type's name from a file, made safe for a message.
 std::string shown(std::string_view type) {
     std::string text(type.substr(0, 20));
     for (char& c : text) {
@@ -92,7 +92,7 @@ tl::unexpected<Failure> wrong_type(const std::string& type) {
                    hint);
 }
 
-/// Rows and columns of a header's shape; the number of elements is below most_elements.
+/// The dimensions in a header's shape; checks that there are fewer than most_elements elements.
 Result<NpyArray> array_of_shape(const NpyHeader& header) {
     const std::vector<std::uint64_t>& shape = header.shape;
     if (shape.empty()) return failure("it holds one number, not an array of rows and columns");

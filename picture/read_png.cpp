@@ -1,8 +1,8 @@
-// The text chunks of PNG files. The files may come from anywhere.
+// Reads the text chunks of PNG files, which may come from untrusted sources.
 //
-// libpng reads texts before the picture's data with ease, those after it only by inflating the
-// picture. So we walk over the file's chunks ourselves and show libpng short files: the header and
-// one text. It checks and inflates that within what all texts together may still have.
+// libpng reads texts before the picture's data easily, but those after it only by inflating the
+// picture. So this walks over the file's chunks and gives libpng short files of the header and one
+// text. libpng checks and inflates the text within the remaining limit for all texts.
 #include "core/file.h"
 #include "picture/image.h"
 #include "picture/png_reader.h"
@@ -21,15 +21,15 @@ namespace {
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
 constexpr std::size_t signature_size = 8;
 constexpr std::size_t chunk_frame = 12;        // Length, name and checksum around a chunk's data.
-constexpr std::size_t most_texts = 64;         // More are passed over.
-constexpr std::size_t longest_keyword = 1024;  // And what else stands in a chunk.
+constexpr std::size_t most_texts = 64;         // Further ones are skipped.
+constexpr std::size_t longest_keyword = 1024;  // And other data in a chunk.
 
 struct Chunk {
     std::string_view name;
     std::string_view whole;  ///< With length, name and checksum.
 };
 
-/// The chunk at the start of `bytes`; nothing where they hold no whole one.
+/// The chunk at the start of `bytes`; nothing if it is incomplete.
 std::optional<Chunk> first_chunk(std::string_view bytes) {
     if (bytes.size() < chunk_frame) return std::nullopt;
     const std::uint32_t size = png_get_uint_32(reinterpret_cast<png_const_bytep>(bytes.data()));
@@ -37,13 +37,13 @@ std::optional<Chunk> first_chunk(std::string_view bytes) {
     return Chunk{bytes.substr(4, 4), bytes.substr(0, chunk_frame + size)};
 }
 
-/// The parts of a PNG file that are looked at.
+/// The parts of a PNG file that are used.
 struct HeaderAndTexts {
-    std::string_view header;              ///< The signature too.
+    std::string_view header;              ///< Includes the signature.
     std::vector<std::string_view> texts;  ///< Whole chunks.
 };
 
-/// `bytes` begin with a signature.
+/// `bytes` must begin with a signature.
 Result<HeaderAndTexts> find_texts(std::string_view bytes) {
     HeaderAndTexts found;
     for (std::size_t position = signature_size;;) {
@@ -59,12 +59,12 @@ Result<HeaderAndTexts> find_texts(std::string_view bytes) {
     }
 }
 
-/// Reads the chunks up to the picture's data. Texts have `room` bytes at most.
+/// Reads the chunks up to the picture's data. Texts may have `room` bytes.
 bool read_texts(PngReader& reader, std::size_t room) {
     return reader.open() && reader.guarded([&reader, room] {
         png_set_chunk_malloc_max(reader.png(), room + longest_keyword);
-        // What libpng forgives elsewhere (a text that does not inflate, say) is an error here: a
-        // picture is read for its script, and half a script is none.
+        // Benign errors of libpng, such as a text that does not inflate, are errors here: a picture
+        // is read for its script, and half a script is useless.
         png_set_benign_errors(reader.png(), 0);
         png_read_info(reader.png(), reader.info());
     });
@@ -109,10 +109,10 @@ Result<PngTexts> parse_png_texts(std::string_view bytes) {
         if (!found) return tl::unexpected<Failure>(found.error());
         PngTexts texts;
         std::size_t room = longest_png_text;
-        // A header without texts has its faults, too.
+        // A header without texts is checked, too.
         const auto chunks = found->texts.empty() ? std::vector<std::string_view>{""} : found->texts;
         for (const std::string_view chunk : chunks) {
-            // libpng stops where it sees the beginning of the picture's data.
+            // libpng stops where the picture's data begins.
             const std::string short_file =
                 std::string(found->header).append(chunk).append("\0\0\0\0IDAT", 8);
             PngReader reader(short_file);

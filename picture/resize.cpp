@@ -1,4 +1,4 @@
-// Other sides for a picture.
+// Resampling of pictures.
 #include "picture/grey_picture.h"
 
 #include <algorithm>
@@ -7,13 +7,13 @@
 namespace cascade {
 namespace {
 
-/// A new pixel is a weighted sum of old ones in a row.
+/// The weights of old pixels in a row for a new one.
 struct Blend {
     std::int64_t first = 0;
     std::vector<double> weights;
 };
 
-/// The mean over the stretch of old pixels that the new one covers.
+/// The mean over the interval of old pixels that the new one covers.
 Blend mean_over(double begin, double end, std::int64_t count) {
     Blend blend{std::min(static_cast<std::int64_t>(begin), count - 1), {}};
     for (std::int64_t k = blend.first; k < count && static_cast<double>(k) < end; ++k) {
@@ -24,7 +24,7 @@ Blend mean_over(double begin, double end, std::int64_t count) {
     return blend;
 }
 
-/// Linear between the middles of the two nearest pixels; beyond the outer ones their value.
+/// Linear interpolation between pixel centres; constant beyond the outer ones.
 Blend between(double middle, std::int64_t count) {
     const double last = static_cast<double>(count - 1);
     const double position = std::clamp(middle - 0.5, 0.0, last);
@@ -84,7 +84,7 @@ GreyPicture with_height(const GreyPicture& picture, std::int64_t height) {
 }  // namespace
 
 GreyPicture resized(const GreyPicture& picture, std::int64_t width, std::int64_t height) {
-    // A picture of one column may have very many rows: the axis that leaves fewer pixels is first.
+    // The axis that leaves fewer pixels comes first: a picture may be very narrow.
     if (width * picture.height <= picture.width * height) {
         return with_height(with_width(picture, width), height);
     }

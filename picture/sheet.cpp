@@ -1,4 +1,4 @@
-// Contact sheets: several pictures side by side, each with a line of text under it.
+// Contact sheets: several pictures side by side, each with a label under it.
 #include "core/check.h"
 #include "picture/image.h"
 #include "picture/lettering.h"
@@ -9,17 +9,17 @@
 namespace cascade {
 namespace {
 
-constexpr std::int64_t comfortable_side = 192;  // Pictures below half of it are enlarged.
-constexpr std::int64_t least_height = 24;       // A line of cells becomes a band so high.
+constexpr std::int64_t comfortable_side = 192;  // Pictures below half of this are enlarged.
+constexpr std::int64_t least_height = 24;       // Height of the band drawn for a line of cells.
 constexpr std::int64_t margin = 16;             // Around the panels and between them.
 constexpr std::int64_t label_gap = 6;           // Between a picture's frame and its label.
 
-/// Sizes in pixels that all panels of one sheet share.
+/// Sizes in pixels common to all panels of a sheet.
 struct Sizes {
-    std::int64_t enlarge = 1;  ///< Every picture's factor.
+    std::int64_t enlarge = 1;  ///< Factor for all pictures.
     std::int64_t width = 0;    ///< Of the widest picture, enlarged.
-    std::int64_t height = 0;   ///< Of the highest picture, enlarged.
-    std::int64_t dot = 1;      ///< Side of one dot of the font.
+    std::int64_t height = 0;   ///< Of the tallest picture, enlarged.
+    std::int64_t dot = 1;      ///< Width of one dot of the font.
 };
 
 std::int64_t shown_height(const Image& image, std::int64_t factor) {
@@ -60,7 +60,7 @@ Image make_sheet(std::span<const Panel> panels, int columns) {
         const std::int64_t y = margin + k / across * panel_height;
         const std::int64_t height = shown_height(panel.image, sizes.enlarge);
         draw_framed(sheet, panel.image, x, y, sizes.enlarge, height);
-        // Directly under its picture, also where the next one is higher.
+        // Directly under the picture, even if others in its row are taller.
         draw_text(sheet, panel.label, x, y + height + label_gap, sizes.width, sizes.dot);
     }
     return sheet;

@@ -1,4 +1,4 @@
-// Plane slices of volumes, which is how pictures show them.
+// Plane slices of volumes, for pictures.
 #pragma once
 
 #include "core/axis.h"
@@ -8,22 +8,21 @@
 
 namespace cascade {
 
-/// A slice across an axis, at a place along it: 0 is the first cell, 1 the last.
+/// A slice perpendicular to an axis, at a position along it: 0 is the first cell, 1 the last.
 struct Slice {
     Axis axis = Axis::z;
     double place = 0.5;
     friend bool operator==(const Slice&, const Slice&) = default;
 };
 
-/// The number of the cell along the slice's axis that holds its place: floor(place · cells), and
-/// the last cell at 1.
+/// The index of the cell at the slice's position: floor(place · cells), and the last cell at 1.
 std::int64_t slice_number(const PlaneLayout& layout, Slice slice);
 
-/// The grid of the picture of a slice: across z columns are x and rows are y; across y columns are
-/// x and rows are z; across x columns are z and rows are y.
+/// The grid of a slice's picture: across z columns are x and rows are y; across y columns are x and
+/// rows are z; across x columns are z and rows are y.
 Grid slice_grid(const PlaneLayout& layout, Slice slice);
 
-/// The values of a slice as a field of slice_grid(); its halo is zero.
+/// The values of a slice as a field on slice_grid(), with a zero halo.
 Field cut(const Field& field, Slice slice);
 
 }  // namespace cascade

@@ -1,15 +1,15 @@
-// Colours as pictures store them (sRGB) and the amounts of light that they mean: IEC 61966-2-1.
+// Conversion between sRGB values and linear light: IEC 61966-2-1.
 #pragma once
 
 #include "core/palette.h"
 
 namespace cascade {
 
-/// Of a channel: 0 is 0 and 1 is 1. What is below 0 or NaN becomes 0. The same bits on every
-/// processor.
+/// The linear light of an sRGB channel: maps 0 to 0 and 1 to 1; negative numbers and NaN become 0.
+/// The same bits on every processor.
 float light_of(float stored);
 
-/// The other way, clamped to 0 … 1, both of which stay; NaN becomes 0.
+/// The inverse of light_of, clamped to 0 … 1; NaN becomes 0.
 float stored_of(float light);
 
 inline Colour light_of(const Colour& stored) {
@@ -19,12 +19,11 @@ inline Colour stored_of(const Colour& light) {
     return {stored_of(light[0]), stored_of(light[1]), stored_of(light[2])};
 }
 
-/// A number as one of the levels 0 … `highest` of a file, rounded to the nearest one and clamped;
-/// NaN becomes 0.
+/// The nearest of the levels 0 … `highest` of a file to a value, clamped to 0 … 1; NaN becomes 0.
 unsigned level_of(float value, unsigned highest);
 
-/// base ^ exponent, computed in binary64: the library's functions of binary32 differ in their last
-/// bit from processor to processor, those of binary64, rounded, do not.
+/// base ^ exponent, computed in binary64: the library's binary32 functions differ in the last bit
+/// between processors; rounded binary64 results do not.
 float steady_power(float base, double exponent);
 
 }  // namespace cascade

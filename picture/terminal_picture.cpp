@@ -1,6 +1,6 @@
-// Pictures in a terminal: each character '▀' shows two pixels, one above the other, the upper in
-// the foreground's colour and the lower in the background's. As a character is about twice as high
-// as wide, the pixels are square.
+// Pictures in a terminal: each character '▀' shows two vertically adjacent pixels, the upper in the
+// foreground colour and the lower in the background colour. As characters are about twice as high
+// as wide, pixels are square.
 #include "core/check.h"
 #include "picture/image.h"
 
@@ -16,18 +16,18 @@
 namespace cascade {
 namespace {
 
-/// How much of source pixel k lies in the part [from, to) of its axis.
+/// The length of source pixel k inside [from, to).
 double overlap(std::int64_t k, double from, double to) {
     const auto left = static_cast<double>(k);
     return std::max(0.0, std::min(left + 1, to) - std::max(left, from));
 }
 
-/// Pixel k of `parts` along an axis of `size` pixels, as a stretch of that axis.
+/// The interval of an axis of `size` pixels covered by pixel k of `parts`.
 struct Stretch {
     double from;
     double to;
     std::int64_t first;
-    std::int64_t last;  ///< One after.
+    std::int64_t last;  ///< One after the last.
 
     Stretch(std::int64_t k, std::int64_t parts, std::int64_t size)
         : from(static_cast<double>(k) * static_cast<double>(size) / static_cast<double>(parts)),
@@ -56,7 +56,7 @@ Colour average(const Image& image, const Stretch& across, const Stretch& down) {
     return colour;
 }
 
-/// The picture averaged down to `width` columns in its own proportions.
+/// The picture averaged down in proportion to `width` columns.
 Image reduce(const Image& image, std::int64_t width) {
     const double factor = static_cast<double>(width) / static_cast<double>(image.width);
     const double height = std::round(static_cast<double>(image.height) * factor);
@@ -72,7 +72,7 @@ Image reduce(const Image& image, std::int64_t width) {
 
 using Bytes = std::array<int, 3>;
 
-/// Nothing where the terminal's own ground is to be seen.
+/// Nothing for the terminal's background.
 std::optional<Bytes> bytes_of(const Colour& colour) {
     if (is_transparent(colour)) return std::nullopt;
     Bytes bytes{};
@@ -83,8 +83,8 @@ std::optional<Bytes> bytes_of(const Colour& colour) {
     return bytes;
 }
 
-/// Adds the escape sequence of a colour where it differs from the one in force. `kind` is 38 for
-/// the foreground, 48 for the background; no colour is the terminal's own.
+/// Appends the escape sequence of a colour if it differs from the current one. `kind` is 38 for the
+/// foreground, 48 for the background; no colour means the terminal's own.
 void set_colour(std::string& out, std::optional<Bytes>& current, const std::optional<Bytes>& wanted,
                 int kind) {
     if (current == wanted) return;
@@ -97,7 +97,7 @@ void set_colour(std::string& out, std::optional<Bytes>& current, const std::opti
                    (*wanted)[2]);
 }
 
-/// One character for two pixels.
+/// Draws one character for two pixels.
 void draw_pair(std::string& out, std::optional<Bytes>& ink, std::optional<Bytes>& ground,
                const std::optional<Bytes>& upper, const std::optional<Bytes>& lower) {
     if (upper) {
@@ -121,7 +121,7 @@ std::string half_blocks(const Image& image, int columns) {
     for (std::int64_t y = 0; y < image.height; y += 2) {
         std::optional<Bytes> ink, ground;
         for (std::int64_t x = 0; x < image.width; ++x) {
-            // Under the last row of an odd picture the terminal's own ground stays.
+            // Below the last row of an odd number the terminal's background remains.
             draw_pair(out, ink, ground, bytes_of(image.at(x, y)),
                       y + 1 < image.height ? bytes_of(image.at(x, y + 1)) : std::nullopt);
         }

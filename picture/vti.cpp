@@ -1,5 +1,4 @@
-// XML with offsets first, then the arrays as raw bytes; cells outside of a mask are marked as
-// hidden.
+// XML with offsets first, then the arrays as raw bytes; cells outside of a mask are hidden.
 #include "picture/vti.h"
 
 #include "core/check.h"
@@ -16,10 +15,10 @@ namespace cascade {
 
 namespace {
 
-/// Bytes of an array's elements, which stand before them.
+/// The number of bytes of an array, stored before its elements.
 using BlockSize = std::uint64_t;
 
-/// vtkDataSetAttributes::HIDDENCELL: a cell that is not there.
+/// vtkDataSetAttributes::HIDDENCELL: a blanked cell.
 constexpr char hidden_cell = 32;
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace cascade {
 namespace {
 
 constexpr std::size_t prefix_size = 10;  // \x93NUMPY, the version, the header's size.
-constexpr std::size_t alignment = 64;    // NumPy starts the elements at a multiple of it.
+constexpr std::size_t alignment = 64;    // NumPy aligns the elements to it.
 
 }  // namespace
 

@@ -1,8 +1,7 @@
-// PNG files written by libpng, into memory first.
+// Writes PNG files by libpng, into memory first.
 //
-// libpng reports errors by a jump over our frames. The jump is safe here because it lands in
-// Encoder::run and skips only frames that own nothing: everything with a destructor lives in
-// encode_png, outside the jump.
+// libpng reports errors by longjmp to Encoder::run. This is safe because the skipped frames own
+// nothing: all objects with a destructor are in encode_png, outside the jump.
 #include "core/check.h"
 #include "core/file.h"
 #include "picture/image.h"
@@ -21,7 +20,7 @@
 namespace cascade {
 namespace {
 
-constexpr std::int64_t longest_side = 0x7fffffff;  // The format's own limit.
+constexpr std::int64_t longest_side = 0x7fffffff;  // The format's limit.
 constexpr std::size_t longest_plain_text = 1024;   // Longer ones are compressed.
 
 bool some_transparent(const Image& image) {
@@ -35,7 +34,7 @@ bool all_grey(const Image& image, unsigned highest) {
     });
 }
 
-/// All that one encoding needs, prepared so that `run` allocates nothing of C++.
+/// The data of one encoding, prepared so that `run` makes no C++ allocations.
 class Encoder {
 public:
     Encoder(const Image& image, PngDepth depth, const PngTexts& texts, PngMeaning meaning);
@@ -57,8 +56,8 @@ private:
     int depth_;
     bool grey_;
     bool alpha_;
-    std::size_t channels_;         // Of a pixel in the file.
-    std::vector<png_text> texts_;  // Points into the caller's texts.
+    std::size_t channels_;         // Per pixel in the file.
+    std::vector<png_text> texts_;  // Point into the caller's texts.
     std::vector<png_byte> row_;
     std::string bytes_;
     std::array<char, 200> error_{};
@@ -95,7 +94,7 @@ void Encoder::append(png_structp png, png_bytep data, png_size_t size) {
     } catch (const std::bad_alloc&) {
         appended = false;
     }
-    // Outside of the handler: a jump out of it would leak the exception.
+    // Outside of the handler, because a jump out of it would leak the exception.
     if (!appended) png_error(png, "there is not enough memory");
 }
 
@@ -113,7 +112,7 @@ void Encoder::fill_row(std::int64_t y) {
         const Colour& pixel = image_.at(x, y);
         const bool is_seen = !is_transparent(pixel);
         for (std::size_t channel = 0; channel < channels_; ++channel) {
-            // What is transparent is white, for those who do not look at alpha.
+            // Transparent pixels are white, for programs that ignore alpha.
             const unsigned value = channel == colours ? (is_seen ? highest : 0)
                                    : is_seen          ? level_of(pixel[channel], highest)
                                                       : highest;

@@ -1,4 +1,4 @@
-// Escapes the four characters that would end a text or a quoted attribute.
+// Escapes the four special characters.
 #include "picture/xml_text.h"
 
 namespace cascade {

@@ -1,4 +1,4 @@
-// Texts inside XML files.
+// Texts in XML files.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace cascade {
 
-/// A text as it stands in an attribute: & < > " are written as entities.
+/// Replaces & < > " by entities, for use in an attribute.
 std::string xml_escaped(std::string_view text);
 
 }  // namespace cascade

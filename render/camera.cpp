@@ -1,4 +1,4 @@
-// Framing: the eye moves back, and sideways, until every vertex is inside the picture.
+// Framing: the eye moves back and sideways until every vertex is inside the picture.
 #include "render/camera.h"
 
 #include <algorithm>
@@ -9,10 +9,10 @@ namespace cascade {
 
 namespace {
 
-constexpr float margin = 1.12F;      ///< Room around the mesh.
+constexpr float margin = 1.12F;      ///< Free space around the mesh.
 constexpr float half_field = 0.22F;  ///< Tangent of half the field of view: 12.4 degrees.
 
-/// An angle in degrees. Computed in binary64, which rounds to the same binary32 everywhere.
+/// Cosine and sine of an angle in degrees, computed in binary64 for equal bits on every processor.
 struct Turn {
     float cosine, sine;
     explicit Turn(float degrees) {
@@ -22,17 +22,17 @@ struct Turn {
     }
 };
 
-/// What fills the picture along one axis. Seen from the eye every vertex must lie between the
-/// slopes −half and half: for each the eye has to be far enough back, the more the further the
-/// vertex is to one side and to the front.
+/// The range of the mesh along one axis of the picture. From the eye every vertex must be between
+/// the slopes −half and half, which gives a lower bound of the eye's distance that grows with the
+/// vertex's offset and nearness.
 struct Extent {
     float low = -INFINITY, high = -INFINITY;
     void add(float offset, float backward, float half) {
         low = std::max(low, -offset + half * backward);
         high = std::max(high, offset + half * backward);
     }
-    /// All points of a circle: offset and backward are those of its middle plus the sine of an
-    /// angle times these.
+    /// Adds all points of a circle: `offset` and `backward` are those of its centre; those of its
+    /// points add the sine of an angle times `offset_sine` and `backward_sine`.
     void add_circle(float offset, float backward, float offset_sine, float backward_sine,
                     float half) {
         low =
@@ -40,7 +40,7 @@ struct Extent {
         high =
             std::max(high, offset + half * backward + std::abs(half * backward_sine + offset_sine));
     }
-    /// Eye's offset and distance at which both edges touch.
+    /// The eye's offset and distance at which both edges touch.
     float offset() const { return (high - low) / 2; }
     float distance(float half) const { return (low + high) / (2 * half); }
 };
@@ -51,7 +51,7 @@ Camera::Camera(const TriangleMesh& mesh, const View& view, std::int64_t width,
                std::int64_t height) {
     const Turn around(view.azimuth);
     const Turn above(view.elevation);
-    // The axis towards the viewer at azimuth 0, and the one to his right.
+    // The axis towards the viewer at azimuth 0, and the one to the viewer's right.
     const Vector3 front = view.up.z != 0   ? Vector3{0, -1, 0}
                           : view.up.y != 0 ? Vector3{0, 0, 1}
                                            : Vector3{0, 1, 0};
@@ -71,11 +71,11 @@ Camera::Camera(const TriangleMesh& mesh, const View& view, std::int64_t width,
     if (view.is_turning) {
         middle = bounds(mesh).centre();
         for (const Vector3& p : mesh.positions) {
-            // Turning, a point of the mesh draws a circle around the axis.
+            // Under rotation, a point of the mesh describes a circle around the axis.
             const float rise = dot(p - middle, view.up);
             const float radius = length(p - middle - view.up * rise);
             const float back = rise * above.sine;
-            // To the sides, cosine and sine of the angle together.
+            // Sideways, the cosine and the sine of the angle combine into one sine.
             const float slope = half_x * above.cosine;
             const float swing = radius * std::sqrt(1 + slope * slope);
             x.add(swing, back, half_x);

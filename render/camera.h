@@ -1,4 +1,4 @@
-// A camera that frames what it looks at by itself.
+// A camera that frames a mesh automatically.
 #pragma once
 
 #include "render/triangle_mesh.h"
@@ -7,13 +7,13 @@
 
 namespace cascade {
 
-/// From where a picture is taken.
+/// The direction from which a picture is taken.
 struct View {
-    float azimuth = 30;    ///< Degrees around the axis that points up, from the front to the right.
+    float azimuth = 30;    ///< Degrees around the upward axis, from the front to the right.
     float elevation = 25;  ///< Degrees above the horizon, −89 … 89.
     Vector3 up{0, 0, 1};   ///< One of the axes x, y, z.
-    /// Frame the mesh for all azimuths at once, turning around the middle of its box, so that in a
-    /// row of pictures from around it stands still and keeps its size.
+    /// Frames the mesh for all azimuths at once, rotating around the centre of its box, so that its
+    /// position and size are constant in a series of pictures from all around.
     bool is_turning = false;
 };
 
@@ -24,13 +24,13 @@ struct Ray {
 
 class Camera {
 public:
-    /// Looks at `mesh` so that it fills a picture of width × height pixels but for a margin.
+    /// Looks at `mesh` so that it fills a picture of width × height pixels except for a margin.
     Camera(const TriangleMesh& mesh, const View& view, std::int64_t width, std::int64_t height);
 
-    /// Through a point of the picture, in pixels from its upper left corner.
+    /// The ray through a point of the picture, in pixels from its upper left corner.
     Ray ray(float x, float y) const;
 
-    /// Side of a pixel at distance 1.
+    /// Width of a pixel at distance 1.
     float pixel() const { return pixel_; }
     Vector3 eye() const { return eye_; }
     Vector3 right() const { return right_; }

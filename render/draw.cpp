@@ -1,9 +1,8 @@
-// Light: one sun behind the viewer's left shoulder, a disc and not a point so that its shadows are
-// soft, and a sky that is equally bright, so that hollows are darker. Each of a pixel's rays asks
-// once for the sun and once for the sky, and more often where the answers differ within the pixel:
-// elsewhere nothing would be learnt, and there few answers are grain. Where is a point of a
-// sequence that covers the square evenly (M. Roberts, "The Unreasonable Effectiveness of
-// Quasirandom Sequences", 2018), moved in each pixel by a hash of the pixel.
+// Lighting: a sun behind the viewer's left shoulder, a disc instead of a point for soft shadows,
+// and a uniform sky, which darkens hollows. Each of a pixel's rays tests the sun and the sky once.
+// Where results differ within the pixel it tests more often, because few samples there give noise.
+// Sample positions are points of a low-discrepancy sequence (M. Roberts, "The Unreasonable
+// Effectiveness of Quasirandom Sequences", 2018), shifted in each pixel by a hash of the pixel.
 #include "render/draw.h"
 
 #include "core/hash.h"
@@ -22,27 +21,26 @@ namespace {
 constexpr float sun_light = 0.72F;
 constexpr float sky_light = 0.42F;
 constexpr float sun_radius = 0.12F;    ///< Tangent of the sun's half width.
-constexpr float ground_shade = 0.55F;  ///< How much of the light the ground's shadow takes away.
+constexpr float ground_shade = 0.55F;  ///< Fraction of the light that the ground's shadow removes.
 constexpr float shine = 0.06F;
 constexpr Colour background{1, 1, 1};
-constexpr std::uint32_t rounds = 4;  ///< How often each ray asks for a light that is partly hidden.
+constexpr std::uint32_t rounds = 4;  ///< Tests per ray of a partly hidden light.
 
 float to_fraction(std::uint32_t word) {
-    return static_cast<float>(word >> 8) * 0x1p-24F;  // 0 … 1, 1 excluded.
+    return static_cast<float>(word >> 8) * 0x1p-24F;  // In [0, 1).
 }
 
-/// A point of the unit square.
 struct Point {
     float x = 0, y = 0;
 };
 
-/// Number `k` of a sequence that is even in the square, moved by two hashed words: multiples of
+/// Point `k` of a low-discrepancy sequence in the square, shifted by two hashed words: multiples of
 /// 1/p and 1/p² with p³ = p + 1, as fractions of 2^32.
 Point even_point(std::uint32_t k, std::uint32_t a, std::uint32_t b) {
     return {to_fraction(a + k * 3242174889u), to_fraction(b + k * 2447445414u)};
 }
 
-/// The unit disc, of the unit square, areas kept in proportion.
+/// Maps the unit square to the unit disc, preserving ratios of areas.
 Point on_disc(Point square) {
     const float radius = std::sqrt(square.x);
     const double angle = 2 * std::numbers::pi * static_cast<double>(square.y);
@@ -50,12 +48,12 @@ Point on_disc(Point square) {
             radius * static_cast<float>(std::sin(angle))};
 }
 
-/// What a ray met: its light is `always`, and what the sun and the sky add as far as they are seen.
+/// The hit of a ray: its light is `always` plus the visible contributions of the sun and the sky.
 struct Seen {
     Colour always{0, 0, 0};
     Colour of_sun{0, 0, 0}, of_sky{0, 0, 0};
     Vector3 place, normal;
-    bool is_lit = false;  ///< Whether the two count at all.
+    bool is_lit = false;  ///< Whether the sun and the sky contribute.
 };
 
 class Tracer {
@@ -74,7 +72,7 @@ public:
         ground_ = dot(box_.low, options.view.up);
     }
 
-    /// `seen` is room to work in.
+    /// The colour of a pixel; `seen` is working memory.
     Colour pixel(std::int64_t x, std::int64_t y, std::vector<Seen>& seen) const {
         const auto left = static_cast<float>(x);
         const auto top = static_cast<float>(y);
@@ -104,8 +102,7 @@ private:
         for (std::size_t c = 0; c < 3; ++c) sum[c] += light[c] * part;
     }
 
-    /// Adds the light of one source; `asks(from, number)` says whether it is seen in a direction of
-    /// that number.
+    /// Adds the light of one source; `asks(from, number)` tests its visibility for sample `number`.
     template <typename Asks>
     static void add_light(const std::vector<Seen>& seen, Colour Seen::*light, Colour& sum,
                           const Asks& asks) {
@@ -145,7 +142,7 @@ private:
                                    mesh_.positions[c] - mesh_.positions[a]));
         const float width = camera_.pixel() * hit.distance / static_cast<float>(options_.samples);
         const Look look = look_({hit, ray.direction, width});
-        // Both sides are drawn: the one that is seen faces the viewer.
+        // Both sides are drawn: the visible one faces the viewer.
         if (dot(facet, ray.direction) > 0) facet = -facet;
         const float side = dot(normal, facet) < 0 ? -1.0F : 1.0F;
         if (look.tilt != Vector3{}) normal = unit(normal + look.tilt);
@@ -166,8 +163,8 @@ private:
         return seen;
     }
 
-    /// From a place on a facet to the round surface that its corners' normals stand on: J. Hanika,
-    /// "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4.
+    /// The offset from a point on a facet to the smooth surface implied by the vertex normals: J.
+    /// Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4.
     Vector3 rounding(const Hit& hit, float side) const {
         const auto& corners = mesh_.triangles[hit.triangle];
         const std::array<float, 3> weights = {1 - hit.u - hit.v, hit.u, hit.v};
@@ -183,7 +180,7 @@ private:
         return offset;
     }
 
-    /// The background, darker where the surface keeps light from it.
+    /// The background, darkened by the surface's shadow.
     Seen ground(const Ray& ray) const {
         Seen seen;
         seen.always = background;
@@ -193,7 +190,7 @@ private:
         const float distance = (ground_ - dot(ray.origin, up)) / fall;
         if (distance <= 0) return seen;
         const Vector3 place = ray.origin + ray.direction * distance;
-        // Far from the surface nothing is darker, and nothing has to be asked.
+        // Far from the surface there is no shadow to test.
         if (length(place - box_.centre()) > 1.5F * size_) return seen;
         const float sun = sun_light * std::max(0.0F, dot(up, sun_));
         const float full = sun + sky_light;
@@ -208,15 +205,15 @@ private:
         return seen;
     }
 
-    /// In the direction of a point of the sun's disc.
+    /// Whether a point of the sun's disc is visible.
     bool sees_sun(const Seen& from, Point disc) const {
         const Vector3 to_sun = unit(sun_ + sun_frame_.tangent * (sun_radius * disc.x) +
                                     sun_frame_.bitangent * (sun_radius * disc.y));
         return dot(from.normal, to_sun) > 0 && !caster_.is_blocked({from.place, to_sun}, INFINITY);
     }
 
-    /// In a direction of which the sky's disc is the shadow on the floor of a dome: where that is
-    /// even, directions are spread by the cosine.
+    /// Whether the sky is visible in the direction that projects to this point of the unit disc:
+    /// uniform points give cosine-weighted directions.
     bool sees_sky(const Seen& from, Point disc) const {
         const Frame round_normal = frame_of(from.normal);
         const float height = std::sqrt(std::max(0.0F, 1 - disc.x * disc.x - disc.y * disc.y));

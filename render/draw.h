@@ -1,4 +1,4 @@
-// A picture of a surface: smooth shading, soft shadows, a ground to stand on.
+// Rendering of a surface with smooth shading, soft shadows and a ground plane.
 #pragma once
 
 #include "core/parallel.h"
@@ -11,39 +11,37 @@
 
 namespace cascade {
 
-/// The colour (sRGB) of the surface where a ray met it. Called from several threads at once.
+/// The colour (sRGB) of the surface at a hit. Called from several threads at once.
 using SurfaceColour = std::function<Colour(const Hit&)>;
 
-/// A surface met by a ray.
 struct Sight {
     Hit hit;
     Vector3 direction;  ///< Of the ray, of length 1.
-    float width = 0;  ///< Side of the square, across the ray, that stands for its part of a pixel.
+    float width = 0;    ///< Width of the ray's part of the pixel at the hit, across the ray.
 };
 
-/// What the surface looks like there.
+/// The appearance of the surface at a point.
 struct Look {
-    Colour light{};  ///< What part of red, green and blue light comes back, 0 … 1 (light_of).
-    Vector3 tilt;    ///< Added to the normal, which points outwards and has length 1.
+    Colour light{};  ///< Reflected fractions of red, green and blue light, 0 … 1 (light_of).
+    Vector3 tilt;    ///< Added to the outward unit normal.
 };
 
-/// Called from several threads at once.
 using SurfaceLook = std::function<Look(const Sight&)>;
 
 struct DrawOptions {
     std::int64_t width = 800, height = 600;  ///< Pixels, at least 1.
-    int samples = 4;                         ///< Rays through each pixel: samples × samples.
+    int samples = 4;  ///< The number of rays per pixel is samples × samples.
     View view;
     bool ground = true;
-    bool round_shadows = false;  ///< Shadows are those of a round surface, for large facets.
+    bool round_shadows = false;  ///< Smooths shadows on large facets.
 };
 
-/// Traces rays. The same picture on any number of threads and on every processor. Both sides of a
-/// surface are drawn. Throws std::bad_alloc.
+/// Renders by ray tracing. The picture is the same on any number of threads and on every processor.
+/// Both sides of a surface are drawn. Throws std::bad_alloc.
 Image draw(const TriangleMesh& mesh, const SurfaceColour& colour, const DrawOptions& options,
            Team& team);
 
-/// The same with all that a look can be. `caster` is that of the mesh.
+/// The same with a full description of the appearance. `caster` must be that of the mesh.
 Image draw(const TriangleMesh& mesh, const RayCaster& caster, const SurfaceLook& look,
            const DrawOptions& options, Team& team);
 

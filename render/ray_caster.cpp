@@ -1,4 +1,4 @@
-// Embree with one instruction set and one thread for building, so that all machines draw the same.
+// Embree with one instruction set and one building thread, so that all machines draw the same.
 #include "render/ray_caster.h"
 
 #include "core/check.h"
@@ -19,8 +19,8 @@ struct RayCaster::Scene {
 
 namespace {
 
-/// The process's only one, which is never given back: when the last one goes, the library that
-/// shares Embree's work begins threads, and ends the program where the system denies them.
+/// The process's only device, which is never released: on releasing the last device, the library
+/// that schedules Embree's tasks starts threads, and aborts if the system denies them.
 RTCDevice the_device() {
     // One instruction set for all processors; building on one thread gives one tree.
     static const RTCDevice device = rtcNewDevice("isa=sse2,threads=1,set_affinity=0");
@@ -97,7 +97,7 @@ bool RayCaster::is_blocked(const Ray& ray, float reach) const {
     rtcInitIntersectContext(&context);
     RTCRay query = ray_of(ray, reach);
     rtcOccluded1(scene_->scene, &context, &query);
-    return query.tfar < 0;  // Embree marks a blocked ray so.
+    return query.tfar < 0;  // Embree marks blocked rays this way.
 }
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Which triangle does a ray meet first? The one file behind which Embree is.
+// Intersections of rays with a mesh. The only interface to Embree.
 #pragma once
 
 #include "render/camera.h"
@@ -10,23 +10,22 @@
 
 namespace cascade {
 
-/// Where a ray met the mesh: in triangle (a, b, c) the point (1 − u − v) a + u b + v c.
+/// A hit of a ray in triangle (a, b, c), at the point (1 − u − v) a + u b + v c.
 struct Hit {
     std::uint32_t triangle = 0;
     float u = 0, v = 0;
     float distance = 0;
 };
 
-/// Safe to use from several threads at once. The mesh must outlive it.
+/// Thread-safe. The mesh must outlive it.
 class RayCaster {
 public:
-    /// Rays are cast with the same instructions on every processor, so that a picture is the same
-    /// everywhere. Throws std::bad_alloc.
+    /// Uses the same instructions on every processor, for equal pictures. Throws std::bad_alloc.
     explicit RayCaster(const TriangleMesh& mesh);
     ~RayCaster();
 
     std::optional<Hit> nearest(const Ray& ray) const;
-    /// Is anything in the way, nearer than `reach`?
+    /// Whether anything blocks the ray at a distance below `reach`.
     bool is_blocked(const Ray& ray, float reach) const;
 
 private:

@@ -1,4 +1,4 @@
-// A vertex's normal is the sum of its triangles' cross products, which weighs them by their areas.
+// A vertex normal is the sum of its triangles' cross products, which weights them by area.
 #include "render/triangle_mesh.h"
 
 #include "core/check.h"

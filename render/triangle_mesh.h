@@ -1,4 +1,4 @@
-// What is drawn: triangles with smooth normals.
+// The mesh that is drawn: triangles with smooth normals.
 #pragma once
 
 #include "core/vector3.h"
@@ -15,11 +15,10 @@ struct TriangleMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Sets the normals: of each position the sum of its triangles' normals, each as long as twice the
-/// triangle's area, scaled to length 1.
+/// Sets each position's normal to the direction of the area-weighted sum of its triangles' normals.
 void smooth_normals(TriangleMesh& mesh);
 
-/// The smallest box that holds a mesh.
+/// The bounding box of a mesh.
 struct Box {
     Vector3 low, high;
     Vector3 centre() const { return (low + high) * 0.5F; }
