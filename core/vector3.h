@@ -1,6 +1,7 @@
 // Points and directions in space.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace cascade {
@@ -35,6 +36,14 @@ struct BasicVector3 {
 template <typename Number>
 bool is_finite(BasicVector3<Number> v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// The point of segment ab nearest to p, as a fraction 0 … 1 of the way from a; 0 if a equals b.
+template <typename Vector>
+double nearest_fraction(const Vector& a, const Vector& b, const Vector& p) {
+    const Vector along = b - a;
+    const double square = dot(along, along);
+    return square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
 }
 
 using Vector3 = BasicVector3<float>;    ///< Of pictures.

@@ -41,13 +41,6 @@ TriangleTangent tangent_of(const SurfaceMesh& mesh, std::size_t t) {
     return {unit(along * (area > 0 ? 1.0 : -1.0)), area > 0 ? 1 : -1};
 }
 
-double angle_at(const SurfaceMesh& mesh, std::size_t t, std::size_t k) {
-    const Vector3d here = mesh.corner(t, k);
-    const Vector3d a = unit(mesh.corner(t, (k + 1) % 3) - here);
-    const Vector3d b = unit(mesh.corner(t, (k + 2) % 3) - here);
-    return std::atan2(length(cross(a, b)), dot(a, b));
-}
-
 /// The component of a vector perpendicular to a normal, normalised; zero if it vanishes.
 Vector3d across(Vector3d vector, Vector3d normal) {
     const Vector3d left = vector - normal * dot(vector, normal);
@@ -97,7 +90,7 @@ RenderVertices render_vertices(const SurfaceMesh& mesh, const CornerNormals& nor
         const std::uint32_t t = corner.number / 3, k = corner.number % 3;
         result.triangles[t][k] = static_cast<std::uint32_t>(result.points.size() - 1);
         Vector3d& sum = result.tangents.back().direction;
-        sum = sum + across(tangents[t].direction, normal) * angle_at(mesh, t, k);
+        sum = sum + across(tangents[t].direction, normal) * mesh.angle(t, k);
     }
     for (std::size_t v = 0; v < result.points.size(); ++v) {
         Vector3d& direction = result.tangents[v].direction;

@@ -43,10 +43,9 @@ constexpr std::array bones = {
 
 /// The signed distance from a bone's flesh in units of its softness; negative inside.
 double distance_from(const Bone& bone, Vector3d p) {
-    const Vector3d along = bone.to - bone.from;
-    const double part = std::clamp(dot(p - bone.from, along) / dot(along, along), 0.0, 1.0);
+    const double part = nearest_fraction(bone.from, bone.to, p);
     const double radius = bone.from_radius + (bone.to_radius - bone.from_radius) * part;
-    return (length(p - bone.from - along * part) - radius) / bone.softness;
+    return (length(p - bone.from - (bone.to - bone.from) * part) - radius) / bone.softness;
 }
 
 }  // namespace

@@ -5,6 +5,13 @@
 
 namespace cascade {
 
+double SurfaceMesh::angle(std::size_t triangle, std::size_t k) const {
+    const Vector3d here = corner(triangle, k);
+    const Vector3d a = unit(corner(triangle, corner_after(k)) - here);
+    const Vector3d b = unit(corner(triangle, corner_before(k)) - here);
+    return std::atan2(length(cross(a, b)), dot(a, b));
+}
+
 double SurfaceMesh::total_area() const {
     double sum = 0;
     for (std::size_t t = 0; t < triangles.size(); ++t) sum += area(t);

@@ -1,5 +1,4 @@
-// A surface in space as a triangle mesh: an oriented manifold with boundary, of one or several
-// components.
+// A surface in space as a triangle mesh: an oriented manifold with boundary.
 //
 // Every edge is between two triangles or at a boundary, every point has one fan of triangles, and
 // adjacent triangles have the same orientation.
@@ -41,9 +40,8 @@ struct SurfaceMesh {
     std::vector<std::array<TriangleEdge, 3>> across;
     std::vector<std::array<TexturePlace, 3>> texture;  ///< Per triangle; empty if there is none.
     std::vector<PointAttribute> attributes;
-    /// The face of the model from which each triangle was cut, from 0 (a triangle without area that
-    /// was merged with a neighbour counts to the neighbour's); empty if the model has only
-    /// triangles.
+    /// The face of the model from which each triangle was cut, from 0 (a merged triangle without
+    /// area counts to its neighbour's face); empty if the model has only triangles.
     std::vector<std::uint32_t> faces;
 
     Vector3d corner(std::size_t triangle, std::size_t k) const {
@@ -55,6 +53,8 @@ struct SurfaceMesh {
         return cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
     }
     double area(std::size_t triangle) const { return length(double_area_normal(triangle)) / 2; }
+    /// The angle of a triangle at its corner k, 0 … π.
+    double angle(std::size_t triangle, std::size_t k) const;
     /// The sum over all triangles, in their order.
     double total_area() const;
     /// The bounding box of all points.
@@ -76,8 +76,7 @@ struct MeshFacts {
 };
 MeshFacts facts_of(const SurfaceMesh& mesh);
 
-/// The component of each triangle, 0 … components − 1, numbered in the order of their first
-/// triangles.
+/// The component of each triangle, 0 … components − 1, in the order of their first triangles.
 std::vector<std::uint32_t> connected_components(const SurfaceMesh& mesh);
 
 }  // namespace cascade

@@ -10,13 +10,10 @@ namespace cascade {
 
 namespace {
 
-/// From a point to the line between two others, squared.
+/// The square of the distance from a point to the segment from a to b.
 template <typename Vector>
 double square_distance(const Vector& p, const Vector& a, const Vector& b) {
-    const Vector along = b - a;
-    const double square = dot(along, along);
-    const double part = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
-    const Vector apart = p - (a + along * part);
+    const Vector apart = p - (a + (b - a) * nearest_fraction(a, b, p));
     return dot(apart, apart);
 }
 

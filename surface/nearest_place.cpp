@@ -1,5 +1,4 @@
-// A bounding volume hierarchy, split by the number of triangles. Of equal distances the lower
-// triangle wins.
+// A bounding volume hierarchy, split at the median triangle.
 #include "surface/nearest_place.h"
 
 #include <algorithm>
@@ -15,13 +14,6 @@ constexpr std::uint32_t most_in_leaf = 4;
 /// Points farther away, in sizes of the model, are moved nearer along a straight line. This keeps
 /// the nearest place and lets distances differ despite rounding.
 constexpr double farthest = 1e5;
-
-/// The part of the way from a to b at which a point is nearest.
-double part_of_edge(Vector3d a, Vector3d b, Vector3d point) {
-    const Vector3d along = b - a;
-    const double square = dot(along, along);
-    return square > 0 ? std::clamp(dot(point - a, along) / square, 0.0, 1.0) : 0;
-}
 
 double square_distance(Vector3d a, Vector3d b) { return dot(a - b, a - b); }
 
@@ -62,7 +54,7 @@ std::array<double, 3> nearest_weights(const std::array<Vector3d, 3>& corners, Ve
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
         const Vector3d a = corners[k], b = corners[(k + 1) % 3];
-        const double part = part_of_edge(a, b, point);
+        const double part = nearest_fraction(a, b, point);
         const double distance = square_distance(a + (b - a) * part, point);
         if (distance >= best) continue;
         best = distance;

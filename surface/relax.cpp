@@ -20,15 +20,13 @@ constexpr double skin = 0.25;
 /// The longest move of a place in a round, in radii. Where a surface is folded a place has so many
 /// neighbours that it would oscillate.
 constexpr double longest_step = 0.06;
-/// Two places nearer than this, in radii, are pushed apart by a stronger force: with a force that
-/// only grows linearly towards 0, other places could press them together permanently. Even places
-/// are 0.54 apart.
+/// Two places nearer than this, in radii, are pushed apart harder: by a force that only grows
+/// linearly towards 0, other places could press them together for good. Even places are 0.54 apart.
 constexpr float core = 0.35F, core_strength = 4;
 /// Lists are rebuilt when more than one in this many places has moved half the skin. A few places
 /// always move far, and exact lists for them do not improve evenness.
 constexpr std::size_t places_per_far_one = 100;
-/// A list serves at least one in this many of the rounds done, because the first ones move places
-/// farthest.
+/// A list serves one in this many of the rounds done or more: the first ones move places farthest.
 constexpr int rounds_per_age = 4;
 /// At the end, places with another one nearer than `crowd` radii are pushed in separate rounds.
 constexpr int settling_rounds = 12;
@@ -122,8 +120,7 @@ private:
         return crowded;
     }
 
-    /// Rebuilds the lists; with `only_crowded`, only those of crowded places, and the others become
-    /// empty.
+    /// Rebuilds the lists; with `only_crowded`, makes those of all other places empty.
     void find_others(bool only_crowded = false) {
         std::vector<Vector3d> positions;
         positions.reserve(places_.size());
@@ -190,7 +187,7 @@ private:
             moving_[k] = in_float(now);
             part.far_moved += 2 * length(stretch(now)) > skin;
             places_[k] = walked.place;
-            turns_[k] = composed(turns_[k], walked.turn);
+            turns_[k] = product(turns_[k], walked.turn);
             other = end;
         }
     }
@@ -218,10 +215,6 @@ private:
         return {push.x, push.y};
     }
 
-    static Vector2d composed(Vector2d first, Vector2d second) {
-        return {first.x * second.x - first.y * second.y, first.x * second.y + first.y * second.x};
-    }
-
     const SurfaceMesh& mesh_;
     std::vector<SurfacePlace>& places_;
     Team& team_;
@@ -229,9 +222,9 @@ private:
     const Anisotropy* anisotropy_;
     double radius_;
     EdgeShapes shapes_;
-    /// Since the lists were made: the rotation of the frame of each place's triangle and the
-    /// movement of the place (in radii), in the frame of that time. A round reads `moved_` and
-    /// writes `moving_`.
+    /// Since the lists were made, in the frame of that time: the rotation of the frame of each
+    /// place's triangle, and the movement of the place (in radii). A round reads `moved_`, writes
+    /// `moving_`.
     std::vector<Vector2d> turns_;
     std::vector<Vector2f> moved_, moving_;
     std::vector<std::size_t> ends_;  ///< The ends of the places' lists in those of their threads.

@@ -19,10 +19,7 @@ bool is_fine(const TriangleQuality& quality, Care care) {
 }
 
 double distance_to_segment(Vector3d point, Vector3d from, Vector3d to) {
-    const Vector3d along = to - from;
-    const double square = dot(along, along);
-    const double part = square > 0 ? std::clamp(dot(point - from, along) / square, 0.0, 1.0) : 0;
-    return length(point - from - along * part);
+    return length(point - from - (to - from) * nearest_fraction(from, to, point));
 }
 
 }  // namespace
@@ -56,8 +53,7 @@ bool PointRemoval::has_point_twice() {
     return std::adjacent_find(sorted_.begin(), sorted_.end()) != sorted_.end();
 }
 
-/// Whether closing the hole's last edge, or a hole of three corners, duplicates no edge or
-/// triangle.
+/// Whether closing the hole's last edge, or its last three corners, duplicates no edge or triangle.
 bool PointRemoval::may_close() {
     const HalfedgeHandle beyond =
         mesh_.opposite_halfedge_handle(mesh_.next_halfedge_handle(spokes_[0]));

@@ -53,10 +53,8 @@ void Unfolding::add(std::uint32_t triangle, const FlatTriangle& flat, std::uint3
 /// The square of the distance in space from the place to an edge.
 double Unfolding::square_in_space(std::uint32_t triangle, std::uint32_t edge) const {
     const Vector3d a = mesh_.corner(triangle, edge) - position_;
-    const Vector3d along = mesh_.corner(triangle, corner_after(edge)) - position_ - a;
-    const double square = dot(along, along);
-    const double part = square > 0 ? std::clamp(-dot(a, along) / square, 0.0, 1.0) : 0;
-    const Vector3d nearest = a + along * part;
+    const Vector3d b = mesh_.corner(triangle, corner_after(edge)) - position_;
+    const Vector3d nearest = a + (b - a) * nearest_fraction(a, b, {});
     return dot(nearest, nearest);
 }
 
