@@ -1,8 +1,8 @@
 // A weighted least-squares fit to the unfolded neighbours, by the pseudo-inverse of a 2 × 2 matrix.
 #include "surface/cell_gradient.h"
 
-#include "surface/cell_unfolding.h"
 #include "surface/tangent_frame.h"
+#include "surface/unfolding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// Neighbours are collinear if the ratio of the (squared) spreads across and along a line is below
-/// this.
+/// Neighbours are collinear if the (squared) spread across a line over that along it is below this.
 constexpr double on_a_line = 1e-3;
 
 /// Neighbours nearer than this fraction of the cell's extent coincide with the cell.
@@ -44,17 +43,56 @@ Spread pseudo_inverse(const Spread& m) {
     return {along.x * along.x / large, along.x * along.y / large, along.y * along.y / large};
 }
 
+/// Unfolds around cells; one per thread.
+class NeighbourFinder {
+public:
+    NeighbourFinder(const SurfaceMesh& mesh, const EdgeShapes& shapes, const SurfaceCells& cells)
+        : mesh_(mesh), cells_(cells), unfolding_(mesh, shapes) {}
+
+    /// The positions of a cell's neighbours in its triangle's plane, valid until the next call.
+    std::span<const Vector2d> find(std::size_t cell) {
+        const auto edges = cells_.edges_of(cell);
+        double farthest = 0;
+        for (const VoronoiEdge& edge : edges) farthest = std::max(farthest, edge.distance);
+        // The distance of a Voronoi edge is the mean of two values, one of which may be longer.
+        unfolding_.around(cells_.places[cell], 1.5 * farthest);
+        found_.clear();
+        for (const VoronoiEdge& edge : edges) found_.push_back(neighbour(cell, edge));
+        return found_;
+    }
+
+private:
+    Vector2d neighbour(std::size_t cell, const VoronoiEdge& edge) const {
+        const SurfacePlace& other = cells_.places[edge.neighbour];
+        if (const FlatTriangle* flat = unfolding_.flat_of(other.triangle)) {
+            return position_of(*flat, other.weights);
+        }
+        // Out of reach: uses the straight line in space.
+        const SurfacePlace& here = cells_.places[cell];
+        const Vector2d towards =
+            tangent_frame(mesh_, here.triangle)
+                .in_plane(position_of(mesh_, other) - position_of(mesh_, here));
+        const double size = length(towards);
+        return size > 0 ? towards * (edge.distance / size) : Vector2d{};
+    }
+
+    const SurfaceMesh& mesh_;
+    const SurfaceCells& cells_;
+    Unfolding unfolding_;
+    std::vector<Vector2d> found_;
+};
+
 /// Writes the weights of one cell.
 void fit(const TangentFrame& frame, std::span<const VoronoiEdge> edges,
-         std::span<const UnfoldedNeighbour> neighbours, std::span<Vector3d> weights) {
+         std::span<const Vector2d> neighbours, std::span<Vector3d> weights) {
     // Distances are relative to the longest, so that the scale of a model does not matter.
     double size = 0, longest = 0;
     for (std::size_t k = 0; k < edges.size(); ++k) {
-        size = std::max(size, length(neighbours[k].place));
+        size = std::max(size, length(neighbours[k]));
         longest = std::max(longest, edges[k].length);
     }
     if (!(size > same_place * longest) || !(longest > 0)) return;
-    const auto place = [&](std::size_t k) { return neighbours[k].place * (1 / size); };
+    const auto place = [&](std::size_t k) { return neighbours[k] * (1 / size); };
     const auto importance = [&](std::size_t k) {
         const double distance = length(place(k));
         return distance > same_place ? edges[k].length / longest / distance : 0;
@@ -73,15 +111,20 @@ void fit(const TangentFrame& frame, std::span<const VoronoiEdge> edges,
 
 std::vector<Vector3d> cell_gradient_weights(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                             Team& team, const std::atomic<bool>& cancel) {
-    const std::vector<UnfoldedNeighbour> neighbours = unfold_neighbours(mesh, cells, team, cancel);
     std::vector<Vector3d> weights(cells.edges.size());
-    for (std::size_t cell = 0; cell < cells.places.size() && !cancel; ++cell) {
-        const auto edges = cells.edges_of(cell);
-        const auto first = static_cast<std::size_t>(edges.data() - cells.edges.data());
-        fit(tangent_frame(mesh, cells.places[cell].triangle), edges,
-            std::span(neighbours).subspan(first, edges.size()),
-            std::span(weights).subspan(first, edges.size()));
-    }
+    const EdgeShapes shapes(mesh);
+    team.run([&](int thread) {
+        const RowRange part =
+            split_rows(static_cast<std::int64_t>(cells.places.size()), thread, team.size());
+        NeighbourFinder finder(mesh, shapes, cells);
+        for (std::int64_t k = part.begin; k < part.end && !cancel; ++k) {
+            const auto cell = static_cast<std::size_t>(k);
+            const auto edges = cells.edges_of(cell);
+            const auto first = static_cast<std::size_t>(edges.data() - cells.edges.data());
+            fit(tangent_frame(mesh, cells.places[cell].triangle), edges, finder.find(cell),
+                std::span(weights).subspan(first, edges.size()));
+        }
+    });
     return weights;
 }
 

@@ -13,20 +13,12 @@ namespace {
 /// Triangles with a smaller ratio of area to the square of their longest edge are ignored.
 constexpr double least_shape = 1e-8;
 
-/// The triangle's angle at its corner k, 0 … π.
-double angle_at(const SurfaceMesh& mesh, std::size_t triangle, std::size_t k) {
-    const Vector3d here = mesh.corner(triangle, k);
-    const Vector3d a = unit(mesh.corner(triangle, corner_after(k)) - here);
-    const Vector3d b = unit(mesh.corner(triangle, corner_before(k)) - here);
-    return std::atan2(length(cross(a, b)), dot(a, b));
-}
-
 /// The share of a triangle that belongs to each corner (Meyer et al., 2003, section 3.3).
 std::array<double, 3> corner_areas(const SurfaceMesh& mesh, std::size_t triangle) {
     const double area = mesh.area(triangle);
     std::array<double, 3> angles{}, squares{}, shares{};
     for (std::size_t k = 0; k < 3; ++k) {
-        angles[k] = angle_at(mesh, triangle, k);
+        angles[k] = mesh.angle(triangle, k);
         const Vector3d opposite =
             mesh.corner(triangle, corner_before(k)) - mesh.corner(triangle, corner_after(k));
         squares[k] = dot(opposite, opposite);
@@ -176,30 +168,6 @@ std::vector<Vector3d> sphere_normals(const SurfaceMesh& mesh) {
         }
     }
     return sums;
-}
-
-std::vector<double> point_areas(const SurfaceMesh& mesh) {
-    std::vector<double> areas(mesh.points.size());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const std::array<double, 3> shares = corner_areas(mesh, t);
-        for (std::size_t k = 0; k < 3; ++k) areas[mesh.triangles[t][k]] += shares[k];
-    }
-    return areas;
-}
-
-std::vector<double> angle_defects(const SurfaceMesh& mesh) {
-    std::vector<double> defects(mesh.points.size(), 2 * std::numbers::pi);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            // The number of boundaries through a point is the number of boundary edges that begin
-            // there.
-            if (!mesh.across[t][k].exists()) defects[mesh.triangles[t][k]] -= std::numbers::pi;
-        }
-    }
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        for (std::size_t k = 0; k < 3; ++k) defects[mesh.triangles[t][k]] -= angle_at(mesh, t, k);
-    }
-    return defects;
 }
 
 PrincipalCurvatures principal_curvatures(const SurfaceMesh& mesh) {

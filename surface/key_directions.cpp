@@ -2,7 +2,7 @@
 // diffusion of the directions (surface/graph_diffusion).
 #include "surface/key_directions.h"
 
-#include "surface/cells_near.h"
+#include "surface/cell_finder.h"
 #include "surface/coded_directions.h"
 #include "surface/graph_diffusion.h"
 #include "surface/nearest_place.h"

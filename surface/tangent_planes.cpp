@@ -1,8 +1,6 @@
 // The turn of a link is the difference of the angles of the edge in the two planes.
 #include "surface/tangent_planes.h"
 
-#include "surface/cell_unfolding.h"
-
 #include <cmath>
 #include <numbers>
 
@@ -55,25 +53,6 @@ TangentPlanes planes_of_triangles(const SurfaceMesh& mesh) {
             if (other.exists()) planes.links.push_back(link_over(mesh, {t, k}, other));
         }
         planes.ends.push_back(planes.links.size());
-    }
-    return planes;
-}
-
-TangentPlanes planes_of_cells(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team,
-                              const std::atomic<bool>& cancel) {
-    const std::vector<UnfoldedNeighbour> neighbours = unfold_neighbours(mesh, cells, team, cancel);
-    TangentPlanes planes;
-    planes.places = cells.places;
-    planes.areas = cells.areas;
-    planes.ends = cells.ends;
-    for (const SurfacePlace& place : cells.places) {
-        planes.frames.push_back(tangent_frame(mesh, place.triangle));
-    }
-    planes.links.reserve(cells.edges.size());
-    for (std::size_t k = 0; k < cells.edges.size(); ++k) {
-        const VoronoiEdge& edge = cells.edges[k];
-        planes.links.push_back({edge.neighbour, neighbours[k].turn, edge.distance,
-                                edge.distance > 0 ? edge.length / edge.distance : 0});
     }
     return planes;
 }

@@ -1,11 +1,9 @@
-// The tangent planes of triangles or of cells, and the transport of directions between them.
+// The tangent planes of triangles, and the transport of directions between them.
 #pragma once
 
-#include "core/parallel.h"
 #include "surface/tangent_frame.h"
-#include "surface/voronoi_cells.h"
+#include "mesh/flat.h"
 
-#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,7 +12,7 @@ namespace cascade {
 
 /// A neighbouring plane. Directions are transported as if the surface between the planes were
 /// unfolded: parallel transport (K. Crane, M. Desbrun and P. Schröder, "Trivial connections on
-/// discrete surfaces", 2010, for triangles).
+/// discrete surfaces", 2010).
 struct TangentLink {
     std::uint32_t neighbour = 0;
     /// Direction φ in the neighbour's frame is φ + turn here; the other side has the negative turn.
@@ -40,9 +38,5 @@ struct TangentPlanes {
 
 /// One plane for each triangle, at its centroid; linked over its edges.
 TangentPlanes planes_of_triangles(const SurfaceMesh& mesh);
-
-/// One plane for each cell; linked over Voronoi edges. Undefined if `cancel` became true.
-TangentPlanes planes_of_cells(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team,
-                              const std::atomic<bool>& cancel);
 
 }  // namespace cascade

@@ -1,6 +1,5 @@
 // Gradients of cells against functions whose gradients are known.
 #include "surface/cell_gradient.h"
-#include "surface/cell_unfolding.h"
 #include "surface/tangent_frame.h"
 #include "unit/surface/even_cells.h"
 
@@ -127,24 +126,6 @@ TEST(CellGradient, SizeOfTheModelAndThreadsDoNotMatter) {
     ASSERT_EQ(weights.size(), one.size());
     for (std::size_t k = 0; k < one.size(); ++k) {
         EXPECT_LT(length(weights[k] * scale - one[k]), 1e-9 * length(one[k]));
-    }
-}
-
-TEST(UnfoldNeighbours, TurnsAreOppositeAndMatchTheFrames) {
-    const SurfaceMesh mesh = sheet(6, 6, [](double u, double v) { return Vector3d{u, v, 0}; });
-    const SurfaceCells cells = cells_of(mesh, 200);
-    Team team(2);
-    const std::vector<UnfoldedNeighbour> found = unfold_neighbours(mesh, cells, team, never);
-    std::size_t at = 0;
-    for (std::size_t cell = 0; cell < cells.places.size(); ++cell) {
-        const TangentFrame here = tangent_frame(mesh, cells.places[cell].triangle);
-        for (const VoronoiEdge& edge : cells.edges_of(cell)) {
-            const UnfoldedNeighbour& neighbour = found[at++];
-            const TangentFrame there = tangent_frame(mesh, cells.places[edge.neighbour].triangle);
-            const Vector3d x = here.in_space({std::cos(neighbour.turn), std::sin(neighbour.turn)});
-            EXPECT_LT(length(x - there.along), 1e-9);
-            EXPECT_NEAR(length(neighbour.place), edge.distance, 1e-12);
-        }
     }
 }
 

@@ -1,5 +1,5 @@
 // Directions along surfaces: from axes, gradients, curvature and keys.
-#include "surface/cell_gradient.h"
+#include "mesh/shapes.h"
 #include "surface/key_directions.h"
 #include "unit/surface/even_cells.h"
 
@@ -13,11 +13,6 @@ namespace {
 using namespace test;
 
 constexpr double pi = std::numbers::pi;
-
-TangentPlanes planes_of(const SurfaceMesh& mesh, const SurfaceCells& cells) {
-    Team team(2);
-    return planes_of_cells(mesh, cells, team, never);
-}
 
 void expect_tangents(const TangentPlanes& planes, const std::vector<Vector3d>& field) {
     ASSERT_EQ(field.size(), planes.size());
@@ -48,22 +43,20 @@ double worst_jump(const TangentPlanes& planes, const std::vector<Vector3d>& fiel
 
 TEST(TangentPlanes, TurnsAreOppositeAndLeadAroundPointsByTheirDefects) {
     const SurfaceMesh mesh = torus(20, 12, 2, 0.8);
-    const SurfaceCells cells = cells_of(mesh, 700);
-    for (const TangentPlanes& planes : {planes_of_triangles(mesh), planes_of(mesh, cells)}) {
-        for (std::uint32_t k = 0; k < planes.size(); ++k) {
-            for (const TangentLink& link : planes.links_of(k)) {
-                for (const TangentLink& back : planes.links_of(link.neighbour)) {
-                    if (back.neighbour != k) continue;
-                    EXPECT_EQ(back.turn, -link.turn);
-                    EXPECT_DOUBLE_EQ(back.weight, link.weight);
-                    EXPECT_GT(link.distance, 0);
-                }
+    const TangentPlanes planes = planes_of_triangles(mesh);
+    for (std::uint32_t k = 0; k < planes.size(); ++k) {
+        for (const TangentLink& link : planes.links_of(k)) {
+            for (const TangentLink& back : planes.links_of(link.neighbour)) {
+                if (back.neighbour != k) continue;
+                EXPECT_EQ(back.turn, -link.turn);
+                EXPECT_DOUBLE_EQ(back.weight, link.weight);
+                EXPECT_GT(link.distance, 0);
             }
         }
     }
     // Around a corner of a cube, on which three right angles meet, a direction turns by 90 degrees.
     const SurfaceMesh cube = box();
-    const TangentPlanes planes = planes_of_triangles(cube);
+    const TangentPlanes sides = planes_of_triangles(cube);
     const std::uint32_t corner = cube.triangles[0][0];
     double turned = 0;
     std::uint32_t at = 0;
@@ -71,7 +64,7 @@ TEST(TangentPlanes, TurnsAreOppositeAndLeadAroundPointsByTheirDefects) {
         std::uint32_t k = 0;
         while (cube.triangles[at][k] != corner) ++k;
         const std::uint32_t next = cube.across[at][k].triangle;
-        for (const TangentLink& link : planes.links_of(at)) {
+        for (const TangentLink& link : sides.links_of(at)) {
             if (link.neighbour == next) turned += link.turn;
         }
         at = next;
@@ -81,34 +74,31 @@ TEST(TangentPlanes, TurnsAreOppositeAndLeadAroundPointsByTheirDefects) {
 
 TEST(Directions, OfAnAxisOnASphereAreMeridians) {
     const SurfaceMesh mesh = sphere(24);
-    const SurfaceCells cells = cells_of(mesh, 1500);
-    for (const TangentPlanes& planes : {planes_of_triangles(mesh), planes_of(mesh, cells)}) {
-        const std::vector<Vector3d> field =
-            axis_directions(planes, {0, 0, 1e200}, DirectionKind::arrows);
-        expect_tangents(planes, field);
-        for (std::size_t k = 0; k < field.size(); ++k) {
-            const Vector3d p = unit(position_of(mesh, planes.places[k]));
-            if (std::abs(p.z) > 0.95) continue;
-            EXPECT_GT(dot(field[k], unit(Vector3d{0, 0, 1} - p * p.z)), 0.98);
-        }
+    const TangentPlanes planes = planes_of_triangles(mesh);
+    const std::vector<Vector3d> field =
+        axis_directions(planes, {0, 0, 1e200}, DirectionKind::arrows);
+    expect_tangents(planes, field);
+    for (std::size_t k = 0; k < field.size(); ++k) {
+        const Vector3d p = unit(position_of(mesh, planes.places[k]));
+        if (std::abs(p.z) > 0.95) continue;
+        EXPECT_GT(dot(field[k], unit(Vector3d{0, 0, 1} - p * p.z)), 0.98);
     }
 }
 
 TEST(Directions, AreFilledWhereTheAxisStandsUpright) {
     // On the top and bottom of a cube the z axis says nothing; the walls around do.
-    const SurfaceMesh mesh = box();
-    const SurfaceCells cells = cells_of(mesh, 900);
+    SurfaceMesh mesh = box_mesh({1, 1, 1}, 0.05).value();
+    for (Vector3d& p : mesh.points) p = p + Vector3d{0.5, 0.5, 0.5};
     for (const DirectionKind kind : {DirectionKind::arrows, DirectionKind::lines}) {
-        for (const TangentPlanes& planes : {planes_of_triangles(mesh), planes_of(mesh, cells)}) {
-            const std::vector<Vector3d> field = axis_directions(planes, {0, 0, 2}, kind);
-            expect_tangents(planes, field);
-            for (std::size_t k = 0; k < field.size(); ++k) {
-                const Vector3d p = position_of(mesh, planes.places[k]);
-                if (std::abs(planes.frames[k].normal.z) < 0.5) {
-                    EXPECT_NEAR(std::abs(field[k].z), 1, 1e-12);
-                } else if (p.x < 0.1 && p.y > 0.3 && p.y < 0.7 && planes.size() > 12) {
-                    EXPECT_GT(std::abs(field[k].x), 0.9);  // As on the wall beside it.
-                }
+        const TangentPlanes planes = planes_of_triangles(mesh);
+        const std::vector<Vector3d> field = axis_directions(planes, {0, 0, 2}, kind);
+        expect_tangents(planes, field);
+        for (std::size_t k = 0; k < field.size(); ++k) {
+            const Vector3d p = position_of(mesh, planes.places[k]);
+            if (std::abs(planes.frames[k].normal.z) < 0.5) {
+                EXPECT_NEAR(std::abs(field[k].z), 1, 1e-12);
+            } else if (p.x < 0.1 && p.y > 0.3 && p.y < 0.7) {
+                EXPECT_GT(std::abs(field[k].x), 0.9);  // As on the wall beside it.
             }
         }
     }
@@ -122,45 +112,34 @@ TEST(Directions, AreFilledWhereTheAxisStandsUpright) {
 
 TEST(Directions, OfGradientsPointUphill) {
     const SurfaceMesh mesh = cylinder(40, 20, 0.5, 2);
-    const SurfaceCells cells = cells_of(mesh, 1500);
-    std::vector<double> heights, cell_heights;
+    std::vector<double> heights;
     for (const Vector3d& p : mesh.points) heights.push_back(3 * p.z);
-    for (const SurfacePlace& place : cells.places)
-        cell_heights.push_back(-position_of(mesh, place).z);
-    for (const TangentPlanes& planes : {planes_of_triangles(mesh), planes_of(mesh, cells)}) {
-        for (const Vector3d& v : gradients_of_points(mesh, planes, heights)) {
-            EXPECT_LT(length(v - Vector3d{0, 0, 3}), 1e-9);
-        }
+    const TangentPlanes planes = planes_of_triangles(mesh);
+    const std::vector<Vector3d> uphill = gradients_of_points(mesh, planes, heights);
+    for (const Vector3d& v : uphill) EXPECT_LT(length(v - Vector3d{0, 0, 3}), 1e-9);
+    for (const Vector3d& v : directions(planes, uphill, DirectionKind::arrows)) {
+        EXPECT_LT(length(v - Vector3d{0, 0, 1}), 1e-6);
     }
-    Team team(2);
-    const TangentPlanes planes = planes_of(mesh, cells);
-    const std::vector<Vector3d> downhill = directions(
-        planes,
-        cell_gradients(cells, cell_gradient_weights(mesh, cells, team, never), cell_heights),
-        DirectionKind::arrows);
-    for (const Vector3d& v : downhill) EXPECT_LT(length(v - Vector3d{0, 0, -1}), 1e-6);
 }
 
 TEST(Directions, OfCurvatureOnACylinderAndATorus) {
     const SurfaceMesh pipe = cylinder(60, 30, 0.5, 2), ring = torus(80, 40, 2, 0.7);
     for (const SurfaceMesh* mesh : {&pipe, &ring}) {
-        const SurfaceCells cells = cells_of(*mesh, 1200);
         const PrincipalCurvatures curvature = principal_curvatures(*mesh);
-        for (const TangentPlanes& planes : {planes_of_triangles(*mesh), planes_of(*mesh, cells)}) {
-            const auto high =
-                directions(planes, curvature_lines(*mesh, planes, curvature, Principal::high),
-                           DirectionKind::lines);
-            const auto low =
-                directions(planes, curvature_lines(*mesh, planes, curvature, Principal::low),
-                           DirectionKind::lines);
-            expect_tangents(planes, high);
-            for (std::size_t k = 0; k < planes.size(); ++k) {
-                const Vector3d p = position_of(*mesh, planes.places[k]);
-                if (mesh == &pipe && (p.z < 0.1 || p.z > 1.9)) continue;
-                EXPECT_NEAR(dot(high[k], low[k]), 0, 1e-9);
-                const Vector3d bent = mesh == &pipe ? high[k] : low[k];
-                EXPECT_GT(std::abs(dot(bent, around_z(p))), 0.99);
-            }
+        const TangentPlanes planes = planes_of_triangles(*mesh);
+        const auto high =
+            directions(planes, curvature_lines(*mesh, planes, curvature, Principal::high),
+                       DirectionKind::lines);
+        const auto low =
+            directions(planes, curvature_lines(*mesh, planes, curvature, Principal::low),
+                       DirectionKind::lines);
+        expect_tangents(planes, high);
+        for (std::size_t k = 0; k < planes.size(); ++k) {
+            const Vector3d p = position_of(*mesh, planes.places[k]);
+            if (mesh == &pipe && (p.z < 0.1 || p.z > 1.9)) continue;
+            EXPECT_NEAR(dot(high[k], low[k]), 0, 1e-9);
+            const Vector3d bent = mesh == &pipe ? high[k] : low[k];
+            EXPECT_GT(std::abs(dot(bent, around_z(p))), 0.99);
         }
     }
     // A sphere has no such lines: what there is comes from the frame of one plane.
@@ -173,25 +152,24 @@ TEST(Directions, OfCurvatureOnACylinderAndATorus) {
 
 TEST(KeyDirections, AreCarriedAroundACylinder) {
     const SurfaceMesh mesh = cylinder(48, 24, 0.5, 2);
-    const SurfaceCells cells = cells_of(mesh, 1500);
     const KeyDirection key = {{0.6, 0, 1},
                               {5, 1, 1}};  // At 45 degrees on the surface, once projected.
-    for (const TangentPlanes& planes : {planes_of_triangles(mesh), planes_of(mesh, cells)}) {
-        const std::vector<Vector3d> field =
-            key_directions(mesh, planes, std::span(&key, 1), DirectionKind::arrows, never);
-        expect_tangents(planes, field);
-        for (std::size_t k = 0; k < planes.size(); ++k) {
-            const Vector3d wanted =
-                unit(around_z(position_of(mesh, planes.places[k])) + Vector3d{0, 0, 1});
-            EXPECT_GT(dot(field[k], wanted), 0.98);
-        }
+    const TangentPlanes planes = planes_of_triangles(mesh);
+    const std::vector<Vector3d> field =
+        key_directions(mesh, planes, std::span(&key, 1), DirectionKind::arrows, never);
+    expect_tangents(planes, field);
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+        const Vector3d wanted =
+            unit(around_z(position_of(mesh, planes.places[k])) + Vector3d{0, 0, 1});
+        EXPECT_GT(dot(field[k], wanted), 0.98);
     }
 }
 
 TEST(KeyDirections, SmoothingTurnsFromOneKeyToTheNext) {
-    const SurfaceMesh mesh = sheet(40, 8, [](double u, double v) { return Vector3d{5 * u, v, 0}; });
-    const SurfaceCells cells = cells_of(mesh, 2500);
-    const TangentPlanes planes = planes_of(mesh, cells);
+    const SurfaceMesh mesh = sheet(100, 20, [](double u, double v) {
+        return Vector3d{5 * u, v, 0};
+    });
+    const TangentPlanes planes = planes_of_triangles(mesh);
     const std::vector<KeyDirection> keys = {{{0.5, 0.5, 0}, {1, 0, 0}}, {{4.5, 0.5, 0}, {0, 1, 0}}};
     const auto sharp = key_directions(mesh, planes, keys, DirectionKind::arrows, never);
     Team one(1), three(3);
@@ -201,14 +179,15 @@ TEST(KeyDirections, SmoothingTurnsFromOneKeyToTheNext) {
     EXPECT_NEAR(worst_jump(planes, sharp, DirectionKind::arrows), 90, 1e-3);
     EXPECT_LT(worst_jump(planes, soft, DirectionKind::arrows), 12);
     for (std::size_t k = 0; k < planes.size(); ++k) {
-        const double x = position_of(mesh, cells.places[k]).x;
+        const Vector3d p = position_of(mesh, planes.places[k]);
+        const double x = p.x;
         if (x < 0.5) {
             EXPECT_GT(soft[k].x, 0.99);
         }
         if (x > 4.5) {
             EXPECT_GT(soft[k].y, 0.99);
         }
-        if (std::abs(x - 2.5) < 0.05) {
+        if (length(p - Vector3d{2.5, 0.5, 0}) < 0.1) {
             EXPECT_NEAR(soft[k].x, std::sqrt(0.5), 0.1);
         }
     }
@@ -237,7 +216,7 @@ TEST(KeyDirections, WhatSaysNothingIsLeftOut) {
     PolygonSoup soup = cube();
     append(soup, cube(), {5, 0, 0});
     const SurfaceMesh mesh = make_mesh(std::move(soup))->mesh;
-    const TangentPlanes planes = planes_of(mesh, cells_of(mesh, 400));
+    const TangentPlanes planes = planes_of_triangles(mesh);
     const std::vector<KeyDirection> keys = {
         {{0.5, 0.5, 2}, {0, 0, 1}},  // Upright.
         {{0.5, 0.5, 2}, {0, 0, 0}},      {{0.5, 0.5, 2}, {NAN, 0, 0}}, {{NAN, 0.5, 2}, {1, 0, 0}},

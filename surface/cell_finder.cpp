@@ -1,8 +1,6 @@
 // Unfolds around the place with a growing radius until the nearest cell is certain.
-#include "surface/cells_near.h"
+#include "surface/cell_finder.h"
 
-#include "surface/distance.h"
-#include "surface/nearest_place.h"
 #include "surface/relax.h"
 
 #include <algorithm>
@@ -13,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// The cell of the least distance, of equal ones that of the lowest number.
+/// The nearest cell; of equally near ones that with the lowest index.
 struct Nearest {
     double distance = std::numeric_limits<double>::infinity();
     std::uint32_t cell = CellFinder::nothing;
@@ -29,7 +27,7 @@ CellFinder::CellFinder(const SurfaceMesh& mesh, std::span<const SurfacePlace> ce
     : mesh_(mesh), cells_(cells), order_(cells.size()), shapes_(mesh), unfolding_(mesh, shapes_) {
     const MeshFacts facts = facts_of(mesh);
     reach_ = repulsion_radius(facts.area, std::max<std::size_t>(order_.size(), 1));
-    // No way in an unfolded patch is longer than all edges together.
+    // No path in an unfolded patch is longer than all edges together.
     whole_ = 3 * length(facts.high - facts.low) * static_cast<double>(facts.triangles);
     std::iota(order_.begin(), order_.end(), std::uint32_t{0});
     std::stable_sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -56,7 +54,7 @@ std::uint32_t CellFinder::at(const SurfacePlace& place) {
                 nearest.see(length(position_of(piece.flat, cells_[cell].weights)), cell);
             }
         }
-        // What is found beyond the reach may not be the nearest.
+        // A cell found beyond the reach may not be the nearest.
         if (nearest.distance <= reach) return nearest.cell;
         if (!(reach < whole_)) break;
     }
@@ -66,35 +64,6 @@ std::uint32_t CellFinder::at(const SurfacePlace& place) {
         nearest.see(length(position_of(mesh_, cells_[cell]) - position), cell);
     }
     return nearest.cell;
-}
-
-std::vector<std::uint32_t> cells_at(const SurfaceMesh& mesh, const SurfaceCells& cells,
-                                    std::span<const Vector3d> points) {
-    const NearestPlace nearest(mesh);
-    CellFinder finder(mesh, cells.places);
-    std::vector<std::uint32_t> found;
-    found.reserve(points.size());
-    for (const Vector3d& point : points) {
-        const auto place = nearest.find(point);
-        found.push_back(place ? finder.at(*place) : CellFinder::nothing);
-    }
-    return found;
-}
-
-std::vector<std::uint8_t> cells_within(const SurfaceMesh& mesh, const SurfaceCells& cells,
-                                       std::span<const Vector3d> points, double distance,
-                                       const std::atomic<bool>& cancel) {
-    const NearestPlace nearest(mesh);
-    std::vector<SurfacePlace> sources;
-    for (const Vector3d& point : points) {
-        if (const auto place = nearest.find(point)) sources.push_back(*place);
-    }
-    const SurfaceDistance distances(mesh, sources, cancel);
-    std::vector<std::uint8_t> within;
-    within.reserve(cells.places.size());
-    for (const double away : distances_of_cells(distances, cells))
-        within.push_back(away <= distance);
-    return within;
 }
 
 }  // namespace cascade

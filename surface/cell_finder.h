@@ -1,0 +1,36 @@
+// Finding the cell whose region contains a place.
+#pragma once
+
+#include "surface/unfolding.h"
+#include "surface/voronoi_cells.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cascade {
+
+/// The mesh and the places must outlive it unchanged. Not thread-safe.
+class CellFinder {
+public:
+    static constexpr std::uint32_t nothing = 0xffffffff;
+
+    CellFinder(const SurfaceMesh& mesh, std::span<const SurfacePlace> cells);
+
+    /// The nearest cell in the unfolded surface around the place, or in space if its component has
+    /// no cell; of equally near ones that with the lowest index. `nothing` if there are no cells.
+    std::uint32_t at(const SurfacePlace& place);
+
+private:
+    std::span<const std::uint32_t> on(std::uint32_t triangle) const;
+
+    const SurfaceMesh& mesh_;
+    std::span<const SurfacePlace> cells_;
+    double reach_;                      ///< About twice the spacing of cells.
+    double whole_;                      ///< More than the longest path.
+    std::vector<std::uint32_t> order_;  ///< The cells sorted by triangle.
+    EdgeShapes shapes_;
+    Unfolding unfolding_;
+};
+
+}  // namespace cascade
