@@ -19,7 +19,7 @@ constexpr NodeId longest_shown{60};
 /// What nobody has written: entries of a tensor, and what operators are made of on a surface.
 std::string describe_made(const PlanGraph& graph, const Node& node) {
     const bool is_sine = node.calls(Function::sin);
-    if ((is_sine || node.calls(Function::cos)) && graph.formula(node.operands[0]) != nullptr) {
+    if ((is_sine || node.calls(Function::cos)) && graph.origin(node.operands[0]) != nullptr) {
         return fmt::format("the {} of a direction", is_sine ? "sine" : "cosine");
     }
     return "an entry of a tensor";
@@ -33,10 +33,10 @@ std::string name_of(const PlanGraph& graph, NodeId id) {
     if (node.calls(Function::if_) && graph[node.operands[0]].kind == NodeKind::inside) {
         return name_of(graph, node.operands[1]) + " inside the mask";
     }
-    if (graph.formula(id) == nullptr) return describe_made(graph, node);
+    if (graph.origin(id) == nullptr) return describe_made(graph, node);
     if (graph.position(id) > longest_shown) return "a long expression";
     return print_formula(graph.program(), graph.program().system_of(graph.stage()),
-                         formula_of(graph.formula(id)->nodes, graph.position(id)));
+                         formula_of(graph.origin(id)->formula->nodes, graph.position(id)));
 }
 
 std::string describe_choice(const PlanGraph& graph, const PassPlanner::OperandChoice& choice) {

@@ -13,7 +13,7 @@ class Tensors : public GraphPass {
 
     NodeId tensor(NodeId a1, NodeId a2, NodeId theta) {
         const auto [a11, a12, a22] = tensor_entries(graph(), a1, a2, theta);
-        return graph().call(Function::tensor, {a11, a12, a22}, ValueType::tensor);
+        return call(Function::tensor, {a11, a12, a22}, ValueType::tensor);
     }
 
     NodeId image_of(const Node& node) override {
@@ -37,7 +37,7 @@ private:
     NodeId image_of(const Node& node) override {
         const bool is_weighted = node.calls(Function::lap) && node.operand_count == 2;
         if (!is_weighted || !is_uniform_[old()[at()].operands[0]]) return keep(node);
-        return times(node.operands[0], graph().call(Function::lap, {node.operands[1]}));
+        return times(node.operands[0], call(Function::lap, {node.operands[1]}));
     }
 
     IdVector<NodeId, bool> is_uniform_;
@@ -54,9 +54,9 @@ class Areas : public GraphPass {
             context().has_model()
                 ? graph().leaf(NodeKind::model, static_cast<std::uint32_t>(ModelPlane::area))
                 : graph().leaf(NodeKind::metric, static_cast<std::uint32_t>(MetricPlane::area));
-        const auto sum = [&](NodeId of) { return graph().call(Function::domain_sum, {of}); };
+        const auto sum = [&](NodeId of) { return call(Function::domain_sum, {of}); };
         const NodeId integral = sum(times(node.operands[0], area));
-        return is_mean ? graph().call(Function::divide, {integral, sum(area)}) : integral;
+        return is_mean ? call(Function::divide, {integral, sum(area)}) : integral;
     }
 };
 
@@ -77,11 +77,10 @@ class MaskedAggregates : public GraphPass {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         const bool is_least = node.function == Function::domain_min;
         Node masked = node;
-        masked.operands[0] =
-            graph().call(Function::if_, {graph().leaf(NodeKind::inside), node.operands[0],
-                                         graph().number(adds       ? 0
-                                                        : is_least ? infinity
-                                                                   : -infinity)});
+        masked.operands[0] = call(Function::if_, {graph().leaf(NodeKind::inside), node.operands[0],
+                                                  graph().number(adds       ? 0
+                                                                 : is_least ? infinity
+                                                                            : -infinity)});
         return keep(masked);
     }
 };

@@ -64,10 +64,11 @@ protected:
     const ExpressionGraph& old() const { return from_.graph; }
     NodeId image(NodeId old) const { return images_[old]; }
 
-    NodeId times(NodeId a, NodeId b) { return graph().call(Function::multiply, {a, b}); }
-    NodeId sum_of_products(NodeId a, NodeId b, NodeId c, NodeId d) {
-        return graph().call(Function::add, {times(a, b), times(c, d)});
+    NodeId call(Function function, std::initializer_list<NodeId> operands,
+                ValueType type = ValueType::number) {
+        return graph().call(function, operands, type);
     }
+    NodeId times(NodeId a, NodeId b) { return call(Function::multiply, {a, b}); }
 
 private:
     const Expressions& from_;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -24,11 +25,12 @@ std::uint64_t random_key(std::uint32_t seed, std::string_view stage, std::string
 
 /// Every occurrence of a random function in a formula has numbers of its own.
 Draw draw_of(KernelAssembly& assembly, const NodeInCell& in) {
-    const Noise& noise = in.graph.noise(in.id);
+    const auto& [formula, noise] = *in.graph.origin(in.id);
+    const auto first = formula->nodes.begin(), last = first + in.graph.position(in.id).index() + 1;
     return {noise.every_step ? assembly.draw_word() : assembly.builder().word(0),
             random_key(assembly.program().domain.seed,
                        noise.owner.empty() ? assembly.stage().name : noise.owner, noise.origin,
-                       in.graph.occurrence(in.id))};
+                       static_cast<std::size_t>(std::count_if(first, last, is_draw)))};
 }
 
 }  // namespace

@@ -23,10 +23,6 @@ class ModelOperators : public GraphPass {
     /// A vector as a sum of gradients of numbers, each times a number.
     using Gradients = std::vector<std::pair<NodeId, NodeId>>;  ///< Of, factor.
 
-    NodeId call(Function function, std::initializer_list<NodeId> operands) {
-        return graph().call(function, operands);
-    }
-
     /// What a vector is, from what its operands are. Gradients of the same are one.
     Gradients sum_of_gradients(const Node& node) {
         const Node& written = old()[at()];

@@ -147,19 +147,9 @@ const std::string& PlanGraph::name(NodeId id) const {
     return found == names_.end() ? none : found->second;
 }
 
-const Formula* PlanGraph::formula(NodeId id) const {
+const Origin* PlanGraph::origin(NodeId id) const {
     const std::uint32_t formula = expressions_.graph.written(id).formula;
-    return formula == Written::nowhere ? nullptr : expressions_.origins[formula].formula;
-}
-
-const Noise& PlanGraph::noise(NodeId id) const {
-    return expressions_.origins[expressions_.graph.written(id).formula].noise;
-}
-
-std::size_t PlanGraph::occurrence(NodeId id) const {
-    const auto first = formula(id)->nodes.begin();
-    return static_cast<std::size_t>(
-        std::count_if(first, first + position(id).index() + 1, is_draw));
+    return formula == Written::nowhere ? nullptr : &expressions_.origins[formula];
 }
 
 }  // namespace cascade::lowering

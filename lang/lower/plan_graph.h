@@ -48,12 +48,9 @@ public:
     bool is_plane(NodeId id) const;
     /// The definition or rate that it is the value of, as a user calls it; "" for others.
     const std::string& name(NodeId id) const;
-    /// Where it was written; null for what a pass has made.
-    const Formula* formula(NodeId id) const;
+    /// Where it was written, and where in it; null for what a pass has made.
+    const Origin* origin(NodeId id) const;
     NodeId position(NodeId id) const { return expressions_.graph.written(id).position; }
-    /// Of a draw: where its numbers come from, and which draw of its formula it is, from 1.
-    const Noise& noise(NodeId id) const;
-    std::size_t occurrence(NodeId id) const;
 
     const Program& program() const { return context_.program; }
     std::uint32_t stage() const { return context_.stage; }

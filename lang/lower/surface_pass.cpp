@@ -20,9 +20,8 @@ NodeId metric(ExpressionGraph& graph, MetricPlane plane) {
 class SurfaceOperators : public GraphPass {
     using GraphPass::GraphPass;
 
-    NodeId call(Function function, std::initializer_list<NodeId> operands,
-                ValueType type = ValueType::number) {
-        return graph().call(function, operands, type);
+    NodeId sum_of_products(NodeId a, NodeId b, NodeId c, NodeId d) {
+        return call(Function::add, {times(a, b), times(c, d)});
     }
     NodeId p() { return metric(graph(), MetricPlane::inverse_11); }
     NodeId q() { return metric(graph(), MetricPlane::inverse_12); }
