@@ -43,7 +43,7 @@ run 0 bench spots.cascade --seconds 0.02 --csv --mesh sphere --cells 500
 consistent 2
 run 0 bench spots.cascade --seconds 0.02 --backend interp --stage 1
 says out interpreted
-says out 'the interpreter'
+says out 'steps are interpreted'
 
 if grep -qw fma /proc/cpuinfo; then
     run 0 bench spots.cascade --seconds 0.02 --stage 1 --fast
