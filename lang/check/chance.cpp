@@ -1,4 +1,4 @@
-// Searches formulas for calls that draw; a rate that draws at each step needs to know the step's
+// Finds calls that draw random numbers, and warns where a draw per step meets steps of unknown
 // length.
 #include "lang/check/chance.h"
 
@@ -31,7 +31,7 @@ bool draws_random_numbers(const Program& program) {
 void warn_of_idle_seed(const ast::Script& script, const Program& program,
                        Diagnostics& diagnostics) {
     const ast::Statement* const seed = checking::find_option(script, "seed");
-    // The cells of a model are spread by chance, too.
+    // The cells of a model are placed at random, too.
     if (seed == nullptr || program.stages.empty() || program.domain.model ||
         draws_random_numbers(program)) {
         return;

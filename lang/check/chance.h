@@ -1,4 +1,4 @@
-// Warnings about random numbers: a seed that nothing reads, and noise that depends on the step.
+// Warnings about random numbers: a seed that has no effect, and noise that depends on the step.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -7,11 +7,11 @@
 
 namespace cascade {
 
-/// Warns of --seed where neither a stage nor the mask draws random numbers.
+/// Warns of --seed if neither a stage nor the domain draws random numbers.
 void warn_of_idle_seed(const ast::Script& script, const Program& program, Diagnostics& diagnostics);
 
 /// Warns of draws at each step in stages that choose their steps: the shorter the steps, the weaker
-/// the noise. `white` makes up for that.
+/// the noise. `white` compensates for that.
 void warn_of_draws_by_step(const Program& program, Diagnostics& diagnostics);
 
 }  // namespace cascade

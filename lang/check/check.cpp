@@ -22,8 +22,8 @@ namespace {
 
 using checking::Workspace;
 
-/// The systems of the library that the script names, and the script's own. `library` keeps what
-/// was parsed.
+/// Checks the script's own systems and those of the library that it names. `library` owns the
+/// parsed library scripts, which must outlive the workspace.
 void check_systems(Workspace& work, const ast::Script& script,
                    const std::vector<LibraryScript>& library) {
     std::vector<checking::SystemBlock> blocks;
@@ -34,7 +34,7 @@ void check_systems(Workspace& work, const ast::Script& script,
         if (block.kind == ast::BlockKind::system) blocks.push_back({&script, &block, false});
     }
     const std::vector<checking::DerivedSystem> systems = checking::derive_systems(work, blocks);
-    std::vector<std::uint32_t> numbers;  // Of each of them in the program.
+    std::vector<std::uint32_t> numbers;  // The index of each system in the program.
     for (const checking::DerivedSystem& each : systems) {
         std::optional<std::uint32_t> base;
         if (each.base) base = numbers[*each.base];
@@ -47,12 +47,12 @@ void check_systems(Workspace& work, const ast::Script& script,
     }
 }
 
-/// Does the domain lie on a surface on which operators measure?
+/// True if operators measure lengths on a surface.
 bool measures_on_surface(const DomainSettings& domain) {
     return domain.surface && domain.surface->has_metric;
 }
 
-/// The workspace of a program that is checked already.
+/// The workspace of a program that is already checked.
 Workspace workspace_of(const Program& program, Diagnostics& diagnostics) {
     Workspace work{program, diagnostics, {}, {}, {}, {}, {}, 0};
     work.on_surface = measures_on_surface(program.domain);
@@ -78,11 +78,11 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
         checking::check_domain(work, script);
         work.on_surface = measures_on_surface(program.domain);
         check_systems(work, script, library);
-        checking::functions_of(work, script);  // Those that nothing calls are checked too.
+        checking::functions_of(work, script);  // Functions that are never called are checked, too.
         checking::check_stages(work, script);
         checking::check_stage_sides(work, script);
         checking::check_picture(work, script);
-        // What could not be read may have been what reads a parameter.
+        // With errors, what reads a parameter may be missing from the program.
         if (!own.has_errors() && !diagnostics.has_errors()) {
             checking::warn_unread(work);
             for (std::uint32_t k = 0; k < program.stages.size(); ++k) {

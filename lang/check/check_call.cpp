@@ -1,4 +1,4 @@
-// Calls: how many arguments, where a function may stand, what types it takes, what is known now.
+// Calls: number of arguments, contexts in which a function may stand, types, and constants.
 #include "core/check.h"
 #include "core/palette.h"
 #include "ir/space.h"
@@ -19,7 +19,7 @@ namespace cascade::checking {
 namespace {
 
 constexpr double largest_of_points = 1e15;
-/// What is taken over something, as in sum(e over i).
+/// Functions that always need `over`, as in sum(e over i).
 constexpr std::array<std::string_view, 3> only_over{"sum", "mean", "product"};
 
 std::string number_of_values(Arity arity) {
@@ -50,7 +50,8 @@ void ExpressionChecker::visit(const ast::Call& call) {
     apply(*function, operands, call.argument_count);
 }
 
-/// distance(…) and keys(…): their numbers are known now, so that cells get their values once.
+/// Registers a distance(…) or keys(…), whose numbers must be constant: it is computed once per
+/// cell.
 void ExpressionChecker::take_surface_value(Function function, const ast::Call& call) {
     SurfaceValue value{function, {}};
     for (std::uint32_t k = 0; k < call.argument_count; ++k) {
@@ -79,7 +80,7 @@ void ExpressionChecker::take_surface_value(Function function, const ast::Call& c
     node.index = work_.program.literals->number_of(value);
 }
 
-/// mean(e over domain). Aggregates over an index have been written out before.
+/// mean(e over domain). Aggregates over an index have been expanded before.
 void ExpressionChecker::visit(const ast::Over& over) {
     const auto function = function_named(fmt::format("{} over domain", over.function.text));
     if (!function || over.index.text != "domain") {
@@ -263,7 +264,7 @@ void ExpressionChecker::check_palette(const Node& node) {
     formula_.nodes.back().type = ValueType::colour;
 }
 
-/// An angle that is a whole number beyond a full turn is mostly one of degrees.
+/// A whole number of more than a full turn is probably meant in degrees.
 void ExpressionChecker::check_angle(const Node& node) {
     const bool is_stripe = node.function == Function::stripe && node.operand_count == 3;
     if (node.function != Function::diffuse && node.function != Function::tensor && !is_stripe)
@@ -285,7 +286,7 @@ void ExpressionChecker::warn(Span span, std::string message, std::string hint) {
     work_.diagnostics.add(std::move(diagnostic));
 }
 
-/// The first value of noise and lattices is a length; the octaves of noise are counted now.
+/// The first argument of noise and of lattices is a length; the octaves of noise must be constant.
 void ExpressionChecker::check_lattice(Node& node) {
     const Part& side = parts_[node.operands[0]];
     if (side.constant && !(side.value > 0)) {
@@ -315,7 +316,7 @@ void ExpressionChecker::fold_constants(const Node& node) {
         constant = constant && part.constant;
         values[i] = part.value;
     }
-    // Numbers are flushed to zero where a float is denormal, so such a divisor is zero as well.
+    // Arithmetic flushes denormal numbers to zero, so a denormal divisor is zero, too.
     const bool divides = info(node.function).behaviour == Behaviour::divides;
     if (divides && parts_[node.operands[1]].constant &&
         std::abs(values[1]) < static_cast<double>(FLT_MIN)) {

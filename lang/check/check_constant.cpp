@@ -1,4 +1,4 @@
-// Constants: what must be known while a script is checked.
+// Constants: numbers that must be known while a script is checked.
 #include "lang/check/check_expression.h"
 
 namespace cascade::checking {

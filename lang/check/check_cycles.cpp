@@ -1,5 +1,8 @@
-// What is said when values read each other in a cycle.
+// Orders values that depend on each other, and reports cycles, in which there is no order.
 #include "lang/check/check_cycles.h"
+
+#include "lang/check/check_expression.h"
+#include "lang/program/dependencies.h"
 
 #include <fmt/format.h>
 
@@ -28,12 +31,48 @@ void report_cycle(Workspace& work, Span span, const char* what,
                                              describe_cycle(names)));
 }
 
-/// Where a formula reads a node of this kind and index.
+/// The place where a formula reads a node of this kind and index.
 Span place_of(const Formula& formula, NodeKind kind, std::uint32_t index) {
     for (const Node& node : formula.nodes) {
         if (node.kind == kind && node.index == index) return node.span;
     }
     return formula.nodes.empty() ? Span{} : formula.nodes.back().span;
+}
+
+void report_step_cycle(Workspace& work, const System& system,
+                       const std::vector<std::uint32_t>& cycle) {
+    const auto definition_count = static_cast<std::uint32_t>(system.definitions.size());
+    std::vector<std::string> names;
+    for (const std::uint32_t value : cycle) {
+        names.push_back(value < definition_count
+                            ? system.definitions[value].name
+                            : system.quantities[value - definition_count].name + "'");
+    }
+    const auto& formula = cycle[0] < definition_count ? system.definitions[cycle[0]].formula
+                                                      : system.rates[cycle[0] - definition_count];
+    const std::uint32_t next = cycle[1 % cycle.size()];
+    const Span span = next < definition_count
+                          ? place_of(formula, NodeKind::definition, next)
+                          : place_of(formula, NodeKind::rate, next - definition_count);
+    report_cycle(work, span, "definitions and rates", names);
+}
+
+/// The nesting depth of operators through definitions and rates.
+void check_depths(Workspace& work, const System& target) {
+    std::vector<std::uint32_t> definitions(target.definitions.size());
+    std::vector<std::uint32_t> rates(target.quantities.size());
+    const auto of_leaf = [&](const Node& node) {
+        if (node.kind == NodeKind::definition) return definitions[node.index];
+        return node.kind == NodeKind::rate ? rates[node.index] : 0;
+    };
+    const auto count = static_cast<std::uint32_t>(definitions.size());
+    for (const std::uint32_t value : topological_order(step_dependencies(target)).order) {
+        if (value < count) {
+            definitions[value] = check_nesting(work, target.definitions[value].formula, of_leaf);
+        } else {
+            rates[value - count] = check_nesting(work, target.rates[value - count], of_leaf);
+        }
+    }
 }
 
 }  // namespace
@@ -53,22 +92,50 @@ void report_item_cycle(Workspace& work, const System& system,
     report_cycle(work, place_of(*items[cycle[first]], NodeKind::own, next), "values", names);
 }
 
-void report_step_cycle(Workspace& work, const System& system,
-                       const std::vector<std::uint32_t>& cycle) {
-    const auto definition_count = static_cast<std::uint32_t>(system.definitions.size());
-    std::vector<std::string> names;
-    for (const std::uint32_t value : cycle) {
-        names.push_back(value < definition_count
-                            ? system.definitions[value].name
-                            : system.quantities[value - definition_count].name + "'");
+void report_cycles_of_defaults(Workspace& work, std::uint32_t index) {
+    const System& system = work.program.systems[index];
+    std::vector<const Formula*> items;
+    for (const Quantity& quantity : system.quantities) items.push_back(&quantity.start);
+    const Settings& settings = system.settings;
+    items.push_back(settings.frozen ? &*settings.frozen : nullptr);
+    items.push_back(settings.speed ? &*settings.speed : nullptr);
+    const Order order = topological_order(item_dependencies(items));
+    const std::vector<bool> from_system(items.size(), false);
+    for (const auto& cycle : order.cycles) {
+        report_item_cycle(work, system, items, from_system, cycle);
     }
-    const auto& formula = cycle[0] < definition_count ? system.definitions[cycle[0]].formula
-                                                      : system.rates[cycle[0] - definition_count];
-    const std::uint32_t next = cycle[1 % cycle.size()];
-    const Span span = next < definition_count
-                          ? place_of(formula, NodeKind::definition, next)
-                          : place_of(formula, NodeKind::rate, next - definition_count);
-    report_cycle(work, span, "definitions and rates", names);
+}
+
+void order_steps(Workspace& work, std::uint32_t index) {
+    System& target = work.draft->systems[index];
+    const Order order = topological_order(step_dependencies(target));
+    for (const auto& cycle : order.cycles) report_step_cycle(work, target, cycle);
+    const auto count = static_cast<std::uint32_t>(target.definitions.size());
+    std::vector<std::uint32_t> position(count);
+    std::vector<Definition> definitions;
+    std::vector<bool> read;
+    for (const std::uint32_t value : order.order) {
+        if (value < count) {
+            position[value] = static_cast<std::uint32_t>(definitions.size());
+            definitions.push_back(std::move(target.definitions[value]));
+            read.push_back(work.definitions_read[index][value]);
+        } else if (target.quantities[value - count].is_species) {
+            target.rate_order.push_back(value - count);
+        }
+    }
+    target.definitions = std::move(definitions);
+    work.definitions_read[index] = std::move(read);
+    const auto renumber = [&](Formula& formula) {
+        for (Node& node : formula.nodes) {
+            if (node.kind == NodeKind::definition) node.index = position[node.index];
+        }
+    };
+    for (Definition& definition : target.definitions) renumber(definition.formula);
+    for (Formula& rate : target.rates) renumber(rate);
+    for (auto& [name, meaning] : work.names[index]) {
+        if (meaning.is_definition) meaning.index = position[meaning.index];
+    }
+    if (order.cycles.empty()) check_depths(work, target);
 }
 
 }  // namespace cascade::checking

@@ -1,4 +1,4 @@
-// Cycles: values that read each other (internal to the checker).
+// The order of values that depend on each other, and cycles (internal to the checker).
 #pragma once
 
 #include "lang/check/check_names.h"
@@ -9,18 +9,21 @@
 
 namespace cascade::checking {
 
-/// "a -> b -> a". Of a long cycle only the first members are named.
+/// "a -> b -> a"; of a long cycle only the first members.
 std::string describe_cycle(const std::vector<std::string>& names);
 
-/// Reports a cycle of values at the place in `items` where it is read; `from_system[i]` tells
-/// which formulas are defaults, whose places are of less use to the reader.
+/// Reports a cycle of values at a formula of `items` that closes it. `from_system[i]` is true for
+/// defaults; the places of other formulas are preferred, since the stage's author wrote them.
 void report_item_cycle(Workspace& work, const System& system,
                        const std::vector<const Formula*>& items,
                        const std::vector<bool>& from_system,
                        const std::vector<std::uint32_t>& cycle);
 
-/// Reports a cycle of definitions and rates.
-void report_step_cycle(Workspace& work, const System& system,
-                       const std::vector<std::uint32_t>& cycle);
+/// Reports cycles of defaults, which are errors of system `index` even if its stages override them.
+void report_cycles_of_defaults(Workspace& work, std::uint32_t index);
+
+/// Orders the definitions of system `index` topologically, finds the order of its rates, and
+/// reports cycles and operators that are nested too deeply.
+void order_steps(Workspace& work, std::uint32_t index);
 
 }  // namespace cascade::checking

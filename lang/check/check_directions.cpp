@@ -1,4 +1,4 @@
-// A table of names with their arities; numbers are folded, and vectors of length 0 are refused.
+// A table of the directions with their arguments; numbers are folded, vectors of length 0 refused.
 #include "lang/check/check_directions.h"
 
 #include "lang/check/setting_words.h"
@@ -15,8 +15,9 @@ namespace {
 
 using Kind = DirectionSettings::Kind;
 
-// Lengths in longest sides of the model. Curvature is measured triangle by triangle, so its lines
-// are smoothed a little, and those of keys, which jump where two of them meet, more.
+// In units of the model's longest side. Curvature is estimated triangle by triangle, so its lines
+// are smoothed a little; the lines of keys jump between the regions of two keys and are smoothed
+// more.
 constexpr double smoothing_of_curvature = 0.02;
 constexpr double smoothing_of_keys = 0.1;
 constexpr double largest_number = 1e15;
@@ -24,8 +25,8 @@ constexpr double largest_number = 1e15;
 struct DirectionName {
     std::string_view word;
     Kind kind;
-    Arity arity;       ///< Of curvature: none but a smoothing.
-    double smoothing;  ///< Where none is written.
+    Arity arity;       ///< Without the optional smoothing.
+    double smoothing;  ///< The default.
     std::string_view form;
 };
 constexpr std::array<DirectionName, 5> direction_names{{
@@ -46,7 +47,7 @@ const DirectionName* direction_named(std::string_view word) {
     return nullptr;
 }
 
-/// The numbers in brackets, or nothing with a message.
+/// The numbers in brackets; reports an error and returns nothing if one is not constant.
 std::optional<std::vector<double>> numbers_of(Workspace& work, const ast::Script& script,
                                               std::span<const ast::Expression> arguments) {
     std::vector<double> numbers;
@@ -62,7 +63,7 @@ std::optional<std::vector<double>> numbers_of(Workspace& work, const ast::Script
     return numbers;
 }
 
-/// Does a vector of each key, or the axis, have a direction?
+/// True if no vector of a key, and not the axis, has length 0.
 bool has_lengths(std::span<const double> numbers, std::size_t stride) {
     for (std::size_t k = stride - 3; k + 2 < numbers.size(); k += stride) {
         if (numbers[k] == 0 && numbers[k + 1] == 0 && numbers[k + 2] == 0) return false;

@@ -7,7 +7,7 @@
 
 namespace cascade::checking {
 
-/// axis(…), gradient(…), curvature_high, curvature_low or keys(…); nothing with a message.
+/// Parses axis(…), gradient(…), curvature_high, curvature_low or keys(…); reports errors.
 std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Script& script,
                                                   const ast::Statement& statement);
 

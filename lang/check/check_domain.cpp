@@ -36,7 +36,7 @@ Span span_of(const ast::Script& script, ast::Expression expression) {
     return script.expressions[expression.root].span;
 }
 
-/// One side of the grid, or nothing with a message.
+/// The number of cells along one side of the grid; reports errors.
 std::optional<double> check_side(Workspace& work, const ast::Script& script,
                                  ast::Expression expression) {
     const auto side = check_constant(work, script, expression, "a side of the grid");
@@ -87,7 +87,7 @@ void check_grid(Workspace& work, const ast::Script& script, const ast::Statement
     grid.depth = counts[2];
 }
 
-/// `periodic` or `noflux`, or nothing with a message.
+/// Parses `periodic` or `noflux`; reports errors.
 std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& script,
                                             ast::Expression expression) {
     const ast::Expr& value = script.expressions[expression.root];
@@ -103,7 +103,7 @@ std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& 
     return std::nullopt;
 }
 
-/// One word for all axes, or one for each.
+/// Sets the boundary: one word for all axes, or one for each.
 void check_boundary(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     if (statement.values.size() > 3) {
         work.diagnostics.error(span_of(script, statement.values[3]),
@@ -148,7 +148,7 @@ void check_seed(Workspace& work, const ast::Script& script, const ast::Statement
     work.draft->domain.seed = static_cast<std::uint32_t>(*seed);
 }
 
-/// What is not 0 where the domain is.
+/// The domain consists of the cells in which the mask is not 0.
 void check_mask(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     if (!has_one_value(work, script, statement)) return;
     Scope scope;
@@ -173,7 +173,7 @@ void check_precision(Workspace& work, const ast::Script& script, const ast::Stat
                            did_you_mean(work, word, words_taken_by(Setting::precision)));
 }
 
-/// What the processor has no instruction for is left aside.
+/// --fast has no effect on a processor without a multiply-add instruction.
 void check_fast(Workspace& work, const ast::Statement& option) {
     work.draft->domain.fast = has_multiply_add();
     if (work.program.domain.fast) return;
@@ -182,7 +182,7 @@ void check_fast(Workspace& work, const ast::Statement& option) {
                              "--fast changes nothing");
 }
 
-/// Of one species, in a block that knows none.
+/// Reports rules for sides of a single species, which the domain cannot have.
 void report_sides(Workspace& work, const ast::Block& block) {
     for (const ast::Statement& statement : block.sides) {
         work.diagnostics.error(join(statement.name.span, statement.side.span),
@@ -218,11 +218,11 @@ void check_domain_statement(Workspace& work, const ast::Script& script,
         case Setting::seed: return check_seed(work, script, statement);
         case Setting::mask: return check_mask(work, script, statement);
         case Setting::precision: return check_precision(work, script, statement);
-        default: return;  // Those of surfaces and of models come together: see check_domain.
+        default: return;  // Settings of surfaces and models: see check_domain().
     }
 }
 
-/// The last stage that takes a step, or the last one where none does.
+/// The last stage that takes a step, or the last stage if none does.
 std::uint32_t shown_stage(const Program& program) {
     for (std::size_t i = program.stages.size(); i > 0; --i) {
         if (program.stages[i - 1].iterations > 0) return static_cast<std::uint32_t>(i - 1);

@@ -1,4 +1,4 @@
-// One expression: from parts of the syntax tree to parts of a formula, one for one and in order.
+// Checks one expression: each node of the syntax tree becomes a node of a formula, in order.
 #include "lang/check/expression_checker.h"
 
 #include <fmt/format.h>
@@ -29,8 +29,8 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
     return checked;
 }
 
-/// Palettes and files are named by texts. A bare word in such a place is no unknown name but a text
-/// without its quotes. The texts of a call that is wrong itself are not told to be misplaced.
+/// Finds the operands that must be strings, the names of palettes and files. A bare word there is a
+/// string without its quotes, not an unknown name. A call that is wrong itself is skipped.
 void ExpressionChecker::find_text_places() {
     wants_text_.assign(expression_.root - expression_.first + 1, false);
     for (ast::ExprId id = expression_.first; id <= expression_.root; ++id) {

@@ -12,7 +12,7 @@
 
 namespace cascade::checking {
 
-/// A checked expression, and its value where it is made of numbers alone.
+/// A checked expression, and its value if it consists of numbers only.
 struct CheckedExpression {
     Formula formula;
     std::optional<double> constant;
@@ -20,37 +20,36 @@ struct CheckedExpression {
     ValueType type() const { return formula.nodes.back().type; }
 };
 
-/// Resolves names, counts arguments, checks types and places, and finds divisions by zero. Parts of
-/// the formula are in the order of `expression`'s. Nothing is returned where there was a fault; it
-/// has been reported then, here or by the parser. Calls of the script's own functions, families and
-/// aggregates over an index are written out first.
+/// Checks an expression: resolves names, counts arguments, checks types and contexts, and finds
+/// divisions by zero. Nodes of the formula are in the order of the expression's. Returns nothing if
+/// there was an error, which has then been reported here or by the parser. Calls of the script's
+/// own functions, families and aggregates over an index are expanded first.
 std::optional<CheckedExpression> check_expression(Workspace& work, const ast::Script& script,
                                                   ast::Expression expression, const Scope& scope);
 
-/// The same for an expression of which nothing needs to be written out any more (expand.h).
+/// The same for an expression in which nothing is left to expand (expand.h).
 std::optional<CheckedExpression> check_parts(Workspace& work, const ast::Script& script,
                                              ast::Expression expression, const Scope& scope);
 
-/// The same for an expression that must be a number (and no colour or text).
+/// The same for an expression that must be a number, not a colour or a string.
 std::optional<CheckedExpression> check_number(Workspace& work, const ast::Script& script,
                                               ast::Expression expression, const Scope& scope);
 
-/// How messages call a type that is no number, and what helps where a number is expected.
+/// The name of a type in messages, and a hint where a number is expected instead.
 struct TypeWords {
     std::string_view name, hint;
 };
 TypeWords words_of(ValueType type);
 
-/// Operators in operators take a pass over the grid for each layer: more than this many are an
-/// error.
+/// The most levels of nested operators; each level takes a pass over the grid.
 inline constexpr std::uint32_t most_nested_operators = 32;
 
-/// How deep operators lie in each other in a formula, given that depth for its leaves
-/// (definitions, rates, own items). Too deep is an error, said once.
+/// The nesting depth of the operators in a formula; `of_leaf` gives the depth of its leaves
+/// (definitions, rates, own items). Reports an error where the limit is first exceeded.
 template <typename DepthOfLeaf>
 std::uint32_t check_nesting(Workspace& work, const Formula& formula, const DepthOfLeaf& of_leaf);
 
-/// One number that is known now, in double precision: `subject` names it in messages.
+/// A constant in double precision; reports errors, in which `subject` names it.
 std::optional<double> check_constant(Workspace& work, const ast::Script& script,
                                      ast::Expression expression, std::string_view subject);
 

@@ -17,12 +17,12 @@ namespace cascade::checking {
 namespace {
 
 constexpr double most_stretched = 100;
-constexpr double most_cells = 268435456;  // 2^28: elements of a plane are numbered by 32-bit words.
+constexpr double most_cells = 268435456;  // 2^28: elements of a plane are indexed by 32-bit words.
 
 struct ShapeName {
     std::string_view word;
     ModelShape shape;
-    std::size_t sizes;  ///< How many lengths may stand in brackets.
+    std::size_t sizes;  ///< The most numbers in brackets.
     std::string_view example;
 };
 constexpr std::array<ShapeName, 5> shape_names{{
@@ -40,7 +40,7 @@ const ShapeName* shape_of(std::string_view word) {
     return nullptr;
 }
 
-/// The statement of a block that names a model; null where none does.
+/// The statement of a block that names a model; null if there is none.
 const ast::Statement* model_of(const ast::Script& script, const ast::Block& domain) {
     for (const ast::Statement& statement : domain.statements) {
         if (statement.values.empty()) continue;
@@ -51,7 +51,7 @@ const ast::Statement* model_of(const ast::Script& script, const ast::Block& doma
     return nullptr;
 }
 
-/// --mesh, which names a file or a shape; null without it.
+/// The statement of --mesh, which names a file or a shape; null if it was not given.
 const ast::Statement* model_option(const ast::Script& script) {
     const ast::Statement* mesh = find_option(script, "mesh");
     return mesh != nullptr ? mesh : find_option(script, "surface");
@@ -76,8 +76,8 @@ public:
             check_named(mesh != nullptr ? *mesh : *surface);
         }
         if (!model_) return;
-        // A unit is a length of the surface of parameters that the script would have without
-        // --mesh, and an axis that points upwards is that of the script's own model.
+        // A unit refers to the surface that the script has without --mesh, and an upward axis to
+        // the script's own model.
         const bool is_own = option_ == nullptr;
         if (const auto* cells = find("cells")) check_cells(*cells);
         if (const auto* laplacian = find("laplacian")) check_laplacian(*laplacian);
@@ -103,7 +103,7 @@ private:
         return nullptr;
     }
 
-    /// Settings of rows and columns.
+    /// Reports a setting of a grid, which a model does not have.
     void refuse(const ast::Statement& statement) {
         const std::string_view word = statement.name.text;
         const auto setting = setting_named(word);
@@ -115,7 +115,7 @@ private:
                                     : "it ends where its surface ends, and nothing flows out");
     }
 
-    /// Those of the plane that --mesh takes the place of.
+    /// Drops what the script says about the borders of the plane that --mesh replaces.
     void leave_borders() {
         const DomainSettings& domain = work_.program.domain;
         if (domain.mask) {
@@ -127,7 +127,7 @@ private:
         }
     }
 
-    /// Seed and precision are all that a model leaves of a plane.
+    /// Resets the domain to the defaults of a model, except for seed and precision.
     void take_model() {
         DomainSettings& domain = work_.draft->domain;
         domain.grid = rows_of_cells(model_->count);
@@ -296,7 +296,7 @@ private:
     Workspace& work_;
     const ast::Script& script_;
     const ast::Block& domain_;
-    const ast::Statement* option_;  ///< That names the model; null where the block does.
+    const ast::Statement* option_;  ///< The option that names the model; null if the block does.
     std::optional<ModelSettings> model_;
 };
 

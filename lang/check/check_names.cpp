@@ -1,4 +1,4 @@
-// Resolving names: from a word in an expression to the item, definition or built-in it stands for.
+// Name resolution: from a word in an expression to an item, a definition or a built-in value.
 #include "lang/check/check_names.h"
 
 #include "lang/vocabulary/words_elsewhere.h"
@@ -35,7 +35,7 @@ void report(Workspace& work, Span span, std::string message, std::string hint,
     work.diagnostics.add(std::move(diagnostic));
 }
 
-/// Are the names of systems out of reach?
+/// True where an expression cannot read the names of a system.
 bool is_constant(const Scope& scope) {
     return scope.context == Context::constant || scope.context == Context::position ||
            scope.context == Context::mask;
@@ -108,7 +108,7 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
     return make_node(NodeKind::builtin, span, index);
 }
 
-/// Words that belong to the language and are no values of a stage.
+/// Reports words of the language that are not values of a stage.
 bool report_reserved(Workspace& work, const Scope& scope, std::string_view name, Span span) {
     const Reserved kind = reserved(name);
     if (is_constant(scope)) {
@@ -162,7 +162,7 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
     report(work, span, not_a_parameter(name, system), std::move(hint), std::move(note));
 }
 
-/// A name of the system itself, or of the stage that is being set or shown.
+/// Resolves a name of the system itself, or of the stage that is being set or shown.
 std::optional<Node> resolve_own(Workspace& work, const Scope& scope, std::string_view name,
                                 Span span) {
     if (scope.system == unknown_system || report_reserved(work, scope, name, span)) {
@@ -227,7 +227,7 @@ void report_unknown_previous(Workspace& work, const Scope& scope, std::string_vi
                        system.name, list_names(quantity_names(system))));
 }
 
-/// An item of another stage.
+/// Resolves an item of another stage.
 std::optional<Node> resolve_other(Workspace& work, std::uint32_t stage, std::string_view name,
                                   Span span) {
     const System& system = system_at(work, work.program.stages[stage].system);
@@ -268,7 +268,7 @@ std::vector<std::string> stage_names(const Workspace& work, std::size_t count) {
     return names;
 }
 
-/// The stage that `stage.name` means, or nothing with a message.
+/// The stage of `stage.name`; reports an error if it cannot be read.
 std::optional<std::uint32_t> find_stage(Workspace& work, const Scope& scope,
                                         const ast::Qualified& qualified) {
     const std::string_view name = qualified.stage.text;
@@ -359,6 +359,20 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
     return resolve_other(work, *stage, qualified.name.text, qualified.name.span);
 }
 
+void report_not_species(Workspace& work, std::uint32_t index, std::string_view name, Span span) {
+    if (is_incomplete(work, index)) return;
+    const System& system = work.program.systems[index];
+    if (auto explained = explain_family(work, system, name)) {
+        return report(work, span, std::move(explained->message), std::move(explained->hint));
+    }
+    std::vector<std::string> species;
+    for (const Quantity& quantity : system.quantities) {
+        if (quantity.is_species) species.push_back(quantity.name);
+    }
+    report(work, span, fmt::format("'{}' is not a species of {}", name, system.name),
+           did_you_mean(work, name, species));
+}
+
 std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast::Word& name,
                                  Span span) {
     if (is_constant(scope)) {
@@ -376,16 +390,7 @@ std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast:
     if (meaning != nullptr && !meaning->is_definition && system.is_species(meaning->index)) {
         return make_node(NodeKind::rate, span, meaning->index);
     }
-    if (auto explained = explain_family(work, system, name.text)) {
-        report(work, name.span, std::move(explained->message), std::move(explained->hint));
-        return std::nullopt;
-    }
-    std::vector<std::string> species;
-    for (const Quantity& quantity : system.quantities) {
-        if (quantity.is_species) species.push_back(quantity.name);
-    }
-    report(work, name.span, fmt::format("'{}' is not a species of {}", name.text, system.name),
-           did_you_mean(work, name.text, species));
+    report_not_species(work, scope.system, name.text, name.span);
     return std::nullopt;
 }
 

@@ -1,8 +1,8 @@
-// Names: what each stands for where it is read (internal to the checker).
+// Name resolution (internal to the checker).
 //
-// Inside a system every name is the system's own. Inside a stage a bare name is read from the
-// previous stage, `[name]` from this one and `large.name` from an earlier one. In a picture bare
-// names are those of the stage that is shown.
+// Inside a system every name is the system's own. Inside a stage a bare name refers to the previous
+// stage, `[name]` to this one and `large.name` to an earlier one. In a picture bare names refer to
+// the stage that is shown.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -20,22 +20,22 @@
 
 namespace cascade::checking {
 
-/// What a name of a system stands for.
+/// What a name of a system refers to.
 struct Meaning {
     bool is_definition = false;
-    std::uint32_t index = 0;  ///< Of the item or of the definition.
-    bool is_faulty = false;   ///< It was to be declared but could not: all is said about it.
+    std::uint32_t index = 0;  ///< The item or the definition.
+    bool is_faulty = false;   ///< Its declaration had an error, which has been reported.
 };
 
 /// The names of one system, `frozen` and `speed` included.
 using NameTable = std::unordered_map<std::string, Meaning>;
 
-/// A stage whose system is not known: whatever reads it stays silent.
+/// The system of a stage with an unknown system; reading from it causes no further messages.
 inline constexpr std::uint32_t unknown_system = UINT32_MAX;
 
 class FunctionTable;
 
-/// What one check shares: the program as far as it is known, and look-ups into it.
+/// State shared by one check: the program so far, and tables to look names up.
 struct Workspace {
     const Program& program;
     Diagnostics& diagnostics;
@@ -44,35 +44,35 @@ struct Workspace {
     std::unordered_map<std::string, std::uint32_t> stages;   ///< By name.
     std::vector<std::vector<bool>> items_read;               ///< By system and item.
     std::vector<std::vector<bool>> definitions_read;         ///< By system and definition.
-    std::size_t names_compared = 0;                          ///< For hints, so far.
-    /// Operators measure on a surface, where not all of them have a meaning.
+    std::size_t names_compared = 0;                          ///< For suggestions, so far.
+    /// Operators measure on a surface, where some of them have no meaning.
     bool on_surface = false;
-    /// The functions of each script whose expressions were checked; see user_functions.h.
+    /// The functions of each script whose expressions have been checked; see user_functions.h.
     std::unordered_map<const ast::Script*, std::shared_ptr<const FunctionTable>> functions = {};
-    /// Parts of expressions that calls and families were written out to, so far.
+    /// Nodes that calls and families have been expanded to so far.
     std::size_t parts_written = 0;
-    /// The call of a user's function that is being checked: what is wrong is wrong there.
+    /// The call of a script's own function that is being checked; errors refer to it.
     std::optional<Span> call = std::nullopt;
-    /// By system: statements of it or an index could not be read. What it seems to lack may stand
-    /// there, so nothing is said of it.
+    /// By system: true if one of its statements or indices could not be read. A name that it seems
+    /// to lack may be declared there, so it is not reported.
     std::vector<bool> incomplete = {};
-    /// Indices that have no values, with a message: what they were to number is passed over.
+    /// Indices without values, which have been reported; declarations that use them are ignored.
     std::vector<std::string_view> faulty_indices = {};
-    Program* draft = nullptr;  ///< The program while it is made; null for views of one that is.
+    Program* draft = nullptr;  ///< The program under construction; null if it is finished.
 };
 
-/// Where an expression stands: it decides which names and functions it may read.
+/// Where an expression stands; decides which names and functions it may read.
 enum class Context : std::uint8_t {
     value,     ///< name: e
     rate,      ///< name' = e and definitions
     bound,     ///< name >= e
     picture,   ///< what a picture shows
-    position,  ///< where a point of a surface lies
+    position,  ///< the position of a surface's points
     mask,      ///< which cells the domain has
-    constant,  ///< one number that is known now: iterations, the size of the grid, …
+    constant,  ///< a number known while checking: iterations, the size of the grid, …
 };
 
-/// An index with its value, as `i` is 2 in the second statement that `u[i]: e` stands for.
+/// An index and its value, such as `i` = 2 in the second member of `u[i]: e`.
 struct IndexValue {
     std::string_view name;
     std::int64_t value = 0;
@@ -80,15 +80,15 @@ struct IndexValue {
 
 struct Scope {
     Context context = Context::value;
-    std::uint32_t system = 0;            ///< Whose names are one's own.
+    std::uint32_t system = 0;            ///< The system whose names are read without a prefix.
     std::optional<std::uint32_t> stage;  ///< Empty inside a system.
     std::uint32_t last_stage = 0;        ///< In pictures: the last stage that can be read.
-    std::string_view subject;            ///< In constants: what is to be one number.
-    bool knows_time = false;             ///< Values of sides may depend on t and step.
-    std::optional<IndexValue> index = std::nullopt;  ///< Of the statement, if it is of a family.
+    std::string_view subject;            ///< In constants: the name of the value in messages.
+    bool knows_time = false;  ///< True for values of sides, which may depend on t and step.
+    std::optional<IndexValue> index = std::nullopt;  ///< Of a statement of a family.
 };
 
-/// Whether the language gives a word a meaning of its own, so that nobody can declare it.
+/// Words that the language gives a meaning, so that a script cannot declare them.
 enum class Reserved : std::uint8_t { no, setting, builtin };
 Reserved reserved(std::string_view name);
 
@@ -96,8 +96,8 @@ Reserved reserved(std::string_view name);
 NameTable names_of(const System& system);
 const Meaning* find(const NameTable& table, std::string_view name);
 
-// Each returns the node that a name stands for, or gives a message (unless one has been given
-// already) and returns nothing.
+// Each returns the node that a name refers to. If there is none, reports an error (unless that has
+// happened already) and returns nothing.
 std::optional<Node> resolve_bare(Workspace& work, const Scope& scope, std::string_view name,
                                  Span span);
 std::optional<Node> resolve_bracketed(Workspace& work, const Scope& scope, const ast::Word& name,
@@ -107,50 +107,54 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
 std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast::Word& name,
                                  Span span);
 
-/// Has a system parts that could not be read?
+/// True if a part of the system could not be read.
 bool is_incomplete(const Workspace& work, std::uint32_t system);
 
-/// True when so many faults or names have been met that no more hints are worth their time:
-/// messages are then short, so that no text takes long to refuse.
+/// True after so many errors or compared names that suggestions are no longer made, which bounds
+/// the time to refuse a script.
 bool is_hopeless(const Workspace& work);
 
-/// "did you mean 'beta'?", or nothing.
+/// "did you mean 'beta'?", or "".
 std::string did_you_mean(Workspace& work, std::string_view name,
                          const std::vector<std::string>& candidates);
 
-/// What to write in place of a word that is no setting where it stands: what it is called here, the
-/// block that it belongs to, or the nearest of the candidates.
+/// A hint for a word that is not a setting here: its name in this context, the block that it
+/// belongs to, or the nearest of the candidates.
 std::string hint_about(Workspace& work, std::string_view word, WordContext context,
                        const std::vector<std::string>& candidates);
 
-/// Is this the name of a family of the system, the u of u[1], u[2], …?
+/// True if `name` is that of a family of the system, such as u for u[1], u[2], …
 bool has_family(const System& system, std::string_view name);
 
-/// What is wrong with a name, and what to write.
+/// An error message and a hint.
 struct Explanation {
     std::string message, hint;
 };
-/// Why a name that a system lacks is none of its own, where that has to do with families: a member
-/// that is not there, a family without an index, an index that has no value.
+/// Explains a name that a system lacks if that has to do with families: a missing member, a family
+/// without an index, an index without a value.
 std::optional<Explanation> explain_family(Workspace& work, const System& system,
                                           std::string_view name);
 
-/// An index that is read where it has no value.
+/// Reports a name that is not a species of the system, unless a part that could not be read may
+/// declare it.
+void report_not_species(Workspace& work, std::uint32_t system, std::string_view name, Span span);
+
+/// The error of an index that is read where it has no value.
 Explanation index_without_value(std::string_view index);
 
-/// The species and parameters of a system in the order of the alphabet.
+/// The species and parameters of a system in alphabetical order.
 std::vector<std::string> quantity_names(const System& system);
 
 /// "a, b, beta": at most two dozen of them.
 std::string list_names(const std::vector<std::string>& names);
 
-/// Where a call of the script's own function is checked: the fault is a fault of that call.
+/// Adds a note on the call of the script's own function that is being checked, if there is one.
 void add_call(const Workspace& work, Diagnostic& diagnostic);
 
-/// Adds a second use of a name: an error at the second with a note at the first.
+/// Reports the second use of a name, with a note at the first.
 void report_twice(Workspace& work, Span second, Span first, std::string message);
 
-/// Remembers which species, parameters and definitions a formula reads.
+/// Marks the species, parameters and definitions that a formula reads.
 void mark_reads(Workspace& work, const Formula& formula, std::uint32_t system);
 
 }  // namespace cascade::checking

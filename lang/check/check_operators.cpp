@@ -1,7 +1,7 @@
 // Operators of derivatives, and the vectors and tensors that some of them take.
 //
-// A vector is a flux: grad(e), vector(ex, ey), and what numbers, tensors, + and - make of them. It
-// ends in div, which makes a number of it.
+// A vector is a flux: grad(e), vector(ex, ey), or the result of numbers, tensors, + and - applied
+// to vectors. div turns it into a number.
 #include "lang/check/expression_checker.h"
 
 #include <fmt/format.h>
@@ -20,8 +20,7 @@ TypeWords words_of(ValueType type) {
     return {"", ""};
 }
 
-/// Arithmetic of vectors. False where no operand is a vector or a tensor, so that the function is
-/// one of numbers.
+/// Checks arithmetic of vectors. False if no operand is a vector or a tensor.
 bool ExpressionChecker::check_vectors(const Node& node) {
     const auto type_of = [&](std::size_t k) { return formula_.nodes[node.operands[k]].type; };
     const auto is_geometric = [](ValueType type) {
@@ -76,7 +75,7 @@ bool ExpressionChecker::check_vectors(const Node& node) {
     return true;
 }
 
-/// A derivative of what is made of numbers alone is a slip.
+/// Reports the derivative of a constant, which is probably a mistake.
 bool ExpressionChecker::is_same_everywhere(NodeId part) {
     if (!parts_[part].constant) return false;
     const Node& node = formula_.nodes.back();

@@ -1,4 +1,4 @@
-// Changes from outside the script: options, and which stages each --set is for.
+// Overrides from outside the script: options, and the stages that each --set applies to.
 #include "lang/check/check_blocks.h"
 #include "lang/vocabulary/settings.h"
 
@@ -26,7 +26,7 @@ const ast::Statement* find_option(const ast::Script& script, std::string_view na
 
 namespace {
 
-/// Can the statement set something in this stage?
+/// True if the statement can set something in this stage.
 bool has_name(const Workspace& work, const Stage& stage, const ast::Statement& statement) {
     if (stage.system == unknown_system) return true;
     const std::string_view name = statement.name.text;
@@ -63,7 +63,7 @@ void report_unknown_stage(Workspace& work, const ast::Word& name) {
                            did_you_mean(work, name.text, names));
 }
 
-/// `--set gray_scott.feed=…` where no stage is called so: it holds in every stage of that system.
+/// `--set gray_scott.feed=…` with the name of a system, not of a stage: sets it in all its stages.
 bool set_in_stages_of_system(const Workspace& work, std::string_view system,
                              const ast::Statement* statement, StageOverrides& result) {
     bool used = false;
@@ -81,7 +81,7 @@ bool is_system(const Workspace& work, std::string_view name) {
                        [&](const System& system) { return system.name == name; });
 }
 
-/// Has the stage a species, or a family of such, of the statement's name?
+/// True if the stage has a species, or a family of species, with the statement's name.
 bool has_species(const Workspace& work, const Stage& stage, const ast::Statement& statement) {
     if (stage.system == unknown_system) return false;
     const System& system = work.program.systems[stage.system];
@@ -95,13 +95,13 @@ bool has_species(const Workspace& work, const Stage& stage, const ast::Statement
                        });
 }
 
-/// A change of a side: `stage` is empty where it is for all stages with the species.
+/// An override of a side; `stage` is empty if it applies to all stages with the species.
 struct SideChange {
     ast::Word stage;
     ast::Statement statement;
 };
 
-/// Is this about a side? u.left is one if no stage and no system is called u.
+/// The override as one of a side, if it is one: u.left is if no stage and no system is called u.
 std::optional<SideChange> as_side(const Workspace& work, const ast::Override& change) {
     if (!change.statement.side.empty()) return SideChange{change.stage, change.statement};
     const bool may_be = !change.stage.empty() && change.statement.index.empty() &&
@@ -144,7 +144,7 @@ SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& scri
                                        work.program.systems[stage.system].name == side->stage.text;
             const bool is_named = stage.name == side->stage.text || is_its_system;
             is_stage |= is_named;
-            // That a stage which is named lacks the species is said there.
+            // If a stage that was named lacks the species, that is reported with its other sides.
             if (side->stage.empty() ? !has_species(work, stage, statement) : !is_named) continue;
             result[k].push_back(statement);
             is_used = true;

@@ -1,4 +1,4 @@
-// What a system says of its quantities beside their values: ranges; and its texts.
+// What a system says about its quantities besides their values: ranges; and the texts of a system.
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_expression.h"
 

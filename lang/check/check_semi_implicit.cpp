@@ -1,4 +1,4 @@
-// Looks at the diffusion found by lang/calculus, and refuses domains without plane waves.
+// Checks the diffusion that lang/calculus finds, and refuses domains without plane waves.
 #include "lang/check/check_semi_implicit.h"
 
 #include "lang/calculus/diffusion.h"
@@ -22,8 +22,8 @@ bool has_diffusion(const std::vector<SpeciesDiffusion>& diffusion) {
     });
 }
 
-/// A species that is held at a side and whose rate applies lap to lap of it, if there is one. The
-/// inner lap lies in a plane, which is mirrored at sides: its waves are none of the species.
+/// A species that is held at a side and whose rate applies lap to its own lap, if there is one. The
+/// inner lap is stored in a plane, which is mirrored at sides, so its waves are not the species'.
 std::optional<std::size_t> held_and_nested(const Stage& stage,
                                            const std::vector<SpeciesDiffusion>& diffusion) {
     for (std::size_t s = 0; s < stage.sides.size(); ++s) {

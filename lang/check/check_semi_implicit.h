@@ -1,4 +1,4 @@
-// What semi-implicit solvers cannot take (internal to the checker).
+// Requirements of semi-implicit solvers (internal to the checker).
 #pragma once
 
 #include "core/diagnostics.h"
@@ -8,8 +8,8 @@
 
 namespace cascade::checking {
 
-/// Faults of a stage whose solver is semi-implicit, at `span`; none of other stages. The program is
-/// sound otherwise.
+/// Reports at `span` what a semi-implicit solver of the stage cannot handle; nothing for other
+/// solvers. The program must be free of errors otherwise.
 void check_semi_implicit(const Program& program, std::uint32_t stage, Span span,
                          Diagnostics& diagnostics);
 

@@ -1,5 +1,5 @@
-// Settings: iterations, interval, frozen, speed, show, in systems and in stages. Those of time are
-// in check_time.cpp.
+// Settings of systems and stages: iterations, interval, frozen, speed, show. Those of time are in
+// check_time.cpp.
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_time.h"
 #include "lang/vocabulary/settings.h"
@@ -16,7 +16,7 @@ Span span_of(const ast::Script& script, ast::Expression expression) {
     return script.expressions[expression.root].span;
 }
 
-/// `0,0125`: digits on both sides of a comma without a blank are a number of other countries.
+/// A hint for `0,0125`, digits on both sides of a comma: a decimal comma.
 std::string hint_of_decimal_comma(const ast::Script& script, const ast::Statement& statement) {
     if (statement.values.size() != 2) return "";
     const Span whole = span_of(script, statement.values[0]);
@@ -55,7 +55,7 @@ std::optional<std::int64_t> check_count(Workspace& work, const ast::Script& scri
         work.diagnostics.error(span, fmt::format("{} must be at most 1000000000", name));
         return std::nullopt;
     }
-    if (*value != std::floor(*value)) {  // NaN comes here too.
+    if (*value != std::floor(*value)) {  // Also true for NaN.
         work.diagnostics.error(span, fmt::format("{} must be a whole number", name));
         return std::nullopt;
     }

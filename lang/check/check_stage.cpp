@@ -1,5 +1,4 @@
-// Stages: each statement checked, defaults filled in, the order of items found, and which of them
-// are the same in all cells.
+// Stages: checks each statement, fills in defaults, orders the items, and finds the uniform ones.
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_cycles.h"
 #include "lang/check/check_expression.h"
@@ -17,8 +16,7 @@ namespace cascade::checking {
 namespace {
 
 constexpr std::size_t most_stages = 1000;
-/// Defaults are copied into every stage; a script whose copies hold more parts than this is
-/// refused before it fills the memory.
+/// The most nodes of defaults, which are copied into every stage; it bounds the memory of a check.
 constexpr std::size_t most_copied_nodes = 8u << 20;
 
 Formula number_formula(double value, Span span) {
@@ -34,8 +32,8 @@ public:
                  std::size_t& copied)
         : work_(work), script_(script), index_(index), copied_(copied) {}
 
-    /// `overrides` come from outside the script; of two with one name the last counts. `asked` is
-    /// what options say of every stage's time.
+    /// `overrides` come from outside the script; the last of equal names counts. `asked` has the
+    /// options for the time of every stage.
     void run(const ast::Block& block, const std::vector<const ast::Statement*>& overrides,
              const TimeSettings& asked);
 
@@ -69,7 +67,7 @@ private:
     std::vector<bool> from_system_;
 };
 
-/// With an unknown system nothing is known of families either.
+/// If the system is unknown, so are its families.
 std::vector<Declaration> StageChecker::declarations_of(const ast::Statement& statement) {
     if (stage().system != unknown_system) {
         return stage_declarations(work_, system(), script_, statement);
@@ -89,7 +87,7 @@ std::vector<Declaration> StageChecker::collect(
         const auto [first, is_new] = positions.try_emplace(declaration.name, declarations.size());
         if (is_new) return declarations.push_back(std::move(declaration));
         Declaration& before = declarations[first->second];
-        // u[2]: … says more of u[2] than u[i]: … does; of two overrides the last counts.
+        // u[2]: … overrides u[i]: …; of two overrides the last one counts.
         const bool replaces = from_outside || (before.index && !declaration.index);
         const bool is_replaced = !from_outside && !before.index && declaration.index;
         if (!replaces && !is_replaced) {
@@ -129,7 +127,8 @@ void StageChecker::run(const ast::Block& block, const std::vector<const ast::Sta
     if (stage().system == unknown_system) return;
     stage().items.resize(system().item_count());
     from_system_.assign(system().item_count(), false);
-    // An end that comes from outside the script replaces the script's, whichever of the two it is.
+    // An end from outside the script replaces the script's, whether it is `iterations` or
+    // `duration`.
     const SourceId own_source = stage().span.source;
     const auto is_end = [&](const Declaration& declaration, bool from_outside) {
         return is_end_setting(declaration.name) &&
@@ -269,8 +268,8 @@ void StageChecker::order_items() {
     stage().order = std::move(order.order);
 }
 
-/// The same in all cells is what reads nothing that differs between cells. An aggregate over the
-/// domain is a single number whatever it is taken of.
+/// An item is uniform if it reads nothing that varies. An aggregate over the domain is a single
+/// number, whatever its operand is.
 void StageChecker::find_uniform() {
     Stage& target = stage();
     target.uniform.assign(target.items.size(), false);

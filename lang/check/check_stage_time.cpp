@@ -1,4 +1,4 @@
-// Time of a whole stage: settings and their defaults, and whether they go together.
+// Time of a stage: defaults of its settings, and whether they are compatible.
 #include "lang/check/check.h"
 #include "lang/check/check_semi_implicit.h"
 #include "lang/check/check_time.h"
@@ -12,7 +12,7 @@ namespace cascade::checking {
 namespace {
 
 constexpr std::int64_t default_iterations = 1000;
-/// A stage that ends by a condition is given up after so many steps.
+/// A stage with an `until` condition gives up after this number of steps.
 constexpr std::int64_t most_iterations_until = 1'000'000;
 
 template <typename T>
@@ -20,8 +20,8 @@ T pick(const std::optional<T>& own, const std::optional<T>& other, T otherwise) 
     return own.value_or(other.value_or(std::move(otherwise)));
 }
 
-/// Steps that are chosen as the stage runs do not count: they end with the time that as many steps
-/// of the given speed would take.
+/// Sets the duration of a stage with automatic steps from its iterations: the time that this number
+/// of steps of the given speed would take.
 void count_duration_in_steps(Stage& stage) {
     if (stage.time.has_duration() || stage.time.open_end) return;
     stage.time.duration_in_steps = stage.iterations;
@@ -29,7 +29,7 @@ void count_duration_in_steps(Stage& stage) {
 }
 
 void fill_end(Stage& stage, const Settings& own, const Settings& defaults) {
-    // What the stage itself says about its end goes before what its system says.
+    // An end in the stage overrides either end in its system.
     const bool own_end = own.iterations || own.time.duration;
     const auto& iterations = own_end ? own.iterations : defaults.iterations;
     stage.time.duration = own_end ? own.time.duration : defaults.time.duration;
@@ -43,7 +43,7 @@ void fill_end(Stage& stage, const Settings& own, const Settings& defaults) {
     stage.interval = pick(own.interval, defaults.interval, stage.time.has_duration() ? 0 : tenth);
 }
 
-/// The first part of a formula that reads an item; nothing where none does.
+/// The first node of a formula that reads an item; null if there is none.
 const Node* find_reader(const Formula& formula, std::uint32_t item) {
     const auto found =
         std::find_if(formula.nodes.begin(), formula.nodes.end(), [&](const Node& node) {
@@ -52,7 +52,7 @@ const Node* find_reader(const Formula& formula, std::uint32_t item) {
     return found == formula.nodes.end() ? nullptr : &*found;
 }
 
-/// What reads `speed` needs it to be one number, known beforehand.
+/// The first node that reads `speed`, which must then be a number known in advance; null if none.
 const Node* reader_of_speed(const Program& program, const Stage& stage) {
     const System& system = program.systems[stage.system];
     std::vector<const Formula*> formulas;
@@ -67,7 +67,7 @@ const Node* reader_of_speed(const Program& program, const Stage& stage) {
     return nullptr;
 }
 
-/// The first part that makes a formula differ between cells. Operands stand before what reads them.
+/// The first node that makes a formula vary by cell. Operands come before their users.
 const Node* varying_part(const Program& program, std::uint32_t stage, const Formula& formula) {
     IdVector<NodeId, const Node*> cause(formula.nodes.size(), nullptr);
     for (const NodeId part : cause.ids()) {

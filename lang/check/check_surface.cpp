@@ -1,4 +1,4 @@
-// The settings of a domain that lay its grid on a surface: surface, metric, unit.
+// The settings of a domain whose grid lies on a surface: surface, metric, unit.
 #include "lang/check/check_blocks.h"
 
 #include <cmath>

@@ -1,9 +1,8 @@
-// A `system` block: what it declares, its formulas, and the order of its definitions and rates.
+// A `system` block: its declarations, formulas and settings.
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_cycles.h"
 #include "lang/check/check_expression.h"
 #include "lang/check/check_time.h"
-#include "lang/program/dependencies.h"
 #include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
@@ -14,7 +13,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// The statements that make a rate.
+/// The statements that make up a rate.
 struct RateStatements {
     const Declaration* assignment = nullptr;
     std::vector<const Declaration*> terms;
@@ -54,11 +53,7 @@ private:
     void check_definitions();
     void check_rates();
     void check_invariants();
-    void report_no_bound(const Declaration& declaration);
     void check_settings();
-    void order_values();
-    void order_steps();
-    void check_depths();
 
     Workspace& work_;
     const DerivedSystem& derived_;
@@ -87,11 +82,11 @@ void SystemChecker::run() {
     check_rates();
     check_invariants();
     check_settings();
-    order_values();
-    order_steps();
+    report_cycles_of_defaults(work_, index_);
+    order_steps(work_, index_);
 }
 
-/// `u_t = …` is a definition here, and a rate on paper.
+/// `u_t = …` is a definition in the language, but a rate on paper.
 void SystemChecker::report_no_rates() {
     const auto is_paper_rate = [&](const Declaration* each) {
         return each->name.size() > 2 && each->name.ends_with("_t");
@@ -138,7 +133,8 @@ bool SystemChecker::can_declare(const Declaration& declaration) {
     return false;
 }
 
-/// No quantity is a text: one whose name is near that of a text is told so.
+/// Reports a string as the value of a quantity, and suggests a text of the system with a similar
+/// name.
 bool SystemChecker::is_misspelt_text(const Declaration& declaration) {
     const ast::ExprId value = declaration.statement->values[0].root;
     if (!std::holds_alternative<ast::Text>(declaration.script->expressions[value].node))
@@ -181,7 +177,7 @@ void SystemChecker::declare(const Declaration& declaration) {
     }
 }
 
-/// The name of a family cannot be that of a quantity or an index too.
+/// Reports a family with the name of a quantity or an index.
 void SystemChecker::report_families() {
     for (const Declaration& declaration : declarations_) {
         const ast::Statement& statement = *declaration.statement;
@@ -199,8 +195,8 @@ void SystemChecker::report_families() {
     }
 }
 
-/// A name is a definition and has a rate: `u = 1` in place of `u: 1`. In a system that is derived
-/// from another one the later of the two is the slip.
+/// Reports a name that is a definition and has a rate, such as `u = 1` in place of `u: 1`. In a
+/// derived system the later of the two statements is reported.
 void SystemChecker::report_rate_of_definition(const Declaration& rate) {
     const auto definition =
         std::find_if(definitions_.begin(), definitions_.end(),
@@ -216,7 +212,8 @@ void SystemChecker::report_rate_of_definition(const Declaration& rate) {
                             fmt::format("'{}' is a definition and has no rate", rate.name));
 }
 
-/// A rate of something that is no species: said once, later readers of the name stay silent.
+/// Reports the rate of a name that is not a species, once; later readers of the name are not
+/// reported.
 void SystemChecker::report_no_species(const Declaration& declaration, const Meaning* meaning) {
     const std::string& name = declaration.name;
     if (meaning != nullptr && meaning->is_definition) {
@@ -230,7 +227,7 @@ void SystemChecker::report_no_species(const Declaration& declaration, const Mean
     if (auto explained = explain_family(work_, system(), name)) {
         work_.diagnostics.error(declaration.span(), std::move(explained->message),
                                 std::move(explained->hint));
-    } else if (!is_incomplete(work_, index_)) {  // Else it may be what could not be read.
+    } else if (!is_incomplete(work_, index_)) {  // Else it may be in the part that is missing.
         std::string hint;
         if (!is_hopeless(work_)) hint = did_you_mean(work_, name, quantity_names(system()));
         if (hint.empty()) hint = fmt::format("add {}: …", name);
@@ -260,7 +257,7 @@ void SystemChecker::collect_rate(const Declaration& declaration) {
     }
 }
 
-/// The number that a declaration says, or nothing with a message.
+/// The value of a declaration, which must be a number; reports errors.
 std::optional<CheckedExpression> SystemChecker::check_value(const Declaration& declaration,
                                                             Context context) {
     if (!has_one_value(work_, *declaration.script, *declaration.statement)) return std::nullopt;
@@ -324,30 +321,12 @@ void SystemChecker::check_rates() {
     }
 }
 
-void SystemChecker::report_no_bound(const Declaration& declaration) {
-    if (auto explained = explain_family(work_, system(), declaration.name)) {
-        work_.diagnostics.error(declaration.span(), std::move(explained->message),
-                                std::move(explained->hint));
-        return;
-    }
-    if (is_incomplete(work_, index_)) return;
-    std::vector<std::string> species;
-    for (const Quantity& quantity : system().quantities) {
-        if (quantity.is_species && !is_hopeless(work_)) species.push_back(quantity.name);
-    }
-    std::string hint = did_you_mean(work_, declaration.name, species);
-    work_.diagnostics.error(declaration.span(),
-                            fmt::format("'{}' is not a species of {}", declaration.name,
-                                        system().name),
-                            std::move(hint));
-}
-
 void SystemChecker::check_invariants() {
     for (const Declaration* declaration : invariants_) {
         const Meaning* meaning = find(work_.names[index_], declaration->name);
         if (meaning != nullptr && meaning->is_faulty) continue;
         if (meaning == nullptr || meaning->is_definition || !system().is_species(meaning->index)) {
-            report_no_bound(*declaration);
+            report_not_species(work_, index_, declaration->name, declaration->span());
             continue;
         }
         auto checked = check_value(*declaration, Context::bound);
@@ -377,72 +356,6 @@ void SystemChecker::check_settings() {
     system().settings = std::move(settings);
 }
 
-/// Defaults that need each other are a fault of the system, whatever its stages replace.
-void SystemChecker::order_values() {
-    std::vector<const Formula*> items;
-    for (const Quantity& quantity : system().quantities) items.push_back(&quantity.start);
-    const Settings& settings = system().settings;
-    items.push_back(settings.frozen ? &*settings.frozen : nullptr);
-    items.push_back(settings.speed ? &*settings.speed : nullptr);
-    const Order order = topological_order(item_dependencies(items));
-    const std::vector<bool> from_system(items.size(), false);
-    for (const auto& cycle : order.cycles) {
-        report_item_cycle(work_, system(), items, from_system, cycle);
-    }
-}
-
-/// Puts definitions after those they read and finds the order of the rates.
-void SystemChecker::order_steps() {
-    System& target = system();
-    const Order order = topological_order(step_dependencies(target));
-    for (const auto& cycle : order.cycles) report_step_cycle(work_, target, cycle);
-    const auto count = static_cast<std::uint32_t>(target.definitions.size());
-    std::vector<std::uint32_t> position(count);
-    std::vector<Definition> definitions;
-    std::vector<bool> read;
-    for (const std::uint32_t value : order.order) {
-        if (value < count) {
-            position[value] = static_cast<std::uint32_t>(definitions.size());
-            definitions.push_back(std::move(target.definitions[value]));
-            read.push_back(work_.definitions_read[index_][value]);
-        } else if (target.quantities[value - count].is_species) {
-            target.rate_order.push_back(value - count);
-        }
-    }
-    target.definitions = std::move(definitions);
-    work_.definitions_read[index_] = std::move(read);
-    const auto renumber = [&](Formula& formula) {
-        for (Node& node : formula.nodes) {
-            if (node.kind == NodeKind::definition) node.index = position[node.index];
-        }
-    };
-    for (Definition& definition : target.definitions) renumber(definition.formula);
-    for (Formula& rate : target.rates) renumber(rate);
-    for (auto& [name, meaning] : work_.names[index_]) {
-        if (meaning.is_definition) meaning.index = position[meaning.index];
-    }
-    if (order.cycles.empty()) check_depths();
-}
-
-/// How deep operators lie in each other through definitions and rates.
-void SystemChecker::check_depths() {
-    const System& target = system();
-    std::vector<std::uint32_t> definitions(target.definitions.size());
-    std::vector<std::uint32_t> rates(target.quantities.size());
-    const auto of_leaf = [&](const Node& node) {
-        if (node.kind == NodeKind::definition) return definitions[node.index];
-        return node.kind == NodeKind::rate ? rates[node.index] : 0;
-    };
-    const auto count = static_cast<std::uint32_t>(definitions.size());
-    for (const std::uint32_t value : topological_order(step_dependencies(target)).order) {
-        if (value < count) {
-            definitions[value] = check_nesting(work_, target.definitions[value].formula, of_leaf);
-        } else {
-            rates[value - count] = check_nesting(work_, target.rates[value - count], of_leaf);
-        }
-    }
-}
-
 }  // namespace
 
 std::uint32_t check_system(Workspace& work, const DerivedSystem& derived,
@@ -460,7 +373,7 @@ std::uint32_t check_system(Workspace& work, const DerivedSystem& derived,
     if (!is_new && !block.name.empty()) {
         const bool is_known = found->second != unknown_system;
         if (is_known && work.program.systems[found->second].built_in) {
-            found->second = number;  // The script's own takes the place of the library's.
+            found->second = number;  // A system of the script hides one of the library.
         } else {
             report_twice(work, block.name.span,
                          is_known ? work.program.systems[found->second].span : block.name.span,

@@ -1,4 +1,4 @@
-// The settings of time: each by itself. How they go together is in check_stage_time.cpp.
+// The settings of time, each by itself. check_stage_time.cpp checks whether they are compatible.
 #include "lang/check/check_time.h"
 #include "lang/check/check_blocks.h"
 
@@ -20,26 +20,26 @@ const ast::Expr& root_of(const ast::Script& script, ast::Expression expression) 
     return script.expressions[expression.root];
 }
 
-/// The word that an expression is made of, or nothing.
+/// The name that an expression consists of, or "".
 std::string_view word_of(const ast::Script& script, ast::Expression expression) {
     const auto* name = std::get_if<ast::Name>(&root_of(script, expression).node);
     return name == nullptr ? std::string_view() : name->name;
 }
 
-/// The call of this name that an expression is, or nothing.
+/// The call of `name` that an expression consists of, or null.
 const ast::Call* call_of(const ast::Script& script, ast::Expression expression,
                          std::string_view name) {
     const auto* call = std::get_if<ast::Call>(&root_of(script, expression).node);
     return call != nullptr && call->function.text == name ? call : nullptr;
 }
 
-/// The argument of a call of one, as an expression of its own: the parts before the call itself.
+/// The argument of a call with one argument, as an expression: the nodes before the call itself.
 ast::Expression argument_of(const ast::Script& script, ast::Expression expression,
                             const ast::Call& call) {
     return {expression.first, script.arguments[call.first_argument]};
 }
 
-/// A constant of a range; a message and nothing where it is none.
+/// A constant in a range; reports an error and returns nothing if it is not.
 std::optional<double> check_range(Workspace& work, const ast::Script& script,
                                   ast::Expression expression, std::string_view subject, double low,
                                   double high) {
@@ -82,7 +82,7 @@ void check_until(Workspace& work, const ast::Script& script, ast::Expression val
             check_range(work, script, argument_of(script, value, *call), "steady", 1e-6, 0.9);
         return;
     }
-    // It reads the stage as it is when it is tested, as a picture does.
+    // A condition reads the stage as it is when tested, as a picture does.
     Scope present = scope;
     present.context = Context::picture;
     present.last_stage = scope.stage.value_or(0);

@@ -1,5 +1,5 @@
-// The settings of time (internal to the checker): solver, tolerance, duration, until, check and
-// `speed: auto`; `start` is kept for later. What they mean is in spec/time.md.
+// The settings of time (internal to the checker): solver, tolerance, duration, until, check, start
+// and `speed: auto`. spec/time.md defines them.
 #pragma once
 
 #include "lang/check/check_expression.h"
@@ -13,31 +13,31 @@ namespace cascade::checking {
 /// The most steps a stage may take.
 inline constexpr std::int64_t most_iterations = 1'000'000'000;
 
-/// Is this `speed: auto`?
+/// True for `speed: auto`.
 bool is_automatic(const ast::Script& script, const ast::Statement& speed);
 
-/// `iterations` and `duration`: a stage ends by one of them, and what replaces either replaces
-/// both.
+/// True for `iterations` and `duration`: a stage ends by one of them, and overriding either
+/// replaces both.
 bool is_end_setting(std::string_view name);
 
-/// Sets it. The statement has one value.
+/// Applies a setting of time. The statement has one value.
 void check_time_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                         const Scope& scope, Settings& settings);
 
-/// Iterations, interval and all of time of a stage: its own settings, then its system's, then the
-/// language's.
+/// Fills in the settings of time of a stage: its own ones, then its system's, then the language's
+/// defaults.
 void fill_time(Stage& stage, const Settings& own, const Settings& defaults);
 
-/// The stage takes the solver of `asked` (`--solver`) and keeps the time it takes: iterations ·
-/// speed where it has no duration. Stabilised and semi-implicit solvers choose their steps as with
-/// `speed: auto`.
+/// Gives the stage the solver of `asked` (`--solver`) and keeps its duration, which is iterations ·
+/// speed if it has none. Stabilised and semi-implicit solvers choose their steps as with `speed:
+/// auto`.
 void change_solver(Stage& stage, const TimeSettings& asked);
 
-/// Faults that only show when the whole stage is known: settings that do not go together, a speed
-/// that varies where it must not, a condition that varies by cell.
+/// Reports errors that involve several settings of a stage: incompatible ones, a speed or a
+/// condition that varies by cell where it must not.
 void check_time(Workspace& work, std::uint32_t stage);
 
-/// Stages that start on coarser grids need a flat grid, all of whose sides can be halved so often.
+/// Stages that start on coarser grids need a flat grid whose sides can be halved often enough.
 void check_coarse_starts(const Program& program, Diagnostics& diagnostics);
 
 }  // namespace cascade::checking

@@ -1,4 +1,4 @@
-// What nothing reads: mostly a name that was misspelt.
+// Finds what is never read, which is usually a misspelt name.
 #include "lang/check/check_blocks.h"
 #include "lang/vocabulary/settings.h"
 
@@ -11,7 +11,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// A quantity or definition that nothing reads.
+/// A quantity or definition that is never read.
 struct Unread {
     const std::string* name;
     Span span;
@@ -20,7 +20,7 @@ struct Unread {
 
 std::string family_of(const std::string& name) { return name.substr(0, name.find('[')); }
 
-/// Of a family one message speaks, and only where none of its members is read.
+/// A family gets one message, and only if none of its members is read.
 std::vector<Unread> find_unread(const Workspace& work, std::uint32_t index) {
     const System& system = work.program.systems[index];
     std::unordered_set<std::string> read;
@@ -46,8 +46,8 @@ std::vector<Unread> find_unread(const Workspace& work, std::uint32_t index) {
     return unread;
 }
 
-/// In a derived system: what the base has has been told there; what it does not have and nothing
-/// reads was to change something of the base.
+/// Reports what a derived system adds without anything reading it: it was probably meant to change
+/// something of the base. What the base has was reported there.
 void report_change_of_nothing(Workspace& work, const System& system, const Unread& unread) {
     const System& base = work.program.systems[*system.base];
     if (find(work.names[*system.base], *unread.name) != nullptr) return;
@@ -72,7 +72,7 @@ void warn_unread(Workspace& work) {
                 report_change_of_nothing(work, system, unread);
             } else {
                 const bool is_parameter = unread.kind == std::string_view("parameter");
-                // A system gives defaults of the settings of its stages.
+                // A system may hold defaults for the settings of its stages.
                 const auto context = WordContext::stage;
                 const auto settings = settings_of({SettingBlock::stage, SettingBlock::system});
                 work.diagnostics.warning(

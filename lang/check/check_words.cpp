@@ -1,4 +1,4 @@
-// Words of the checker: which are reserved, which are near to each other, how lists are written.
+// Words of the checker: reserved words, suggestions of similar names, and lists of names.
 #include "core/near_name.h"
 #include "lang/check/check_names.h"
 #include "lang/vocabulary/settings.h"
@@ -11,7 +11,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// From so many errors on no near names are looked for any more.
+/// No suggestions are made after this number of errors.
 constexpr std::size_t most_suggestions = 200;
 constexpr std::size_t most_names_compared = 1'000'000;
 constexpr std::size_t most_listed = 24;

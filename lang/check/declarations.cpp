@@ -1,4 +1,4 @@
-// From statements to declarations: indices, members, and what replaces what.
+// From statements to declarations: expands indices, and replaces what is overridden.
 #include "lang/check/declarations.h"
 
 #include "lang/check/check_expression.h"
@@ -21,7 +21,7 @@ constexpr std::size_t most_declarations = 100'000;
 
 using Kind = ast::StatementKind;
 
-/// One end of an index, or nothing with a message.
+/// One end of the range of an index; reports errors.
 std::optional<std::int64_t> check_end(Workspace& work, const SystemStatement& from,
                                       ast::Expression expression) {
     const auto value = check_constant(work, *from.script, expression, "the end of an index");
@@ -65,7 +65,7 @@ std::uint32_t number_of(const Workspace& work, const System& system) {
     return static_cast<std::uint32_t>(&system - work.program.systems.data());
 }
 
-/// The indices, of the highest level each.
+/// Collects the indices; of equal names the one of the highest level.
 void collect_indices(Workspace& work, System& system, std::span<const SystemStatement> statements) {
     std::unordered_map<std::string_view, const SystemStatement*> latest;
     for (const SystemStatement& each : statements) {
@@ -99,7 +99,7 @@ void collect_indices(Workspace& work, System& system, std::span<const SystemStat
 
 bool is_number(std::string_view word) { return word[0] >= '0' && word[0] <= '9'; }
 
-/// The 2 of u[2], or nothing with a message.
+/// The 2 of u[2]; reports an error if it is not a number.
 std::optional<std::int64_t> member_number(Workspace& work, const ast::Word& word) {
     std::int64_t value = 0;
     const auto end = word.text.data() + word.text.size();
@@ -128,7 +128,7 @@ void report_unknown_index(Workspace& work, const System& system, const ast::Word
                            std::move(hint));
 }
 
-/// What one statement stands for.
+/// The declarations that one statement expands to.
 std::vector<Declaration> expand_statement(Workspace& work, const System& system,
                                           const ast::Script& script,
                                           const ast::Statement& statement, std::uint32_t level) {
@@ -165,7 +165,7 @@ std::vector<Declaration> expand_statement(Workspace& work, const System& system,
     return declarations;
 }
 
-/// Puts declarations in order and drops those that are replaced.
+/// Keeps declarations in order and drops those that are replaced.
 class StatementList {
 public:
     void add(Declaration declaration) {
@@ -195,7 +195,7 @@ private:
         all_.push_back(std::move(declaration));
         dropped_.push_back(false);
     }
-    /// Of one level: does `later` say something of one member that `earlier` says of all?
+    /// True if `later`, of the same level, is about one member and `earlier` about all of them.
     static bool is_finer(const Declaration& later, const Declaration& earlier) {
         return !later.index && earlier.index;
     }

@@ -1,4 +1,4 @@
-// Writing out, with a stack of tasks: no depth of calls overflows anything.
+// Expands with an explicit stack of tasks, so that deeply nested calls cannot overflow the stack.
 #include "lang/check/expand.h"
 
 #include "core/check.h"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t most_parts = 1'000'000;
 
-/// What an index can be taken over with.
+/// True for the aggregates over an index.
 bool is_reduction(std::string_view name) {
     constexpr std::array<std::string_view, 5> names{"sum", "product", "mean", "min", "max"};
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -35,19 +35,19 @@ public:
 
 private:
     enum class TaskKind : std::uint8_t {
-        visit,    ///< Write out a part and what it reads.
-        finish,   ///< Its operands are written: write the part itself.
-        call,     ///< The arguments are written: go on with the function's value.
-        leave,    ///< The function's value is written.
-        repeat,   ///< An aggregate: bind its index to `value` and write the operand.
-        combine,  ///< The operand is written for `value`.
+        visit,    ///< Expand a node and its operands.
+        finish,   ///< The operands are done: write the node itself.
+        call,     ///< The arguments are done: go on with the function's body.
+        leave,    ///< The function's body is done.
+        repeat,   ///< An aggregate: bind its index to `value` and expand the operand.
+        combine,  ///< The operand is done for `value`.
     };
     struct Task {
         TaskKind kind = TaskKind::visit;
         ast::ExprId part = 0;
-        std::int64_t value = 0;  ///< Of an index; for members the number of parts before.
+        std::int64_t value = 0;  ///< Of an index; for members the number of nodes before.
     };
-    /// The expression itself, or the value of a function.
+    /// The body of a function that is being expanded; the bottom one is the expression itself.
     struct Frame {
         const ast::Script* script = nullptr;
         const UserFunction* function = nullptr;
@@ -92,9 +92,9 @@ private:
     std::vector<Task> tasks_;
     std::vector<Frame> frames_;
     std::vector<ast::ExprId> arguments_;  ///< Of the functions in frames_.
-    std::vector<ast::ExprId> results_;    ///< Parts of out_ that are still to be read.
-    std::size_t open_indices_ = 0;        ///< Members whose index is being written.
-    /// The values of the indices, the innermost last. Functions do not see them.
+    std::vector<ast::ExprId> results_;    ///< Nodes of out_ that are not yet used as operands.
+    std::size_t open_indices_ = 0;        ///< Number of members whose index is being expanded.
+    /// The values of the indices, the innermost last. Functions cannot read them.
     std::unordered_map<std::string_view, std::vector<std::int64_t>> values_;
 };
 
@@ -178,7 +178,7 @@ void Expander::visit_name(const ast::Expr& here, const ast::Name& name) {
     if (values != values_.end() && !values->second.empty()) {
         return emit(here.span, ast::Number{static_cast<double>(values->second.back())});
     }
-    // Elsewhere it may be a parameter of the previous stage.
+    // Elsewhere the name may be a parameter of the previous stage.
     if (open_indices_ > 0 && find_index(work_, scope_, name.name) != nullptr) {
         Explanation explanation = index_without_value(name.name);
         return fault(here.span, std::move(explanation.message), std::move(explanation.hint));
@@ -293,7 +293,7 @@ void Expander::finish_call(const ast::Expr& here, const ast::Call& call) {
     emit(here.span, ast::Call{call.function, first, call.argument_count});
 }
 
-/// The parts of the index, [before, …), have done their work when its value is known.
+/// Folds the nodes of the index, [before, …), and removes them: only its value is needed.
 void Expander::finish_member(const ast::Expr& here, const ast::Indexed& member,
                              std::size_t before) {
     --open_indices_;
@@ -319,7 +319,7 @@ void Expander::finish_member(const ast::Expr& here, const ast::Indexed& member,
     emit(here.span, ast::Qualified{other.stage, {here.span, named(other.name.text)}});
 }
 
-/// The whole number that the parts [first, last] are, or nothing with a message.
+/// The whole number that the nodes [first, last] evaluate to; reports errors.
 std::optional<std::int64_t> Expander::index_value(ast::ExprId first, ast::ExprId last, Span span) {
     Scope constant;
     constant.context = Context::constant;

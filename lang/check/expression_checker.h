@@ -1,8 +1,8 @@
-// Checking one expression, part by part (internal to the checker).
+// Checks one expression, node by node (internal to the checker).
 //
-// check_expression.cpp walks the parts and resolves names and texts; check_call.cpp checks what is
-// called: arguments, places, types and constants; check_operators.cpp what is particular to
-// operators of derivatives, vectors and tensors.
+// check_expression.cpp walks the nodes and resolves names and strings; check_call.cpp checks calls:
+// arguments, contexts, types and constants; check_operators.cpp checks operators of derivatives,
+// vectors and tensors.
 #pragma once
 
 #include "lang/check/check_expression.h"
@@ -15,12 +15,12 @@
 
 namespace cascade::checking {
 
-/// What is known of a part besides its node.
+/// What is known about a node besides the node itself.
 struct Part {
-    bool faulty = false;  ///< A message has been given; whatever reads it stays silent.
+    bool faulty = false;  ///< An error has been reported; its users are not reported.
     bool constant = false;
     double value = 0;
-    bool turned = false;  ///< A vector that a tensor has multiplied, or is made of such.
+    bool turned = false;  ///< A vector that a tensor has multiplied, or one computed from such.
 };
 
 class ExpressionChecker {
@@ -28,7 +28,7 @@ public:
     ExpressionChecker(Workspace& work, const ast::Script& script, ast::Expression expression,
                       const Scope& scope)
         : work_(work), script_(script), expression_(expression), scope_(scope) {}
-    /// For an expression that was written out: `from` is the script that it was written in.
+    /// For an expanded expression: `from` is the script that it was written in.
     ExpressionChecker(Workspace& work, const ast::Script& from, const Expanded& expanded,
                       const Scope& scope)
         : work_(work),
@@ -88,7 +88,7 @@ private:
     const ast::Script& script_;
     ast::Expression expression_;
     const Scope& scope_;
-    const ast::Script& from_ = script_;  ///< Whose functions can be called.
+    const ast::Script& from_ = script_;  ///< The script whose functions can be called.
     const Expanded* expanded_ = nullptr;
     Formula formula_;
     IdVector<NodeId, Part> parts_;

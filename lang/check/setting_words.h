@@ -1,5 +1,5 @@
-// Settings that are a word, alone or with arguments in brackets, as in `surface: torus(1, 0.4)`
-// (internal to the checker).
+// Settings whose value is a word, alone or with arguments in brackets, as in `surface: torus(1,
+// 0.4)` (internal to the checker).
 #pragma once
 
 #include "lang/syntax/ast.h"
@@ -13,14 +13,14 @@ inline const ast::Expr& value_of(const ast::Script& script, const ast::Statement
     return script.expressions[statement.values[0].root];
 }
 
-/// A word that stands alone or with arguments in brackets; "" for all else.
+/// The word, with or without arguments in brackets; "" for any other expression.
 inline std::string_view word_of(const ast::Expr& value) {
     if (const auto* name = std::get_if<ast::Name>(&value.node)) return name->name;
     if (const auto* call = std::get_if<ast::Call>(&value.node)) return call->function.text;
     return {};
 }
 
-/// The arguments of a call, whose parts stand one after the other before it.
+/// The arguments of a call, whose nodes come one after the other before it.
 inline std::vector<ast::Expression> arguments_of(const ast::Script& script,
                                                  ast::Expression written) {
     std::vector<ast::Expression> arguments;

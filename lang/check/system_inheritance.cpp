@@ -36,7 +36,7 @@ private:
     std::unordered_map<std::string_view, std::uint32_t> own_, library_;
     std::vector<std::optional<std::uint32_t>> bases_;
     std::vector<bool> is_known_;
-    std::vector<std::size_t> places_;  ///< Of each block in the result.
+    std::vector<std::size_t> places_;  ///< The index in the result, by block.
     std::size_t copied_ = 0;
 };
 

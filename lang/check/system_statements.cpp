@@ -1,5 +1,5 @@
-// Follows the chain of bases on the syntax tree alone, so that equations can be printed of any
-// script.
+// Follows the chain of bases on the syntax tree alone, so that the equations of any script can be
+// printed.
 #include "lang/check/system_statements.h"
 
 #include "lang/library/library.h"
@@ -20,15 +20,15 @@ bool is_rate(const ast::Statement& statement) {
            statement.kind == ast::StatementKind::rate_term;
 }
 
-/// What a statement is about. One of a derived system takes the place of those of its bases about
-/// the same, unless it is a term to be added.
+/// The subject of a statement. In a derived system a statement replaces the inherited one with the
+/// same subject, unless it is a term to be added.
 std::string subject_of(const ast::Statement& statement) {
     auto kind = is_rate(statement) ? ast::StatementKind::rate : statement.kind;
     if (kind == ast::StatementKind::definition) kind = ast::StatementKind::value;
     return fmt::format("{} {}", static_cast<int>(kind), statement.name.text);
 }
 
-/// "[2]" of a statement about one member of a family; empty for others.
+/// "[2]" for a statement about one member of a family, else "".
 std::string member_of(const ast::Statement& statement) {
     const std::string_view index = statement.index.text;
     const bool is_one = !index.empty() && index[0] >= '0' && index[0] <= '9';
@@ -59,10 +59,10 @@ SystemBlocks system_blocks(const ast::Script& script) {
 
 SystemStatements::SystemStatements(const ast::Script& script, const Sources& sources,
                                    const SystemBlocks& blocks, std::string_view system) {
-    std::vector<FoundBlock> chain;  // From the system to the one that is derived from none.
+    std::vector<FoundBlock> chain;  // From the system to the one that has no base.
     FoundBlock found = find_block({&script, &sources, &blocks, nullptr}, system);
     if (found.block == nullptr) found = find_in_library(system);
-    constexpr std::size_t longest_chain = 1000;  // The checks allow no cycle.
+    constexpr std::size_t longest_chain = 1000;  // The checker allows no cycle.
     while (found.block != nullptr && chain.size() < longest_chain) {
         chain.push_back(found);
         const std::string_view base = found.block->base.text;
@@ -80,10 +80,10 @@ SystemStatements::SystemStatements(const ast::Script& script, const Sources& sou
     }
 }
 
-/// Adds the statements of a block to those it inherits, or puts them in the place of those.
+/// Adds the statements of a block to the inherited ones, or replaces those.
 void SystemStatements::derive(const FoundBlock& found) {
     struct Change {
-        std::size_t first = SIZE_MAX;  ///< The inherited statement whose place it takes.
+        std::size_t first = SIZE_MAX;  ///< The first inherited statement that is replaced.
         bool is_used = false;
     };
     std::unordered_map<std::string, Change> changes;
@@ -94,7 +94,7 @@ void SystemStatements::derive(const FoundBlock& found) {
     std::vector<bool> dropped(statements_.size(), false);
     for (std::size_t k = 0; k < statements_.size(); ++k) {
         const ast::Statement& inherited = *statements_[k].statement;
-        // What is said of all members is said of each.
+        // A statement about all members applies to each.
         for (const std::string& member : {std::string(), member_of(inherited)}) {
             const auto change = changes.find(subject_of(inherited) + member);
             if (change == changes.end()) continue;

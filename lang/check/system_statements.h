@@ -1,5 +1,4 @@
-// What a system says, with what it takes from the systems it is derived from (internal to the
-// printing of equations).
+// The statements of a system together with those that it inherits (for printing equations).
 #pragma once
 
 #include "core/source.h"
@@ -19,8 +18,8 @@ struct SaidStatement {
     const ast::Script* script = nullptr;
     const Sources* sources = nullptr;
     const ast::Statement* statement = nullptr;
-    /// The statement that has its doc comment, and the one that has its range: where it took the
-    /// place of another and has none, that of the other. Null where there is none.
+    /// The statement whose doc comment applies, and the one whose range does: where it has none
+    /// itself, the one it has replaced. Null if there is none.
     const ast::Statement* doc = nullptr;
     const ast::Statement* range = nullptr;
     const ast::Script* range_script = nullptr;
@@ -31,11 +30,11 @@ struct SaidStatement {
 using SystemBlocks = std::unordered_map<std::string_view, const ast::Block*>;
 SystemBlocks system_blocks(const ast::Script& script);
 
-/// The statements of a system of a checked script or of the library, those of its bases first and
-/// changed as `system b: a { … }` changes them.
+/// The statements of a system of a checked script or of the library: those of its bases first,
+/// changed as `system b: a { … }` says.
 class SystemStatements {
 public:
-    /// `blocks` are those of `script`.
+    /// `blocks` must be those of `script`.
     SystemStatements(const ast::Script& script, const Sources& sources, const SystemBlocks& blocks,
                      std::string_view system);
 
@@ -44,7 +43,7 @@ public:
     const std::vector<SaidStatement>& all() const { return statements_; }
     /// The doc comment of the system itself; may be empty.
     const std::string& doc() const { return doc_; }
-    /// Is this the name, without index, of something with a rate?
+    /// True if the name, without index, has a rate.
     bool is_species(std::string_view name) const { return species_.contains(name); }
 
 private:
@@ -59,7 +58,7 @@ private:
         const SystemBlocks* blocks = nullptr;  ///< Of that script.
         const ast::Block* block = nullptr;
     };
-    /// The block in the script of `beside`.
+    /// Finds a block in the script of `beside`.
     static FoundBlock find_block(FoundBlock beside, std::string_view system);
     FoundBlock find_in_library(std::string_view system);
     void derive(const FoundBlock& found);

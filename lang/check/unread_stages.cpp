@@ -25,7 +25,7 @@ std::vector<std::string> species_of(const System& system) {
     return names;
 }
 
-/// What to write for the next stage to go on from a stage.
+/// A hint how the next stage can continue from a stage.
 std::string how_to_go_on(const Program& program, std::uint32_t stage) {
     const Stage& next = program.stages[stage + 1];
     const std::vector<std::string> species = species_of(program.system_of(stage));

@@ -1,4 +1,4 @@
-// Stages for nothing: those that no later stage and no picture reads.
+// Warnings about stages that neither a later stage nor a picture reads.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -8,9 +8,9 @@
 
 namespace cascade {
 
-/// Warns of every stage that nothing reads. `shown` is the stage whose picture is drawn, and
-/// `picture` what that computes, or nullptr; what is drawn is read. A stage is no fault for reading
-/// nothing, if it is read.
+/// Warns of every stage that nothing reads. `shown` is the stage whose picture is drawn and counts
+/// as read, like the stages that `picture` (or nullptr) reads. A stage that reads nothing is not
+/// reported if it is read itself.
 void warn_of_unread_stages(const Program& program, std::uint32_t shown, const Formula* picture,
                            Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-// Checking the functions of a script: their names, what they read, and that none calls itself.
+// Checks the functions of a script: their names, what they read, and that none is recursive.
 #include "lang/check/user_functions.h"
 
 #include "core/counted.h"
@@ -91,7 +91,7 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
     }
     for (ast::ExprId id = body.first; id <= body.root; ++id) {
         const ast::Expr& part = script_.expressions[id];
-        if (is_family[id - body.first]) continue;  // Told with its index.
+        if (is_family[id - body.first]) continue;  // Reported with its index.
         if (const auto* name = std::get_if<ast::Name>(&part.node)) {
             check_name(function, name->name, part.span);
         } else if (const auto* call = std::get_if<ast::Call>(&part.node)) {
@@ -146,7 +146,7 @@ void FunctionTableMaker::report_cycle(const std::vector<std::uint32_t>& cycle) {
         table_.functions_[function].faulty = true;
         names.emplace_back(table_.functions_[function].definition->name.text);
     }
-    // The place of the call: that of `cycle[1]`, or of itself, in the first one's value.
+    // The place of the call in the first function of the cycle: of the next one, or of itself.
     const ast::Expression body = table_.functions_[cycle[0]].definition->body;
     const std::string& next = names[1 % names.size()];
     Span span = table_.functions_[cycle[0]].definition->name.span;
