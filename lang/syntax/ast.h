@@ -1,7 +1,7 @@
-// The syntax tree: what a script says, before anyone has asked whether it makes sense.
+// The syntax tree: a script as written, before names and types are checked.
 //
-// Expressions live in one flat list, operands before their operator, so that nothing here is ever
-// walked or destroyed by recursion: a loop over a stretch of the list visits an expression bottom
+// Expressions are stored in one flat list, operands before their operator, so that nothing is ever
+// traversed or destroyed by recursion: a loop over a range of the list visits an expression bottom
 // up, however deep or long it is.
 #pragma once
 
@@ -17,10 +17,10 @@
 
 namespace cascade::ast {
 
-/// Position in Script::expressions.
+/// An index into Script::expressions.
 using ExprId = std::uint32_t;
 
-/// A word of the script, with its place. The view points into the Sources.
+/// A word of the script and its place. The view points into the Sources.
 struct Word {
     Span span;
     std::string_view text;
@@ -36,15 +36,16 @@ struct Qualified { Word stage, name; };                ///< large.p
 struct RateOf { Word name; };                          ///< p'
 struct Unary { Function op; ExprId operand; };
 struct Binary { Function op; ExprId left, right; };
-/// Arguments are Script::arguments[first_argument …], in order.
+/// The arguments are Script::arguments[first_argument …], in order.
 struct Call { Word function; std::uint32_t first_argument, argument_count; };
 /// sum(operand over index); `index` is the word `domain` or an index of the system.
 struct Over { Word function; ExprId operand; Word index; };
 /// u[index], [u[index]], large.u[index], u[index]': `base` is the Name, Bracketed, Qualified or
-/// RateOf of the family, which stands directly before the parts of the index.
+/// RateOf of the family, directly before the nodes of the index.
 struct Indexed { ExprId base, index; };
 // clang-format on
-/// What could not be read. A message has been given already; later stages stay silent about it.
+/// Stands for what could not be parsed. An error has been reported; later passes report nothing
+/// about it.
 struct Garbage {};
 
 struct Expr {
@@ -54,7 +55,7 @@ struct Expr {
         node;
 };
 
-/// The stretch [first, root] of Script::expressions: all parts of one expression, `root` last.
+/// The range [first, root] of Script::expressions: all nodes of one expression, `root` last.
 struct Expression {
     ExprId first = 0;
     ExprId root = 0;
@@ -80,10 +81,10 @@ struct Range {
 struct Statement {
     StatementKind kind = StatementKind::value;
     Word name;
-    Word index;                      ///< i of `u[i]: e`: a name or a number; empty without one.
-    Word side;                       ///< left of `u.left: e`; empty without one.
+    Word index;  ///< i of `u[i]: e`: a name or a number; empty without an index.
+    Word side;   ///< left of `u.left: e`; empty if there is none.
     std::vector<Expression> values;  ///< At least one.
-    std::optional<Range> range;      ///< Of a value only.
+    std::optional<Range> range;      ///< Only for kind `value`.
     Span span;                       ///< From the name to the end of the last value.
     std::string doc;                 ///< The text of its doc comments, joined to one line.
 };
@@ -98,15 +99,15 @@ enum class BlockKind : std::uint8_t {
 
 struct Block {
     BlockKind kind = BlockKind::system;
-    Word keyword;  ///< `system`, `stage`, `system_name`, …: the block's place in messages.
-    Word name;     ///< Of a system or stage; empty for others.
-    /// The stage's system; empty where it could not be read. Of a system: the system it is derived
-    /// from, empty where it is derived from none.
+    Word keyword;  ///< `system`, `stage`, `system_name`, …: the place of the block in messages.
+    Word name;     ///< Of a system or stage; empty otherwise.
+    /// Of a stage: its system, empty if it could not be parsed. Of a system: its base, empty if it
+    /// has none.
     Word base;
     std::vector<Statement> statements;
     std::vector<Statement> sides;  ///< `u.left: …`, `u[1].left: …`.
     std::string doc;               ///< The text of its doc comments, joined to one line.
-    /// Something of it could not be read and is not in these lists; it has its message.
+    /// A part could not be parsed and is missing from these lists; an error has been reported.
     bool is_damaged = false;
 };
 
@@ -120,13 +121,13 @@ struct FunctionDefinition {
 
 /// use "file.cascade"
 struct Use {
-    Span span;         ///< Of the text in quotes.
+    Span span;         ///< Of the string.
     std::string path;  ///< As written.
 };
 
-/// A value from outside the script (`--set large.ka=1/400`): it replaces the statement of that name
-/// in one stage, or, where no stage is called so, in every stage of the system of that name, or,
-/// where `stage` is empty, in every stage that has such a name.
+/// A value from outside the script (`--set large.ka=1/400`). It replaces the statement of that name
+/// in one stage; if no stage has that name, in all stages of the system of that name; if `stage` is
+/// empty, in all stages with such a statement.
 struct Override {
     Word stage;
     Statement statement;
@@ -137,9 +138,9 @@ struct Script {
     std::vector<FunctionDefinition> functions;
     std::vector<Use> uses;
     std::vector<Override> overrides;
-    /// What other options of the command line say of the domain and of all stages: --grid 64x32 is
-    /// `grid: 64, 32`. An option has the last word. Each has a source of its own, the typed text;
-    /// --fast has no value.
+    /// Settings of the domain and of all stages given as options: --grid 64x32 is `grid: 64, 32`.
+    /// They override the script. Each has a source of its own, the text of the option; --fast has
+    /// no value.
     std::vector<Statement> options;
     std::vector<Expr> expressions;
     std::vector<ExprId> arguments;

@@ -1,4 +1,4 @@
-// Expressions where an operand is due: numbers, names in all their forms, texts, signs, brackets.
+// Expressions where an operand is expected: numbers, names in all forms, strings, signs, brackets.
 #include "lang/syntax/expression_parser.h"
 
 #include <fmt/core.h>
@@ -10,8 +10,8 @@ namespace cascade {
 
 namespace {
 
-// Literals that round to infinity in single precision (half a unit above the largest number), and
-// those that flush to zero, cannot be meant.
+// Literals that round to infinity in single precision (half a unit above the largest number), or
+// that are flushed to zero, are probably mistakes.
 constexpr double too_large = 0x1.ffffffp127;
 constexpr double smallest = 0x1p-126;
 
@@ -54,7 +54,7 @@ ExpressionParser::Progress ExpressionParser::read_operand() {
             cursor_.error(token.span, "numbers have no sign '+'", "leave it out");
             return Progress::going_on;
         }
-        case TokenKind::garbage:  // The lexer has given a message.
+        case TokenKind::garbage:  // The lexer has reported an error.
             cursor_.take();
             push_operand(token.span, ast::Garbage{});
             return Progress::going_on;
@@ -114,7 +114,7 @@ ExpressionParser::Progress ExpressionParser::read_name() {
     return Progress::going_on;
 }
 
-/// [name]. What else stands in such brackets is passed over up to the closing one.
+/// [name]. Anything else in such brackets is skipped up to the closing one.
 ExpressionParser::Progress ExpressionParser::read_bracketed() {
     const Token open = cursor_.take();
     cursor_.skip_newlines();
@@ -153,7 +153,7 @@ ExpressionParser::Progress ExpressionParser::read_bracketed() {
     return Progress::going_on;
 }
 
-/// [name[index]]: the brackets around are open; the index follows.
+/// [name[index]]: the outer bracket is open; the index follows.
 ExpressionParser::Progress ExpressionParser::read_own_member() {
     const Token outer = cursor_.previous();
     const Token name = cursor_.take();
@@ -163,7 +163,7 @@ ExpressionParser::Progress ExpressionParser::read_own_member() {
     return Progress::going_on;
 }
 
-/// `not` binds loosely: in `a + not b` it would not take b alone.
+/// `not` binds loosely: in `a + not b` it would not apply to b alone.
 ExpressionParser::Progress ExpressionParser::read_not() {
     Pending logical_not;
     logical_not.kind = PendingKind::unary;
@@ -181,7 +181,7 @@ ExpressionParser::Progress ExpressionParser::read_not() {
     return Progress::going_on;
 }
 
-/// 'tan' instead of "tan".
+/// A string in single quotes: 'tan' instead of "tan".
 ExpressionParser::Progress ExpressionParser::read_text_in_primes() {
     const bool is_text = cursor_.kind(1) == TokenKind::name && cursor_.kind(2) == TokenKind::prime;
     if (!is_text) return missing_operand();
@@ -194,7 +194,7 @@ ExpressionParser::Progress ExpressionParser::read_text_in_primes() {
     return Progress::going_on;
 }
 
-/// Something that cannot begin an expression stands where one is due.
+/// Reports that an expression cannot begin with the token here.
 ExpressionParser::Progress ExpressionParser::missing_operand() {
     const Token before = cursor_.previous();
     const Token here = cursor_.peek();

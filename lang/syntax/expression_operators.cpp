@@ -39,7 +39,7 @@ ExpressionParser::Progress ExpressionParser::read_operator() {
         cursor_.at_name(end_word_)) {
         return Progress::finished;
     }
-    if (token.kind == TokenKind::assign) {  // Read on as the comparison that was meant.
+    if (token.kind == TokenKind::assign) {  // Parsed as the comparison that was probably meant.
         cursor_.error(token.span, "'=' inside an expression", "write '==' to compare");
     }
     if (const auto binary = binary_of(token.kind)) {
@@ -73,13 +73,13 @@ ExpressionParser::Progress ExpressionParser::read_operator() {
     return unexpected_operator(on_new_line);
 }
 
-/// Does a '[' here stand directly after a name, as in u[i]? After a blank it is a new operand.
+/// True if a '[' here follows a name directly, as in u[i]. After a blank it begins a new operand.
 bool ExpressionParser::begins_index() const {
     const Token& before = cursor_.previous();
     return before.kind == TokenKind::name && before.span.end == cursor_.peek().span.begin;
 }
 
-/// u[…]: the index is complete. A prime after it makes the member's rate.
+/// The ']' of u[…]. A prime after it makes it the member's rate.
 ExpressionParser::Progress ExpressionParser::close_index() {
     const Token close = cursor_.take();
     const Pending open = pending_.back();
@@ -109,7 +109,7 @@ ExpressionParser::Progress ExpressionParser::close_index() {
     return Progress::going_on;
 }
 
-/// sum(e over i): the word `over` is here, the operand is complete.
+/// sum(e over i): the cursor is at `over`, the operand is complete.
 ExpressionParser::Progress ExpressionParser::read_over() {
     reduce_above(0);
     const Token over = cursor_.peek();
@@ -144,7 +144,7 @@ ExpressionParser::Progress ExpressionParser::read_over() {
     return Progress::going_on;
 }
 
-/// Closes the innermost bracket; a `]` in the place of a `)` does so with a message.
+/// Closes the innermost bracket; reports a `]` in place of a `)` and accepts it.
 ExpressionParser::Progress ExpressionParser::read_close_round() {
     const Token close = cursor_.peek();
     if (open_brackets_ == 0) {
@@ -204,7 +204,7 @@ ExpressionParser::Progress ExpressionParser::read_comma() {
     return Progress::going_on;
 }
 
-/// Neither an operator nor an end.
+/// Reports a token that is neither an operator nor an end.
 ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_line) {
     const Token token = cursor_.peek();
     switch (token.kind) {
@@ -222,7 +222,7 @@ ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_lin
     }
 }
 
-/// Two operands side by side.
+/// Reports two operands without an operator between them.
 ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) {
     const Token before = cursor_.previous();
     const Token here = cursor_.peek();
@@ -258,7 +258,7 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
     return fail(here.span, "an operator is missing before " + cursor_.describe(here), hint);
 }
 
-/// The mistake has been told by the lexer.
+/// Skips the statement after an error that the lexer has reported.
 ExpressionParser::Progress ExpressionParser::fail_silently() {
     cursor_.skip_statement(open_brackets_);
     return Progress::failed;

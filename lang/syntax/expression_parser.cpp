@@ -1,4 +1,4 @@
-// Expressions: the loop, and what happens when an operator has all its operands.
+// Expressions: the main loop, and reduction of operators that have all their operands.
 #include "lang/syntax/expression_parser.h"
 
 #include "core/check.h"
@@ -45,7 +45,7 @@ void ExpressionParser::push_bracket(PendingKind kind, Token bracket, Span name) 
     expects_operand_ = true;
 }
 
-/// Takes the operator at the cursor; what binds tighter on its left is complete now.
+/// Pushes the operator at the cursor; operators on its left that bind tighter are reduced first.
 void ExpressionParser::push_binary(Function op) {
     Pending pending;
     pending.kind = PendingKind::binary;
@@ -63,7 +63,7 @@ void ExpressionParser::push_binary(Function op) {
     expects_operand_ = true;
 }
 
-/// Reduces what is pending up to the next bracket and binds tighter than `precedence`.
+/// Reduces the pending operators up to the last open bracket that bind tighter than `precedence`.
 void ExpressionParser::reduce_above(int precedence) {
     while (!pending_.empty() && !pending_.back().is_bracket() &&
            pending_.back().precedence() > precedence) {
@@ -108,7 +108,7 @@ ast::Expression ExpressionParser::finish() {
     return {first_, operands_.back().id};
 }
 
-/// The expression could not be read: what there is of it says nothing to later stages.
+/// Replaces an expression with errors by Garbage.
 ast::Expression ExpressionParser::abandon(Span begin) {
     auto& expressions = script_.expressions;
     expressions.erase(expressions.begin() + first_, expressions.end());
@@ -118,7 +118,7 @@ ast::Expression ExpressionParser::abandon(Span begin) {
     return {first_, first_};
 }
 
-/// Gives the message and leaves the rest of the statement.
+/// Reports an error and skips the rest of the statement.
 ExpressionParser::Progress ExpressionParser::fail(Span span, std::string message,
                                                   std::string hint) {
     cursor_.error(span, std::move(message), std::move(hint));
@@ -126,11 +126,11 @@ ExpressionParser::Progress ExpressionParser::fail(Span span, std::string message
     return Progress::failed;
 }
 
-/// The statement ends, but a bracket is open: that one is to blame.
+/// The statement ends inside a bracket: reports that bracket.
 ExpressionParser::Progress ExpressionParser::unclosed() {
     for (std::size_t k = pending_.size(); k-- > 0;) {
         if (!pending_[k].is_bracket()) continue;
-        // After a text that is never closed, nothing says that the bracket was forgotten too.
+        // A string that is never closed may have swallowed the closing bracket.
         if (cursor_.lost_in_text(pending_[k].token, "")) break;
         const bool is_index = pending_[k].kind == PendingKind::index;
         cursor_.error(pending_[k].token.span,

@@ -1,7 +1,9 @@
 // The parser of expressions: operator precedence with explicit stacks (E. W. Dijkstra's "shunting
-// yard", Mathematisch Centrum report MR 35, 1961), so that depth costs memory and no call frames.
+// yard", Mathematisch Centrum report MR 35, 1961), so that deep nesting needs memory but no
+// recursion.
 //
-// Loosest to tightest: or · and · not · comparisons · + - · * / · unary - · ^ (to the right).
+// From loosest to tightest: or · and · not · comparisons · + - · * / · unary - · ^
+// (right-associative).
 #pragma once
 
 #include "lang/syntax/ast.h"
@@ -14,16 +16,16 @@
 
 namespace cascade {
 
-/// Reads expressions at the cursor and appends their parts to a script.
+/// Parses expressions at the cursor and appends their nodes to a script.
 class ExpressionParser {
 public:
     ExpressionParser(TokenCursor& cursor, ast::Script& script) : cursor_(cursor), script_(script) {}
 
-    /// Reads one expression and leaves the cursor at what ends it: a line end, `;`, `}`, `,` or the
-    /// end of the text. Where it cannot be read, a message is given, the cursor goes to the end of
-    /// the statement, and the expression is one Garbage. `owner` says in messages whose value is
-    /// missing where there is nothing: `the value of 'ka'`. Outside of brackets the expression
-    /// ends at `..` too, and at the word `end_word` where an operator could stand.
+    /// Parses one expression and leaves the cursor at what ends it: a line break, `;`, `}`, `,` or
+    /// the end of the text. On an error, reports it, skips to the end of the statement and returns
+    /// Garbage. `owner` names what lacks a value in messages: `the value of 'ka'`. Outside of
+    /// brackets the expression also ends at `..`, and at the word `end_word` where an operator
+    /// could stand.
     ast::Expression parse(const std::string& owner, std::string_view end_word = "");
 
 private:
@@ -32,14 +34,14 @@ private:
     enum class Chain : std::uint8_t { none, to_report, reported };
     enum class Progress : std::uint8_t { going_on, finished, failed };
 
-    /// An operator or an open bracket that waits for what is right of it.
+    /// An operator or an open bracket that waits for its right side.
     struct Pending {
         PendingKind kind = PendingKind::group;
         Chain chain = Chain::none;
         Function op{};
         Token token;                       ///< The operator or the bracket.
         Span detail;                       ///< Name of a call; middle operand of a chain.
-        std::uint32_t argument_count = 0;  ///< Of a call: complete ones so far.
+        std::uint32_t argument_count = 0;  ///< Of a call: complete arguments so far.
         bool is_own = false;               ///< Of an index: the inner bracket of [u[i]].
         int precedence() const { return info(op).precedence; }
         bool is_bracket() const {
@@ -47,7 +49,7 @@ private:
                    kind == PendingKind::index;
         }
     };
-    /// A complete operand; `outer` is its place with the brackets around it.
+    /// A complete operand; `outer` is its place including brackets.
     struct Operand {
         ast::ExprId id = 0;
         Span outer;

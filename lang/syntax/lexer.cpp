@@ -21,7 +21,7 @@ bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 
 bool is_name_part(char c) { return is_name_start(c) || is_digit(c); }
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
-/// `0x10` of programs and `100x100` of screens; nothing for other words.
+/// A hint for `0x10` of other languages and `100x100` of screens; nothing for other words.
 std::optional<std::string> hint_of_other_number(std::string_view word) {
     constexpr std::size_t longest = 18;
     const std::size_t cross = word.find_first_of("xX");
@@ -76,7 +76,7 @@ private:
     Span span(std::size_t begin, std::size_t end) const {
         return {source_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
     }
-    /// Ends the token that began at `begin`; reading goes on at `end`.
+    /// Adds the token [begin, end) and continues at `end`.
     void push(TokenKind kind, std::size_t begin, std::size_t end) {
         tokens_.push_back({kind, span(begin, end)});
         offset_ = end;
@@ -113,7 +113,7 @@ private:
     std::size_t offset_ = 0;
 };
 
-/// One message for each run of bytes that no text holds, wherever they are: also in comments.
+/// Reports each run of bytes that are not valid text, even in comments.
 void Lexer::report_unreadable_bytes() {
     for (std::size_t offset = 0; offset < text_.size();) {
         if (static_cast<unsigned char>(text_[offset] - 1) < 0x7f) {  // ASCII, not NUL.
@@ -157,7 +157,7 @@ void Lexer::report_run(std::size_t begin, std::size_t end) {
                        "save the script as UTF-8");
 }
 
-/// Is there a character outside ASCII that a person would take for a letter of the name?
+/// True if the character at `offset` is not ASCII but would be taken for a letter of the name.
 bool Lexer::joins_a_name(std::size_t offset) const {
     if (offset >= text_.size() || static_cast<unsigned char>(text_[offset]) < 0x80) return false;
     const CodePoint point = decode_utf8(text_, offset);
@@ -185,7 +185,7 @@ void Lexer::read_token() {
     }
 }
 
-/// Several line ends in a row are one token, whatever blanks and comments are between them.
+/// Several line breaks in a row are one token, whatever blanks and comments are between them.
 void Lexer::read_line_end() {
     const std::size_t size = text_.substr(offset_).starts_with("\r\n") ? 2 : 1;
     if (!tokens_.empty() && tokens_.back().kind == TokenKind::newline) {
@@ -225,7 +225,7 @@ void Lexer::read_name() {
     push(kind, offset_, end);
 }
 
-/// A name with a letter of another alphabet.
+/// Reports a name with letters of another alphabet.
 void Lexer::read_bad_name(std::size_t begin) {
     std::string latin, first_wrong;
     bool has_spelling = true;
@@ -251,7 +251,7 @@ void Lexer::read_bad_name(std::size_t begin) {
     const CodePoint first = decode_utf8(text_, begin);
     const std::string_view sign = latin_spelling(first.value);
     if (has_spelling && (sign == "lap" || sign == "grad")) {
-        // ∇² is one sign. What an operator is of stands in brackets.
+        // ∇² is one operator. The operand belongs in brackets.
         const bool is_square =
             sign == "grad" && decode_utf8(text_, begin + first.size).value == U'²';
         if (is_square) end = begin + first.size + decode_utf8(text_, begin + first.size).size;
@@ -293,8 +293,8 @@ void Lexer::read_number() {
     push(TokenKind::garbage, begin, end);
 }
 
-/// A text in quotes; it ends on its line. Other languages' quotation marks come here with a message
-/// given: their text is garbage.
+/// A string, which ends on its line. Other quotation marks have been reported; their string is
+/// garbage.
 void Lexer::read_text(std::size_t quote_size, std::string_view closing) {
     const std::size_t begin = offset_;
     bool readable = quote_size == 1;
@@ -342,7 +342,7 @@ void Lexer::read_look_alike(const LookAlike& look_alike) {
     const CodePoint point = decode_utf8(text_, begin);
     const std::string_view letter = text_.substr(begin, point.size);
     const auto number = static_cast<std::uint32_t>(point.value);
-    if (look_alike.meant == TokenKind::newline) {  // A run of blanks is one mistake.
+    if (look_alike.meant == TokenKind::newline) {  // A run of such blanks is reported once.
         while (text_.substr(offset_).starts_with(letter)) offset_ += letter.size();
         diagnostics_.error(span(begin, offset_),
                            fmt::format("U+{:04X} is not a plain blank", number),
@@ -360,14 +360,14 @@ void Lexer::read_look_alike(const LookAlike& look_alike) {
         const bool is_guillemet = point.value == U'\u00ab';
         return read_text(point.size, is_guillemet ? "\u00bb" : closing);
     }
-    if (is_power) {  // The parser reads on as if the power were not there.
+    if (is_power) {  // The parser continues as if the power were not there.
         offset_ += point.size;
         return;
     }
     push(look_alike.meant, begin, begin + point.size);
 }
 
-/// Everything that is neither a name, a number nor an operator.
+/// Reads what is neither a name, a number nor an operator.
 void Lexer::read_other() {
     const std::size_t begin = offset_;
     std::size_t end = begin;

@@ -12,7 +12,7 @@ using Kind = TokenKind;
 
 // clang-format off
 constexpr LookAlike look_alikes[] = {
-    // Primes: typographic quotation marks, accents, the prime of mathematics.
+    // Primes: typographic quotation marks, accents, the mathematical prime.
     {U'\u2018', Kind::prime, "'"}, {U'\u2019', Kind::prime, "'"}, {U'\u2032', Kind::prime, "'"},
     {U'\u00b4', Kind::prime, "'"}, {U'\u02b9', Kind::prime, "'"}, {U'\uff07', Kind::prime, "'"},
     // Quotation marks.
@@ -22,7 +22,7 @@ constexpr LookAlike look_alikes[] = {
     {U'\u2010', Kind::minus, "-"}, {U'\u2011', Kind::minus, "-"}, {U'\u2012', Kind::minus, "-"},
     {U'\u2013', Kind::minus, "-"}, {U'\u2014', Kind::minus, "-"}, {U'\u2212', Kind::minus, "-"},
     {U'\uff0d', Kind::minus, "-"},
-    // Signs of multiplication and division.
+    // Multiplication and division signs.
     {U'\u00d7', Kind::star, "*"},  {U'\u00b7', Kind::star, "*"},  {U'\u2217', Kind::star, "*"},
     {U'\u22c5', Kind::star, "*"},  {U'\u2022', Kind::star, "*"},  {U'\uff0a', Kind::star, "*"},
     {U'\u00f7', Kind::slash, "/"}, {U'\u2044', Kind::slash, "/"}, {U'\u2215', Kind::slash, "/"},
@@ -38,7 +38,7 @@ constexpr LookAlike look_alikes[] = {
     {U'\uff5b', Kind::open_curly, "{"},     {U'\uff5d', Kind::close_curly, "}"},
     {U'\uff0c', Kind::comma, ","},          {U'\uff1a', Kind::colon, ":"},
     {U'\uff1b', Kind::semicolon, ";"},      {U'\uff1d', Kind::assign, "="},
-    // Powers of printed text.
+    // Superscripts.
     {U'\u00b2', Kind::garbage, "^2"},       {U'\u00b3', Kind::garbage, "^3"},
     // Blanks.
     {U'\u00a0', Kind::newline, " "}, {U'\u2002', Kind::newline, " "},
@@ -62,7 +62,7 @@ constexpr Letter letters[] = {
     {U'μ', "mu"},     {U'µ', "mu"},      {U'ν', "nu"},    {U'ξ', "xi"},     {U'π', "pi"},
     {U'ρ', "rho"},    {U'σ', "sigma"},   {U'τ', "tau"},   {U'φ', "phi"},    {U'χ', "chi"},
     {U'ψ', "psi"},    {U'ω', "omega"},   {U'∆', "lap"},   {U'Δ', "lap"},    {U'∇', "grad"},
-    // Cyrillic letters that cannot be told from Latin ones by eye.
+    // Cyrillic letters that look like Latin ones.
     {U'а', "a"}, {U'е', "e"}, {U'о', "o"}, {U'р', "p"}, {U'с', "c"}, {U'у', "y"}, {U'х', "x"},
     {U'і', "i"}, {U'ѕ', "s"}, {U'ј', "j"},
 };

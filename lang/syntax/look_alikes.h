@@ -1,5 +1,5 @@
-// Characters that look like something of the language but are not: what a word processor or a
-// web page makes of ' and -, signs of printed mathematics, and letters of other alphabets.
+// Characters that look like those of the language but are others: typographic forms of ' and -,
+// mathematical signs, and letters of other alphabets.
 #pragma once
 
 #include "lang/syntax/token.h"
@@ -8,18 +8,18 @@
 
 namespace cascade {
 
-/// A character outside ASCII that stands for a token.
+/// A non-ASCII character that stands for a token.
 struct LookAlike {
     char32_t code_point = 0;
     TokenKind meant = TokenKind::garbage;  ///< `newline` for a blank, `text` for a quotation mark.
-    std::string_view write;                ///< What to write in its place.
+    std::string_view write;                ///< What to write instead.
 };
 
-/// The table's row of a code point; nullptr where there is none.
+/// The table's row for a code point; null if there is none.
 const LookAlike* find_look_alike(char32_t code_point);
 
-/// What to write for a letter of another alphabet: `beta` for β, `a` for a Cyrillic а. Empty
-/// where there is nothing.
+/// What to write for a letter of another alphabet: `beta` for β, `a` for a Cyrillic а. Empty if
+/// there is nothing.
 std::string_view latin_spelling(char32_t code_point);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// How operators and brackets are spelled, and what people who know other languages write for them.
+// The spellings of operators and brackets, and those of other languages.
 #pragma once
 
 #include "lang/syntax/token.h"
@@ -12,7 +12,7 @@ struct Operator {
     TokenKind kind;
 };
 
-/// Longer ones before those they begin with.
+/// A longer operator comes before its prefixes.
 inline constexpr Operator operators[] = {
     {"+=", TokenKind::plus_assign},   {"==", TokenKind::equal},
     {"!=", TokenKind::not_equal},     {"<=", TokenKind::less_equal},
@@ -54,7 +54,7 @@ inline constexpr ForeignOperator foreign_operators[] = {
     {"%", TokenKind::garbage, "write mod(a, b) for a % b"},
 };
 
-/// Looked for when no operator of the language is there: `!=` is one.
+/// Tried only if no operator of the language matches, since `!=` is one.
 inline constexpr ForeignOperator foreign_not = {"!", TokenKind::keyword_not, "write 'not'"};
 
 }  // namespace cascade

@@ -1,8 +1,8 @@
 // The parser: tokens to syntax tree.
 //
-// Statements are read by plain recursive descent of fixed depth; expressions by operator precedence
-// with a stack of its own, so that neither 100,000 brackets nor 1,000,000 operands can overflow
-// anything. The grammar is in spec/grammar.md.
+// Statements are parsed by recursive descent of fixed depth, expressions by operator precedence
+// with an explicit stack, so that neither 100,000 brackets nor 1,000,000 operands overflow the call
+// stack. The grammar is in spec/grammar.md.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -14,15 +14,15 @@
 
 namespace cascade {
 
-/// The largest script, in bytes; a larger one is refused with a message before it is read.
+/// The largest script in bytes; a larger one is refused before it is read.
 inline constexpr std::size_t largest_script = 16u << 20;
 
-/// Parses a whole script. Faults go to `diagnostics`; reading goes on after each, at the next
+/// Parses a whole script. Errors go to `diagnostics`; after each, parsing continues at the next
 /// statement, so that one call finds them all.
 ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnostics);
 
-/// Parses a text that another script uses: its systems and functions, and what it uses itself, are
-/// added to `script`; its stages, domain and picture are left out.
+/// Parses a text that another script uses: adds its systems and functions, and those of the texts
+/// that it uses, to `script`; ignores its stages, domain and picture.
 void parse_used(SourceId source, const Sources& sources, ast::Script& script,
                 Diagnostics& diagnostics);
 
@@ -34,7 +34,7 @@ std::optional<ast::Expression> parse_expression(SourceId source, const Sources& 
 void parse_override(SourceId source, const Sources& sources, ast::Script& script,
                     Diagnostics& diagnostics);
 
-/// The tree as text, indented, for `--dump ast`.
+/// The tree as indented text, for `--dump ast`.
 std::string print_ast(const ast::Script& script, const Sources& sources);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// The entries of the parser.
+// The entry points of the parser.
 #include "lang/syntax/parse.h"
 
 #include "lang/syntax/script_parser.h"
@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// False, with a message, for a text larger than any script.
+/// Reports an error and returns false for a text larger than any script.
 bool has_sane_size(SourceId source, const Sources& sources, Diagnostics& diagnostics) {
     const std::size_t size = sources[source].text().size();
     if (size <= largest_script) return true;
@@ -39,7 +39,7 @@ ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnost
     }
     script.expressions.reserve(cursor.token_count());
     ScriptParser(cursor, script).parse_script();
-    // What could not be read may be what a doc comment belongs to.
+    // After an error, a doc comment may belong to what could not be parsed.
     if (diagnostics.error_count() == errors_before) cursor.report_lost_docs();
     return script;
 }
@@ -75,7 +75,7 @@ void parse_override(SourceId source, const Sources& sources, ast::Script& script
     ScriptParser(cursor, script).parse_override();
 }
 
-/// Something follows what should be all. An expression that could not be read has its message.
+/// Reports text after what should be the end, unless the expression has been reported.
 void ScriptParser::report_rest(const std::string& what, ast::Expression expression,
                                const std::string& hint) {
     cursor_.skip_newlines();
@@ -96,7 +96,8 @@ std::optional<ast::Expression> ScriptParser::parse_lone_expression() {
     return expression;
 }
 
-/// The word after a '.', if there is one; false, with a message, if it is missing.
+/// Parses the word after a '.', if there is one; reports an error and returns false if it is
+/// missing.
 bool ScriptParser::parse_word_after_dot(ast::Word& word, const std::string& form) {
     if (!cursor_.take_if(TokenKind::dot)) return true;
     if (!cursor_.at(TokenKind::name)) {
@@ -107,8 +108,8 @@ bool ScriptParser::parse_word_after_dot(ast::Word& word, const std::string& form
     return true;
 }
 
-/// name=value, stage.name=value, and the sides u.left=…, stage.u.left=…, each u also u[1]. Whether
-/// a.left is a side or the parameter of a stage is for the checker to say.
+/// name=value, stage.name=value, and the sides u.left=…, stage.u.left=…, where u may be u[1]. The
+/// checker decides whether a.left is a side or the parameter of a stage.
 void ScriptParser::parse_override() {
     const std::string form = "write name=value or stage.name=value";
     ast::Override change;

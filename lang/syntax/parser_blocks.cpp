@@ -44,7 +44,7 @@ void ScriptParser::parse_item() {
     }
 }
 
-/// `System s {`: read as the block that is meant, so that nothing else seems to be missing.
+/// `System s {`: parsed as the block that is meant, so that nothing else seems to be missing.
 bool ScriptParser::parse_misspelt_block() {
     if (!cursor_.at(TokenKind::name) || !has_shape_of_block(1)) return false;
     const std::string meant = report_no_block(cursor_.word(cursor_.peek()));
@@ -87,7 +87,7 @@ void ScriptParser::parse_header_of_system(ast::Block& block) {
     const Token colon = cursor_.take();
     if (cursor_.at(TokenKind::name)) {
         const ast::Word base = cursor_.word(cursor_.take());
-        if (!block.name.empty()) block.base = base;  // `system: NAME {` has had its message.
+        if (!block.name.empty()) block.base = base;  // `system: NAME {` has been reported.
     } else if (!cursor_.at(TokenKind::garbage)) {
         cursor_.error(colon.span, "the name of a system is missing after ':'",
                       "write 'system NAME: SYSTEM {'");
@@ -118,7 +118,7 @@ void ScriptParser::parse_header_of_stage(ast::Block& block) {
     }
 }
 
-/// `domain` and `picture` have neither.
+/// `domain` and `picture` have no name.
 void ScriptParser::parse_header_without_name() {
     const Token keyword = cursor_.previous();
     if (!cursor_.at(TokenKind::name) && !cursor_.at(TokenKind::colon)) return;
@@ -129,7 +129,7 @@ void ScriptParser::parse_header_without_name() {
                   fmt::format("write '{} {{'", cursor_.text(keyword)));
 }
 
-/// { statements }. Where one of the brackets is missing the block ends at the next block.
+/// { statements }. If a bracket is missing the block ends at the next block.
 void ScriptParser::parse_body(ast::Block& block) {
     const Token header_end = cursor_.previous();
     cursor_.skip_newlines();
@@ -142,7 +142,7 @@ void ScriptParser::parse_body(ast::Block& block) {
         block.is_damaged = true;
         cursor_.skip_statement();
     } else {
-        // A header that ends too early has its message.
+        // A header that ends too early has been reported.
         const bool is_told = block.is_damaged && !cursor_.at(TokenKind::name);
         block.is_damaged = true;
         if (!is_told) {
@@ -150,7 +150,7 @@ void ScriptParser::parse_body(ast::Block& block) {
                           fmt::format("'{{' is missing after {}", cursor_.describe(header_end)),
                           "a block is written { statements }");
         }
-        // What is left of the header's line is no statement.
+        // The rest of the header's line is not a statement.
         if (header_end.kind != TokenKind::name || !cursor_.at(TokenKind::name)) {
             cursor_.skip_statement();
         }
@@ -178,12 +178,12 @@ void ScriptParser::report_unclosed(const Token& open, const ast::Block& block) {
     diagnostic.hint = fmt::format("{}{} ends with '}}'", block.keyword.text, name);
     if (!cursor_.at_end()) {
         diagnostic.notes.push_back({cursor_.peek().span, "the next block begins here"});
-        ++forgiven_closings_;  // If the block was meant to hold the next one, its '}' comes yet.
+        ++forgiven_closings_;  // If the block was to hold the next one, its '}' follows later.
     }
     cursor_.error(std::move(diagnostic));
 }
 
-/// `system_name: SYSTEM`, and all statements up to the next one or a block.
+/// `system_name: SYSTEM` and all statements up to the next one or a block.
 void ScriptParser::parse_classic_stage() {
     ast::Block block;
     block.kind = ast::BlockKind::classic_stage;
@@ -222,7 +222,7 @@ void ScriptParser::parse_base_of_classic_stage(ast::Block& block) {
     cursor_.skip_statement();
 }
 
-/// A statement that belongs to no stage is read, for its own faults, and forgotten.
+/// Parses a statement outside of all stages for its own errors, and drops it.
 void ScriptParser::parse_outside_statement() {
     const bool is_name = cursor_.at(TokenKind::name);
     const std::size_t errors_before = cursor_.error_count();

@@ -1,4 +1,4 @@
-// What stands at the top of a script beside its blocks: functions, and the files it uses.
+// What a script has outside of blocks: functions, and the files that it uses.
 #include "lang/syntax/script_parser.h"
 
 #include <fmt/core.h>
@@ -27,7 +27,7 @@ bool ScriptParser::parse_function_or_use() {
     return true;
 }
 
-/// Inside a block neither has a place: told, and passed over.
+/// Reports and skips a function or `use` inside a block.
 bool ScriptParser::refuse_function_or_use() {
     if (!begins_function() && !begins_use()) return false;
     const Token word = cursor_.take();
@@ -67,7 +67,7 @@ void ScriptParser::parse_function() {
     script_.functions.push_back(std::move(function));
 }
 
-/// A function that could not be read, with its message: calls of it are no faults of their own.
+/// Adds a function with errors, so that calls of it are not reported.
 void ScriptParser::keep_damaged(ast::FunctionDefinition function) {
     const auto here = static_cast<ast::ExprId>(script_.expressions.size());
     script_.expressions.push_back({function.name.span, ast::Garbage{}});
@@ -77,7 +77,7 @@ void ScriptParser::keep_damaged(ast::FunctionDefinition function) {
     cursor_.skip_statement();
 }
 
-/// ( [ name { , name } ] ). False, with a message, if they cannot be read.
+/// ( [ name { , name } ] ). Reports an error and returns false if they cannot be parsed.
 bool ScriptParser::parse_parameters(ast::FunctionDefinition& function) {
     const auto refuse = [&](Span span, const std::string& message) {
         if (!cursor_.at(TokenKind::garbage)) cursor_.error(span, message, function_form);

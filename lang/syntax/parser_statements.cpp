@@ -1,4 +1,4 @@
-// Statements: a name, what is said of it, and the expressions that say it.
+// Statements: a name, a relation, and one or more expressions.
 #include "lang/syntax/script_parser.h"
 
 #include "core/near_name.h"
@@ -12,8 +12,8 @@
 
 namespace cascade {
 
-/// The statement at the cursor; the cursor goes to its end. Empty, with a message, if not even its
-/// name and form can be read; if only its value cannot, that is Garbage.
+/// Parses the statement at the cursor and moves to its end. Reports an error and returns nothing if
+/// its name or relation is wrong; a value that is wrong becomes Garbage.
 std::optional<ast::Statement> ScriptParser::parse_statement() {
     if (!cursor_.at(TokenKind::name)) {
         report_no_statement();
@@ -46,7 +46,7 @@ void ScriptParser::parse_side(ast::Statement& statement) {
     statement.side = cursor_.word(cursor_.take());
 }
 
-/// Statements about sides go to a place of their own.
+/// Statements about sides are kept in a list of their own.
 void ScriptParser::add_statement(ast::Block& block, ast::Statement statement) {
     (!statement.side.empty() ? block.sides : block.statements).push_back(std::move(statement));
 }
@@ -65,7 +65,7 @@ void ScriptParser::add_docs(std::string& doc, const std::string& more) {
     doc += more;
 }
 
-/// The `[i]` of `u[i]: e`, if there is one. False, with a message, if it cannot be read.
+/// The `[i]` of `u[i]: e`, if there is one. Reports an error and returns false if it is wrong.
 bool ScriptParser::parse_index(ast::Statement& statement) {
     const bool is_index =
         cursor_.at(TokenKind::open_square) && cursor_.peek().span.begin == statement.name.span.end;
@@ -86,7 +86,7 @@ bool ScriptParser::parse_index(ast::Statement& statement) {
     return false;
 }
 
-/// What begins here is no statement; always false.
+/// Reports that no statement begins here; returns false.
 bool ScriptParser::report_no_statement() {
     const Token token = cursor_.peek();
     const std::string word = cursor_.describe(token);
@@ -113,8 +113,8 @@ bool ScriptParser::report_no_statement() {
     return false;
 }
 
-/// Reads what stands between the name and the value. Forms of other languages are read as what they
-/// mean, with a message. False if there is no value to read.
+/// Parses what is between the name and the value. Relations of other languages are reported and
+/// taken for what they mean. False if there is no value to parse.
 bool ScriptParser::parse_relation(ast::Statement& statement) {
     using Kind = ast::StatementKind;
     const Token token = cursor_.peek();
@@ -153,7 +153,7 @@ bool ScriptParser::parse_relation(ast::Statement& statement) {
     return true;
 }
 
-/// `large.ka: 1`, or a side with a slip.
+/// Reports `large.ka: 1`, or a misspelt side.
 void ScriptParser::report_dot(const ast::Statement& statement) {
     std::string near;
     if (cursor_.kind(1) == TokenKind::name) {
@@ -179,13 +179,13 @@ bool ScriptParser::parse_rate_relation(ast::Statement& statement) {
                       "a rate is written with '=' or '+='",
                       fmt::format("write {}' = …", shortened(statement.name.text)));
     }
-    // A colon in its place is the likely slip: what follows is the rate.
+    // A colon is a likely slip: what follows is the rate.
     if (cursor_.take_if(TokenKind::colon) || cursor_.take_if(TokenKind::equal)) return true;
     cursor_.skip_statement();
     return false;
 }
 
-/// `u'' = e`: what is said of it stays unread, for no first rate means the same.
+/// `u'' = e`: reports it and skips the value, since no first derivative means the same.
 bool ScriptParser::report_second_rate(const ast::Statement& statement) {
     while (cursor_.at(TokenKind::prime)) cursor_.take();
     const std::string name = shortened(statement.name.text);
@@ -196,7 +196,7 @@ bool ScriptParser::report_second_rate(const ast::Statement& statement) {
     return false;
 }
 
-/// `du/dt = e`, read on as the rate of u.
+/// `du/dt = e`: reports it and continues as the rate of u.
 bool ScriptParser::take_paper_rate(ast::Statement& statement) {
     const std::string_view name = statement.name.text;
     const bool is_rate = name.size() > 1 && name[0] == 'd' && cursor_.at(TokenKind::slash) &&
@@ -212,8 +212,8 @@ bool ScriptParser::take_paper_rate(ast::Statement& statement) {
     return true;
 }
 
-/// A name is followed by something that makes no statement: mostly the colon is missing, or the
-/// name should begin a block. True if the value can be read on.
+/// Reports a name without a relation: usually a missing colon, or a misspelt keyword of a block.
+/// True if parsing can continue with the value.
 bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
     const ast::Word& name = statement.name;
     const std::string quoted = cursor_.describe({TokenKind::name, name.span});
@@ -226,7 +226,7 @@ bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
                   "a statement is 'name: expression'");
     if (cursor_.at(TokenKind::open_square) && cursor_.kind(2) == TokenKind::close_square &&
         cursor_.kind(3) != TokenKind::newline) {
-        cursor_.skip_statement();  // `u [i]: e`: what follows the name is no value.
+        cursor_.skip_statement();  // `u [i]: e`: what follows the name is not a value.
         return false;
     }
     switch (cursor_.kind()) {
@@ -240,8 +240,8 @@ bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
     }
 }
 
-/// Does what stands `ahead` of here go on like a block behind its keyword? ` {`, ` large {`,
-/// ` large: leopard {`.
+/// True if the tokens from `ahead` on have the shape of a block after its keyword: ` {`, ` large
+/// {`, ` large: leopard {`.
 bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
     const bool is_derived = cursor_.kind(ahead) == TokenKind::name &&
                             cursor_.kind(ahead + 1) == TokenKind::colon &&
@@ -252,7 +252,7 @@ bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
     return cursor_.kind(ahead) == TokenKind::open_curly;
 }
 
-/// Says that a word begins no block; returns the keyword that is meant, if it can be told.
+/// Reports that a word does not begin a block; returns the keyword that was probably meant, or "".
 std::string ScriptParser::report_no_block(const ast::Word& word) {
     const std::array<std::string, 4> keywords = {"system", "stage", "domain", "picture"};
     std::string near = nearest_name(word.text, keywords);
@@ -262,7 +262,7 @@ std::string ScriptParser::report_no_block(const ast::Word& word) {
     return near;
 }
 
-/// One expression, or several with commas between them.
+/// One expression, or several separated by commas.
 void ScriptParser::parse_values(ast::Statement& statement) {
     const bool colon_is_missing =
         !wants_operand(cursor_.previous().kind) && cursor_.previous().kind != TokenKind::colon;
@@ -302,8 +302,7 @@ void ScriptParser::parse_values(ast::Statement& statement) {
     cursor_.mute(false);
 }
 
-/// An expression that may begin on the next line where an operator is the last word of this one.
-/// The ':' is none.
+/// An expression that may begin on the next line if this line ends in an operator other than ':'.
 ast::Expression ScriptParser::parse_after_operator(const std::string& owner,
                                                    std::string_view end_word) {
     const bool goes_on = wants_operand(cursor_.previous().kind) && cursor_.at(TokenKind::newline) &&

@@ -11,18 +11,18 @@
 
 namespace cascade {
 
-/// Reads one source into a script.
+/// Parses one source into a script.
 class ScriptParser {
 public:
     ScriptParser(TokenCursor& cursor, ast::Script& script)
         : cursor_(cursor), script_(script), expressions_(cursor, script) {}
 
-    /// Everything up to the end of the text.
+    /// Parses everything up to the end of the text.
     void parse_script();
-    /// `[stage.]name=expression`, the whole text.
+    /// Parses `[stage.]name=expression`, which must be the whole text.
     void parse_override();
     bool parse_word_after_dot(ast::Word& word, const std::string& form);
-    /// The expression that is the whole text.
+    /// Parses an expression, which must be the whole text.
     std::optional<ast::Expression> parse_lone_expression();
 
 private:
@@ -71,9 +71,10 @@ private:
     void parse_range(ast::Statement& statement);
     ast::Expression parse_after_operator(const std::string& owner, std::string_view end_word);
 
-    /// The doc comments before the cursor's token that belong to what begins there.
+    /// The doc comments that belong to what begins at the cursor.
     std::string docs_before();
-    /// Those of what began at `begin` and has just been read, and after it on its line.
+    /// The doc comments that belong to what began at `begin` and was just parsed, also after it on
+    /// its line.
     std::string docs_after(std::uint32_t begin);
     static void add_docs(std::string& doc, const std::string& more);
 
@@ -82,9 +83,9 @@ private:
     TokenCursor& cursor_;
     ast::Script& script_;
     ExpressionParser expressions_;
-    bool in_classic_stage_ = false;  ///< Statements belong to the last block of the script.
-    bool outside_reported_ = false;  ///< One message serves a run of statements outside of stages.
-    std::size_t forgiven_closings_ = 0;  ///< `}` that are left over by a block told to be unclosed.
+    bool in_classic_stage_ = false;      ///< Statements belong to the last block of the script.
+    bool outside_reported_ = false;      ///< Once for a run of statements outside of stages.
+    std::size_t forgiven_closings_ = 0;  ///< `}` of blocks that were reported as unclosed.
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Tokens and the lexer: text to words.
+// Tokens and the lexer: text to tokens.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// CASCADE_TOKEN(name, spelling): the spelling is what messages and `--dump tokens` call it.
+/// CASCADE_TOKEN(name, spelling): messages and `--dump tokens` use the spelling.
 #define CASCADE_TOKENS(CASCADE_TOKEN)               \
     CASCADE_TOKEN(end_of_text, "end of text")       \
     CASCADE_TOKEN(newline, "line end")              \
@@ -62,20 +62,20 @@ struct Token {
     Span span;
 };
 
-/// A script of more tokens is refused with one message: no page of text has so many, and what the
-/// later stages need in memory is bounded by it.
+/// The most tokens of a script, which bounds the memory of later passes; a longer one is refused
+/// with one message.
 inline constexpr std::size_t most_tokens = 1u << 22;
 
-/// Splits a source into tokens; the last is end_of_text. Every line end is a token (several in a
-/// row are one); comments and blanks are none. Bad input (a stray character, invalid UTF-8, NUL, an
-/// unclosed text, a look-alike such as ’ − × ·) is reported once per run of characters and yields
-/// `garbage`, or for a look-alike the token that was meant, so that one mistake is one message.
-/// Doc comments (`## text`; `###` begins an ordinary one) are no tokens either: where `docs` is
-/// given their places are added to it, in order.
+/// Splits a source into tokens; the last one is end_of_text. A line break is a token (several in a
+/// row are one); comments and blanks are not. Bad input (a stray character, invalid UTF-8, NUL, an
+/// unclosed string, a look-alike such as ’ − × ·) is reported once per run of characters and yields
+/// `garbage`, or for a look-alike the token that was meant, so that one mistake gives one message.
+/// The places of doc comments (`## text`; `###` begins an ordinary one) are added to `docs` if it
+/// is given.
 std::vector<Token> lex(SourceId source, const Sources& sources, Diagnostics& diagnostics,
                        std::vector<Span>* docs = nullptr);
 
-/// The tokens, one a line: `3:5 name "ka"`.
+/// The tokens as text, one a line: `3:5 name "ka"`.
 std::string print_tokens(const std::vector<Token>& tokens, const Sources& sources);
 
 }  // namespace cascade

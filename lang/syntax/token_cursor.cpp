@@ -1,4 +1,4 @@
-// Walking over tokens, and finding the end of a statement that could not be read.
+// Moves over tokens, and finds the end of a statement with errors.
 #include "lang/syntax/token_cursor.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ const Token& TokenCursor::peek(std::size_t ahead) const {
 
 const Token& TokenCursor::previous() const {
     std::size_t before = position_ == 0 ? 0 : position_ - 1;
-    if (before > 0 && tokens_[before].kind == TokenKind::newline) --before;  // One at most.
+    if (before > 0 && tokens_[before].kind == TokenKind::newline) --before;  // At most one.
     return tokens_[before];
 }
 
@@ -111,7 +111,7 @@ bool TokenCursor::begins_block(std::size_t ahead) const {
     const TokenKind next = kind(ahead + 1);
     if (word == "system" || word == "stage") {
         if (next == TokenKind::name || next == TokenKind::open_curly) return true;
-        // `stage: leopard {` lacks the stage's name, but is a block all the same.
+        // `stage: leopard {` lacks the stage's name, but is a block.
         return next == TokenKind::colon && kind(ahead + 2) == TokenKind::name &&
                kind(ahead + 3) == TokenKind::open_curly;
     }

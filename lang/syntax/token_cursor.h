@@ -1,4 +1,4 @@
-// A place in a list of tokens: what the parser of statements and the parser of expressions share.
+// A position in a list of tokens, shared by the parsers of statements and of expressions.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// Walks over the tokens of one source. Never leaves the list: after the end is end_of_text.
+/// Moves over the tokens of one source; never beyond end_of_text.
 class TokenCursor {
 public:
     TokenCursor(SourceId source, const Sources& sources, Diagnostics& diagnostics);
@@ -20,17 +20,17 @@ public:
     TokenKind kind(std::size_t ahead = 0) const { return peek(ahead).kind; }
     bool at(TokenKind kind) const { return peek().kind == kind; }
     bool at_end() const { return at(TokenKind::end_of_text); }
-    /// The token taken last that is no line end; the first one before any was taken.
+    /// The last token taken that is not a line break; the first token before any was taken.
     const Token& previous() const;
-    /// Where the token taken last ends, a line end included; 0 where there was none but line ends.
+    /// The end of the last token taken, line breaks included; 0 if only line breaks were taken.
     std::uint32_t taken_up_to() const;
     Token take();
     bool take_if(TokenKind kind);
-    /// Back to the token taken last.
+    /// Moves back to the token taken last.
     void step_back();
     void skip_newlines() { take_if(TokenKind::newline); }
-    /// The same inside brackets: not where the next line begins a statement, since the bracket's
-    /// end is missing then.
+    /// The same inside brackets, unless the next line begins a statement: then the closing bracket
+    /// is missing.
     void skip_newlines_in_brackets() {
         if (at(TokenKind::newline) && !begins_statement(1)) take();
     }
@@ -40,37 +40,36 @@ public:
     std::string_view text(const Token& token) const { return sources_.text(token.span); }
     std::string_view text(Span span) const { return sources_.text(span); }
     ast::Word word(const Token& token) const { return {token.span, text(token)}; }
-    /// The token as messages call it: `'beta'`, `the end of the line`. Long ones are cut.
+    /// The token in messages: `'beta'`, `the end of the line`. Long ones are cut.
     std::string describe(const Token& token) const;
 
     /// The text of the doc comments that begin in [begin, end) of the source, joined by blanks,
-    /// without those that were taken before.
+    /// without those taken before.
     std::string take_docs(std::uint32_t begin, std::uint32_t end);
-    /// Warns of doc comments that nothing has taken.
+    /// Warns of doc comments that were not taken.
     void report_lost_docs();
 
-    /// Line end, `;`, `}` or the end of the text.
+    /// Line break, `;`, `}` or the end of the text.
     bool at_statement_end() const;
-    /// Does a block begin here? `system`, `stage`, `domain` and `picture` are names elsewhere.
+    /// True if a block begins here. `system`, `stage`, `domain` and `picture` are names elsewhere.
     bool begins_block(std::size_t ahead = 0) const;
-    /// Is here what begins a statement or a block and has no place in a correct expression?
+    /// True if a statement or a block begins here, in a way that no correct expression contains.
     bool begins_statement(std::size_t ahead = 0) const;
-    /// Is the token here the name with this text?
+    /// True if the token here is a name with this text.
     bool at_name(std::string_view name, std::size_t ahead = 0) const;
 
-    /// Does a text that is never closed lie between `from` and here, with `swallowed` in it? What
-    /// it took with it is not missing.
+    /// True if an unclosed string lies between `from` and here and contains `swallowed`, which is
+    /// then not to be reported as missing.
     bool lost_in_text(const Token& from, std::string_view swallowed) const;
 
-    /// Goes to the end of the statement, over `open_brackets` brackets that are open and over whole
-    /// { } with everything in them.
+    /// Moves to the end of the statement, out of `open_brackets` open brackets and past whole { }.
     void skip_statement(std::size_t open_brackets = 0);
 
     void error(Span span, std::string message, std::string hint = "");
     void error(Diagnostic diagnostic);
-    /// Of all that was read so far.
+    /// Of the whole check so far.
     std::size_t error_count() const { return diagnostics_.error_count(); }
-    /// While true, errors are swallowed: the mistake has been told.
+    /// While true, errors are dropped, since the mistake has been reported.
     void mute(bool muted) { muted_ = muted; }
 
 private:
@@ -85,10 +84,11 @@ private:
     bool muted_ = false;
 };
 
-/// A name as messages show it: cut where it is long.
+/// A name for messages, cut if it is long.
 std::string shortened(std::string_view name);
 
-/// Does an operand have to follow this token, so that a line end after it ends nothing?
+/// True if an operand must follow this token, so that a line break after it does not end the
+/// statement.
 bool wants_operand(TokenKind kind);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// The kinds of domains, and sets of them: where a function or a setting has a meaning.
+// The kinds of domains, and sets of them: where a function or a setting is defined.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@ namespace cascade {
 
 enum class Domains : std::uint8_t {
     plane = 1,
-    surface = 2,             ///< A grid on a surface that a formula gives.
+    surface = 2,             ///< A grid on a surface given by a formula.
     grid = plane | surface,  ///< Cells have rows and columns.
     model = 4,
     straight = plane | model,  ///< Axes are straight.

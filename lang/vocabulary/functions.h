@@ -1,4 +1,4 @@
-// The functions, operators and built-in names of the language, and what each is.
+// The functions, operators and built-in names of the language, and their properties.
 #pragma once
 
 #include "lang/vocabulary/domains.h"
@@ -22,7 +22,7 @@ inline constexpr std::size_t function_count = 0
 #include "lang/vocabulary/functions.def"
     ;
 
-// The columns of functions.def, which says what each word means.
+// The columns of functions.def, which explains each word.
 // clang-format off
 enum class FunctionKind : std::uint8_t {
     logic, comparison, arithmetic, elementary, choice,
@@ -32,11 +32,11 @@ enum class FunctionKind : std::uint8_t {
 enum class Behaviour : std::uint8_t { plain, jumps, chooses, partial, divides, raises };
 enum class Contexts : std::uint8_t { any, cells, rates, values, noisy, picture };
 
-/// How many values a function takes: one number, one of two, or groups of values.
+/// The number of arguments of a function: a number, one of two, or groups of values.
 struct Arity {
     int least;
     int most;
-    bool is_groups = false;  ///< `least` values, once or more often; most − least may follow.
+    bool is_groups = false;  ///< Groups of `least` values; most − least values may follow them.
 
     constexpr Arity(int count) : least(count), most(count) {}
     constexpr Arity(int fewer, int more) : least(fewer), most(more) {}
@@ -54,13 +54,13 @@ constexpr Arity groups_of(int size, int after = 0) {
     return arity;
 }
 
-/// The most values that a function takes.
+/// The most operands that a function takes.
 inline constexpr std::size_t most_operands = 6;
 
 struct FunctionInfo {
     std::string_view spelling;
     Arity arity;
-    int precedence;  ///< Of operators; of functions that of a name.
+    int precedence;  ///< Of an operator; other functions have that of a name.
     FunctionKind kind;
     Contexts places;
     Domains domains;
@@ -75,46 +75,46 @@ struct FunctionInfo {
 };
 const FunctionInfo& info(Function function);
 
-/// The function of a name that is called; nothing for operators and unknown names.
+/// The function that is called by a name; nothing for operators and unknown names.
 std::optional<Function> function_named(std::string_view name);
 
-/// Does it make a number of numbers alone? Those are the rows of elementary.def.
+/// True if it makes a number of numbers only; those are the rows of elementary.def.
 inline bool is_elementary(Function function) { return info(function).kind <= FunctionKind::choice; }
 inline bool is_comparison(Function function) {
     return info(function).kind == FunctionKind::comparison;
 }
-/// Does it draw random numbers?
+/// True if it draws random numbers.
 inline bool is_random(Function function) {
     const FunctionKind kind = info(function).kind;
     return kind == FunctionKind::draw || kind == FunctionKind::pattern;
 }
-/// Does it read its last operand at neighbours? (`div` reads at faces instead.)
+/// True if it reads its last operand at neighbours (`div` reads at faces instead).
 inline bool is_stencil(Function function) {
     const FunctionKind kind = info(function).kind;
     return kind == FunctionKind::derivative || kind == FunctionKind::stencil;
 }
-/// Is it an operator of derivatives, or a vector that one takes? Such a function differs from cell
-/// to cell only where an operand does.
+/// True for operators of derivatives and the vectors that they take, whose values vary by cell only
+/// if an operand does.
 inline bool differentiates(Function function) {
     return is_stencil(function) || info(function).kind == FunctionKind::flux;
 }
-/// Does the value differ from cell to cell, for some operands or for all?
+/// True if the value varies by cell, for some operands or for all.
 inline bool varies_by_cell(Function function) {
     const FunctionKind kind = info(function).kind;
     return kind >= FunctionKind::derivative && kind <= FunctionKind::landmarks;
 }
-/// Does it read what a text names (a file, an attribute of a model), which lies in a plane of its
-/// own?
+/// True if it reads what a string names (a file, an attribute of a model), which is stored in a
+/// plane of its own.
 inline bool reads_file(Function function) { return info(function).kind == FunctionKind::text; }
-/// Is it about places on the surface of a model, which a plane does not have?
+/// True if it is about positions on the surface of a model, which a plane does not have.
 inline bool needs_model(Function function) { return info(function).domains == Domains::model; }
-/// Does the value jump as operand `n` passes some number?
+/// True if the value jumps where operand `n` passes some number.
 inline bool jumps_by(Function function, std::size_t n) {
     const Behaviour behaviour = info(function).behaviour;
     return behaviour == Behaviour::jumps || (behaviour == Behaviour::chooses && n == 0);
 }
 
-/// A derivative along the axes `first` and, of second order, `second`: 0 is x, 1 y, 2 z.
+/// A derivative along the axes `first` and, if of second order, `second`: 0 is x, 1 y, 2 z.
 struct Derivative {
     int order = 0;
     int first = 0;
@@ -122,7 +122,7 @@ struct Derivative {
 
     constexpr bool is_mixed() const { return order == 2 && first != second; }
 };
-/// Which derivative dx, dxx or dxy is; of order 0 for all that is none.
+/// Which derivative dx, dxx or dxy is; of order 0 for any other function.
 Derivative derivative_of(Function function);
 
 /// Values that every expression may read. `pi` is folded into a number.
@@ -133,14 +133,14 @@ enum class Builtin : std::uint8_t {
 };
 // clang-format on
 inline constexpr std::size_t builtin_count = 16;
-/// How they are written, by Builtin.
+/// Their spellings, by Builtin.
 // clang-format off
 inline constexpr std::array<std::string_view, builtin_count> builtin_names{
     "x", "y", "z", "sx", "sy", "sz", "t", "step", "nx", "ny", "nz",
     "curvature", "curvature_mean", "curvature_gauss", "curvature_high", "curvature_low"};
 // clang-format on
 std::optional<Builtin> builtin_named(std::string_view name);
-/// Does only a model tell one cell from another by it? On a plane it is a number.
+/// True for values that vary by cell on models only; on a plane they are constant.
 constexpr bool is_of_model(Builtin builtin) { return builtin >= Builtin::nx; }
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// The settings of the language, and what each takes.
+// The settings of the language, and the values they take.
 #pragma once
 
 #include "lang/vocabulary/domains.h"
@@ -24,7 +24,7 @@ inline constexpr std::size_t setting_count = 0
 #include "lang/vocabulary/settings.def"
     ;
 
-// The columns of settings.def, which says what each word means.
+// The columns of settings.def, which explains each word.
 enum class SettingBlock : std::uint8_t { stage, domain, side, picture, system };
 enum class SettingValue : std::uint8_t {
     count,
@@ -48,17 +48,16 @@ struct SettingInfo {
 const SettingInfo& info(Setting setting);
 
 std::optional<Setting> setting_named(std::string_view word);
-/// Is the word a setting of the block?
+/// True if the word is a setting of the block.
 bool is_setting_of(SettingBlock block, std::string_view word);
-/// The settings of some blocks, in their order in the table.
+/// The settings of some blocks, in the order of the table.
 std::vector<std::string> settings_of(std::initializer_list<SettingBlock> blocks);
-/// The words that mean something as the value of a setting.
+/// The words that are values of a setting.
 std::vector<std::string> words_taken_by(Setting setting);
-/// Where a word belongs that is a setting of another block than the one it was found in; "" for
-/// words that are no settings.
+/// Where a setting of another block belongs; "" for words that are not settings.
 std::string_view home_of(std::string_view word);
 
-/// The words that begin statements and blocks, and those between the parts of an expression.
+/// Words that begin statements and blocks or separate the parts of an expression.
 inline constexpr std::string_view keywords[] = {"system",      "stage", "domain", "picture",
                                                 "system_name", "fn",    "use",    "and",
                                                 "or",          "not",   "over",   "in",

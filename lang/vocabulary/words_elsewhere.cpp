@@ -1,4 +1,4 @@
-// The table, and the search in it, which is blind to case.
+// The table, and the search in it, which ignores case.
 #include "lang/vocabulary/words_elsewhere.h"
 
 #include <algorithm>
@@ -109,7 +109,7 @@ bool is_same(std::string_view a, std::string_view b) {
     });
 }
 
-/// Is the word one of a row's?
+/// True if `words` contains `word`.
 bool has_word(std::string_view words, std::string_view word) {
     while (!words.empty()) {
         const std::size_t end = std::min(words.find(' '), words.size());

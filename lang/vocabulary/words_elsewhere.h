@@ -1,7 +1,7 @@
-// What papers, other programs and other languages call a thing, and what it is called here.
+// Terms of papers, other programs and other languages, and what they are called here.
 //
-// One table answers every word that somebody who comes from elsewhere is likely to try. It is asked
-// only about words that have no meaning in a script, so a row takes no name from anybody.
+// One table holds the words that a newcomer is likely to try. It is consulted only for words that
+// have no meaning in a script, so it reserves no names.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// Where a word stands that has no meaning there.
+/// Where an unknown word stands.
 enum class WordContext : std::uint8_t {
     stage,     ///< `dt: 0.1` in a stage, or of an option such as --set
     domain,    ///< `size: 100` in the domain
@@ -21,9 +21,9 @@ enum class WordContext : std::uint8_t {
     value,     ///< `time` in an expression
 };
 
-/// A row: `words`, with blanks between them, and what to write in their place. The text in quotes
-/// after `write` is that word's replacement and passes the checker as it stands
-/// (tests/unit/lang/hints_test.cpp); the word of `did you mean` replaces the name alone.
+/// A row: `words`, separated by blanks, and what to write instead. The text in quotes after `write`
+/// replaces the word and passes the checker as it stands (tests/unit/lang/hints_test.cpp); the word
+/// after `did you mean` replaces the name alone.
 struct WordElsewhere {
     WordContext context;
     std::string_view words;
@@ -32,7 +32,7 @@ struct WordElsewhere {
 
 std::span<const WordElsewhere> words_elsewhere();
 
-/// The advice about a word, in small letters or capitals; empty where there is none.
+/// The advice about a word, regardless of case; empty if there is none.
 std::string_view advice_about(std::string_view word, WordContext context);
 
 }  // namespace cascade
