@@ -1,5 +1,5 @@
-// Expressions are written from left to right with a stack of what is still to come, so that neither
-// their depth nor their length matters.
+// Writes an expression from left to right with a stack of what is still to come, so that neither
+// its depth nor its length matters.
 #include "lang/equations/equation_formula.h"
 
 #include "lang/vocabulary/functions.h"
@@ -17,14 +17,14 @@ namespace {
 
 constexpr int a_negation = 3, a_comparison = 4, a_sign = 7, a_power = 8, an_atom = 9;
 
-/// An operand to be written, in brackets if it is looser than `least`.
+/// An operand to write, in brackets if it binds more loosely than `least`.
 struct Operand {
     ast::ExprId id = 0;
     int least = 0;
 };
 using Piece = std::variant<Operand, std::string>;
 
-/// What stands around the only operand of a call. In TeX brackets grow with what is in them.
+/// What surrounds the only operand of a call. In TeX brackets grow with their contents.
 struct Around {
     std::string_view function, unicode_open, unicode_close, tex_open, tex_close;
 };
@@ -60,7 +60,7 @@ constexpr Infix infixes[] = {
     {Function::subtract, " − ", " - "},
 };
 
-/// Operators before what they act on.
+/// Operators before their operand.
 struct Prefix {
     std::string_view function, unicode, tex;
 };
@@ -113,7 +113,7 @@ private:
             stack_.push_back(std::move(*piece));
         }
     }
-    /// Pushes an operator's pieces, in brackets if `own` is looser than the place allows.
+    /// Pushes an operator's pieces, in brackets if `own` binds more loosely than `least`.
     void push_operator(std::vector<Piece> pieces, int own, int least) {
         if (own < least) {
             pieces.insert(pieces.begin(), both("(", "\\left("));
@@ -183,7 +183,7 @@ private:
             return push_operator({both("not ", "\\lnot "), Operand{node.operand, a_comparison}},
                                  a_negation, least);
         }
-        // A second sign would melt with the first.
+        // A second sign would merge with the first.
         push_operator({both("−", "-"), Operand{node.operand, a_power}}, a_sign, least);
     }
 
@@ -205,13 +205,13 @@ private:
         return as<ast::Unary>(right) != nullptr ? a_power : least;
     }
 
-    /// A sum over an index would swallow the factors after it.
+    /// A sum over an index would take in the factors after it.
     int factor(ast::ExprId id, int least) const {
         const auto* const over = as<ast::Over>(id);
         return over && (over->function.text == "sum" || over->function.text == "product") ? a_sign
                                                                                           : least;
     }
-    /// Side by side, with a point where two numbers would meet.
+    /// Juxtaposes the factors, with a dot between two numbers.
     void write_product(const ast::Binary& node, int least) {
         const auto* const left = as<ast::Binary>(node.left);
         const auto* const right = as<ast::Binary>(node.right);
@@ -219,7 +219,7 @@ private:
         const bool right_is_product = right && right->op == Function::multiply;
         const ast::ExprId first = right_is_power || right_is_product ? right->left : node.right;
         const bool meets_number = as<ast::Number>(first) != nullptr;
-        // On one line `a / b c` would read as a / (b c).
+        // On one line `a / b c` would be read as a / (b c).
         const bool left_is_quotient = !tex_ && left && left->op == Function::divide;
         push_operator({Operand{node.left, left_is_quotient ? a_sign : factor(node.left, a_product)},
                        meets_number ? both(" · ", " \\cdot ") : both(" ", " \\, "),
@@ -229,7 +229,7 @@ private:
     }
     void write_quotient(const ast::Binary& node, int least) {
         if (tex_) {
-            // Above and below the line everything is on its own.
+            // A fraction line needs no brackets.
             return push_operator({"\\frac{", Operand{node.left, anything}, "}{",
                                   Operand{node.right, anything}, "}"},
                                  a_power, least);
@@ -251,7 +251,7 @@ private:
         push_operator({Operand{base, an_atom}, "^", Operand{exponent, an_atom}}, a_power, least);
     }
 
-    /// TeX draws roots over what they are of.
+    /// TeX draws the root over its operand.
     void write_root(const std::string& sign, const std::string& tex, ast::ExprId operand,
                     int least) {
         if (tex_) return push({tex + "{", Operand{operand, anything}, "}"});

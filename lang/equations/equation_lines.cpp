@@ -1,5 +1,5 @@
-// Sums are broken at their top-level terms, and lines are filled up to an estimate of their width;
-// of a fraction with a long numerator the numerator is broken.
+// Breaks sums at their top-level terms and fills lines up to an estimated width; of a fraction with
+// a long numerator the numerator is broken.
 #include "lang/equations/equation_lines.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ std::string_view command_at(std::string_view formula, std::size_t at) {
     return formula.substr(at, std::max(end, at + 2) - at);
 }
 
-/// How much deeper in brackets, groups or environments a formula is after a command.
+/// The change of nesting depth by a command: brackets, groups or environments.
 int deeper_after(std::string_view command) {
     if (command == "\\left" || command == "\\begin" || command == "\\lfloor" ||
         command == "\\lceil") {
@@ -31,7 +31,7 @@ int deeper_after(std::string_view command) {
     return closes ? -1 : 0;
 }
 
-/// The terms of a sum, all but the first with their sign in front.
+/// The terms of a sum, each but the first with its sign.
 std::vector<std::string_view> terms_of(std::string_view formula) {
     std::vector<std::string_view> terms;
     std::size_t begin = 0;
@@ -56,7 +56,7 @@ std::vector<std::string_view> terms_of(std::string_view formula) {
     return terms;
 }
 
-/// Where the group ends whose `{` is at a place.
+/// The end of the group whose `{` is at `at`.
 std::size_t end_of_group(std::string_view formula, std::size_t at) {
     int depth = 0;
     for (; at < formula.size(); ++at) {
@@ -75,7 +75,7 @@ struct Fraction {
     std::string_view above, below;
 };
 
-/// A formula that is one fraction and nothing else.
+/// A formula that consists of one fraction.
 std::optional<Fraction> whole_fraction(std::string_view formula) {
     constexpr std::string_view command = "\\frac";
     if (!formula.starts_with("\\frac{")) return std::nullopt;

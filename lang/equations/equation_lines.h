@@ -1,4 +1,4 @@
-// Long equations in TeX, over several lines of an align environment.
+// Breaks long equations in TeX into several lines of an align environment.
 #pragma once
 
 #include <string>
@@ -7,16 +7,16 @@
 
 namespace cascade {
 
-/// How many signs of a formula fit on a line of a page.
+/// The number of signs of a formula that fit on a line of a page.
 inline constexpr int signs_of_a_line = 60;
 
-/// How wide a formula of TeX is, about: its letters, digits and signs. Both parts of a fraction
-/// count.
+/// The approximate width of a TeX formula: the number of its letters, digits and signs. Both parts
+/// of a fraction count.
 int width_in_signs(std::string_view formula);
 
-/// A sum in pieces that fit on a line each as far as its terms do. Pieces begin with their sign but
-/// for the first. Sums in brackets, in fractions and in roots stay whole, but for a long fraction
-/// that is the whole formula: it becomes a sum in brackets after 1 / its denominator.
+/// A sum in pieces that fit on a line each, as far as its terms do. All pieces but the first begin
+/// with their sign. Sums in brackets, fractions and roots stay whole, unless a long fraction is the
+/// whole formula: it becomes 1 / denominator times a sum in brackets.
 std::vector<std::string> broken_sum(std::string_view formula);
 
 }  // namespace cascade

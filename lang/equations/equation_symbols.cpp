@@ -1,4 +1,4 @@
-// Splits a name into stem, digits and subscript; names of Greek letters become the letters.
+// Splits a name into stem, digits and subscript; names of Greek letters become those letters.
 #include "lang/equations/equation_symbols.h"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ struct Letter {
     std::string_view unicode;
 };
 
-/// Names that stand for a letter; TeX knows them by the same names, except those it writes as a
-/// Latin letter, which are left out. `epsilon` and `phi` are the forms that papers print.
+/// Names of letters. TeX has commands of the same names for them; Greek letters that it writes as
+/// Latin ones are left out. `epsilon` and `phi` are the forms common in papers.
 constexpr Letter greek[] = {
     {"alpha", "α"},  {"beta", "β"},  {"gamma", "γ"}, {"delta", "δ"}, {"epsilon", "ε"},
     {"zeta", "ζ"},   {"eta", "η"},   {"theta", "θ"}, {"iota", "ι"},  {"kappa", "κ"},
@@ -59,10 +59,10 @@ std::optional<std::string> replaced(const Letter (&letters)[count], std::string_
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A name is a stem, digits after it, and what stands after the first `_`.
+/// A name is a stem, the digits after it, and a subscript after the first `_`.
 struct Parts {
     std::string_view stem, below;
-    bool has_bar = false;  ///< `_` parts them.
+    bool has_bar = false;  ///< True if there is a `_`.
 };
 
 Parts parts_of(std::string_view name) {
@@ -76,7 +76,7 @@ Parts parts_of(std::string_view name) {
     return {name.substr(0, digits), name.substr(digits), false};
 }
 
-/// A word of letters and digits in TeX's mathematics.
+/// A word of letters and digits in TeX's math mode.
 std::string tex_word(std::string_view word) {
     if (find(greek, word) != nullptr) {
         const std::string variant = word == "epsilon" || word == "phi" ? "var" : "";
@@ -89,7 +89,7 @@ std::string tex_word(std::string_view word) {
     return text + "}";
 }
 
-/// Below the line: words that `_` parts, with commas between them.
+/// A subscript: the words between `_`, separated by commas.
 std::string tex_below(std::string_view words) {
     std::string text;
     while (true) {

@@ -1,4 +1,4 @@
-// Names and numbers as mathematics writes them (internal to the printing of equations).
+// Names and numbers in mathematical notation (internal to the printing of equations).
 #pragma once
 
 #include "lang/equations/equations.h"
@@ -9,29 +9,29 @@
 
 namespace cascade {
 
-/// How the names of one system are written.
+/// How to write the names of one system.
 struct Symbols {
     Notation notation = Notation::unicode;
-    /// Unicode has few letters to write below: names get them only where all names of a system can.
+    /// Unicode has few subscript letters: names get subscripts only if all names of the system can.
     bool subscripts = true;
 
     /// diff_u: diffᵤ, \mathrm{diff}_{u}; beta: β, \beta; p1: p₁, p_{1}.
     std::string name(std::string_view name) const;
     /// u[i+1], where `index` is the index as written: uᵢ₊₁. In TeX `index` is one word: u_{i}.
     std::string member(std::string_view family, std::string_view index) const;
-    /// The name in TeX, such that an index can be written below it.
+    /// The name in TeX, in a form that can take an index as subscript.
     std::string family_in_tex(std::string_view family) const;
-    /// 1e-3: 10⁻³, 10^{-3}; others as written.
+    /// 1e-3: 10⁻³, 10^{-3}; other numbers as written.
     std::string number(std::string_view digits) const;
 };
 
-/// Any text in TeX's text mode.
+/// Escapes a text for TeX's text mode.
 std::string tex_text(std::string_view text);
 
-/// Can the part of a name after its first `_` be written below?
+/// True if Unicode can write the part of a name after its first `_` as a subscript.
 bool has_subscript(std::string_view name);
 
-/// Written above or below in Unicode; nothing where a character has no such form.
+/// In Unicode's superscripts or subscripts; nothing if a character has no such form.
 std::optional<std::string> superscript(std::string_view text);
 std::optional<std::string> subscript(std::string_view text);
 

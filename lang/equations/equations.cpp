@@ -19,7 +19,7 @@ namespace cascade {
 
 namespace {
 
-/// One line: what is said of what.
+/// One line of the result, such as ∂u/∂t = f.
 struct Line {
     std::string left, relation, right;
 };
@@ -86,7 +86,7 @@ private:
             .push_back({symbol, "=", std::move(value)});
     }
 
-    /// Terms of one rate, wherever they were written, are one sum.
+    /// All terms of one rate become one sum, wherever they were written.
     void add_rate(const SaidStatement& said, const std::string& symbol) {
         const ast::Statement& statement = *said.statement;
         const auto& value = statement.values.front();
@@ -104,7 +104,7 @@ private:
         sum += is_negative ? term.substr(sign.size()) : term;
     }
 
-    /// The script's own functions that are called, each once, as they are met.
+    /// Adds the script's own functions that are called, each once, in the order of their calls.
     void add_functions() {
         for (const SaidStatement& said : system_.all()) {
             for (const ast::Expression& value : said.statement->values) note_calls(said, value);
@@ -190,7 +190,7 @@ private:
     const SystemStatements& system_;
     std::string_view name_;
     Symbols symbols_;
-    std::unordered_map<std::string, std::size_t> rate_lines_;  ///< By what changes.
+    std::unordered_map<std::string, std::size_t> rate_lines_;  ///< By species.
     std::vector<std::pair<SaidStatement, const ast::FunctionDefinition*>> called_;
     std::unordered_set<std::string_view> called_names_;
     std::vector<Line> rates_, indices_, definitions_, bounds_, parameters_, starts_;

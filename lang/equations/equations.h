@@ -1,6 +1,5 @@
-// Systems as the equations one finds in papers, in Unicode for a terminal or in TeX.
-//
-// spec/equations.md has the table of notations.
+// Systems as equations like those in papers, in Unicode for a terminal or in TeX. spec/equations.md
+// has the table of notations.
 #pragma once
 
 #include "core/source.h"
@@ -19,19 +18,18 @@ enum class Notation : std::uint8_t {
     tex,      ///< Align environments of the package amsmath.
 };
 
-/// How much is said of a system.
+/// What to print of a system.
 enum class EquationParts : std::uint8_t {
     rates,  ///< Rates, definitions and invariants.
     all,    ///< Also parameters and starting values.
 };
 
-/// The equations of a system of the script or, where the script has none of this name, of the
-/// library. A system derived from another is shown as a whole. Lines end with a line end. Empty
-/// if there is no such system. The script must be one that passes the checks.
+/// The equations of a system of the script or else of the library, with all that it inherits. Lines
+/// end with a newline. Empty if there is no such system. The script must be free of errors.
 std::string print_equations(const ast::Script& script, const Sources& sources,
                             std::string_view system, Notation notation, EquationParts parts);
 
-/// The same of several systems.
+/// The equations of several systems.
 std::vector<std::string> print_equations(const ast::Script& script, const Sources& sources,
                                          std::span<const std::string_view> systems,
                                          Notation notation, EquationParts parts);

@@ -1,8 +1,9 @@
-// Where words stand on their lines. What an author has lined up under each other (`=` and `+` of
-// neighbouring equations, comments after statements) stays lined up; all other extra blanks go.
+// Places words on their lines. What an author has aligned in a column (`=` and `+` of neighbouring
+// equations, comments after statements) stays aligned; all other extra blanks are removed.
 //
-// A lined-up column never moves left of where its widest line needs it, and else stays as far from
-// the words before it as the author wrote it, so that a second run finds everything in its place.
+// An aligned column never moves left of where its widest line needs it, and otherwise stays as far
+// from the words before it as the author wrote it, so that formatting the result again changes
+// nothing.
 #include "lang/format/format_lines.h"
 
 #include <algorithm>
@@ -12,14 +13,14 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t before_comment = 2;  // Blanks, at least.
-constexpr std::size_t goes_on_by = 4;      // Further right than its statement, where nothing helps.
+constexpr std::size_t before_comment = 2;   // Blanks, at least.
+constexpr std::size_t goes_on_by = 4;       // Beyond its statement, if no bracket decides.
 constexpr std::size_t furthest_start = 60;  // Deep brackets must not push lines out of sight.
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 enum class Alignment { free, relation, sum };
 
-/// Words that stand below each other in neighbouring lines.
+/// Words of neighbouring lines in the same column.
 struct Column {
     struct Member {
         std::size_t line, cell;
@@ -49,7 +50,7 @@ private:
     const FormatWord& word(std::size_t line, std::size_t cell) const {
         return words_[lines_[line].cells[cell].word];
     }
-    /// Can words of the line be lined up with words of the line above?
+    /// True if words of the line may be aligned with words of the line above.
     bool is_below(std::size_t line) const {
         return !lines_[line].blank_line_before && begins_statement(line) &&
                begins_statement(line - 1);
@@ -82,12 +83,12 @@ private:
         }
     }
 
-    /// What is lined up in lines [begin, end), which follow each other.
+    /// The aligned columns of the consecutive lines [begin, end).
     std::vector<Column> columns_of(std::size_t begin, std::size_t end) {
         struct Candidate {
             std::size_t cell = 0;
             Alignment alignment = Alignment::free;
-            std::size_t column = none;  ///< In `columns`.
+            std::size_t column = none;  ///< Index into `columns`.
         };
         std::vector<Column> columns;
         std::vector<Candidate> above;
@@ -146,7 +147,7 @@ private:
     std::size_t end_of(std::size_t line, std::size_t cell) const {
         return lines_[line].cells[cell].column + width_of(word(line, cell).text);
     }
-    /// Contexts the cells of a line before `end`, from the first that has no place yet.
+    /// Places the cells of a line before `end`, from the first one not yet placed.
     void place_up_to(std::size_t line, std::size_t end) {
         for (std::size_t& cell = placed_[line]; cell < end; ++cell) {
             lines_[line].cells[cell].column =
@@ -154,11 +155,11 @@ private:
         }
     }
 
-    // Lines inside a statement begin below the first word after the innermost open bracket, or,
-    // where none is open, below the beginning of the statement's value.
+    // Lines inside a statement begin below the first word after the innermost open bracket or, if
+    // none is open, below the beginning of the statement's value.
     struct Bracket {
-        std::size_t inside = 0;  ///< Where lines inside it begin.
-        std::size_t close = 0;   ///< Where a bracket that closes it on a line of its own stands.
+        std::size_t inside = 0;  ///< Column of lines inside it.
+        std::size_t close = 0;   ///< Column of a closing bracket on a line of its own.
     };
 
     void place_continued(std::size_t line) {
@@ -234,7 +235,7 @@ private:
             begin = end - 1;
         }
     }
-    /// Does the comment of `line` belong to the column of comments that begins at `first`?
+    /// True if the comment of `line` belongs to the column of comments that begins at `first`.
     bool is_in_column(std::size_t first, std::size_t line) const {
         const FormatLine& here = lines_[line];
         if (line == first) return true;
@@ -244,7 +245,7 @@ private:
 
     const std::vector<FormatWord>& words_;
     std::vector<FormatLine>& lines_;
-    std::vector<std::size_t> placed_;  ///< Per line: how many cells have their place.
+    std::vector<std::size_t> placed_;  ///< By line: the number of cells that are placed.
     std::vector<Bracket> brackets_;
     std::size_t value_column_ = none;
     std::size_t statement_column_ = 0;

@@ -1,4 +1,4 @@
-// Which words share a line: the author's line ends stay, except where the style has one of its own.
+// Decides which words share a line: line breaks of the author stay, unless the style has a rule.
 #include "lang/format/format_lines.h"
 
 #include "lang/format/format_script.h"
@@ -107,7 +107,7 @@ private:
         open_brackets_ = 0;
     }
 
-    /// Does the block stand on one line, and has it room there? Looks no further than a line.
+    /// True if the block is on one line and fits there. Looks ahead one line at most.
     bool is_one_line_block(std::size_t open) const {
         std::size_t width = width_ + 2;
         for (std::size_t k = open + 1; k < words_.size(); ++k) {
@@ -120,7 +120,7 @@ private:
         return false;
     }
 
-    /// Has what the author wrote on the line of this word room on one line?
+    /// True if the rest of the author's line fits on one line.
     bool fits(std::size_t first, std::size_t width) const {
         for (std::size_t k = first; k < words_.size(); ++k) {
             const FormatWord& word = words_[k];
@@ -136,15 +136,15 @@ private:
 
     const std::vector<FormatWord>& words_;
     std::vector<FormatLine> lines_;
-    const FormatWord* before_ = nullptr;       ///< The last word that is no comment.
+    const FormatWord* before_ = nullptr;       ///< The last word that is not a comment.
     const FormatWord* line_before_ = nullptr;  ///< The same, on this line.
     std::optional<std::size_t> semicolon_;     ///< Between the last word and the next.
-    std::size_t breaks_ = 0;                   ///< Line ends since the last word.
-    std::size_t width_ = 0;                    ///< Of the line, as narrow as can be.
+    std::size_t breaks_ = 0;                   ///< Line breaks since the last word.
+    std::size_t width_ = 0;                    ///< Least width of the line so far.
     std::size_t open_brackets_ = 0;
     bool in_block_ = false;
     bool in_one_line_block_ = false;
-    bool block_begins_ = false;  ///< Nothing but `{` and its comment is written yet.
+    bool block_begins_ = false;  ///< Only `{` and its comment are written so far.
     bool needs_line_ = false;
     bool splits_at_semicolons_ = false;
 };

@@ -1,6 +1,5 @@
-// The lines of a formatted script: which words share a line, and where on it they stand.
-//
-// Internal to the formatter.
+// The lines of a formatted script (internal to the formatter): which words share a line, and their
+// columns.
 #pragma once
 
 #include "lang/format/format_words.h"
@@ -13,7 +12,7 @@
 namespace cascade {
 
 struct FormatLine {
-    /// A word that is no comment on its line.
+    /// A word on its line, other than a comment.
     struct Cell {
         std::size_t word = 0;
         std::size_t column = 0;
@@ -21,15 +20,15 @@ struct FormatLine {
     std::vector<Cell> cells;
     std::optional<std::size_t> comment;  ///< The word after the cells, or alone on the line.
     std::size_t comment_column = 0;
-    std::size_t indentation = 0;  ///< Where the line begins; of one that goes on: unknown.
-    bool goes_on = false;         ///< Inside a statement that began further up.
+    std::size_t indentation = 0;  ///< Where the line begins; not set if it continues a statement.
+    bool goes_on = false;         ///< Continues a statement of an earlier line.
     bool blank_line_before = false;
 };
 
-/// Splits words into lines; of the columns only the indentation is filled in.
+/// Splits words into lines; sets no column but the indentation.
 std::vector<FormatLine> format_lines(const std::vector<FormatWord>& words);
 
-/// Fills in the columns of all cells and comments.
+/// Sets the columns of all cells and comments.
 void place_words(const std::vector<FormatWord>& words, std::vector<FormatLine>& lines);
 
 }  // namespace cascade

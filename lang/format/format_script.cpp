@@ -29,7 +29,7 @@ std::string write_lines(const std::vector<FormatWord>& words,
     return text;
 }
 
-/// Are these the same words but for `;`, which may have become a line end?
+/// True if these are the same words, apart from `;`, which may have become a line break.
 bool same_words(const std::vector<FormatWord>& before, const std::vector<FormatWord>& after) {
     const auto is_written = [](const FormatWord& word) {
         return word.kind != TokenKind::semicolon;

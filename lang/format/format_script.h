@@ -1,7 +1,8 @@
-// The one style of scripts: blanks, lines and indentation. spec/formatting.md says what it is.
+// The canonical style of scripts: blanks, line breaks and indentation; spec/formatting.md defines
+// it.
 //
-// Formatting works on words (tokens and comments) and never on the tree, so that everything a
-// script says stays word for word; only line ends and `;` come and go where both mean the same.
+// Formatting works on words (tokens and comments), not on the tree, so that every word of a script
+// is kept; only line breaks and `;` are exchanged where both mean the same.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -13,11 +14,12 @@
 
 namespace cascade {
 
-/// What a line holds before a block or a row of statements is put on lines of its own, in columns.
+/// Width beyond which a block or several statements on one line are split into lines.
 inline constexpr std::size_t widest_script_line = 100;
 
-/// The script in the one style. Formatting the result again changes nothing. Empty where the script
-/// cannot be read: then `diagnostics` says why. Faults of meaning (an unknown name) do not matter.
+/// The script in the canonical style. Formatting the result again changes nothing. Empty if the
+/// script has syntax errors, which are then in `diagnostics`. Other errors, such as an unknown
+/// name, do not matter.
 std::optional<std::string> format_script(SourceId source, const Sources& sources,
                                          Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-// Finding the words of a script, and which of them stand close together.
+// Finds the words of a script, and decides which of them have a blank between them.
 #include "lang/format/format_words.h"
 
 #include "core/utf8.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t tab_width = 8;
 
-/// Splits what the lexer has left between two tokens into comments, and keeps the place.
+/// Splits the text between two tokens into comments.
 class WordList {
 public:
     explicit WordList(std::string_view text) : text_(text) {
@@ -22,7 +22,7 @@ public:
         pass_over_gap(token.span.begin);
         add(token.kind, text_.substr(token.span.begin, token.span.end - token.span.begin));
     }
-    /// Line ends, blanks and comments up to `end`.
+    /// Skips line breaks and blanks, and adds the comments up to `end`.
     void pass_over_gap(std::size_t end) {
         while (offset_ < end) {
             const char c = text_[offset_];
@@ -79,17 +79,18 @@ bool ends_operand(TokenKind kind) {
            kind == TokenKind::close_square;
 }
 
-/// Whether these have blanks around them shows what belongs together: `a*b + 1/8`, `1..n`.
+/// True for operators that may have blanks around them or not, to show what belongs together: `a*b
+/// + 1/8`, `1..n`.
 bool is_author_spaced(const FormatWord& word) {
     return word.kind == TokenKind::star || word.kind == TokenKind::slash || word.text == "..";
 }
 
 bool is_apart(const FormatWord& word) { return word.blanks > 0 || word.breaks > 0; }
 
-/// Reads the roles of words off their neighbours.
+/// Sets the roles of words from their neighbours.
 void find_roles(std::vector<FormatWord>& words) {
-    const FormatWord* before = nullptr;  // The last word that is no comment.
-    FormatWord* waiting = nullptr;       // An operator whose right side is looked at next.
+    const FormatWord* before = nullptr;  // The last word that is not a comment.
+    FormatWord* waiting = nullptr;       // An operator whose right side is next.
     for (FormatWord& word : words) {
         if (waiting != nullptr) waiting->is_spaced = waiting->is_spaced || is_apart(word);
         waiting = nullptr;
@@ -134,7 +135,7 @@ std::vector<FormatWord> format_words(SourceId source, const Sources& sources) {
 
 std::size_t blanks_between(const FormatWord& left, const FormatWord& right) {
     using Kind = TokenKind;
-    if (left.is_sign) return right.is_sign ? 1 : 0;  // `--` is no sign of the language.
+    if (left.is_sign) return right.is_sign ? 1 : 0;  // `--` is not an operator.
     switch (right.kind) {
         case Kind::comma:
         case Kind::semicolon:

@@ -1,5 +1,4 @@
-// Finds the systems that a script names, and those that they derive from, and parses those texts
-// alone.
+// Finds the systems that a script names and their bases, and parses only those texts.
 #include "lang/library/library.h"
 
 #include "core/check.h"
@@ -13,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// The source of a text of the library; an equal one from an earlier check is used again.
+/// The source of a library text; if an earlier check added it, that one is used again.
 SourceId source_of(const LibraryText& text, Sources& sources) {
     for (SourceId id = 0; id < sources.size(); ++id) {
         if (sources[id].name() == text.file_name && sources[id].text() == text.text) return id;
@@ -36,7 +35,7 @@ bool is_stage(const ast::Block& block) {
     return block.kind == ast::BlockKind::stage || block.kind == ast::BlockKind::classic_stage;
 }
 
-/// The names under which a script may ask the library for a system, each once.
+/// The names that a script may look up in the library, each once.
 std::vector<std::string_view> names_wanted(const ast::Script& script) {
     std::unordered_set<std::string_view> own;
     for (const ast::Block& block : script.blocks) {
@@ -71,7 +70,7 @@ std::vector<LibraryScript> read_library(const ast::Script& script, Sources& sour
     std::vector<LibraryScript> result;
     std::unordered_set<std::string_view> read;
     for (std::string_view name : names_wanted(script)) {
-        // From a system to what it is derived from; the last is to be checked first.
+        // From a system to its bases; the last one must be checked first.
         std::vector<LibraryScript> chain;
         while (!name.empty() && !read.contains(name)) {
             const LibraryText* const found = find_library_text(name);

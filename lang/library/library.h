@@ -1,8 +1,7 @@
 // The library of systems: Cascade texts that are embedded in the binary (lang/systems/*.cascade).
 //
-// A text NAME.cascade holds the system NAME and, mostly, a stage, a domain and a picture that show
-// it. Of an embedded text only the system is taken. A script pays for the systems that it names:
-// the others are not even parsed.
+// A text NAME.cascade holds the system NAME and usually a stage, a domain and a picture that show
+// it. Scripts use only its system. Texts that a script does not need are not parsed.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -18,28 +17,28 @@ namespace cascade {
 struct LibraryText {
     std::string_view file_name;  ///< `gray_scott.cascade`
     std::string_view text;
-    /// The system that the file holds: the file's name without its ending.
+    /// The name of the system that the file holds: the file name without its extension.
     constexpr std::string_view system_name() const {
         return file_name.substr(0, file_name.rfind('.'));
     }
 };
 
-/// The library, in the order of the alphabet.
+/// All texts of the library, in alphabetical order.
 std::span<const LibraryText> library_texts();
 
-/// The text that holds the library's system of this name; null where there is none.
+/// The text of the library's system of this name; null if there is none.
 const LibraryText* find_library_text(std::string_view system_name);
 
-/// One text of the library, read for a check.
+/// A text of the library, parsed for a check.
 struct LibraryScript {
     ast::Script script;
     std::size_t block = 0;  ///< Of the system, in script.blocks.
 };
 
-/// The systems of the library that a script needs: those which its stages and derived systems name,
-/// and those from which these are derived, each after the one it is derived from. A system that
-/// the script declares itself is not looked for, unless it is derived from one of its name.
-/// The texts are added to `sources`; an equal one of an earlier call is used again.
+/// The systems of the library that a script needs: those that its stages and derived systems name,
+/// and their bases, each after its base. A system that the script declares is not looked up, unless
+/// it is derived from one of the same name. Adds the texts to `sources`, or uses those that an
+/// earlier call added.
 std::vector<LibraryScript> read_library(const ast::Script& script, Sources& sources,
                                         Diagnostics& diagnostics);
 

@@ -1,5 +1,5 @@
-// The comments at the top of a text are its description; they are found among its words, without
-// the syntax tree.
+// The comments at the top of a text are its description; they are found among its words, without a
+// syntax tree.
 #include "lang/print/library_note.h"
 
 #include "lang/format/format_words.h"
@@ -21,7 +21,7 @@ std::string in_small_letters(std::string_view text) {
     return result;
 }
 
-/// A comment without its signs.
+/// A comment without its `#` signs.
 std::string_view said_in(std::string_view comment) {
     comment.remove_prefix(std::min(comment.find_first_not_of("# \t"), comment.size()));
     return comment;

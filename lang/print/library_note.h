@@ -1,4 +1,4 @@
-// What a text of the library says about itself for people to read and to search.
+// The description of a text of the library, to read and to search.
 #pragma once
 
 #include "lang/library/library.h"
@@ -10,18 +10,18 @@
 namespace cascade {
 
 struct LibraryNote {
-    std::string about;               ///< One line: the first statement of the text's head.
-    std::vector<std::string> lines;  ///< The whole head, a line each: description and sources.
-    std::string words;               ///< Name, comments and texts in quotes, in small letters.
+    std::string about;               ///< The first sentence of the head, on one line.
+    std::vector<std::string> lines;  ///< The lines of the head: description and sources.
+    std::string words;               ///< Name, comments and strings, in lower case.
 
-    /// Is this found in the name, the comments or the texts? Large letters are as small ones.
+    /// True if the word occurs in the name, the comments or the strings, regardless of case.
     bool mentions(std::string_view word) const;
 };
 
-/// The head of a text is the comment that it begins with.
+/// Reads the description of a text; its head is the comment at its top.
 LibraryNote note_of(const LibraryText& text);
 
-/// A script that is the library's text of a system, with a stage if the text has none.
+/// A script to start from: the library's text of a system, with a stage if the text has none.
 std::string starting_script(const LibraryText& text);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
 // The syntax tree as text, for `--dump ast`: blocks and statements indented, expressions in prefix
-// form, `(+ a (* 2 b))`, which shows what binds to what.
+// form, `(+ a (* 2 b))`, which shows how operators bind.
 #include "lang/syntax/parse.h"
 
 #include <fmt/core.h>
@@ -20,7 +20,7 @@ std::string print_number(double value) {
     return {buffer.data(), end};
 }
 
-/// Prints expressions with a stack of its own: they may be deeper than any call stack.
+/// Prints expressions with an explicit stack, so that they may be arbitrarily deep.
 class ExpressionPrinter {
 public:
     explicit ExpressionPrinter(const ast::Script& script) : script_(script) {}
@@ -37,7 +37,7 @@ public:
             }
             const ast::ExprId operand = work.operands[work.next++];
             text_ += ' ';
-            open(operand);  // May move `work`.
+            open(operand);  // May invalidate `work`.
         }
         return std::move(text_);
     }

@@ -1,4 +1,4 @@
-// Formulas as text, without recursion: a stack holds the parts and marks still to be written.
+// Formulas as text, without recursion: a stack holds the nodes and strings still to be written.
 #include "lang/print/print_formula.h"
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-/// A part to be written inside an operator that needs at least this precedence.
+/// A node to write inside an operator that needs at least this precedence.
 struct Part {
     NodeId node;
     int least = 0;
@@ -41,8 +41,8 @@ private:
     void push(Item item) { stack_.push_back(item); }
 
     void write(const Part& part) {
-        // A part that is read more than once, as the argument of a function may be, is written as
-        // often: so much and no more.
+        // A node with several users, such as the argument of a function, is written once for each,
+        // up to a limit.
         if (++written_ > formula_.nodes.size() + most_repeated) {
             text_ += "…";
             return;

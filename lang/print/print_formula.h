@@ -1,4 +1,4 @@
-// Formulas as text (internal to lang/): resolved names, as few brackets as the precedences need.
+// Formulas as text (internal to lang/): resolved names, as few brackets as the precedences allow.
 #pragma once
 
 #include "lang/program/program.h"
@@ -8,12 +8,11 @@
 
 namespace cascade {
 
-/// A value of places on a model, as a script has it.
+/// A value of a model's surface, as it is written in a script.
 std::string text_of(const SurfaceValue& value);
 
-/// The formula in the language itself, except that own items of a stage are [p], as in a stage's
-/// statements, and items of other stages always stage.p. In formulas of a system (no `stage`) own
-/// names are bare.
+/// The formula in the language itself. With a `stage`, its own items are [p], as in its statements,
+/// and items of other stages are stage.p. Without one, names of the system are bare.
 std::string print_formula(const Program& program, const System& system, const Formula& formula,
                           std::optional<std::uint32_t> stage = {});
 

@@ -1,4 +1,4 @@
-// `--dump program`: what the checker has made of a script.
+// The checked program as text, for `--dump program`.
 #include "lang/print/print_formula.h"
 #include "lang/program/models.h"
 #include "lang/program/program.h"
@@ -58,7 +58,7 @@ const char* kind_of(const Program& program, std::uint32_t index, std::uint32_t i
     return program.stages[index].uniform[item] ? "uniform" : "varies";
 }
 
-/// What is not as it is by default.
+/// Prints the settings of time that differ from their defaults.
 void print_time(const Program& program, const System& system, const Stage& stage,
                 std::uint32_t index, Output out) {
     const StageTime& time = stage.time;
@@ -85,7 +85,7 @@ void print_sides(const Program& program, std::uint32_t index, std::uint32_t item
     const System& system = program.system_of(index);
     for (std::size_t side = 0; side < side_count; ++side) {
         const SideSetting& setting = sides[side];
-        if (setting.span.end == 0) continue;  // As the boundary says.
+        if (setting.span.end == 0) continue;  // Same as the boundary.
         fmt::format_to(out, "  {}.{}: {}", system.item_name(item), side_names[side],
                        side_kind_words[static_cast<std::size_t>(setting.kind)]);
         if (takes_value(setting.kind)) {

@@ -10,13 +10,13 @@ namespace cascade {
 
 namespace {
 
-/// Tokens whose spelling is not their text.
+/// True for tokens that are printed with their text.
 bool has_own_text(TokenKind kind) {
     return kind == TokenKind::name || kind == TokenKind::number || kind == TokenKind::text ||
            kind == TokenKind::garbage;
 }
 
-/// A text in quotes on one line, whatever bytes it has.
+/// A string on one line, whatever bytes it has.
 std::string escaped(std::string_view text) {
     std::string result = "\"";
     for (std::size_t offset = 0; offset < text.size();) {
@@ -46,8 +46,8 @@ std::string_view spelling(TokenKind kind) {
 
 std::string print_tokens(const std::vector<Token>& tokens, const Sources& sources) {
     std::string result;
-    // Columns are counted on from the token before, so that a long line costs no more than a short
-    // one.
+    // Columns are counted from the previous token, so that the time is linear in the length of a
+    // line.
     Location last{1, 1};
     std::uint32_t last_offset = 0;
     for (const Token& token : tokens) {

@@ -1,4 +1,4 @@
-// Reads statements of the syntax tree, so that values stay as they were written.
+// Reads the statements of the syntax tree, so that values are printed as they were written.
 #include "lang/print/system_listing.h"
 
 #include "lang/check/check_names.h"
@@ -20,7 +20,7 @@ struct Row {
     std::string_view doc;
 };
 
-/// The text of a value as its author wrote it, on one line.
+/// The source text of a value, on one line.
 std::string source_of(const SaidStatement& said, const ast::Expression& value) {
     const std::string_view text = said.sources->text(said.script->expressions[value.root].span);
     std::string line;
@@ -62,7 +62,7 @@ Row row_of(const SaidStatement& said, const SystemStatements& system) {
     return row;
 }
 
-/// The text with blanks up to a width.
+/// The text, padded with blanks to a width.
 std::string padded(std::string_view text, std::size_t width) {
     const std::size_t own = width_of(text);
     return std::string(text) + std::string(width > own ? width - own : 0, ' ');
@@ -84,7 +84,7 @@ std::vector<std::string> system_words(const ast::Script& script, const Sources& 
 
 std::string print_system_listing(const ast::Script& script, const Sources& sources,
                                  std::string_view system) {
-    constexpr std::size_t widest_value = 24;  // Longer ones push what is after them.
+    constexpr std::size_t widest_value = 24;  // A longer one shifts the columns after it.
     const SystemStatements statements(script, sources, system_blocks(script), system);
     std::vector<Row> rows;
     std::size_t name_width = 0, value_width = 0, range_width = 0;

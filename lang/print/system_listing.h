@@ -1,5 +1,5 @@
-// A system as a list of what can be set in it, for people: species, parameters and settings with
-// their defaults as the author wrote them, ranges and doc comments.
+// A list of what can be set in a system: species, parameters and settings with their defaults as
+// the author wrote them, ranges and doc comments.
 #pragma once
 
 #include "core/source.h"
@@ -11,12 +11,12 @@
 
 namespace cascade {
 
-/// What a system says of itself in words: its doc comment and the texts among its statements
-/// (`title: "…"`), a line each; those of the systems it is derived from come first.
+/// The description of a system: its doc comment and its texts (`title: "…"`), one line each; those
+/// of its bases come first.
 std::vector<std::string> system_words(const ast::Script& script, const Sources& sources,
                                       std::string_view system);
 
-/// A line for each species, then each parameter, then each setting. The system is looked for as
+/// A line for each species, then each parameter, then each setting. Finds the system as
 /// print_equations() does.
 std::string print_system_listing(const ast::Script& script, const Sources& sources,
                                  std::string_view system);
