@@ -1,5 +1,5 @@
-# Writes OUTPUT from TEMPLATE: a hash of SOURCES (names in FOLDER, separated by commas) and of EXTRA, as
-# @version@.
+# Writes OUTPUT from TEMPLATE, where @version@ becomes a hash of SOURCES (names in FOLDER, separated by
+# commas) and of EXTRA.
 string(REPLACE "," ";" sources "${SOURCES}")
 set(all "${EXTRA}")
 foreach(source IN LISTS sources)

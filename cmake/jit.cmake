@@ -1,5 +1,5 @@
-# The room jit/ is two things: what finds, keeps and runs compiled kernels is linked into every
-# program; what needs LLVM is a module that is loaded when code must be made (jit/generator.h).
+# The room jit/ has two parts: the one that finds, stores and runs compiled kernels is linked into every
+# program; the one that needs LLVM is a module that is loaded to generate code (jit/generator.h).
 
 set(jit_without_llvm code_cache code_image code_version generator jit kernel_key processor)
 list(TRANSFORM jit_without_llvm PREPEND ${PROJECT_SOURCE_DIR}/jit/)
@@ -7,7 +7,7 @@ list(TRANSFORM jit_without_llvm APPEND .cpp)
 file(GLOB jit_with_llvm CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/jit/*.cpp)
 list(REMOVE_ITEM jit_with_llvm ${jit_without_llvm})
 
-# What is kept on disk is found again by programs whose code generator is the same.
+# Kernels on disk are reused only by programs with the same code generator.
 file(GLOB code_sources RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/jit/*.cpp
   ${PROJECT_SOURCE_DIR}/jit/*.h ${PROJECT_SOURCE_DIR}/ir/*.cpp ${PROJECT_SOURCE_DIR}/ir/*.h
   ${PROJECT_SOURCE_DIR}/ir/*.def ${PROJECT_SOURCE_DIR}/core/grid.h
@@ -32,7 +32,7 @@ get_target_property(llvm_library LLVM LOCATION)
 target_compile_definitions(cascade_jit PRIVATE
   CASCADE_LLVM_MODULE="libcascade_llvm.so" CASCADE_LLVM_LIBRARY="${llvm_library}")
 
-# The module's parts, which tests look at without the table between.
+# The module's parts, which tests use directly instead of through its function table.
 add_library(cascade_llvm_parts STATIC ${jit_with_llvm} ${PROJECT_SOURCE_DIR}/jit/code_version.cpp
   ${code_version_header})
 target_link_libraries(cascade_llvm_parts PUBLIC cascade_options cascade_ir cascade_core)

@@ -1,9 +1,9 @@
-# The library libcascade, its one public header, and what `cmake --install` puts where.
+# The library libcascade, its public header, and the rules of `cmake --install`.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# The rooms are linked in but not exported: only what cascade.h declares can be called.
+# The rooms are linked in but not exported: only the functions of cascade.h can be called.
 add_library(cascade_library SHARED run/commands/pattern.cpp)
 target_link_libraries(cascade_library PRIVATE cascade_run)
 target_link_options(cascade_library PRIVATE LINKER:--exclude-libs,ALL)
@@ -21,8 +21,8 @@ add_library(Cascade::cascade ALIAS cascade_library)
 
 file(RELATIVE_PATH libraries_from_programs
   ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-# Both are linked as they are installed: CMake ends a path that it will replace by an empty entry, and the
-# loader takes that for the current folder. In the build folder the module lies beside them.
+# Both are linked with their final path: CMake ends a path that it will replace with an empty entry, which
+# means the current folder to the loader. In the build folder the module is beside them.
 set_target_properties(cascade_program PROPERTIES
   INSTALL_RPATH "$ORIGIN/${libraries_from_programs};$ORIGIN")
 set_target_properties(cascade_program cascade_library PROPERTIES BUILD_WITH_INSTALL_RPATH ON)

@@ -1,4 +1,4 @@
-# A room is a folder of the source tree and a static library `cascade_NAME` of all .cpp files in it.
+# A room is a folder of the source tree; its .cpp files make the static library `cascade_NAME`.
 
 add_library(cascade_options INTERFACE)
 target_include_directories(cascade_options INTERFACE ${PROJECT_SOURCE_DIR})
@@ -6,7 +6,7 @@ target_compile_options(cascade_options INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wno-sign-conversion
   -ffp-contract=off)  # The spec fixes every rounding; a fused multiply-add would drop one.
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-  # g++ 12 and 13 see an overlap in std::string's own operator+ (GCC bug 105651).
+  # g++ 12 and 13 warn of an overlap in std::string's own operator+ (GCC bug 105651).
   target_compile_options(cascade_options INTERFACE -Wno-restrict)
 endif()
 if(CASCADE_WERROR)
@@ -18,22 +18,22 @@ if(CASCADE_SANITIZE)
   target_link_options(cascade_options INTERFACE -fsanitize=${CASCADE_SANITIZE})
 endif()
 
-# With CASCADE_UNITY the compiler reads several files of a target as one, so that it reads what they
-# include once: a whole build takes a third of the time, a changed file more. For builds of the program
-# alone: compilers warn of files that are read together where they do not of each by itself.
-# Arguments after the target are files that another target compiles too, and that stay by themselves so
-# that the linker takes one of the two.
+# With CASCADE_UNITY several files of a target are compiled as one, so that their headers are read once: a
+# full build takes a third of the time, a change of one file takes longer. Not for builds with warnings as
+# errors, since files that are compiled together can cause warnings that each of them does not.
+# Arguments after the target are files that another target compiles, too; they are compiled separately, so
+# that the linker takes only one of the two.
 function(cascade_compile_together target)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${CASCADE_UNITY} UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
 
-# The table of the rooms and what each may include. A new line in it is seen at the next build.
+# The table of rooms and of what each may include. A changed table reconfigures the build.
 set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND
   PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/rooms.txt)
 file(STRINGS ${PROJECT_SOURCE_DIR}/cmake/rooms.txt room_table REGEX "^[a-z]")
 
-# The outer rooms that `name` and the rooms inside it may include, but for itself.
+# The outer rooms that `name` and the rooms inside it may include, without itself.
 function(cascade_rooms_below name result)
   set(lines ${room_table})
   list(FILTER lines INCLUDE REGEX "^${name}[:/]")
@@ -48,7 +48,7 @@ function(cascade_rooms_below name result)
   set(${result} ${rooms} PARENT_SCOPE)
 endfunction()
 
-# cascade_room(NAME PACKAGES…): the library of the folder NAME and all folders in it.
+# cascade_room(NAME PACKAGES…): the library of the folder NAME and its subfolders.
 function(cascade_room name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${name}/*.cpp)
   add_library(cascade_${name} STATIC ${sources})

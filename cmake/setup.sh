@@ -1,11 +1,11 @@
-# Shell functions that `cascade` and `tests/run` share: install what is missing, configure, build.
+# Shell functions shared by `cascade` and `tests/run`: install missing packages, configure, build.
 # Source it with `root` set to the top folder of the source tree.
 
 say() {
     printf 'cascade: %s\n' "$*" >&2
 }
 
-# packages_for PURPOSE…: names from packages.txt.
+# packages_for PURPOSE…: prints names from packages.txt.
 packages_for() {
     local name purpose command wanted
     while read -r name purpose command; do
@@ -17,7 +17,7 @@ packages_for() {
     return 0
 }
 
-# missing_packages NAME…: those that dpkg does not have installed.
+# missing_packages NAME…: prints those that are not installed.
 missing_packages() {
     local installed name
     installed=$(dpkg-query -W -f='${db:Status-Status} ${binary:Package}\n' "$@" 2>/dev/null)
@@ -26,8 +26,8 @@ missing_packages() {
     done
 }
 
-# install_packages LOG PURPOSE…: installs what is missing. Other systems than Debian bring their own
-# packages; CMake says there what it does not find.
+# install_packages LOG PURPOSE…: installs missing packages. Does nothing on systems other than Debian;
+# there CMake reports what it does not find.
 install_packages() {
     local log=$1 list missing as_root=()
     shift
@@ -56,7 +56,7 @@ install_packages() {
     fi
 }
 
-# time_left SECONDS DONE ALL: "about 3 minutes left", once a twentieth is done; nothing before.
+# time_left SECONDS DONE ALL: prints "about 3 minutes left" once a twentieth is done.
 time_left() {
     [ $(($2 * 20)) -ge "$3" ] || return 0
     local seconds=$(($1 * ($3 - $2) / $2))
@@ -67,8 +67,8 @@ time_left() {
     fi
 }
 
-# show_progress LOG: the number of steps done and of all, as ninja and make tell it, and the time left,
-# until it is ended.
+# show_progress LOG: shows the number of steps done, as ninja and make log it, and the time left, until
+# it is killed.
 show_progress() {
     local line begun=$SECONDS
     while sleep 0.5; do
@@ -86,7 +86,7 @@ show_progress() {
 configure_and_build() {
     local log=$1 build=$2 target=$3
     shift 3
-    # A build folder remembers absolute paths: in a moved or copied tree it is made anew.
+    # A build folder holds absolute paths, so a moved or copied tree is configured anew.
     local home
     home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$build/CMakeCache.txt" 2>/dev/null)
     if [ -n "$home" ] && [ "$home" != "$root" ]; then
