@@ -1,5 +1,6 @@
 // A file of the lines typed at the prompt, for later sessions.
-// ¶ Each line is appended when it is typed, so that none is lost if the terminal is closed or the
+//
+// Each line is appended when it is typed, so that none is lost if the terminal is closed or the
 // program is killed, and concurrent sessions keep the lines of both. The format is libedit's: a
 // first line that identifies it, and in the others all but visible ASCII characters written as a
 // backslash and three octal digits.

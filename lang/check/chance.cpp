@@ -51,7 +51,7 @@ void warn_of_draws_by_step(const Program& program, Diagnostics& diagnostics) {
                                                "chooses how long its steps are: the "
                                                "shorter they are, the weaker the noise",
                                                stage.name),
-                                   "white(s) is as strong with any steps");
+                                   "the strength of white(s) does not depend on the step");
     }
 }
 

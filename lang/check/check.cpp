@@ -47,12 +47,10 @@ void check_systems(Workspace& work, const ast::Script& script,
     }
 }
 
-/// True if operators measure lengths on a surface.
 bool measures_on_surface(const DomainSettings& domain) {
     return domain.surface && domain.surface->has_metric;
 }
 
-/// The workspace of a program that is already checked.
 Workspace workspace_of(const Program& program, Diagnostics& diagnostics) {
     Workspace work{program, diagnostics, {}, {}, {}, {}, {}, 0};
     work.on_surface = measures_on_surface(program.domain);

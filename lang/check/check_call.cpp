@@ -56,14 +56,14 @@ void ExpressionChecker::take_surface_value(Function function, const ast::Call& c
     SurfaceValue value{function, {}};
     for (std::uint32_t k = 0; k < call.argument_count; ++k) {
         const NodeId part = part_of(script_.arguments[call.first_argument + k]);
-        if (parts_[part].faulty) parts_.back().faulty = true;
-        if (parts_.back().faulty) return;
+        if (parts_[part].has_error) parts_.back().has_error = true;
+        if (parts_.back().has_error) return;
         if (parts_[part].constant && !(std::abs(parts_[part].value) <= largest_of_points)) {
-            return fault(formula_.nodes[part].span, "this number is too large",
+            return error(formula_.nodes[part].span, "this number is too large",
                          "coordinates are 0..1 along the longest side");
         }
         if (!parts_[part].constant) {
-            return fault(formula_.nodes[part].span,
+            return error(formula_.nodes[part].span,
                          fmt::format("{} takes numbers that are known before the run",
                                      info(function).spelling),
                          "the points stay where they are");
@@ -73,7 +73,7 @@ void ExpressionChecker::take_surface_value(Function function, const ast::Call& c
     const bool has_smoothing = value.numbers.size() % 4 == 1;
     if (function == Function::keys && has_smoothing && value.numbers.back() < 0) {
         const ast::ExprId last = script_.arguments[call.first_argument + call.argument_count - 1];
-        return fault(formula_.nodes[part_of(last)].span, "a length of smoothing is not below 0");
+        return error(formula_.nodes[part_of(last)].span, "a length of smoothing is not below 0");
     }
     Node& node = formula_.nodes.back();
     node.kind = NodeKind::surface_value;
@@ -84,7 +84,7 @@ void ExpressionChecker::take_surface_value(Function function, const ast::Call& c
 void ExpressionChecker::visit(const ast::Over& over) {
     const auto function = function_named(fmt::format("{} over domain", over.function.text));
     if (!function || over.index.text != "domain") {
-        return fault(over.function.span,
+        return error(over.function.span,
                      fmt::format("{} cannot be taken over the domain", over.function.text),
                      "mean, sum, min and max can");
     }
@@ -102,14 +102,14 @@ void ExpressionChecker::wrong_count(Function function, std::size_t count) {
     if (count == 1 && (function == Function::min || function == Function::max)) {
         hint = fmt::format("over all cells it is {}(e over domain)", row.spelling);
     }
-    fault(formula_.nodes.back().span,
+    error(formula_.nodes.back().span,
           fmt::format("{} takes {}, not {}", row.spelling, number_of_values(row.arity), count),
           std::move(hint));
 }
 
 void ExpressionChecker::unknown_function(const ast::Word& name) {
     report_unknown_function(work_, name, functions_of(work_, from_).names());
-    parts_.back().faulty = true;
+    parts_.back().has_error = true;
 }
 
 bool is_function_name(std::string_view name) {
@@ -120,9 +120,9 @@ bool is_function_name(std::string_view name) {
 void report_unknown_function(Workspace& work, const ast::Word& name,
                              const std::vector<std::string>& own) {
     if (std::find(only_over.begin(), only_over.end(), name.text) != only_over.end()) {
-        return work.diagnostics.error(
-            name.span, fmt::format("{} is taken over something", name.text),
-            fmt::format("write {0}(e over i) or {0}(e over domain)", name.text));
+        return work.diagnostics.error(name.span, fmt::format("{} needs 'over'", name.text),
+                                      fmt::format("write {0}(e over i) or {0}(e over domain)",
+                                                  name.text));
     }
     std::string hint(advice_about(name.text, WordContext::function));
     if (hint.empty() && !is_hopeless(work)) {
@@ -143,7 +143,7 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
     const bool at_step = context == Context::rate;
     const bool at_start = context == Context::value || context == Context::mask;
     const auto refuse = [&](const char* where) {
-        fault(span, fmt::format("{} cannot stand here", row.spelling), where);
+        error(span, fmt::format("{} cannot stand here", row.spelling), where);
         return false;
     };
     const bool varies = row.is_aggregate || varies_by_cell(function);
@@ -161,7 +161,7 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
         return refuse("second derivatives by name have no meaning on a surface; lap and div have");
     }
     if (context == Context::constant && varies) {
-        fault(span, fmt::format("{} must be one number, but {} is {}", scope_.subject, row.spelling,
+        error(span, fmt::format("{} must be one number, but {} is {}", scope_.subject, row.spelling,
                                 row.is_aggregate ? "known only in a run" : "varying by cell"));
         return false;
     }
@@ -189,23 +189,23 @@ void ExpressionChecker::apply(Function function, const Operands& operands, std::
     node.operands = operands;
     node.operand_count = static_cast<std::uint8_t>(count);
     for (std::size_t i = 0; i < count; ++i) {
-        if (parts_[operands[i]].faulty) parts_.back().faulty = true;
+        if (parts_[operands[i]].has_error) parts_.back().has_error = true;
     }
-    if (parts_.back().faulty) return;
+    if (parts_.back().has_error) return;
     check_types(node);
-    if (parts_.back().faulty) return;
+    if (parts_.back().has_error) return;
     check_angle(node);
     fold_constants(node);
 }
 
 void ExpressionChecker::need(NodeId part, ValueType type) {
     const Node& operand = formula_.nodes[part];
-    if (operand.type == type || parts_.back().faulty) return;
+    if (operand.type == type || parts_.back().has_error) return;
     if (type == ValueType::text) {
-        return fault(operand.span, "a text in quotes is expected here");
+        return error(operand.span, "a text in quotes is expected here");
     }
     const TypeWords words = words_of(operand.type);
-    fault(operand.span, fmt::format("{} is no number", words.name), std::string(words.hint));
+    error(operand.span, fmt::format("{} is not a number", words.name), std::string(words.hint));
 }
 
 void ExpressionChecker::check_types(const Node& node) {
@@ -233,8 +233,8 @@ void ExpressionChecker::check_types(const Node& node) {
 void ExpressionChecker::check_choice(Node& node, NodeId a, NodeId b) {
     const ValueType type = formula_.nodes[a].type;
     const bool is_chosen = type == ValueType::number || type == ValueType::colour;
-    if ((type != formula_.nodes[b].type || !is_chosen) && !parts_.back().faulty) {
-        return fault(formula_.nodes[b].span,
+    if ((type != formula_.nodes[b].type || !is_chosen) && !parts_.back().has_error) {
+        return error(formula_.nodes[b].span,
                      fmt::format("{} chooses between two numbers or two colours",
                                  info(node.function).spelling));
     }
@@ -244,7 +244,7 @@ void ExpressionChecker::check_choice(Node& node, NodeId a, NodeId b) {
 void ExpressionChecker::check_palette(const Node& node) {
     for (std::size_t i = 0; i < 3; ++i) need(node.operands[i], ValueType::number);
     need(node.operands[3], ValueType::text);
-    if (parts_.back().faulty) return;
+    if (parts_.back().has_error) return;
     const Node& text = formula_.nodes[node.operands[3]];
     const std::string& name = work_.program.literals->texts()[text.index];
     if (find_palette(name) == nullptr) {
@@ -252,7 +252,7 @@ void ExpressionChecker::check_palette(const Node& node) {
         for (const Palette& palette : palettes()) names.emplace_back(palette.name);
         std::string hint = did_you_mean(work_, name, names);
         if (hint.empty()) hint = "palettes are " + list_names(names);
-        return fault(text.span, fmt::format("there is no palette '{}'", name), std::move(hint));
+        return error(text.span, fmt::format("there is no palette '{}'", name), std::move(hint));
     }
     const Part &low = parts_[node.operands[1]], &high = parts_[node.operands[2]];
     if (low.constant && high.constant && low.value == high.value) {
@@ -290,7 +290,7 @@ void ExpressionChecker::warn(Span span, std::string message, std::string hint) {
 void ExpressionChecker::check_lattice(Node& node) {
     const Part& side = parts_[node.operands[0]];
     if (side.constant && !(side.value > 0)) {
-        return fault(formula_.nodes[node.operands[0]].span,
+        return error(formula_.nodes[node.operands[0]].span,
                      fmt::format("the {} must be above 0",
                                  node.function == Function::noise ? "scale of noise" : "spacing"));
     }
@@ -301,7 +301,7 @@ void ExpressionChecker::check_lattice(Node& node) {
     const bool is_count = octaves.constant && octaves.value == std::floor(octaves.value) &&
                           octaves.value >= 1 && octaves.value <= most_octaves;
     if (!is_count) {
-        return fault(formula_.nodes[node.operands[1]].span,
+        return error(formula_.nodes[node.operands[1]].span,
                      fmt::format("octaves are a whole number from 1 to {}", most_octaves),
                      "it must be known before the run");
     }
@@ -320,7 +320,7 @@ void ExpressionChecker::fold_constants(const Node& node) {
     const bool divides = info(node.function).behaviour == Behaviour::divides;
     if (divides && parts_[node.operands[1]].constant &&
         std::abs(values[1]) < static_cast<double>(FLT_MIN)) {
-        return fault(formula_.nodes[node.operands[1]].span, "division by zero");
+        return error(formula_.nodes[node.operands[1]].span, "division by zero");
     }
     if (!constant) return;
     const auto value = fold(node.function, values);

@@ -10,7 +10,7 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
     formula_.nodes.reserve(count);
     parts_.reserve(count);
     find_text_places();
-    bool faulty = false;
+    bool has_error = false;
     for (const NodeId part : ids_below<NodeId>(count)) {
         Node node;
         node.span = expr(part).span;
@@ -18,10 +18,10 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
         parts_.emplace_back();
         if (expanded_ != nullptr) work_.call = expanded_->calls[part.index()];
         std::visit([this](const auto& kind) { visit(kind); }, expr(part).node);
-        faulty = faulty || parts_.back().faulty;
+        has_error = has_error || parts_.back().has_error;
     }
     work_.call = std::nullopt;
-    if (faulty) return std::nullopt;
+    if (has_error) return std::nullopt;
     const NodeId root(expanded_ != nullptr ? expanded_->root : count - 1);
     CheckedExpression checked;
     checked.formula = expanded_ != nullptr ? formula_of(formula_.nodes, root) : std::move(formula_);
@@ -60,7 +60,7 @@ void ExpressionChecker::visit(const ast::Text& text) {
     node.kind = NodeKind::text;
     node.type = ValueType::text;
     if (!wants_text_[NodeId(parts_.size() - 1)]) {
-        return fault(node.span, "a text can only name a palette or a file",
+        return error(node.span, "a text can only name a palette or a file",
                      "palette(v, low, high, \"grey\"), field(\"a.npy\")");
     }
     node.index = work_.program.literals->number_of(text.value);
@@ -69,7 +69,7 @@ void ExpressionChecker::visit(const ast::Text& text) {
 void ExpressionChecker::visit(const ast::Name& name) {
     const Span span = formula_.nodes.back().span;
     if (wants_text_[NodeId(parts_.size() - 1)]) {
-        return fault(span, "a text in quotes is expected here", fmt::format("\"{}\"", name.name));
+        return error(span, "a text in quotes is expected here", fmt::format("\"{}\"", name.name));
     }
     take(resolve_bare(work_, scope_, name.name, span));
 }
@@ -88,7 +88,7 @@ void ExpressionChecker::visit(const ast::RateOf& rate) {
 
 void ExpressionChecker::take(std::optional<Node> node) {
     if (!node) {
-        parts_.back().faulty = true;
+        parts_.back().has_error = true;
         return;
     }
     if (node->kind == NodeKind::number) parts_.back() = {false, true, node->number};
@@ -123,7 +123,7 @@ std::optional<CheckedExpression> check_number(Workspace& work, const ast::Script
     if (!checked || checked->type() == ValueType::number) return checked;
     const TypeWords words = words_of(checked->type());
     work.diagnostics.error(checked->formula.nodes.back().span,
-                           fmt::format("{} is no number", words.name), std::string(words.hint));
+                           fmt::format("{} is not a number", words.name), std::string(words.hint));
     return std::nullopt;
 }
 

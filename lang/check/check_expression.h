@@ -65,8 +65,8 @@ std::uint32_t check_nesting(Workspace& work, const Formula& formula, const Depth
             }
             const bool adds = differentiates(node.function) || info(node.function).is_aggregate;
             if (adds && deepest++ == most_nested_operators) {
-                work.diagnostics.error(node.span, "operators lie too deep in each other",
-                                       fmt::format("at most {} may", most_nested_operators));
+                work.diagnostics.error(node.span, "operators are nested too deeply",
+                                       fmt::format("at most {} levels", most_nested_operators));
             }
         } else {
             deepest = of_leaf(node);

@@ -119,11 +119,11 @@ private:
     void leave_borders() {
         const DomainSettings& domain = work_.program.domain;
         if (domain.mask) {
-            work_.diagnostics.warning(domain.mask->span, "a model has no mask: this is left aside");
+            work_.diagnostics.warning(domain.mask->span, "a model has no mask: this is ignored");
         }
         for (const auto& side : domain.sides) {
             if (!side || !takes_value(side->kind)) continue;
-            work_.diagnostics.warning(side->span, "a model has no sides: this is left aside");
+            work_.diagnostics.warning(side->span, "a model has no sides: this is ignored");
         }
     }
 
@@ -287,7 +287,7 @@ private:
         if (!ratio) return;
         if (!(*ratio >= 1 && *ratio <= most_stretched)) {
             work_.diagnostics.error(span_of(*stretch), "stretch is from 1 to 100",
-                                    "cells are so many times as long as wide");
+                                    "it is the ratio of a cell's length to its width");
             return;
         }
         model_->stretch = *ratio;
@@ -320,7 +320,7 @@ bool check_model(Workspace& work, const ast::Script& script, const ast::Block& d
     }
     if (gives_way) {
         work.diagnostics.warning(value_of(script, *own).span,
-                                 "the grid asked for takes the place of this model");
+                                 "the requested grid replaces this model");
     }
     const auto refuse = [&](const ast::Statement& statement) {
         if (statement.values.empty() || !is_model_setting(statement.name.text)) return;

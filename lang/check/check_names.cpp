@@ -50,12 +50,12 @@ bool varies_by_cell(std::string_view builtin) { return builtin != "t" && builtin
 
 void report_constant(Workspace& work, const Scope& scope, std::string_view name, Span span) {
     if (scope.context == Context::position) {
-        report(work, span, fmt::format("a surface knows nothing of '{}'", name),
+        report(work, span, fmt::format("a surface cannot read '{}'", name),
                "it is made of numbers, sx, sy, pi and functions of them");
         return;
     }
     if (scope.context == Context::mask) {
-        report(work, span, fmt::format("a mask knows nothing of '{}'", name),
+        report(work, span, fmt::format("a mask cannot read '{}'", name),
                "it is made of coordinates, numbers, shapes, noise and files");
         return;
     }
@@ -173,7 +173,7 @@ std::optional<Node> resolve_own(Workspace& work, const Scope& scope, std::string
         report_unknown_own(work, scope, name, span);
         return std::nullopt;
     }
-    if (meaning->is_faulty) return std::nullopt;
+    if (meaning->has_error) return std::nullopt;
     if (meaning->is_definition) {
         if (scope.context == Context::rate) {
             return make_node(NodeKind::definition, span, meaning->index);
@@ -227,12 +227,11 @@ void report_unknown_previous(Workspace& work, const Scope& scope, std::string_vi
                        system.name, list_names(quantity_names(system))));
 }
 
-/// Resolves an item of another stage.
 std::optional<Node> resolve_other(Workspace& work, std::uint32_t stage, std::string_view name,
                                   Span span) {
     const System& system = system_at(work, work.program.stages[stage].system);
     const Meaning* meaning = find(work.names[work.program.stages[stage].system], name);
-    if (meaning == nullptr || meaning->is_faulty) return std::nullopt;
+    if (meaning == nullptr || meaning->has_error) return std::nullopt;
     if (meaning->is_definition) {
         report(work, span,
                fmt::format("'{}' is a definition of {}, not a value of its stages", name,
@@ -386,7 +385,7 @@ std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast:
     }
     const System& system = system_at(work, scope.system);
     const Meaning* meaning = find(work.names[scope.system], name.text);
-    if (meaning != nullptr && meaning->is_faulty) return std::nullopt;
+    if (meaning != nullptr && meaning->has_error) return std::nullopt;
     if (meaning != nullptr && !meaning->is_definition && system.is_species(meaning->index)) {
         return make_node(NodeKind::rate, span, meaning->index);
     }

@@ -24,7 +24,7 @@ namespace cascade::checking {
 struct Meaning {
     bool is_definition = false;
     std::uint32_t index = 0;  ///< The item or the definition.
-    bool is_faulty = false;   ///< Its declaration had an error, which has been reported.
+    bool has_error = false;   ///< Its declaration had an error, which has been reported.
 };
 
 /// The names of one system, `frozen` and `speed` included.
@@ -57,7 +57,7 @@ struct Workspace {
     /// to lack may be declared there, so it is not reported.
     std::vector<bool> incomplete = {};
     /// Indices without values, which have been reported; declarations that use them are ignored.
-    std::vector<std::string_view> faulty_indices = {};
+    std::vector<std::string_view> invalid_indices = {};
     Program* draft = nullptr;  ///< The program under construction; null if it is finished.
 };
 

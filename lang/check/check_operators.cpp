@@ -64,13 +64,13 @@ bool ExpressionChecker::check_vectors(const Node& node) {
     const bool by_tensor = left == ValueType::tensor;
     const bool is_turned = parts_[node.operands[0]].turned || parts_[node.operands[1]].turned;
     if (fits && by_tensor && is_turned && work_.on_surface) {
-        fault(span, "on a surface a tensor cannot multiply what a tensor has multiplied",
+        error(span, "on a surface a tensor cannot multiply what a tensor has multiplied",
               "make one tensor of the two");
     } else if (fits) {
         formula_.nodes.back().type = ValueType::vector;
         parts_.back().turned = by_tensor || is_turned;
     } else {
-        fault(span, std::move(message), std::move(hint));
+        error(span, std::move(message), std::move(hint));
     }
     return true;
 }
@@ -79,7 +79,7 @@ bool ExpressionChecker::check_vectors(const Node& node) {
 bool ExpressionChecker::is_same_everywhere(NodeId part) {
     if (!parts_[part].constant) return false;
     const Node& node = formula_.nodes.back();
-    fault(formula_.nodes[part].span,
+    error(formula_.nodes[part].span,
           fmt::format("{} of a number is 0 everywhere", info(node.function).spelling),
           "it takes something that can differ from cell to cell");
     return true;
@@ -89,11 +89,11 @@ void ExpressionChecker::check_operator(const Node& node) {
     if (node.function == Function::div) {
         const Node& flux = formula_.nodes[node.operands[0]];
         if (flux.type == ValueType::vector) return;
-        return fault(flux.span, "div takes a vector",
+        return error(flux.span, "div takes a vector",
                      "such as grad(e), d * grad(e) or vector(ex, ey)");
     }
     for (const NodeId operand : node.reads()) need(operand, ValueType::number);
-    if (parts_.back().faulty) return;
+    if (parts_.back().has_error) return;
     switch (node.function) {
         case Function::vector: formula_.nodes.back().type = ValueType::vector; return;
         case Function::tensor: formula_.nodes.back().type = ValueType::tensor; return;

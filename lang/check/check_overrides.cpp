@@ -119,7 +119,7 @@ std::optional<SideChange> as_side(const Workspace& work, const ast::Override& ch
 }
 
 void report_no_side(Workspace& work, const ast::Word& word) {
-    work.diagnostics.error(word.span, fmt::format("'{}' is no side of the grid", word.text),
+    work.diagnostics.error(word.span, fmt::format("'{}' is not a side of the grid", word.text),
                            did_you_mean(work, word.text, settings_of({SettingBlock::side})));
 }
 

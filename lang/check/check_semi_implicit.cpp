@@ -95,7 +95,7 @@ void check_semi_implicit(const Program& program, std::uint32_t stage, Span span,
                           fmt::format("stage '{}': {} finds no diffusion to take implicitly",
                                       checked.name, name_of(solver)),
                           "it looks for lap, dxx, diffuse or div(k * grad(u)) in the rate of u; "
-                          "rk45 takes what comes");
+                          "rk45 takes any rate");
     }
 }
 

@@ -26,7 +26,7 @@ std::string hint_of_decimal_comma(const ast::Script& script, const ast::Statemen
             script.expressions[statement.values[k].root].node);
     };
     if (!is_number(0) || !is_number(1) || part.begin != whole.end + 1) return "";
-    return "a decimal point is a point: write '.' for ','";
+    return "the decimal separator is a point: write '.' for ','";
 }
 
 }  // namespace

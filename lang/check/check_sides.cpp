@@ -93,7 +93,7 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SpeciesSide>& own)
         for (const AllSides& sides : stage.sides) {
             for (const SideSetting& side : sides) {
                 if (!takes_value(side.kind)) continue;
-                work.diagnostics.warning(side.span, "a model has no sides: this is left aside");
+                work.diagnostics.warning(side.span, "a model has no sides: this is ignored");
             }
         }
         return stage.sides.clear();

@@ -160,7 +160,7 @@ void StageChecker::set(const Declaration& declaration) {
     }
     const Meaning* meaning = find(work_.names[stage().system], name);
     if (meaning == nullptr) return report_unknown(declaration);
-    if (meaning->is_faulty) return;
+    if (meaning->has_error) return;
     if (meaning->is_definition) {
         work_.diagnostics.error(statement.name.span,
                                 fmt::format("'{}' is a definition of {} and cannot be set", name,

@@ -134,11 +134,10 @@ void check_time(Workspace& work, std::uint32_t index) {
     }
     if (time.chooses_steps()) {
         if (const Node* reader = reader_of_speed(work.program, stage)) {
-            work.diagnostics.error(
-                reader->span,
-                fmt::format("stage '{}' chooses its steps as it runs: its speed is no "
-                            "number that can be read",
-                            stage.name));
+            work.diagnostics.error(reader->span,
+                                   fmt::format("stage '{}' chooses its steps as it runs: its speed "
+                                               "cannot be read",
+                                               stage.name));
         }
     }
     if (time.until) check_condition(work, index);
@@ -175,12 +174,11 @@ void check_coarse_starts(const Program& program, Diagnostics& diagnostics) {
         }
         for (const std::int64_t cells : {grid.width, grid.height, grid.depth}) {
             if (cells == 1 || (cells % times == 0 && cells / times >= fewest_cells)) continue;
-            diagnostics.error(
-                stage.time.coarse_span,
-                fmt::format("a side of {} cells has no grid of {} times as wide cells", cells,
-                            times),
-                fmt::format("sides must be multiples of {}, and {} at least", times,
-                            fewest_cells * times));
+            diagnostics.error(stage.time.coarse_span,
+                              fmt::format("a side of {} cells cannot have cells {} times as wide",
+                                          cells, times),
+                              fmt::format("sides must be multiples of {}, and {} at least", times,
+                                          fewest_cells * times));
             break;
         }
     }

@@ -13,7 +13,6 @@ namespace cascade::checking {
 
 namespace {
 
-/// The statements that make up a rate.
 struct RateStatements {
     const Declaration* assignment = nullptr;
     std::vector<const Declaration*> terms;
@@ -101,7 +100,7 @@ void SystemChecker::report_no_rates() {
     for (auto each = found; each != definitions_.end(); ++each) {
         if (!is_paper_rate(*each)) continue;
         const std::string_view name = (*each)->name;
-        work_.diagnostics.error((*each)->span(), fmt::format("'{}' is no rate", name),
+        work_.diagnostics.error((*each)->span(), fmt::format("'{}' is not a rate", name),
                                 fmt::format("write {}' = …", name.substr(0, name.size() - 2)));
     }
 }
@@ -117,12 +116,12 @@ bool SystemChecker::can_declare(const Declaration& declaration) {
     const bool is_member = !declaration.statement->index.empty();
     if (kind == Reserved::setting && is_member) {
         work_.diagnostics.error(declaration.span(),
-                                fmt::format("'{}' is a setting and no family", name));
+                                fmt::format("'{}' is a setting, not a family", name));
         return false;
     }
     if (kind == Reserved::setting && declaration.kind() == ast::StatementKind::definition) {
         work_.diagnostics.error(declaration.span(),
-                                fmt::format("'{}' is a setting and no definition", name),
+                                fmt::format("'{}' is a setting, not a definition", name),
                                 fmt::format("write {}: …", name));
         return false;
     }
@@ -238,12 +237,11 @@ void SystemChecker::report_no_species(const Declaration& declaration, const Mean
     work_.names[index_].emplace(name, Meaning{false, 0, true});
 }
 
-/// A name with a rate is a species.
 void SystemChecker::collect_rate(const Declaration& declaration) {
     const Meaning* meaning = find(work_.names[index_], declaration.name);
     const bool is_quantity = meaning != nullptr && !meaning->is_definition &&
                              meaning->index < system().quantities.size();
-    if (meaning != nullptr && meaning->is_faulty) return;
+    if (meaning != nullptr && meaning->has_error) return;
     if (!is_quantity) return report_no_species(declaration, meaning);
     system().quantities[meaning->index].is_species = true;
     RateStatements& rate = rates_[meaning->index];
@@ -324,7 +322,7 @@ void SystemChecker::check_rates() {
 void SystemChecker::check_invariants() {
     for (const Declaration* declaration : invariants_) {
         const Meaning* meaning = find(work_.names[index_], declaration->name);
-        if (meaning != nullptr && meaning->is_faulty) continue;
+        if (meaning != nullptr && meaning->has_error) continue;
         if (meaning == nullptr || meaning->is_definition || !system().is_species(meaning->index)) {
             report_not_species(work_, index_, declaration->name, declaration->span());
             continue;

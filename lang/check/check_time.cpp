@@ -74,7 +74,7 @@ void check_until(Workspace& work, const ast::Script& script, ast::Expression val
     if (const ast::Call* call = call_of(script, value, "steady")) {
         if (call->argument_count != 1) {
             work.diagnostics.error(root_of(script, value).span,
-                                   "steady takes one value: the change that counts as none",
+                                   "steady takes one value: the largest change that counts as none",
                                    "as in steady(0.01)");
             return;
         }
@@ -102,7 +102,7 @@ void check_start(Workspace& work, const ast::Script& script, ast::Expression val
         return;
     }
     if (call->argument_count != 1) {
-        work.diagnostics.error(span, "coarse takes one value: how many times as wide cells are",
+        work.diagnostics.error(span, "coarse takes one value: how many times wider its cells are",
                                std::string(example));
         return;
     }

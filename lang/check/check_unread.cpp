@@ -11,7 +11,6 @@ namespace cascade::checking {
 
 namespace {
 
-/// A quantity or definition that is never read.
 struct Unread {
     const std::string* name;
     Span span;

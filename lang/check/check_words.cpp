@@ -98,7 +98,7 @@ std::optional<Explanation> explain_family(Workspace& work, const System& system,
         if (first.empty()) first = last;
     });
     if (family.size() < name.size() && !first.empty()) {
-        return Explanation{fmt::format("'{}' is no member of its family", name),
+        return Explanation{fmt::format("'{}' is not a member of its family", name),
                            fmt::format("there are {0}[{1}] to {0}[{2}]", family, first, last)};
     }
     if (family.size() < name.size()) {
@@ -106,7 +106,7 @@ std::optional<Explanation> explain_family(Workspace& work, const System& system,
             std::find_if(system.quantities.begin(), system.quantities.end(),
                          [&](const Quantity& quantity) { return quantity.name == family; });
         if (same == system.quantities.end()) return std::nullopt;
-        return Explanation{fmt::format("'{}' is no family", family),
+        return Explanation{fmt::format("'{}' is not a family", family),
                            fmt::format("write {} without an index", family)};
     }
     if (!first.empty()) {
@@ -127,7 +127,7 @@ Explanation index_without_value(std::string_view index) {
 }
 
 void add_call(const Workspace& work, Diagnostic& diagnostic) {
-    if (work.call) diagnostic.notes.push_back({*work.call, "in what this call stands for"});
+    if (work.call) diagnostic.notes.push_back({*work.call, "in the expansion of this call"});
 }
 
 std::vector<std::string> quantity_names(const System& system) {

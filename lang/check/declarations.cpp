@@ -85,7 +85,7 @@ void collect_indices(Workspace& work, System& system, std::span<const SystemStat
             can_be_index(work, each.statement->name) ? check_index(work, each) : std::nullopt;
         if (!index) {
             work.incomplete[number_of(work, system)] = true;
-            work.faulty_indices.push_back(each.statement->name.text);
+            work.invalid_indices.push_back(each.statement->name.text);
             continue;
         }
         if (system.indices.size() == most_indices) {
@@ -110,8 +110,8 @@ std::optional<std::int64_t> member_number(Workspace& work, const ast::Word& word
 }
 
 void report_unknown_index(Workspace& work, const System& system, const ast::Word& word) {
-    if (std::find(work.faulty_indices.begin(), work.faulty_indices.end(), word.text) !=
-        work.faulty_indices.end()) {
+    if (std::find(work.invalid_indices.begin(), work.invalid_indices.end(), word.text) !=
+        work.invalid_indices.end()) {
         return;
     }
     std::vector<std::string> names;
@@ -128,7 +128,6 @@ void report_unknown_index(Workspace& work, const System& system, const ast::Word
                            std::move(hint));
 }
 
-/// The declarations that one statement expands to.
 std::vector<Declaration> expand_statement(Workspace& work, const System& system,
                                           const ast::Script& script,
                                           const ast::Statement& statement, std::uint32_t level) {

@@ -73,7 +73,7 @@ private:
     void emit(Span span, decltype(ast::Expr::node) node) {
         results_.push_back(append(span, std::move(node)));
     }
-    void fault(Span span, std::string message, std::string hint) {
+    void error(Span span, std::string message, std::string hint) {
         work_.diagnostics.error(span, std::move(message), std::move(hint));
         emit(span, ast::Garbage{});
     }
@@ -181,14 +181,14 @@ void Expander::visit_name(const ast::Expr& here, const ast::Name& name) {
     // Elsewhere the name may be a parameter of the previous stage.
     if (open_indices_ > 0 && find_index(work_, scope_, name.name) != nullptr) {
         Explanation explanation = index_without_value(name.name);
-        return fault(here.span, std::move(explanation.message), std::move(explanation.hint));
+        return error(here.span, std::move(explanation.message), std::move(explanation.hint));
     }
     emit(here.span, name);
 }
 
 void Expander::visit_call(ast::ExprId part, const ast::Call& call) {
     const UserFunction* function = functions_of(work_, script()).find(call.function.text);
-    if (function != nullptr && function->faulty) return emit(expr(part).span, ast::Garbage{});
+    if (function != nullptr && function->has_error) return emit(expr(part).span, ast::Garbage{});
     if (function != nullptr && !has_right_count(work_, *function, call, expr(part).span)) {
         return emit(expr(part).span, ast::Garbage{});
     }
@@ -216,17 +216,17 @@ void Expander::visit_over(ast::ExprId part, const ast::Over& over) {
         return push(TaskKind::visit, over.operand);
     }
     const Index* index = find_index(work_, scope_, over.index.text);
-    const auto& faulty = work_.faulty_indices;
+    const auto& invalid = work_.invalid_indices;
     if (index == nullptr &&
-        std::find(faulty.begin(), faulty.end(), over.index.text) != faulty.end()) {
+        std::find(invalid.begin(), invalid.end(), over.index.text) != invalid.end()) {
         return emit(over.index.span, ast::Garbage{});
     }
     if (index == nullptr) {
-        return fault(over.index.span, fmt::format("there is no index '{}'", over.index.text),
+        return error(over.index.span, fmt::format("there is no index '{}'", over.index.text),
                      "an index is declared in a system: i: 1..3");
     }
     if (!is_reduction(over.function.text)) {
-        return fault(over.function.span,
+        return error(over.function.span,
                      fmt::format("{} cannot be taken over an index", over.function.text),
                      "sum, product, mean, min and max can");
     }

@@ -17,7 +17,7 @@ namespace cascade::checking {
 
 /// What is known about a node besides the node itself.
 struct Part {
-    bool faulty = false;  ///< An error has been reported; its users are not reported.
+    bool has_error = false;  ///< An error has been reported; its users are not reported.
     bool constant = false;
     double value = 0;
     bool turned = false;  ///< A vector that a tensor has multiplied, or one computed from such.
@@ -45,11 +45,11 @@ private:
         return script_.expressions[expression_.first + part.index()];
     }
     NodeId part_of(ast::ExprId id) const { return NodeId(id - expression_.first); }
-    void fault(Span span, std::string message, std::string hint = "") {
+    void error(Span span, std::string message, std::string hint = "") {
         Diagnostic diagnostic{Severity::error, span, std::move(message), std::move(hint), {}};
         add_call(work_, diagnostic);
         work_.diagnostics.add(std::move(diagnostic));
-        parts_.back().faulty = true;
+        parts_.back().has_error = true;
     }
 
     void find_text_places();
@@ -64,7 +64,7 @@ private:
     void visit(const ast::Call& call);
     void visit(const ast::Over& over);
     void visit(const ast::Indexed& indexed);
-    void visit(const ast::Garbage&) { parts_.back().faulty = true; }
+    void visit(const ast::Garbage&) { parts_.back().has_error = true; }
 
     void take(std::optional<Node> node);
     void apply(Function function, const Operands& operands, std::size_t count);

@@ -194,7 +194,7 @@ private:
     void check(const Declaration& declaration) {
         const ast::Statement& statement = *declaration.statement;
         const Meaning* meaning = find(work_.names[scope_.system], declaration.name);
-        if (meaning != nullptr && meaning->is_faulty) return;
+        if (meaning != nullptr && meaning->has_error) return;
         if (meaning == nullptr || meaning->is_definition || !system_.is_species(meaning->index)) {
             return report_not_species(work_, scope_.system, declaration.name, head_of(statement));
         }

@@ -43,9 +43,9 @@ private:
     void check_name(UserFunction& function, std::string_view name, Span span);
     void check_call(std::uint32_t index, const ast::Call& call, Span span);
     void report_cycle(const std::vector<std::uint32_t>& cycle);
-    void fault(UserFunction& function, Span span, std::string message, std::string hint) {
+    void error(UserFunction& function, Span span, std::string message, std::string hint) {
         work_.diagnostics.error(span, std::move(message), std::move(hint));
-        function.faulty = true;
+        function.has_error = true;
     }
 
     Workspace& work_;
@@ -69,8 +69,8 @@ void FunctionTableMaker::declare(const ast::FunctionDefinition& definition) {
         const auto [first, is_new] = function.parameters.try_emplace(parameter.text, number);
         if (is_new) continue;
         report_twice(work_, parameter.span, definition.parameters[first->second].span,
-                     fmt::format("'{}' is a parameter twice", parameter.text));
-        function.faulty = true;
+                     fmt::format("'{}' is listed twice as a parameter", parameter.text));
+        function.has_error = true;
     }
     const auto index = static_cast<std::uint32_t>(table_.functions_.size());
     const auto [first, is_new] = table_.by_name_.try_emplace(name.text, index);
@@ -98,19 +98,19 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
             check_call(index, *call, part.span);
         } else if (const auto* over = std::get_if<ast::Over>(&part.node)) {
             if (over->index.text != "domain") {
-                fault(function, over->index.span,
+                error(function, over->index.span,
                       fmt::format("a function has no index '{}'", over->index.text),
                       "give it the members or their sum as arguments");
             }
         } else if (std::holds_alternative<ast::Garbage>(part.node)) {
-            function.faulty = true;
+            function.has_error = true;
         } else if (std::holds_alternative<ast::Indexed>(part.node)) {
-            fault(function, part.span, "a function cannot read the member of a family",
+            error(function, part.span, "a function cannot read the member of a family",
                   "give it the member as an argument");
         } else if (std::holds_alternative<ast::Bracketed>(part.node) ||
                    std::holds_alternative<ast::Qualified>(part.node) ||
                    std::holds_alternative<ast::RateOf>(part.node)) {
-            fault(function, part.span, "a function cannot read a stage or a system", what_it_reads);
+            error(function, part.span, "a function cannot read a stage or a system", what_it_reads);
         }
     }
 }
@@ -123,7 +123,7 @@ void FunctionTableMaker::check_name(UserFunction& function, std::string_view nam
     for (const ast::Word& each : function.definition->parameters) names.emplace_back(each.text);
     std::string hint = did_you_mean(work_, name, names);
     if (hint.empty()) hint = what_it_reads;
-    fault(function, span,
+    error(function, span,
           fmt::format("'{}' is not a parameter of the function '{}'", name,
                       function.definition->name.text),
           std::move(hint));
@@ -133,9 +133,9 @@ void FunctionTableMaker::check_call(std::uint32_t index, const ast::Call& call, 
     UserFunction& caller = table_.functions_[index];
     if (const UserFunction* called = table_.find(call.function.text)) {
         calls_[index].push_back(static_cast<std::uint32_t>(called - table_.functions_.data()));
-        if (!has_right_count(work_, *called, call, span)) caller.faulty = true;
+        if (!has_right_count(work_, *called, call, span)) caller.has_error = true;
     } else if (!is_function_name(call.function.text)) {
-        caller.faulty = true;
+        caller.has_error = true;
         report_unknown_function(work_, call.function, table_.names());
     }
 }
@@ -143,7 +143,7 @@ void FunctionTableMaker::check_call(std::uint32_t index, const ast::Call& call, 
 void FunctionTableMaker::report_cycle(const std::vector<std::uint32_t>& cycle) {
     std::vector<std::string> names;
     for (const std::uint32_t function : cycle) {
-        table_.functions_[function].faulty = true;
+        table_.functions_[function].has_error = true;
         names.emplace_back(table_.functions_[function].definition->name.text);
     }
     // The place of the call in the first function of the cycle: of the next one, or of itself.
@@ -159,7 +159,7 @@ void FunctionTableMaker::report_cycle(const std::vector<std::uint32_t>& cycle) {
                                 ? fmt::format("the function '{}' calls itself", names[0])
                                 : fmt::format("functions call each other in a cycle: {}",
                                               describe_cycle(names)),
-                            "a function cannot be computed by itself");
+                            "functions cannot be recursive");
 }
 
 const FunctionTable& functions_of(Workspace& work, const ast::Script& script) {

@@ -17,7 +17,7 @@ namespace cascade::checking {
 struct UserFunction {
     const ast::FunctionDefinition* definition = nullptr;
     std::unordered_map<std::string_view, std::uint32_t> parameters;  ///< Their numbers, from 0.
-    bool faulty = false;  ///< An error has been reported; calls are not.
+    bool has_error = false;  ///< An error has been reported; calls are not.
 };
 
 /// The functions of one script, by name.

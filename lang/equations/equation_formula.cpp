@@ -42,7 +42,6 @@ constexpr Around arounds[] = {
     {"tanh", "tanh(", ")", "\\tanh\\left(", "\\right)"},
 };
 
-/// Operators between their operands.
 struct Infix {
     Function function;
     std::string_view unicode, tex;
@@ -60,7 +59,6 @@ constexpr Infix infixes[] = {
     {Function::subtract, " − ", " - "},
 };
 
-/// Operators before their operand.
 struct Prefix {
     std::string_view function, unicode, tex;
 };

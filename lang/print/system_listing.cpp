@@ -62,7 +62,6 @@ Row row_of(const SaidStatement& said, const SystemStatements& system) {
     return row;
 }
 
-/// The text, padded with blanks to a width.
 std::string padded(std::string_view text, std::size_t width) {
     const std::size_t own = width_of(text);
     return std::string(text) + std::string(width > own ? width - own : 0, ' ');

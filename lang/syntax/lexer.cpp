@@ -3,6 +3,7 @@
 #include "lang/syntax/look_alikes.h"
 #include "lang/syntax/operator_spellings.h"
 #include "lang/syntax/token.h"
+#include "lang/syntax/unreadable_bytes.h"
 
 #include <fmt/core.h>
 
@@ -30,8 +31,8 @@ std::optional<std::string> hint_of_other_number(std::string_view word) {
     }
     const std::string_view before = word.substr(0, cross), after = word.substr(cross + 1);
     std::uint64_t value = 0;
-    const auto [end, fault] = std::from_chars(after.data(), after.data() + after.size(), value, 16);
-    if (before == "0" && fault == std::errc() && end == after.data() + after.size()) {
+    const auto [end, error] = std::from_chars(after.data(), after.data() + after.size(), value, 16);
+    if (before == "0" && error == std::errc() && end == after.data() + after.size()) {
         return fmt::format("write {}", value);
     }
     const auto is_whole = [](std::string_view text) {
@@ -55,7 +56,7 @@ public:
         : source_(source), text_(sources[source].text()), diagnostics_(diagnostics), docs_(docs) {}
 
     std::vector<Token> run() {
-        report_unreadable_bytes();
+        report_unreadable_bytes(source_, text_, diagnostics_);
         if (text_.starts_with("\xef\xbb\xbf")) offset_ = 3;  // A byte order mark.
         while (offset_ < text_.size()) {
             if (tokens_.size() == most_tokens) {
@@ -82,11 +83,6 @@ private:
         offset_ = end;
     }
 
-    void report_unreadable_bytes();
-    void report_run(std::size_t begin, std::size_t end);
-    bool is_unreadable(std::size_t offset) const {
-        return text_[offset] == '\0' || !decode_utf8(text_, offset).valid;
-    }
     bool joins_a_name(std::size_t offset) const;
 
     void read_token();
@@ -112,50 +108,6 @@ private:
     std::vector<Token> tokens_;
     std::size_t offset_ = 0;
 };
-
-/// Reports each run of bytes that are not valid text, even in comments.
-void Lexer::report_unreadable_bytes() {
-    for (std::size_t offset = 0; offset < text_.size();) {
-        if (static_cast<unsigned char>(text_[offset] - 1) < 0x7f) {  // ASCII, not NUL.
-            ++offset;
-            continue;
-        }
-        if (!is_unreadable(offset)) {
-            offset += decode_utf8(text_, offset).size;
-            continue;
-        }
-        const std::size_t begin = offset;
-        const bool is_nul = text_[begin] == '\0';
-        while (offset < text_.size() && is_unreadable(offset) &&
-               (text_[offset] == '\0') == is_nul) {
-            ++offset;
-        }
-        report_run(begin, offset);
-    }
-}
-
-void Lexer::report_run(std::size_t begin, std::size_t end) {
-    const std::size_t count = end - begin;
-    if (text_[begin] == '\0') {
-        diagnostics_.error(span(begin, end),
-                           count == 1 ? std::string("a NUL byte (0x00) is not text")
-                                      : fmt::format("{} NUL bytes (0x00) are not text", count),
-                           "is this file a script?");
-        return;
-    }
-    constexpr std::size_t most_named = 4;
-    std::string bytes;
-    for (std::size_t k = begin; k < std::min(end, begin + most_named); ++k) {
-        bytes +=
-            fmt::format("{}0x{:02x}", k == begin ? "" : " ", static_cast<unsigned char>(text_[k]));
-    }
-    if (count > most_named) bytes += fmt::format(" and {} more", count - most_named);
-    diagnostics_.error(span(begin, end),
-                       fmt::format("{} {} not valid UTF-8",
-                                   (count == 1 ? "byte " : "bytes ") + bytes,
-                                   count == 1 ? "is" : "are"),
-                       "save the script as UTF-8");
-}
 
 /// True if the character at `offset` is not ASCII but would be taken for a letter of the name.
 bool Lexer::joins_a_name(std::size_t offset) const {
@@ -304,7 +256,7 @@ void Lexer::read_text(std::size_t quote_size, std::string_view closing) {
             end += closing.size();
             return push(readable ? TokenKind::text : TokenKind::garbage, begin, end);
         }
-        readable = readable && !is_unreadable(end);
+        readable = readable && !is_unreadable(text_, end);
         end += decode_utf8(text_, end).size;
     }
     if (quote_size == 1) {
@@ -371,7 +323,7 @@ void Lexer::read_look_alike(const LookAlike& look_alike) {
 void Lexer::read_other() {
     const std::size_t begin = offset_;
     std::size_t end = begin;
-    while (end < text_.size() && is_unreadable(end)) ++end;
+    while (end < text_.size() && is_unreadable(text_, end)) ++end;
     if (end > begin) return push(TokenKind::garbage, begin, end);  // Reported already.
     const CodePoint point = decode_utf8(text_, begin);
     if (const LookAlike* look_alike = find_look_alike(point.value)) {

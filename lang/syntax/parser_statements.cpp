@@ -256,7 +256,8 @@ bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
 std::string ScriptParser::report_no_block(const ast::Word& word) {
     const std::array<std::string, 4> keywords = {"system", "stage", "domain", "picture"};
     std::string near = nearest_name(word.text, keywords);
-    cursor_.error(word.span, cursor_.describe({TokenKind::name, word.span}) + " begins no block",
+    cursor_.error(word.span,
+                  cursor_.describe({TokenKind::name, word.span}) + " does not begin a block",
                   near.empty() ? "blocks are system, stage, domain and picture"
                                : "did you mean '" + near + "'?");
     return near;

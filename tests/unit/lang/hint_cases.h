@@ -50,7 +50,7 @@ inline constexpr HintCase hint_cases[] = {
     {"domain", "grid: 100x100", "write '100, 100'"},
     {"domain", "grid: 64x32x8", "write '64, 32, 8'"},
     {"domain", "seed: 0xff", "write 255"},
-    {"stage", "k: 0,0125", "a decimal point is a point: write '.' for ','", "k: 0.0125"},
+    {"stage", "k: 0,0125", "the decimal separator is a point: write '.' for ','", "k: 0.0125"},
     {"script", "// a comment\nsystem_name: turing_spots", "write '#'",
      "# a comment\nsystem_name: turing_spots"},
     {"script", "system_name: turing_spots\nka: 1\xff", "save the script as UTF-8",

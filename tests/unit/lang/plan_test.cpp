@@ -212,7 +212,7 @@ TEST(PlanFaults, AreExplained) {
     EXPECT_THAT(faults("advect(u, u, 4)"),
                 ElementsAre("3:19: advect of a number is 0 everywhere" + takes));
     EXPECT_THAT(faults("grad(u)"),
-                ElementsAre("3:6: a vector is no number | div(…) makes a number of it"));
+                ElementsAre("3:6: a vector is not a number | div(…) makes a number of it"));
     EXPECT_THAT(faults("u + grad(u)"), ElementsAre("3:6: a number and a vector cannot be added"));
     EXPECT_THAT(faults("div(u)"), ElementsAre("3:10: div takes a vector | "
                                               "such as grad(e), d * grad(e) or vector(ex, ey)"));
@@ -225,10 +225,10 @@ TEST(PlanFaults, AreExplained) {
     EXPECT_THAT(faults("div(u / grad(u))"),
                 ElementsAre("3:10: a number cannot be divided by a vector"));
     EXPECT_THAT(faults("tensor(1, 1, 0)"),
-                ElementsAre("3:6: a tensor is no number | "
+                ElementsAre("3:6: a tensor is not a number | "
                             "it multiplies a vector: div(tensor(a1, a2, theta) * grad(e))"));
     EXPECT_THAT(faults("sin(grad(u))"),
-                ElementsAre("3:10: a vector is no number | div(…) makes a number of it"));
+                ElementsAre("3:10: a vector is not a number | div(…) makes a number of it"));
     EXPECT_THAT(faults("div(if(u, grad(u), grad(u)))"),
                 ElementsAre("3:25: if chooses between two numbers or two colours"));
     EXPECT_THAT(faults("advect(1, u)"), ElementsAre("3:6: advect takes 3 or 4 values, not 2 | "
@@ -239,8 +239,8 @@ TEST(PlanFaults, AreExplained) {
                          "a bound is made of numbers and parameters only"));
     std::string deep = "u";
     for (int k = 0; k < 40; ++k) deep = "lap(" + deep + ")";
-    EXPECT_THAT(faults(deep), ElementsAre(HasSubstr("operators lie too deep in each other | "
-                                                    "at most 32 may")));
+    EXPECT_THAT(faults(deep), ElementsAre(HasSubstr("operators are nested too deeply | "
+                                                    "at most 32 levels")));
 }
 
 }  // namespace
