@@ -102,8 +102,8 @@ int sweep_command(const Options& options, Console& console) {
     if (report) {
         return tell(*report, options, std::max(interrupt.signal(), 2), limit.reached(), console);
     }
-    if (const auto& errors = report.error().faults) {
-        console.say(errors->messages(console.error().colour));
+    if (const auto& wrong = report.error().script) {
+        console.say(wrong->messages(console.error().colour));
         return exit_status::wrong_script;
     }
     console.fail(report.error().failure);

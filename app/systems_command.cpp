@@ -183,7 +183,7 @@ int new_command(const Options& options, Console& console) {
     }
     std::error_code error;
     if (std::filesystem::exists(options.new_script, error)) {
-        console.fail({fmt::format("{} is there already", options.new_script.string()),
+        console.fail({fmt::format("{} already exists", options.new_script.string()),
                       "a script to start from replaces no file"});
         return exit_status::failed_run;
     }

@@ -158,9 +158,9 @@ for name in refused.ply refused.obj refused.glb refused.vtp refused.npz refused.
 done
 refused "only a domain with a model has this setting" run -q spots.cascade -o refused.png --up z
 for option in "--retile" "--bake 64" "--bump 0.1" "--cache kept2"; do
-    refused "the domain is no model" run -q spots.cascade -o refused.png $option
+    refused "the domain is not a model" run -q spots.cascade -o refused.png $option
 done
-refused "the domain is no surface" run -q spots.cascade -o refused.png --turntable 4
+refused "the domain is not a surface" run -q spots.cascade -o refused.png --turntable 4
 [ ! -e kept2 ] || fail "a folder was made for a plane"
 refused "no model is written that it could tile" $model -o refused.png --retile
 refused "no model is written that it could tile" $model -o refused.npz --retile

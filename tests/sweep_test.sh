@@ -56,7 +56,7 @@ says grows_sweep/features.csv 'u is not finite any more'
 run 64 sweep spots.cascade -o wrong
 says err '--vary'
 run 64 sweep spots.cascade --vary ka=0..1 -o wrong
-says err 'how many values'
+says err 'the number of values'
 run 64 sweep --vary ka=1,2
 run 2 sweep spots.cascade --vary kaa=1,2 -o wrong
 says err "no stage has a parameter 'kaa'"

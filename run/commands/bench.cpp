@@ -1,5 +1,5 @@
-// Warms up with growing numbers of steps, then times batches of whole tiles; a step's time is the
-// median over the batches. A stage that ends too soon is begun again.
+// Warms up with growing numbers of steps, then times batches of whole tiles; the time of a step is
+// the median over the batches. A stage that ends too soon is started again.
 #include "run/commands/bench.h"
 
 #include "ir/solver.h"
@@ -29,7 +29,6 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Takes steps of one stage and measures them.
 class StageMeter {
 public:
     StageMeter(Simulation& simulation, std::uint32_t stage, double seconds, RunControl& control,
@@ -39,13 +38,13 @@ public:
             if (control_.cancel) watched_.cancel = true;
         };
         watched_.warn = [this](const std::string& message) {
-            // A stage that is begun again has nothing new to say.
+            // Each message once, even if the stage is started again.
             if (said_.insert(message).second && control_.warn) control_.warn(message);
         };
         last_step_ = simulation_.program().stages[k_].iterations;
     }
 
-    /// The first step, and so many more that the next ones find a warm machine.
+    /// The first step, and then enough steps that caches and threads are warm.
     Result<void> warm_up(StageBench& bench) {
         const auto begin = Clock::now();
         const auto first = advance(1, 1);
@@ -67,7 +66,7 @@ public:
         return {};
     }
 
-    /// Batches have whole tiles of so many steps.
+    /// Batches consist of whole tiles of `steps_of_tile` steps.
     Result<void> measure(StageBench& bench, std::int64_t steps_of_tile) {
         begin_ = Clock::now();
         const double batch = std::clamp(seconds_ / batches_wanted, 1e-4, 0.25);
@@ -82,7 +81,7 @@ public:
             if (!taken) return tl::unexpected(taken.error());
             if (*taken == 0) break;
             if (batches_.size() > before) continue;
-            // So short a stage is measured as a whole, once it cannot be measured in parts.
+            // A stage too short for batches is measured as a whole.
             if (every == 1) add_batch(seconds_since(start), *taken);
             every = std::max<std::int64_t>(1, std::min(every, *taken) / 4);
         }
@@ -96,7 +95,8 @@ public:
 private:
     bool is_enough() const {
         if (measured_ >= seconds_ && batches_.size() >= least_batches) return true;
-        // Starting values may take longer than all steps of a stage, and a step longer than all.
+        // Starting values may take longer than all steps of a stage, and a step longer than a
+        // batch.
         return !batches_.empty() && seconds_since(begin_) > 4 * seconds_ + 1;
     }
 
@@ -112,7 +112,7 @@ private:
         return simulation_.start_stage(k_);
     }
 
-    /// Takes so many steps, at most to the stage's end. Returns how many they were.
+    /// Takes `count` steps, or fewer at the stage's end. Returns the number taken.
     Result<std::int64_t> advance(std::int64_t count, std::int64_t every) {
         const std::int64_t before = simulation_.state(k_).steps;
         const std::int64_t last = count < last_step_ - before ? before + count : last_step_;
@@ -122,7 +122,7 @@ private:
         const auto look = [&] {
             const auto now = Clock::now();
             const std::int64_t step = simulation_.state(k_).steps;
-            // The first batch wakes up threads and fetches planes.
+            // Skips the first batch, which wakes threads and fetches planes.
             if (seen && step > seen_step) {
                 add_batch(std::chrono::duration<double>(now - *seen).count(), step - seen_step);
             }
@@ -147,17 +147,16 @@ private:
     std::uint32_t k_;
     double seconds_;
     RunControl& control_;
-    RunControl watched_;  ///< Ends a stretch of steps without ending everything.
+    RunControl watched_;  ///< Ends a batch of steps without cancelling the bench.
     std::set<std::string>& said_;
     std::int64_t last_step_ = 0;
     Clock::time_point begin_;
     double step_seconds_ = 0;
-    std::vector<double> batches_;  ///< Seconds of a step.
+    std::vector<double> batches_;  ///< Seconds per step.
     double measured_ = 0;
     std::int64_t steps_ = 0;
 };
 
-/// The stages of one script.
 class ScriptBench {
 public:
     ScriptBench(Script& script, const BenchRequest& request, RunControl& control)
@@ -175,14 +174,14 @@ public:
             if (!found) return tl::unexpected(found.error());
             only = *found;
         }
-        // Coarser grids are other steps than those that are measured.
+        // Only the full grid is measured, not coarser ones before it.
         auto measured = std::make_shared<Program>(*script_.program);
         for (Stage& stage : measured->stages) stage.time.coarse = 1;
         script_.program = std::move(measured);
         SimulationOptions options = request_.simulation;
         options.account = &account_;
         options.control = &control_;
-        options.starts_interpreted = false;  // What is measured is native code.
+        options.starts_interpreted = false;  // Native code is to be measured.
         auto made = Simulation::create(script_, options);
         if (!made) return control_.cancel ? Result<void>() : tl::unexpected(made.error());
         simulation_ = std::move(*made);
@@ -239,11 +238,11 @@ private:
     }
 
     double spent(std::uint32_t k, Spent what) {
-        account_.seconds();  // What is going on is settled.
+        account_.seconds();  // Attributes the time up to now.
         return account_.stage(k).seconds[static_cast<std::size_t>(what)];
     }
 
-    /// The machine as the stage's threads find it is measured once.
+    /// Measures the machine with the stage's number of threads, once per number.
     Result<void> find_limits(StageBench& bench) {
         if (!request_.has_limits || !has_jit()) return {};
         auto& known = limits_[bench.threads];
@@ -268,7 +267,7 @@ private:
     TimeAccount account_;
     std::unique_ptr<Simulation> simulation_;
     double compiled_ = 0;                                 ///< Seconds of compiling so far.
-    std::map<int, std::optional<MachineLimits>> limits_;  ///< By threads.
+    std::map<int, std::optional<MachineLimits>> limits_;  ///< By number of threads.
     std::set<std::string> said_;
 };
 

@@ -1,4 +1,4 @@
-// `cascade bench`: how fast the steps of a script are, and what keeps them from being faster.
+// `cascade bench`: the speed of a script's steps, and what limits it.
 #pragma once
 
 #include "core/result.h"
@@ -17,31 +17,31 @@ namespace cascade {
 
 struct BenchRequest {
     SimulationOptions simulation;
-    std::string stage;  ///< Name, or number from 1, of the only stage that is measured; empty: all.
-    double seconds = 1;  ///< Of steps that are measured in each stage; above 0.
+    std::string stage;   ///< Name, or number from 1, of the only stage to measure; empty for all.
+    double seconds = 1;  ///< Time to measure each stage for; above 0.
     bool has_limits =
         true;  ///< Measure the machine as well; there are no limits without native code.
 };
 
-/// One stage.
+/// The result of one stage.
 struct StageBench {
     std::string stage;
     std::string solver;
     Grid grid;
     Precision precision = Precision::single;
-    bool fast = false;      ///< With fewer roundings.
-    bool is_native = true;  ///< Else the interpreter takes the steps.
-    std::string nothing;    ///< Why there is nothing to measure; then all else is empty.
+    bool fast = false;      ///< With --fast.
+    bool is_native = true;  ///< False if steps were interpreted.
+    std::string nothing;    ///< Why there is nothing to measure; all other members are then empty.
 
-    double step = 0;  ///< Seconds: the median of batches.
+    double step = 0;  ///< Seconds: the median over the batches.
     std::size_t batches = 0;
-    std::int64_t steps = 0;  ///< That were measured.
-    int threads = 1;         ///< That took the last of them.
-    int most_threads = 1;    ///< That might have.
-    Stepping stepping;       ///< How these went through memory.
-    double starting = 0;     ///< Seconds until the starting values were there, each time.
-    double compiling = 0;    ///< Seconds until there was code.
-    double first_step = 0;   ///< Seconds from starting values to the first complete step.
+    std::int64_t steps = 0;  ///< Steps that were measured.
+    int threads = 1;         ///< Threads that took the last of these steps.
+    int most_threads = 1;    ///< Threads that were available.
+    Stepping stepping;       ///< How these steps went through memory.
+    double starting = 0;     ///< Seconds to compute the starting values, each time.
+    double compiling = 0;    ///< Seconds of compiling.
+    double first_step = 0;   ///< Seconds from the starting values to the end of the first step.
     StepWork work;
     std::optional<MachineLimits> limits;
 
@@ -49,42 +49,42 @@ struct StageBench {
     double cell_steps_per_second() const { return cells() / step; }
 };
 
-/// One thing that may bound a step.
+/// A resource that may limit the speed of steps.
 struct Bound {
     enum class Kind { operations, divisions, nearest, tiles, home, meetings };
     Kind kind = Kind::operations;
     std::string name;
-    double reached = 0;  ///< Operations, divisions, bytes or meetings a second.
-    double most = 0;     ///< The same, as it was measured.
+    double reached = 0;  ///< Operations, divisions, bytes or barriers per second.
+    double most = 0;     ///< The measured peak of the same.
     double share() const { return most > 0 ? reached / most : 0; }
 };
 
-/// What bounds the steps of a stage, in the order above; empty without limits. `home` is the memory
-/// that is large enough for all planes. Where several sweeps are done for each pass through it they
-/// share its bytes, and `tiles` is the cache that holds the layers in use and feeds each of them. A
-/// share above 1 says that less was asked of a memory than is counted.
+/// The resources used by the steps of a stage, in the order of Kind; empty without limits. `home`
+/// is the memory level that holds all planes. In tiles, several sweeps share one pass through it,
+/// and `tiles` is the cache that holds the layers in use for all of them. A share above 1 means
+/// that fewer bytes came from this level than are counted.
 std::vector<Bound> bounds_of(const StageBench& bench);
 
-/// The one whose share is the largest; one that is far above 1 bounds nothing.
+/// The resource with the largest share, except those far above 1, which limit nothing.
 const Bound& tightest(const std::vector<Bound>& bounds);
-/// Is its share so far above 1 that less was asked of it than is counted?
+/// True if the share is so far above 1 that less was asked of the resource than is counted.
 bool is_outdone(const Bound& bound);
 
-/// What a roofline allows.
+/// The limit of the roofline model.
 struct Roof {
     double cell_steps_per_second = 0;
-    std::string name;  ///< What is used up then.
+    std::string name;  ///< The resource that limits it.
 };
 
-/// The smallest of the peak of arithmetic over the operations of a cell-step and the bandwidths of
-/// `tiles` and `home` over its bytes that they move (Williams, Waterman, Patterson, "Roofline",
-/// CACM 52(4), 2009). Nothing without limits.
+/// The minimum of the peak of arithmetic over the operations of a cell-step, and the bandwidths of
+/// `tiles` and `home` over the bytes that it moves there (Williams, Waterman, Patterson,
+/// "Roofline", CACM 52(4), 2009). Nothing without limits.
 std::optional<Roof> attainable(const StageBench& bench);
 
-/// Measures the stages one after the other; `tell` gets each as soon as it is known. Every stage
-/// begins with its starting values, as earlier stages were left, and again whenever it ends. Fails
-/// as runs fail; `script.diagnostics` has errors where the script is to blame. After a cancel it
-/// just ends.
+/// Measures the stages one after the other and passes each result to `tell`. Every stage starts
+/// from the present state of earlier stages, and is started again whenever it ends. Fails as runs
+/// fail; errors in the script go to `script.diagnostics`. After a cancel it returns without an
+/// error.
 Result<void> bench(Script& script, const BenchRequest& request, RunControl& control,
                    const std::function<void(const StageBench&)>& tell);
 

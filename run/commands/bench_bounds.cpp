@@ -9,13 +9,13 @@ namespace cascade {
 
 namespace {
 
-/// What holds the layers that all threads have in use; nullptr where there are no tiles.
+/// The memory level that holds the layers in use by all threads; null without tiles.
 const MachineLimits::Memory* cache_of_tiles(const StageBench& bench) {
     const double bytes = bench.stepping.bytes_in_use * bench.threads;
     return bytes > 0 ? &bench.limits->home_of(bytes) : nullptr;
 }
 
-/// That a cell-step moves from and to where all planes lie: sweeps of a tile share them.
+/// Bytes of a cell-step to and from `home`, which the sweeps of a tile share.
 double home_bytes(const StageBench& bench) {
     return bench.work.bytes / bench.stepping.sweeps_at_once;
 }

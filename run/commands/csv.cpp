@@ -1,4 +1,4 @@
-// Quotes only the cells that need it; numbers that are not finite are empty cells.
+// Quotes only the cells that need it; numbers that are not finite become empty cells.
 #include "run/commands/csv.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Tables of comma-separated values, as RFC 4180 has them but with plain line ends.
+// Comma-separated values as in RFC 4180, but with plain line feeds.
 #pragma once
 
 #include "core/precision.h"
@@ -9,13 +9,12 @@
 
 namespace cascade {
 
-/// A line of a table. What holds a comma, a quote or a line end is put in quotes.
+/// A line of a table. Cells with a comma, a quote or a line feed are quoted.
 std::string csv_row(std::span<const std::string> cells);
 
-/// A number with nine digits, as many as binary32 needs to be read back; nothing for one that is
-/// not finite, as spreadsheets have it.
+/// A number with nine digits, enough to read a binary32 back; an empty cell if it is not finite.
 std::string csv_number(double value);
-/// The shortest text that is read back as the same number of a precision.
+/// The shortest text that reads back as the same number of this precision.
 std::string csv_number(double value, Precision precision);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Each kind makes its text anew from the script with the printer of the room that owns it.
+// Each kind of dump uses the printer of the room that owns the data.
 #include "run/commands/dump.h"
 
 #include "ir/cell_kernel.h"
@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 10> kinds = {"tokens",  "ast",   "equatio
                                                     "program", "graph", "plan",      "ir",
                                                     "llvm",    "asm"};
 
-/// Steps are shown as they are taken.
+/// The plans of a run.
 constexpr PlanOptions as_run{Materialise::when_cheaper, false, true};
 
 std::string dump_tokens(const Script& script) {
@@ -30,7 +30,7 @@ std::string dump_tokens(const Script& script) {
     return print_tokens(lex(0, script.sources, already_reported), script.sources);
 }
 
-/// ", pass 2 of 3" where there are several.
+/// ", pass 2 of 3" if there are several.
 std::string pass_words(const StepPlan& plan, std::size_t pass) {
     if (plan.passes.size() == 1) return "";
     return fmt::format(", pass {} of {}", pass + 1, plan.passes.size());
@@ -55,7 +55,7 @@ std::string dump_ir(const Program& program) {
     return text;
 }
 
-/// The systems of the stages; without stages the script's own systems.
+/// The systems of the stages; if there are no stages, the script's own systems.
 std::string dump_equations(const Script& script, Notation notation) {
     const Program& program = *script.program;
     std::vector<bool> shown(program.systems.size(), false);

@@ -1,4 +1,4 @@
-// `--dump`: any stage of the way from text to code, as text.
+// `--dump`: any intermediate form of a script, from tokens to assembly, as text.
 #pragma once
 
 #include "core/result.h"
@@ -13,7 +13,7 @@ namespace cascade {
 /// tokens, ast, equations, tex, program, graph, plan, ir, llvm, asm.
 std::span<const std::string_view> dump_kinds();
 
-/// The dump of a loaded script. tokens and ast work for a wrong script too.
+/// The dump of a loaded script. tokens and ast work for a script with errors, too.
 Result<std::string> dump(const Script& script, std::string_view kind);
 
 }  // namespace cascade

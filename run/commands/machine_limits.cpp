@@ -1,5 +1,5 @@
 // Twelve independent chains of sums and products, a kernel of divisions and a triad, run on planes
-// sized for each cache; of several times the best one counts.
+// sized for each cache; the best of several times counts.
 #include "run/commands/machine_limits.h"
 
 #include "core/cache_sizes.h"
@@ -29,15 +29,15 @@ std::string level_name(int number) {
     return fmt::format("{}-level cache", names[static_cast<std::size_t>(at)]);
 }
 
-/// The caches of this machine; where they are not known those that no present processor falls below
-/// by much.
+/// The caches of this machine; if unknown, sizes common among present processors.
 std::vector<CacheLevel> known_caches() {
     std::vector<CacheLevel> levels = cache_levels();
     if (levels.empty()) levels = {{1, 32 << 10, 1}, {2, 512 << 10, 1}, {3, 8 << 20, 1}};
     return levels;
 }
 
-/// Sums and products of which none waits for long: twelve chains of them, joined at the end.
+/// Twelve independent chains of sums and products, joined at the end, so that none waits for
+/// another.
 CellKernel arithmetic_kernel(Precision precision) {
     KernelBuilder builder(precision);
     const ValueId x = builder.field(builder.field_slot("x"));
@@ -77,13 +77,14 @@ CellKernel triad_kernel(Precision precision) {
     return std::move(builder).finish();
 }
 
-/// Runs kernels on a team, each thread on planes of its own, and takes the best of several times.
+/// Runs kernels on a team, each thread on its own planes; the best of several times counts.
 template <typename Number>
 class Meter {
 public:
     Meter(Team& team, const std::atomic<bool>& cancel) : team_(team), cancel_(cancel) {}
 
-    /// Cells a second, of all threads together. Each thread has planes of `columns` × `rows` cells.
+    /// Cells per second of all threads together. Each thread has planes of `columns` × `rows`
+    /// cells.
     double cells_per_second(const Kernel& kernel, std::size_t fields, std::int64_t columns,
                             std::int64_t rows) {
         Grid grid;
@@ -94,7 +95,7 @@ public:
         for (auto& of_thread : planes) {
             for (std::size_t k = 0; k <= fields; ++k) of_thread.emplace_back(layout);
         }
-        // Whoever writes a page first has it near.
+        // The thread that writes a page first gets it in its own memory node.
         team_.run([&](int thread) {
             for (auto& plane : planes[static_cast<std::size_t>(thread)]) fill(plane);
         });
@@ -117,7 +118,7 @@ public:
         return best;
     }
 
-    /// Seconds until all threads have met.
+    /// Seconds of a barrier of all threads.
     double meeting() {
         if (team_.size() == 1) return 0;
         constexpr int times = 2000;
@@ -132,7 +133,7 @@ public:
     }
 
 private:
-    /// Seconds of work that all threads begin at once.
+    /// The time of `work`, which all threads begin at once, in seconds.
     template <typename Work>
     double time(Work work) {
         Clock::time_point begin, end;
@@ -210,7 +211,8 @@ Result<MachineLimits> measure(Backend& backend, int threads, const std::atomic<b
     };
     double largest = 0;
     for (const CacheLevel& level : known_caches()) {
-        // A cache that cores share is shared by the threads, too; one that each has is there often.
+        // A cache shared by cores is also shared by threads; one that is private to a core exists
+        // once per core.
         const auto caches = static_cast<double>(std::max<std::int64_t>(1, threads / level.cores));
         const auto bytes = static_cast<double>(level.bytes) * caches;
         largest = std::max(largest, bytes);

@@ -1,8 +1,8 @@
-// What this machine can do at most, measured: arithmetic, the bandwidth of its caches and of its
-// memory, meetings of threads.
+// Measured limits of this machine: arithmetic, the bandwidths of its caches and of its memory, and
+// barriers of threads.
 //
-// They are measured by kernels of our own, compiled as those of steps are, so that they use the
-// vectors that steps use and the strict arithmetic that steps do: products and sums apart.
+// They are measured with our own kernels, compiled like those of steps, so that they use the same
+// vectors and the same strict arithmetic: products and sums are separate operations.
 #pragma once
 
 #include "core/precision.h"
@@ -19,21 +19,21 @@ namespace cascade {
 struct MachineLimits {
     struct Memory {
         std::string name;             ///< "first-level cache", …, "memory".
-        double bytes = 0;             ///< That it holds, for all threads; infinite for memory.
-        double bytes_per_second = 0;  ///< Of a triad, a + s · b: two planes read, one written.
+        double bytes = 0;             ///< Capacity available to all threads; infinite for memory.
+        double bytes_per_second = 0;  ///< For a triad, a + s · b: two planes read, one written.
     };
     int threads = 1;
-    double operations = 0;  ///< A second: products and sums by turns, in all lanes of all threads.
-    double divisions = 0;   ///< A second.
-    double meeting = 0;     ///< Seconds; 0 for one thread.
-    std::vector<Memory> memories;  ///< The nearest first, at last memory itself.
+    double operations = 0;         ///< Sums and products per second, of all lanes and threads.
+    double divisions = 0;          ///< Per second.
+    double meeting = 0;            ///< Seconds of a barrier; 0 for one thread.
+    std::vector<Memory> memories;  ///< From the nearest to main memory.
 
-    /// The nearest that holds so many bytes.
+    /// The nearest level that holds `bytes`.
     const Memory& home_of(double bytes) const;
 };
 
-/// Measures for some tenths of a second. Fails where a kernel cannot be compiled, and where
-/// `cancel` is set meanwhile. Throws std::bad_alloc.
+/// Takes some tenths of a second. Fails if a kernel cannot be compiled, and if `cancel` is set
+/// meanwhile. Throws std::bad_alloc.
 Result<MachineLimits> measure_limits(Backend& backend, Precision precision, int threads,
                                      const std::atomic<bool>& cancel);
 

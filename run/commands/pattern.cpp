@@ -1,4 +1,4 @@
-// The public library (include/cascade/cascade.h) over Script and Simulation.
+// The public library (include/cascade/cascade.h), implemented by Script and Simulation.
 
 #include "cascade/cascade.h"
 
@@ -23,7 +23,7 @@ struct Pattern::Implementation {
     std::string error;
     std::uint32_t stage = 0;
     bool failed = false;
-    std::map<std::string, Formula> formulas;  ///< Checked expressions of values(), by their text.
+    std::map<std::string, Formula> formulas;  ///< Of values(), by stage and text.
 
     std::shared_ptr<const ModelCells> model() const {
         return simulation ? simulation->model() : nullptr;
@@ -42,7 +42,7 @@ struct Pattern::Implementation {
         return !failed;
     }
 
-    /// The checked expression; nullptr, with `error` set, if it is wrong.
+    /// The checked expression; null, with `error` set, if it has errors.
     const Formula* formula(const std::string& text);
 
     const Stage& current() const { return script.program->stages[stage]; }
@@ -52,7 +52,7 @@ struct Pattern::Implementation {
     }
     bool is_last_stage() const { return stage + 1 == script.program->stages.size(); }
 
-    /// Takes steps within the current stage. True while there is reason to go on.
+    /// Takes steps within the current stage. True while there is more to do.
     bool advance(std::int64_t& left) {
         const std::int64_t before = simulation->state(stage).steps;
         const std::int64_t last = std::min(current().iterations, before + left);
@@ -162,21 +162,21 @@ std::int64_t Pattern::steps() const {
 }
 
 const Formula* Pattern::Implementation::formula(const std::string& text) {
-    // The same name in another stage is another value.
+    // The same text in another stage is another expression.
     const std::string key = current().name + ":" + text;
     if (const auto known = formulas.find(key); known != formulas.end()) return &known->second;
     const SourceId source = script.sources.add("<values>", text);
-    Diagnostics faults;
+    Diagnostics errors;
     std::optional<Formula> checked;
-    if (const auto expression = parse_expression(source, script.sources, script.tree, faults)) {
+    if (const auto expression = parse_expression(source, script.sources, script.tree, errors)) {
         checked = check_view(script.tree, *expression, stage, stage, *script.program,
-                             script.sources, faults);
+                             script.sources, errors);
     }
     if (checked && checked->nodes.back().type != ValueType::number) {
-        faults.error(checked->nodes.back().span, "this is not a number");
+        errors.error(checked->nodes.back().span, "this is not a number");
     }
-    if (!checked || faults.has_errors()) {
-        error = render(faults, script.sources, {});
+    if (!checked || errors.has_errors()) {
+        error = render(errors, script.sources, {});
         return nullptr;
     }
     return &formulas.emplace(key, std::move(*checked)).first->second;

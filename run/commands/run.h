@@ -1,4 +1,4 @@
-// `cascade run`: stages, pictures, frames, saved fields, from a loaded script to files.
+// `cascade run`: takes a loaded script through its stages and writes pictures, frames and fields.
 #pragma once
 
 #include "core/result.h"
@@ -17,7 +17,7 @@
 
 namespace cascade {
 
-/// A place to stop at: as Ctrl-C would, but at a step that is known.
+/// A step at which the run stops as if by Ctrl-C.
 struct StopAt {
     std::string stage;
     std::int64_t step = 0;
@@ -26,20 +26,20 @@ struct StopAt {
 struct RunRequest {
     SimulationOptions simulation;
     PictureRequest picture;
-    /// Pictures, models and cells, by their endings (output_kind); empty: SCRIPT.png in the current
-    /// folder.
+    /// Pictures, models and cells, by their endings (output_kind); if empty, SCRIPT.png in the
+    /// current folder.
     std::vector<std::filesystem::path> outputs;
     ModelFileOptions model_files;
-    int turntable = 0;              ///< Pictures from so many places around; 0: from one.
-    std::filesystem::path sheet;    ///< `--sheet FILE`; empty: none.
-    std::filesystem::path frames;   ///< `--frames DIR`; empty: none.
-    std::filesystem::path save;     ///< `--save DIR`; empty: none.
-    double checkpoint_seconds = 0;  ///< Above 0: what --save writes is also written so often.
-    std::filesystem::path volume;   ///< `--volume FILE.vti`; empty: none.
-    std::filesystem::path resume;   ///< `--resume DIR`; empty: from the start.
+    int turntable = 0;              ///< Number of pictures from all around; 0 for one.
+    std::filesystem::path sheet;    ///< `--sheet FILE`; empty for none.
+    std::filesystem::path frames;   ///< `--frames DIR`; empty for none.
+    std::filesystem::path save;     ///< `--save DIR`; empty for none.
+    double checkpoint_seconds = 0;  ///< Above 0: seconds between saves during the run.
+    std::filesystem::path volume;   ///< `--volume FILE.vti`; empty for none.
+    std::filesystem::path resume;   ///< `--resume DIR`; empty to start anew.
     std::optional<StopAt> stop_at;
     LogRequest log;
-    bool features = false;  ///< Measure what the picture shows.
+    bool features = false;  ///< Measure the values that the picture shows.
 };
 
 enum class RunStatus {
@@ -51,39 +51,39 @@ enum class RunStatus {
 struct RunReport {
     RunStatus status = RunStatus::finished;
     std::string where;                           ///< "stage 'small', step 312 of 7000".
-    bool has_begun = false;                      ///< There is something to write.
+    bool has_begun = false;                      ///< True if there is something to write.
     std::vector<std::filesystem::path> written;  ///< In order.
-    std::int64_t steps = 0;                      ///< Taken by this run.
-    double seconds = 0;                          ///< Of stepping.
-    std::optional<measure::Features> features;   ///< Where they were asked for.
-    /// What is to be said of the result, a sentence each; `control.warn` has been told.
+    std::int64_t steps = 0;                      ///< Steps taken by this run.
+    double seconds = 0;                          ///< Time of stepping.
+    std::optional<measure::Features> features;   ///< If they were requested.
+    /// Remarks on the result, a sentence each; `control.warn` has received them, too.
     std::vector<std::string> remarks;
 };
 
-/// Runs the script and writes what was asked for. All outputs are checked before the first step.
-/// After a cancel what there is is written. A failure's text is complete; where it is a fault of
-/// the script, `script.diagnostics` has errors.
+/// Runs the script and writes the requested outputs. All outputs are checked before the first step.
+/// After a cancel the results so far are written. The text of a failure is complete; if it is an
+/// error in the script, `script.diagnostics` has errors.
 Result<RunReport> run(Script& script, const RunRequest& request, RunControl& control);
 
-/// Writes every field of the started stages as STAGE.NAME.npy, the script, and `run.json`. A run
-/// that is saved there already is replaced in one move (run/commands/saved_folder.h): until the new
-/// one is complete, the old one is. Fails, and changes nothing, where a file that is not of that
-/// run has one of these names.
+/// Writes every field of the started stages as STAGE.NAME.npy, the script, and `run.json`. A saved
+/// run in the folder is replaced atomically (run/commands/saved_folder.h): it stays valid until the
+/// new one is complete. Fails, and changes nothing, if a file that is not part of that run has one
+/// of these names.
 Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path& folder,
                                                     const Script& script,
                                                     const Simulation& simulation);
 
-/// Looks before a run whether it will be possible to save it there.
+/// Checks before a run that it can be saved in the folder.
 Result<void> check_savable(const std::filesystem::path& folder, const Script& script);
 
-/// Starts the stages of a saved run again and puts their species back. The script must be the one
+/// Starts the stages of a saved run again and restores their species. The script must be the one
 /// that was saved (load it with load_saved_script).
 Result<void> restore_run(const std::filesystem::path& folder, const Script& script,
                          Simulation& simulation);
 
 /// The script and overrides of a saved run. `changes` may lift or set `steps` and `until_stage`,
-/// grant reads and say where the model lies. The script's files lie in `script_folder`, where the
-/// user has named it, else where find_script_folder() says.
+/// grant reads and name the place of the model. Files of the script are looked up in
+/// `script_folder` if the user named it, else where find_script_folder() says.
 Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes,
                                  const std::filesystem::path& script_folder = {});
 

@@ -1,4 +1,4 @@
-// Options are refused with a diagnostic at the option's text; files and folders are tried for
+// Options that do not fit are reported at the option's text; files and folders are tested for
 // writing.
 #include "run/commands/run_checks.h"
 
@@ -20,7 +20,7 @@ namespace cascade {
 std::vector<std::filesystem::path> outputs_of(const Script& script, const RunRequest& request) {
     if (!request.outputs.empty()) return request.outputs;
     const std::filesystem::path picture = output_stem(script) + ".png";
-    // A picture that is grown again is no output to be lost.
+    // Running a picture again may overwrite it.
     std::error_code error;
     if (std::filesystem::equivalent(picture, script.file, error))
         return {output_stem(script) + "-again.png"};
@@ -49,7 +49,7 @@ std::vector<std::filesystem::path> turntable_paths(const std::filesystem::path& 
 
 namespace {
 
-/// A file that a run writes, and which of the options asks for it.
+/// A file that a run writes, and the name of the output in messages.
 struct OutputFile {
     std::filesystem::path path;
     std::string_view what;
@@ -117,7 +117,7 @@ Result<void> check_picture_size(const DomainSettings& domain, const PictureReque
                                 double memory, std::uint64_t memory_limit) {
     constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
     Grid grid = domain.grid;
-    // What is drawn on a surface has a size of its own.
+    // A picture of a surface has a size of its own.
     const bool is_drawn = domain.model || (domain.surface && !picture.flat);
     if (is_drawn) grid = Grid{DrawOptions().width, DrawOptions().height};
     else if (grid.depth > 1) grid = slice_grid(PlaneLayout(grid), picture.slice);
@@ -129,7 +129,7 @@ Result<void> check_picture_size(const DomainSettings& domain, const PictureReque
                                    picture.scale, most_pixels),
                        hint);
     }
-    // Painted, and then enlarged.
+    // An enlarged picture is painted at one pixel per cell first.
     const std::int64_t pixels_of_cell = pixels_per_cell > 1 ? 1 + pixels_per_cell : 1;
     const auto pixels = static_cast<double>(grid.cell_count() * pixels_of_cell);
     const double bytes = memory + pixels * sizeof(Colour);
@@ -143,7 +143,7 @@ Result<void> check_picture_size(const DomainSettings& domain, const PictureReque
 
 namespace {
 
-/// A place to stop at that the run never comes to would let it run on to its end.
+/// Reports a `--stop-at` that the run never reaches.
 void check_stop_at(Script& script, const StopAt& stop_at) {
     const std::string text = fmt::format("{}:{}", stop_at.stage, stop_at.step);
     Span span = option_span(script.sources, "--stop-at", text);
@@ -163,7 +163,7 @@ void check_stop_at(Script& script, const StopAt& stop_at) {
                              fmt::format("stage '{}' has {} steps", stop_at.stage, iterations));
 }
 
-/// Says of options that they do not go with the domain or with each other.
+/// Reports options that are incompatible with the domain or with each other.
 class OptionRefuser {
 public:
     explicit OptionRefuser(Script& script) : script_(script) {}
@@ -182,7 +182,7 @@ private:
     Script& script_;
 };
 
-/// Outputs of rows and columns, which a model does not have.
+/// Outputs with rows and columns, which a model does not have.
 void check_on_model(OptionRefuser& options, const RunRequest& request) {
     const std::string message = "the cells of a model have no rows and columns";
     options.refuse_if(request.picture.flat, "--flat", message,
@@ -195,7 +195,7 @@ void check_on_model(OptionRefuser& options, const RunRequest& request) {
     options.refuse_if(request.features, "--features", message, "");
 }
 
-/// How models are written, and which of the outputs are some.
+/// Options for model files without a file that they apply to.
 void check_model_files(OptionRefuser& options, const RunRequest& request) {
     const ModelFileOptions& files = request.model_files;
     bool has_picture = request.outputs.empty(), is_baked = false, is_tiled = false;
@@ -214,9 +214,9 @@ void check_model_files(OptionRefuser& options, const RunRequest& request) {
                       "-o NAME.png draws pictures NAME-001.png, …");
 }
 
-/// What only models have.
+/// Options that apply to models only.
 void check_without_model(OptionRefuser& options, const RunRequest& request) {
-    const std::string message = "the domain is no model";
+    const std::string message = "the domain is not a model";
     const std::string hint = "--mesh FILE, or mesh: \"FILE\" in the domain, makes it one";
     for (const auto& output : request.outputs) {
         if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
@@ -230,7 +230,7 @@ void check_without_model(OptionRefuser& options, const RunRequest& request) {
 }
 
 void check_on_plane(OptionRefuser& options, const RunRequest& request) {
-    const std::string message = "the domain is no surface";
+    const std::string message = "the domain is not a surface";
     const std::string hint = "surface: x, y, z in the domain makes one";
     options.refuse_if(request.picture.flat, "--flat", message, hint);
     options.refuse_if(request.picture.is_turned(), "--view", message, hint);
@@ -253,8 +253,7 @@ Result<void> check_request(Script& script, const RunRequest& request) {
     std::error_code error;
     options.refuse_if(is_called_like_a_movie(request.frames) &&
                           !std::filesystem::is_directory(request.frames, error),
-                      "--frames",
-                      "frames are pictures in a folder, and this is called like a movie",
+                      "--frames", "frames are pictures in a folder, and this is named like a movie",
                       how_to_make_a_movie(request.frames));
     options.refuse_if(request.picture.slice != Slice{} && domain.grid.depth == 1, "--slice",
                       "a plane has no slices", "grid: W, H, D makes a volume");

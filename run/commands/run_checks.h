@@ -1,4 +1,4 @@
-// What is asked of a run, held against its script and the disk before the first step.
+// Checks a request against its script and the disk before the first step.
 #pragma once
 
 #include "run/commands/run.h"
@@ -7,28 +7,28 @@
 
 namespace cascade {
 
-/// What `request` writes to, before defaults are known: the picture of a script goes to SCRIPT.png.
+/// The outputs of -o, or SCRIPT.png by default.
 std::vector<std::filesystem::path> outputs_of(const Script& script, const RunRequest& request);
 
-/// Where the log goes: beside the first output, unless it is said.
+/// The file of the log: as requested, else beside the first output.
 std::filesystem::path log_path(const RunRequest& request,
                                const std::filesystem::path& first_output);
 
-/// The pictures of a turntable: NAME-001.png …, with as many digits as the last one has.
+/// The pictures of a turntable: NAME-001.png …, with enough digits for the last one.
 std::vector<std::filesystem::path> turntable_paths(const std::filesystem::path& picture, int count);
 
-/// What is asked for must fit the script; where it does not, the script's diagnostics say so.
+/// Checks that the request fits the script; reports errors in the script's diagnostics.
 Result<void> check_request(Script& script, const RunRequest& request);
 
-/// Everything that could fail at the end of a long run is tried at its beginning. Leaves nothing
-/// behind, also nothing of what killed runs left there.
+/// Tests all outputs for writing, so that a long run does not fail at its end. Leaves no files, and
+/// removes temporary files of killed runs.
 Result<void> check_outputs(const RunRequest& request,
                            std::span<const std::filesystem::path> outputs);
-/// Makes the folders, and tries them.
+/// Creates the folders, and tests them for writing.
 Result<void> check_folders(const RunRequest& request);
 
-/// A picture larger than memory is refused before the run, not after it. `memory` is what the run
-/// takes without it.
+/// Refuses pictures that do not fit into memory; `memory` is what the run needs without them, in
+/// bytes.
 Result<void> check_picture_size(const DomainSettings& domain, const PictureRequest& picture,
                                 double memory, std::uint64_t memory_limit);
 

@@ -22,9 +22,9 @@ Result<void> check_rows(const Script& script, const LogRequest& request) {
     std::int64_t rows = 0;
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
         const Stage& stage = script.program->stages[k];
-        // A stage that gives no interval is looked at ten times.
+        // A stage without an interval is logged ten times.
         const std::int64_t every = request.every > 0 ? request.every : stage.interval;
-        // How many steps a duration takes is not known before.
+        // The number of steps of a duration is not known in advance.
         const bool is_known = !stage.time.duration && !stage.time.duration_in_steps;
         if (is_known) rows += every > 0 ? stage.iterations / every : 10;
         if (rows <= most_log_rows) continue;
@@ -76,7 +76,7 @@ bool RunLog::check_expression(Script& script, const std::string& text) {
         formulas.push_back(std::move(formula));
     }
     if (!fits_some) {
-        // Why, is said of the last stage, as --show has it.
+        // The message is that of the last stage, as for --show.
         const std::uint32_t stage = script.final_stage();
         check_view(script.tree, *expression, stage, stage, *script.program, script.sources,
                    script.diagnostics);

@@ -1,4 +1,4 @@
-// Time series of a run: `--log EXPR`, a row of numbers every so many steps, written as a table.
+// Time series of a run: `--log EXPR` writes a table with a row every few steps.
 #pragma once
 
 #include "core/result.h"
@@ -15,28 +15,27 @@
 namespace cascade {
 
 struct LogRequest {
-    std::vector<std::string> expressions;  ///< Each the same in all cells; none: no log.
-    std::int64_t every = 0;                ///< Steps from row to row; 0: each stage's `interval`.
-    std::filesystem::path file;            ///< Empty: beside the picture.
+    std::vector<std::string> expressions;  ///< Uniform ones; without any, nothing is logged.
+    std::int64_t every = 0;                ///< Steps between rows; 0 for each stage's `interval`.
+    std::filesystem::path file;            ///< Empty for a file beside the picture.
 };
 
-/// A log of more rows is refused: it would fill memory.
+/// The most rows of a log, which is kept in memory.
 inline constexpr std::int64_t most_log_rows = 10'000'000;
 
-/// The rows of one run, in memory until the run ends (also where it blows up: then they are wanted
-/// most). Columns: stage, step, t, and each expression; where a stage lacks a name that an
-/// expression reads, its place is empty.
+/// The rows of one run, in memory until the run ends, even if it diverges. Columns: stage, step, t,
+/// and each expression; a cell is empty if its expression has no meaning in the stage.
 class RunLog {
 public:
-    /// Checks the expressions for all stages that run. An expression that fits none of them, or
-    /// differs from cell to cell, is a fault in `script.diagnostics`.
+    /// Checks the expressions for all stages that run. One that fits none of them, or varies by
+    /// cell, is an error in `script.diagnostics`.
     static Result<RunLog> create(Script& script, const LogRequest& request);
 
     /// Steps between two rows of a stage.
     std::int64_t every(const Stage& stage) const {
         return request_.every > 0 ? request_.every : stage.interval;
     }
-    /// Adds a row for the present state of a started stage, unless it has that row already.
+    /// Adds a row for the present state of a started stage, unless it already has that row.
     void record(const Simulation& simulation, std::uint32_t stage);
     Result<void> write(const std::filesystem::path& path) const;
 
@@ -49,7 +48,7 @@ private:
 
     LogRequest request_;
     std::vector<std::string> stage_names_;
-    std::vector<std::vector<std::optional<Formula>>> formulas_;  ///< Per expression, per stage.
+    std::vector<std::vector<std::optional<Formula>>> formulas_;  ///< By expression and stage.
     std::vector<Row> rows_;
     std::vector<double> values_;  ///< Of all rows: t, then the expressions.
     Precision precision_ = Precision::single;

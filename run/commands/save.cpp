@@ -1,4 +1,4 @@
-// Saved runs: a folder with STAGE.NAME.npy for every field, and run.json with the rest.
+// Saved runs: a folder with STAGE.NAME.npy for every field, and run.json for everything else.
 
 #include "core/file.h"
 #include "core/version.h"
@@ -48,7 +48,7 @@ Failure damaged(const std::filesystem::path& folder, const std::string& why) {
     return {fmt::format("the saved run in {} is damaged: {}", folder.string(), why), ""};
 }
 
-/// Species as they were at the last look of `until: steady(…)` have this after their names.
+/// Suffix of species as they were at the last test of `until: steady(…)`.
 constexpr std::string_view last_look = ".last";
 
 Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
@@ -77,7 +77,7 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
         }
         Field field = to_field(*array, program.domain.precision);
         if (model) field = in_rows(field, *model);
-        // Outside of the mask files have NaN and runs have 0.
+        // Outside of the mask, files hold NaN but runs 0.
         if (simulation.mask()) field = with_outside(field, *simulation.mask(), 0);
         if (first_not_finite(field)) {
             return tl::unexpected(
@@ -88,7 +88,7 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
     return species;
 }
 
-/// Is a plane of the stage's item saved?
+/// True if the stage's item has a plane to be saved.
 bool is_saved(const Program& program, std::uint32_t stage, std::uint32_t item) {
     return program.system_of(stage).is_species(item) || !program.stages[stage].uniform[item];
 }
@@ -148,21 +148,21 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
 
 namespace {
 
-/// The model of a saved run may have another place, which the user says, and no other name.
+/// The user may name a new place for the model of a saved run, but not another model.
 Result<void> take_model(Overrides& saved, const Overrides& changes) {
     if (!changes.model) return {};
     const auto name = [](const std::string& path) {
         return std::filesystem::path(path).filename();
     };
     if (!saved.model || name(*saved.model) != name(*changes.model)) {
-        return failure("a resumed run keeps its model", "--mesh can only say where that lies now");
+        return failure("a resumed run keeps its model", "--mesh can only give its new place");
     }
     saved.model = changes.model;
     saved.model_is_asked_for = changes.model_is_asked_for;
     return {};
 }
 
-/// What run.json repeats of the script must be what the script says.
+/// Checks that what run.json repeats of the script agrees with it.
 Result<void> check_against_script(const std::filesystem::path& folder, const nlohmann::json& json,
                                   const Script& script, const Simulation& simulation) {
     const Grid& grid = simulation.grid();
@@ -191,7 +191,7 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
     try {
         auto overrides = overrides_from_json(json->at("overrides").dump());
         if (!overrides) return tl::unexpected(damaged(folder, overrides.error().message));
-        // A cap that made the run stop would make the resumed one stop as well.
+        // The steps of the saved run would stop the resumed one, too.
         overrides->steps = changes.steps;
         overrides->until_stage = changes.until_stage;
         overrides->reads = changes.reads;
@@ -204,20 +204,20 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
         script.file = folder;
         return script;
     } catch (const nlohmann::json::exception&) {
-        return tl::unexpected(damaged(folder, "run.json lacks something or has it wrong"));
+        return tl::unexpected(damaged(folder, "run.json is incomplete or malformed"));
     }
 }
 
 Result<void> restore_run(const std::filesystem::path& folder, const Script& script,
                          Simulation& simulation) {
-    // A run that is kept while it runs may be about to replace this one.
+    // A run in progress may be replacing this one.
     const FolderLock lock(folder, true);
     auto json = read_saved_manifest(folder);
     if (!json) return tl::unexpected(json.error());
     try {
         if (auto same = check_against_script(folder, *json, script, simulation); !same) return same;
         const auto& stages = json->at("stages");
-        if (!stages.is_array()) return tl::unexpected(damaged(folder, "its stages are no list"));
+        if (!stages.is_array()) return tl::unexpected(damaged(folder, "its stages are not a list"));
         if (stages.size() > script.program->stages.size()) {
             return tl::unexpected(damaged(folder, "it has more stages than its script"));
         }
@@ -229,12 +229,13 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             const auto steps = stages[k].at("steps").get<std::int64_t>();
             bool done = stages[k].at("done").get<bool>();
             const bool condition_met = stages[k].value("condition_met", done);
-            // More steps may be asked for than before; but what a later stage began from stays.
+            // More steps may be requested than before, but not in a stage whose end a later one has
+            // used.
             const bool is_last = k + 1 == stages.size();
             done = done &&
                    (!is_last || condition_met || steps >= script.program->stages[k].iterations);
             if (steps < 0) return tl::unexpected(damaged(folder, "a number of steps is negative"));
-            // A run that --steps has cut short may have taken more than it may now.
+            // With --steps, the saved run may have taken more steps than are allowed now.
             if (!script.overrides.steps && steps > script.program->stages[k].iterations) {
                 return tl::unexpected(
                     damaged(folder, fmt::format("stage {} has too many steps", k + 1)));
@@ -252,14 +253,14 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
                 auto looked_at = read_species(folder, *json, simulation, k, last_look);
                 if (!looked_at) return tl::unexpected(looked_at.error());
                 if (time->formations.size() != looked_at->size()) {
-                    return tl::unexpected(damaged(folder, "it lacks how a species has formed"));
+                    return tl::unexpected(damaged(folder, "it lacks the course of a species"));
                 }
                 watch.remember(std::move(*looked_at), *time->last_look, time->formations);
             }
             simulation.set_time(k, time->t, time->state, std::move(watch));
         }
     } catch (const nlohmann::json::exception&) {
-        return tl::unexpected(damaged(folder, "run.json lacks something or has it wrong"));
+        return tl::unexpected(damaged(folder, "run.json is incomplete or malformed"));
     }
     return {};
 }

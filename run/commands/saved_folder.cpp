@@ -1,4 +1,5 @@
-// The protocol of files and renames, with flock() for writers and readers and fsync() in between.
+// The protocol of files and renames, with flock() between writers and readers and fsync() between
+// its phases.
 #include "run/commands/saved_folder.h"
 
 #include "core/file.h"
@@ -43,7 +44,7 @@ bool is_manifest(const nlohmann::json& json) {
     return json.is_object() && json.contains("cascade");
 }
 
-/// Nothing where the manifest does not name the file, or not rightly.
+/// Nothing if the manifest does not name the file, or not in a valid form.
 std::optional<SavedFile> saved_file(const nlohmann::json& manifest, const std::string& name) {
     const bool is_array = name.ends_with(".npy") && name.find('/') == std::string::npos;
     const auto files = manifest.find("files");
@@ -69,7 +70,7 @@ std::optional<SavedFile> saved_file(const nlohmann::json& manifest, const std::s
     return file;
 }
 
-/// Does a run of an earlier version own this file? It is called STAGE.NAME.npy.
+/// True if a run of an earlier version owns this file, STAGE.NAME.npy.
 bool is_array_of_a_stage(const nlohmann::json& manifest, std::string_view name) {
     const auto stages = manifest.find("stages");
     if (!name.ends_with(".npy") || stages == manifest.end() || !stages->is_array()) return false;
@@ -79,7 +80,7 @@ bool is_array_of_a_stage(const nlohmann::json& manifest, std::string_view name) 
     });
 }
 
-/// The names of a saved run's files that are in the folder.
+/// The names of a saved run's files that exist in the folder.
 std::vector<std::string> files_of(const nlohmann::json& manifest, const Descriptor& folder) {
     std::vector<std::string> names = names_in(folder);
     const bool is_listed = manifest.contains("files");
@@ -89,7 +90,7 @@ std::vector<std::string> files_of(const nlohmann::json& manifest, const Descript
     return names;
 }
 
-/// The manifest of the folder if there is one; a Failure where run.json is something else.
+/// The manifest of the folder if there is one; fails if run.json is something else.
 Result<std::optional<nlohmann::json>> manifest_before(const fs::path& folder) {
     const fs::path path = folder / manifest_name;
     std::error_code error;
@@ -98,11 +99,12 @@ Result<std::optional<nlohmann::json>> manifest_before(const fs::path& folder) {
     auto json = text && is_small_json(*text) ? nlohmann::json::parse(*text, nullptr, false)
                                              : nlohmann::json();
     if (is_manifest(json)) return json;
-    return failure(fmt::format("'{}' is not of a saved run, and is not replaced", path.string()),
+    return failure(fmt::format("'{}' does not belong to a saved run, and is not replaced",
+                               path.string()),
                    "save into another folder");
 }
 
-/// Nothing of another kind, and nothing that is not of the run before, is replaced.
+/// Refuses to replace anything but files of the previous run.
 Result<void> check_name(const fs::path& folder, const std::string& name,
                         const std::vector<std::string>& before) {
     std::error_code error;
@@ -111,9 +113,10 @@ Result<void> check_name(const fs::path& folder, const std::string& name,
     if (!fs::exists(status)) return {};
     const bool is_known = std::find(before.begin(), before.end(), name) != before.end();
     if (fs::is_regular_file(status) && is_known) return {};
-    return failure(fmt::format("'{}' is not of the run that is saved there, and is not replaced",
-                               path.string()),
-                   "save into another folder");
+    return failure(
+        fmt::format("'{}' does not belong to the run that is saved there, and is not replaced",
+                    path.string()),
+        "save into another folder");
 }
 
 }  // namespace
@@ -151,8 +154,7 @@ Result<std::unique_ptr<SavedFolderChange>> SavedFolderChange::begin(const fs::pa
     return change;
 }
 
-/// Brings files to their names that a killed writer had committed, and removes those that it had
-/// not.
+/// Completes the renames that a killed writer had committed, and removes its other files.
 Result<void> SavedFolderChange::tidy() {
     const int folder = lock_.folder().number();
     const auto manifest = manifest_before(path_);
@@ -167,7 +169,7 @@ Result<void> SavedFolderChange::tidy() {
         }
     }
     if (*manifest) before_ = files_of(**manifest, lock_.folder());
-    if (!lock_.is_held()) return {};  // Somebody may be writing them.
+    if (!lock_.is_held()) return {};  // Another process may be writing them.
     for (const std::string& name : names_in(lock_.folder())) {
         const bool is_known = std::find(kept.begin(), kept.end(), name) != kept.end();
         if (!is_temporary_name(name, unfinished_ending) || is_known) continue;
@@ -185,8 +187,7 @@ Result<void> SavedFolderChange::add(const std::string& name, std::string_view by
     return {};
 }
 
-/// Puts run.json in the place of the one before. Its first rename is the moment at which the new
-/// run takes the place of the old one.
+/// Replaces run.json. Its first rename is the moment at which the new run replaces the old one.
 int SavedFolderChange::replace_manifest(const nlohmann::json& manifest) {
     const std::string text =
         manifest.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -196,7 +197,7 @@ int SavedFolderChange::replace_manifest(const nlohmann::json& manifest) {
     if (const int error = file.write(text)) return error;
     if (const int error = file.rename_to(manifest_name)) return error;
     is_committed_ = true;
-    // Files must not take their names before it has its own, not even where the machine crashes.
+    // The renames of other files must not reach the disk before that of run.json, even in a crash.
     return ::fsync(folder) == 0 || errno == EINVAL ? 0 : errno;
 }
 
@@ -213,14 +214,14 @@ Result<std::vector<fs::path>> SavedFolderChange::commit(nlohmann::json manifest)
     std::vector<fs::path> written;
     bool have_their_names = true;
     for (const auto& [name, file] : files_) {
-        // One that cannot take its name is read under the other.
+        // If the rename fails, it is read under its temporary name.
         const bool has_its_name =
             ::renameat(folder, file.written_as.c_str(), folder, name.c_str()) == 0;
         have_their_names = have_their_names && has_its_name;
         list[name].erase("written_as");
         written.push_back(path_ / name);
     }
-    // The same run has the same bytes: random names are told only while they mean something.
+    // The same run has the same bytes: temporary names are listed only while they are in use.
     if (have_their_names) (void)replace_manifest(manifest);
     for (const std::string& name : before_) {
         if (!files_.contains(name)) ::unlinkat(folder, name.c_str(), 0);
@@ -272,7 +273,7 @@ Result<std::string> read_saved_file(const fs::path& folder, const nlohmann::json
     auto bytes = read_plain_file(has_its_name ? folder / name : unfinished, file->bytes);
     if (bytes && (bytes->size() != file->bytes || fnv1a(*bytes) != file->checksum)) {
         return failure(
-            fmt::format("{} has changed since the run was saved: its checksum is another", name));
+            fmt::format("{} has changed since the run was saved: its checksum differs", name));
     }
     return bytes;
 }

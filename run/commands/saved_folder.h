@@ -1,11 +1,11 @@
-// The folder of a saved run, whose files are replaced all at once.
+// The folder of a saved run, whose files are replaced atomically.
 //
-// run.json decides which files are the run: it names each one with its size and checksum. New files
-// are written beside the old ones under temporary names, which the new run.json tells; then that
-// takes the place of the old one, by one rename; and only then do the files take their own names,
-// and run.json forgets the others. A writer that is killed at any moment leaves the old run or the
-// new one, whole, and the next one tidies up. Files that no run.json names are nobody's business
-// here. Runs of earlier versions name no files; theirs are the arrays of their stages.
+// run.json defines which files belong to the run: it lists each with its size and checksum. New
+// files are written beside the old ones under temporary names, which the new run.json lists; then
+// it replaces the old run.json by one rename; only then are the files renamed, and the old ones
+// removed. A writer that is killed at any moment leaves the old run or the new one complete, and
+// the next writer cleans up. Files that no run.json lists are not touched. Runs of earlier versions
+// list no files; theirs are the arrays of their stages.
 #pragma once
 
 #include "core/descriptor.h"
@@ -23,14 +23,14 @@
 
 namespace cascade {
 
-/// While it lives, no other process changes the folder (or, shared, others may read it too). It
-/// waits for ten seconds at most. Advisory, and nothing on file systems that know no locks.
+/// While it exists, no other process changes the folder; if shared, others may read it, too. Waits
+/// for at most ten seconds. Advisory, and without effect on file systems without locks.
 class FolderLock {
 public:
     FolderLock(const std::filesystem::path& folder, bool shared);
     const Descriptor& folder() const { return folder_; }
     bool is_held() const { return is_held_; }
-    /// Somebody else has not let go of it.
+    /// Another process still holds it.
     bool is_refused() const { return is_refused_; }
 
 private:
@@ -39,27 +39,26 @@ private:
     bool is_refused_ = false;
 };
 
-/// What run.json says of one file.
+/// The entry of one file in run.json.
 struct SavedFile {
     std::uint64_t bytes = 0;
     std::uint64_t checksum = 0;  ///< FNV-1a, 64 bits.
-    std::string written_as;      ///< Its temporary name, while it may lie there; else empty.
+    std::string written_as;      ///< Its temporary name, as long as it may have that; else empty.
 };
 
 class SavedFolderChange {
 public:
-    /// Takes the folder, which is there, for itself and puts what a killed writer left in order.
-    /// Fails where run.json is not of a saved run.
+    /// Locks the folder, which must exist, and cleans up after a killed writer. Fails if run.json
+    /// is not that of a saved run.
     static Result<std::unique_ptr<SavedFolderChange>> begin(const std::filesystem::path& folder);
-    /// What was not committed has never been.
+    /// Discards what was not committed.
     ~SavedFolderChange();
 
-    /// Writes a file of the new run. Fails, too, where something has its name that is not of the
-    /// run before.
+    /// Writes a file of the new run. Also fails if a file of that name is not part of the previous
+    /// run.
     Result<void> add(const std::string& name, std::string_view bytes);
-    /// Makes the new run the one that is saved here; `manifest` is run.json but for its list of
-    /// files. The files of the run before are removed. Returns the paths of the new ones, run.json
-    /// last.
+    /// Replaces the previous run and removes its files; `manifest` is run.json without its list of
+    /// files. Returns the paths of the new files, run.json last.
     Result<std::vector<std::filesystem::path>> commit(nlohmann::json manifest);
 
 private:
@@ -69,20 +68,20 @@ private:
 
     std::filesystem::path path_;
     FolderLock lock_;
-    std::vector<std::string> before_;         ///< Files of the run before.
+    std::vector<std::string> before_;         ///< Files of the previous run.
     std::map<std::string, SavedFile> files_;  ///< Of the new run.
     bool is_committed_ = false;
 };
 
-/// May a run with these files be saved in the folder, if it is there? Looks as a change would.
+/// Checks that a run with these files could be saved in the folder, if it exists.
 Result<void> check_savable(const std::filesystem::path& folder,
                            const std::vector<std::string>& names);
 
-/// run.json of a saved run: an object with "cascade" in it. Nothing else of it has been checked.
+/// run.json of a saved run: an object that has "cascade". Nothing else in it is checked.
 Result<nlohmann::json> read_saved_manifest(const std::filesystem::path& folder);
 
-/// A file of a saved run, as `manifest` has it. Fails if its size or checksum is another, on links
-/// and on all that is no file.
+/// A file of a saved run. Fails if its size or checksum differs from the manifest, and on anything
+/// but a regular file.
 Result<std::string> read_saved_file(const std::filesystem::path& folder,
                                     const nlohmann::json& manifest, const std::string& name);
 

@@ -1,5 +1,5 @@
-// A pool of threads, each doing whole runs of one thread with a shared compiler; results are
-// written as they come, so that the next sweep takes them over.
+// A pool of threads, each taking single-threaded runs with a shared compiler; results are written
+// as they arrive, so that a later sweep can reuse them.
 #include "run/commands/sweep.h"
 
 #include "core/file.h"
@@ -28,7 +28,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto between_reports = std::chrono::milliseconds(100);
 
-/// One line, for a table.
+/// Joins the lines, for a table.
 std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
@@ -39,17 +39,6 @@ void add_remark(SweepResult& result, const std::string& words) {
     result.remark += (result.remark.empty() ? "" : "; ") + one_line(words);
 }
 
-/// "feed=0.02,kill=0.05"; what cannot stand in a file's name becomes '_'.
-std::string folder_name(std::span<const Variation> varied, std::span<const std::string> values) {
-    std::string name;
-    for (std::size_t k = 0; k < varied.size(); ++k) {
-        name += fmt::format("{}{}={}", k > 0 ? "," : "", varied[k].name, values[k]);
-    }
-    std::replace(name.begin(), name.end(), '/', '_');
-    return name;
-}
-
-/// A run that is to be taken, or was.
 struct Run {
     Overrides overrides;
     std::vector<std::string> values;
@@ -61,10 +50,10 @@ public:
     Sweeper(const Script& script, const SweepRequest& request, SweepControl& control)
         : script_(script), request_(request), control_(control) {}
 
-    tl::expected<SweepReport, SweepFault> run();
+    tl::expected<SweepReport, SweepError> run();
 
 private:
-    using Done = tl::expected<void, SweepFault>;
+    using Done = tl::expected<void, SweepError>;
 
     Done plan();
     Done plan_run(std::size_t number);
@@ -79,7 +68,7 @@ private:
     void watch(std::vector<std::unique_ptr<RunControl>>& controls);
     void report();
     void keep(std::size_t number, SweepResult result);
-    void give_up(SweepFault why);
+    void give_up(SweepError why);
     Result<void> write_outputs();
     Script load(const Run& run) const {
         return load_script(script_.name, script_.text, script_.folder, run.overrides);
@@ -92,62 +81,60 @@ private:
     SimulationOptions simulation_;  ///< Of every run: one thread, a shared compiler.
     std::vector<Run> runs_;
     std::vector<std::optional<SweepResult>> results_;
-    double waiting_runs_ = 0;     ///< How many there were to take.
-    double memory_of_a_run_ = 0;  ///< Bytes; every run checks its own again.
+    double waiting_runs_ = 0;     ///< Number of runs to take.
+    double memory_of_a_run_ = 0;  ///< Bytes; every run checks it again.
     int workers_ = 1;
     SweepReport report_;
     Clock::time_point begun_;
-    bool is_alone_ = false;  ///< No thread was to be had: the caller's does the runs.
+    bool is_alone_ = false;  ///< No thread could be created: the caller's takes the runs.
 
-    std::mutex mutex_;  ///< Guards what follows, and `results_` while runs go on.
+    std::mutex mutex_;  ///< Guards the members below, and `results_` while runs go on.
     std::condition_variable changed_;
     std::size_t next_ = 0;
     std::size_t working_ = 0;
     double shares_done_ = 0;  ///< Of those runs, each 0 … 1.
-    std::optional<SweepFault> stopped_by_;
+    std::optional<SweepError> stopped_by_;
 };
 
 Sweeper::Done Sweeper::plan_run(std::size_t number) {
     Run run;
     run.values = values_of_run(request_.varied, number);
     auto overrides = overrides_of_run(script_.overrides, request_.varied, run.values);
-    if (!overrides) return tl::unexpected(SweepFault{overrides.error(), std::nullopt});
+    if (!overrides) return tl::unexpected(SweepError{overrides.error()});
     run.overrides = std::move(*overrides);
     Script script = load(run);
     if (!script.program) {
         return tl::unexpected(
-            SweepFault{{"a script of the sweep is wrong", ""}, std::move(script)});
+            SweepError{{"a script of the sweep is wrong", ""}, std::move(script)});
     }
     run.key = key_of_run(script, request_.picture, request_.tile_side);
-    if (number == 0 && script.program->stages.empty()) {
-        return tl::unexpected(SweepFault{
-            {"this script has no stage to run", example_of_stage(*script.program)}, std::nullopt});
-    }
     if (number == 0) {
-        if (auto painter = Painter::create(script, request_.picture); !painter) {
-            const bool in_script = script.diagnostics.has_errors();
-            SweepFault fault{painter.error(), std::nullopt};
-            if (in_script) fault.faults = std::move(script);
-            return tl::unexpected(std::move(fault));
+        if (script.program->stages.empty()) {
+            return tl::unexpected(
+                SweepError{{"this script has no stage to run", example_of_stage(*script.program)}});
         }
+        if (auto painter = Painter::create(script, request_.picture); !painter) {
+            SweepError error{painter.error()};
+            if (script.diagnostics.has_errors()) error.script = std::move(script);
+            return tl::unexpected(std::move(error));
+        }
+        memory_of_a_run_ = memory_of(*script.program);
     }
-    if (number == 0) memory_of_a_run_ = memory_of(*script.program);
     runs_.push_back(std::move(run));
     return {};
 }
 
 Sweeper::Done Sweeper::plan() {
     const auto count = count_runs(request_.varied);
-    if (!count) return tl::unexpected(SweepFault{count.error(), std::nullopt});
+    if (!count) return tl::unexpected(SweepError{count.error()});
     // The sheet is one picture in memory.
     constexpr double most_pixels = 1 << 27;
     const double pixels = static_cast<double>(*count) * request_.tile_side * request_.tile_side;
     if (pixels > most_pixels) {
         return tl::unexpected(
-            SweepFault{{fmt::format("a sheet of {} tiles of {} × {} pixels is too large", *count,
+            SweepError{{fmt::format("a sheet of {} tiles of {} × {} pixels is too large", *count,
                                     request_.tile_side, request_.tile_side),
-                        "make the tiles smaller with --tile"},
-                       std::nullopt});
+                        "make the tiles smaller with --tile"}});
     }
     for (std::size_t number = 0; number < *count; ++number) {
         if (auto planned = plan_run(number); !planned) return planned;
@@ -159,9 +146,7 @@ Sweeper::Done Sweeper::plan() {
 
 Result<void> Sweeper::prepare_folders() {
     folder_ = request_.folder;
-    if (folder_.empty()) {
-        folder_ = output_stem(script_) + "_sweep";
-    }
+    if (folder_.empty()) folder_ = output_stem(script_) + "_sweep";
     if (auto made = make_folder(folder_ / "runs"); !made) return made;
     for (const char* name : {"sheet.png", "features.csv", "runs/x.json"}) {
         if (auto good = check_writable(folder_ / name); !good) return good;
@@ -170,7 +155,7 @@ Result<void> Sweeper::prepare_folders() {
     return {};
 }
 
-/// Takes over what an earlier sweep has done.
+/// Takes over the result of an earlier sweep, if there is one.
 bool Sweeper::is_done(std::size_t number) {
     if (request_.force) return false;
     auto result = read_result(folder_ / "runs", runs_[number].key);
@@ -184,7 +169,7 @@ bool Sweeper::is_done(std::size_t number) {
     return true;
 }
 
-/// As many runs at once as there are threads for, and memory.
+/// Chooses the number of concurrent runs by threads and memory.
 Result<void> Sweeper::choose_workers(const std::vector<std::size_t>& waiting) {
     const int threads =
         request_.simulation.threads > 0 ? request_.simulation.threads : hardware_threads();
@@ -195,7 +180,7 @@ Result<void> Sweeper::choose_workers(const std::vector<std::size_t>& waiting) {
         memory = memory > 0 ? std::min(memory, limit) : limit;
     }
     if (memory > 0 && memory_of_a_run_ > 0) {
-        // One run that does not fit says so itself.
+        // A single run that does not fit reports that itself.
         workers_ = std::max(
             1, std::min<int>(workers_, static_cast<int>(std::min(1e6, memory / memory_of_a_run_))));
     }
@@ -221,17 +206,16 @@ Result<void> Sweeper::run_stages(Script& script, Simulation& simulation, RunCont
     return {};
 }
 
-/// One run, from its script to its result.
 void Sweeper::take(std::size_t number, RunControl& control) {
     const Run& run = runs_[number];
     Script script = load(run);
     auto painter = Painter::create(script, request_.picture);
     auto simulation = Simulation::create(script, simulation_);
-    if (!painter) return give_up({painter.error(), std::nullopt});
+    if (!painter) return give_up({painter.error()});
     if (!simulation) {
         const Failure why = simulation.error();
-        // Faults of the files that a script reads are told at their places.
-        if (!script.diagnostics.has_errors()) return give_up({why, std::nullopt});
+        // Errors in files that a script reads are reported at their places.
+        if (!script.diagnostics.has_errors()) return give_up({why});
         return give_up({why, std::move(script)});
     }
     SweepResult result;
@@ -249,7 +233,7 @@ void Sweeper::take(std::size_t number, RunControl& control) {
     if (request_.fields) {
         const auto folder = folder_ / "fields" / folder_name(request_.varied, run.values);
         if (auto saved = save_run(folder, script, **simulation); !saved) {
-            return give_up({saved.error(), std::nullopt});
+            return give_up({saved.error()});
         }
     }
     keep(number, std::move(result));
@@ -257,22 +241,22 @@ void Sweeper::take(std::size_t number, RunControl& control) {
 
 void Sweeper::keep(std::size_t number, SweepResult result) {
     if (auto written = write_result(folder_ / "runs", runs_[number].key, result); !written) {
-        return give_up({written.error(), std::nullopt});
+        return give_up({written.error()});
     }
     const std::lock_guard lock(mutex_);
     report_.steps += result.steps;
     results_[number] = std::move(result);
 }
 
-/// What would befall every run (a full disk, no memory) ends the sweep.
-void Sweeper::give_up(SweepFault why) {
+/// An error that would stop every run (a full disk, no memory) ends the sweep.
+void Sweeper::give_up(SweepError why) {
     const std::lock_guard lock(mutex_);
     if (!stopped_by_) stopped_by_ = std::move(why);
     control_.cancel = true;
 }
 
 void Sweeper::work(const std::vector<std::size_t>& waiting, RunControl& control) {
-    double counted = 0;  // Of this run's share, what is in shares_done_ already.
+    double counted = 0;  // The part of this run's share that is included in shares_done_.
     control.report = [&](const Progress& progress) {
         const double stage = progress.steps > 0 ? static_cast<double>(progress.step) /
                                                       static_cast<double>(progress.steps)
@@ -304,7 +288,7 @@ void Sweeper::work(const std::vector<std::size_t>& waiting, RunControl& control)
     changed_.notify_all();
 }
 
-/// The caller's thread passes a cancel on, and reports.
+/// In the caller's thread: passes on a cancel, and reports progress.
 void Sweeper::watch(std::vector<std::unique_ptr<RunControl>>& controls) {
     std::unique_lock lock(mutex_);
     while (working_ > 0) {
@@ -346,7 +330,7 @@ void Sweeper::run_all(const std::vector<std::size_t>& waiting) {
         try {
             threads.emplace_back([&, control = controls.back().get()] { work(waiting, *control); });
         } catch (const std::system_error&) {
-            // No more threads are to be had: those that there are do the work, or this one alone.
+            // No more threads can be created: those that exist take the runs, or this one alone.
             const std::lock_guard lock(mutex_);
             working_ -= static_cast<std::size_t>(workers_ - std::max(w, 1));
             break;
@@ -376,23 +360,21 @@ Result<void> Sweeper::write_outputs() {
     return written;
 }
 
-tl::expected<SweepReport, SweepFault> Sweeper::run() {
-    const auto fault = [](const Failure& why) {
-        return tl::unexpected(SweepFault{why, std::nullopt});
-    };
-    // The tiles of a sheet and what is measured of them are rows and columns.
+tl::expected<SweepReport, SweepError> Sweeper::run() {
+    const auto failed = [](const Failure& why) { return tl::unexpected(SweepError{why}); };
+    // Tiles and features need rows and columns.
     if (script_.program->domain.model) {
-        return fault({"a sweep has no sheet for the cells of a model",
-                      "run it once for each value, with --set"});
+        return failed({"a sweep has no sheet for the cells of a model",
+                       "run it once for each value, with --set"});
     }
     if (auto planned = plan(); !planned) return tl::unexpected(std::move(planned.error()));
-    if (auto ready = prepare_folders(); !ready) return fault(ready.error());
+    if (auto ready = prepare_folders(); !ready) return failed(ready.error());
     std::vector<std::size_t> waiting;
     for (std::size_t number = 0; number < runs_.size(); ++number) {
         if (!is_done(number)) waiting.push_back(number);
     }
     report_.done_before = runs_.size() - waiting.size();
-    if (auto chosen = choose_workers(waiting); !chosen) return fault(chosen.error());
+    if (auto chosen = choose_workers(waiting); !chosen) return failed(chosen.error());
     run_all(waiting);
     for (const auto& result : results_) {
         if (!result) ++report_.missing;
@@ -400,14 +382,14 @@ tl::expected<SweepReport, SweepFault> Sweeper::run() {
         ++report_.failed;
         if (report_.first_failure.empty()) report_.first_failure = result->remark;
     }
-    if (auto written = write_outputs(); !written) return fault(written.error());
+    if (auto written = write_outputs(); !written) return failed(written.error());
     if (stopped_by_) return tl::unexpected(std::move(*stopped_by_));
     return std::move(report_);
 }
 
 }  // namespace
 
-tl::expected<SweepReport, SweepFault> sweep(const Script& script, const SweepRequest& request,
+tl::expected<SweepReport, SweepError> sweep(const Script& script, const SweepRequest& request,
                                             SweepControl& control) {
     return Sweeper(script, request, control).run();
 }

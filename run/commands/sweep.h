@@ -1,5 +1,5 @@
-// `cascade sweep`: the same script with many values of its parameters, to one labelled sheet and
-// one table of features.
+// `cascade sweep`: runs a script with many values of its parameters, and writes one labelled sheet
+// and one table of features.
 #pragma once
 
 #include "core/result.h"
@@ -21,58 +21,58 @@
 namespace cascade {
 
 struct SweepRequest {
-    std::vector<Variation> varied;  ///< The first runs across the sheet, the second up.
-    std::filesystem::path folder;   ///< Where all goes; empty: SCRIPT_sweep in this folder.
-    PictureRequest picture;         ///< What is shown and measured; without scale.
+    std::vector<Variation> varied;  ///< The first one runs across the sheet, the second one up.
+    std::filesystem::path folder;   ///< Of all outputs; if empty, SCRIPT_sweep here.
+    PictureRequest picture;         ///< What to show and measure; its scale is ignored.
     int tile_side = 160;            ///< Larger pictures are averaged down to this, in pixels.
     bool fields = false;            ///< Save the fields of every run, to read or to resume.
-    bool force = false;             ///< Run again what an earlier sweep has done.
-    SimulationOptions simulation;   ///< `threads` is how many runs go on at once.
+    bool force = false;             ///< Repeat runs of an earlier sweep.
+    SimulationOptions simulation;   ///< `threads` is the number of concurrent runs.
 };
 
-/// How far a sweep is.
+/// The progress of a sweep.
 struct SweepProgress {
-    std::size_t runs_done = 0;  ///< With those of an earlier sweep.
+    std::size_t runs_done = 0;  ///< Including those of an earlier sweep.
     std::size_t runs = 0;
     double share = 0;          ///< 0 … 1, of the runs to be taken now.
-    double seconds_left = -1;  ///< Negative while unknown.
+    double seconds_left = -1;  ///< Negative if unknown.
 };
 
 struct SweepControl {
-    std::atomic<bool> cancel{false};  ///< Ends every run at its next complete step.
-    std::function<void(const SweepProgress&)> report;  ///< Called by the caller's thread.
+    std::atomic<bool> cancel{false};                   ///< Ends every run after its present step.
+    std::function<void(const SweepProgress&)> report;  ///< Called in the caller's thread.
 };
 
 struct SweepReport {
     std::size_t runs = 0;
-    std::size_t done_before = 0;  ///< Found in the folder.
-    std::size_t failed = 0;       ///< Values that were not finite: an empty tile, a remark.
-    std::size_t missing = 0;      ///< Not run: cancelled.
-    std::string first_failure;    ///< What the first failed run said.
-    std::int64_t steps = 0;       ///< Taken now.
+    std::size_t done_before = 0;  ///< Taken over from an earlier sweep.
+    std::size_t failed = 0;       ///< Runs that diverged: an empty tile and a remark.
+    std::size_t missing = 0;      ///< Not taken, after a cancel.
+    std::string first_failure;    ///< The message of the first failed run.
+    std::int64_t steps = 0;       ///< Steps taken now.
     double seconds = 0;
     std::vector<std::filesystem::path> written;
 };
 
-/// A fault of the request, or one of a script with its values: then `faults` holds the messages.
-struct SweepFault {
+/// An error of the request, or of a script with its values: then `script` holds the messages.
+struct SweepError {
     Failure failure;
-    std::optional<Script> faults;
+    std::optional<Script> script = {};
 };
 
-/// Runs what has not been run yet, each on one thread, and writes sheet.png, features.csv, runs/
-/// (one small result each) and, if asked for, fields/NAME=VALUE,…/. Every script is checked before
-/// the first step. Runs that blow up are results too. Fails where nothing can be run or written.
-tl::expected<SweepReport, SweepFault> sweep(const Script& script, const SweepRequest& request,
+/// Takes the runs without a result, each on one thread, and writes sheet.png, features.csv, runs/
+/// (one small result each) and, if requested, fields/NAME=VALUE,…/. Every script is checked before
+/// the first step. Runs that diverge are results, too. Fails if nothing can be run or written.
+tl::expected<SweepReport, SweepError> sweep(const Script& script, const SweepRequest& request,
                                             SweepControl& control);
 
-/// A sheet of all results in order of their runs; those that are missing are empty places. Where
-/// the domain has a mask, NaN is transparent.
+/// A sheet of all results in the order of their runs; missing ones are empty tiles. If the domain
+/// has a mask, NaN is transparent.
 Image draw_sweep(const std::vector<std::optional<SweepResult>>& results,
                  const std::vector<Variation>& varied, const PictureRequest& picture,
                  bool has_mask);
 
-/// A row for each run: the values varied, its features, its steps, its remark.
+/// A row for each run: the values varied, its features, its number of steps, its remark.
 std::string sweep_table(const std::vector<std::optional<SweepResult>>& results,
                         const std::vector<Variation>& varied);
 

@@ -1,4 +1,4 @@
-// What a sweep shows: the sheet and the table.
+// The outputs of a sweep: the sheet and the table.
 #include "core/check.h"
 #include "picture/map.h"
 #include "run/commands/csv.h"
@@ -15,7 +15,7 @@ MapAxis axis_of(const std::vector<Variation>& varied, std::size_t which) {
     return {"", {""}};
 }
 
-/// The axis that goes up: the second variation, or all but the first, the second fastest.
+/// The upward axis: the second variation, or all but the first one, the second varying fastest.
 MapAxis upward_axis(const std::vector<Variation>& varied) {
     if (varied.size() <= 2) return axis_of(varied, 1);
     const std::span<const Variation> others = std::span(varied).subspan(1);
@@ -31,7 +31,7 @@ MapAxis upward_axis(const std::vector<Variation>& varied) {
     return axis;
 }
 
-/// One range for all, so that tiles can be compared.
+/// One range for all tiles, so that they can be compared.
 ValueRange range_of_all(const std::vector<std::optional<SweepResult>>& results) {
     Spread all;
     for (const auto& result : results) {

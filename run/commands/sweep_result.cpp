@@ -1,5 +1,5 @@
-// A run's key hashes its tokens, files and overrides, so that comments and blanks change nothing;
-// the picture is kept as means over squares of cells.
+// A run's key hashes its tokens, files and overrides, so that comments and blanks do not matter;
+// the picture is stored as means over squares of cells.
 #include "run/commands/sweep_result.h"
 
 #include "core/file.h"
@@ -39,8 +39,7 @@ std::uint64_t add_words(std::uint64_t hash, const Script& script) {
     return hash;
 }
 
-/// Texts of a program are names of files, of palettes and others: what is a file counts with what
-/// is in it.
+/// Adds the contents of all strings of the program that name files.
 std::uint64_t add_files(std::uint64_t hash, const Script& script) {
     constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
     const auto add = [&](const Result<std::string>& bytes) {
@@ -89,7 +88,7 @@ Grid flat_grid(std::int64_t width, std::int64_t height) {
     return grid;
 }
 
-/// All planes below each other.
+/// All planes, stacked vertically.
 Field stacked(const Canvas& canvas) {
     const PlaneLayout& layout = canvas.fields[0].layout();
     const auto count = static_cast<std::int64_t>(canvas.fields.size());
@@ -120,8 +119,8 @@ std::optional<Canvas> unstacked(const std::filesystem::path& path, std::size_t p
     return canvas;
 }
 
-/// Means of squares of `factor` × `factor` cells, at the far sides of what is left of them; cells
-/// outside of the domain (NaN) count for nothing.
+/// Means over squares of `factor` × `factor` cells, smaller ones at the far sides; cells outside of
+/// the domain (NaN) are ignored.
 Field average(const Field& field, std::int64_t factor) {
     const PlaneLayout& from = field.layout();
     Field small{PlaneLayout(
@@ -174,7 +173,7 @@ std::optional<SweepResult> read_result(const std::filesystem::path& folder,
                                        const std::string& key) {
     const auto text = read_file(folder / (key + ".json"), largest_result);
     if (!text) return std::nullopt;
-    // The library reports by exception; none leaves this function.
+    // The JSON library throws; no exception leaves this function.
     try {
         const auto json = nlohmann::json::parse(*text);
         SweepResult result;

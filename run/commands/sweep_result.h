@@ -1,4 +1,4 @@
-// What is kept of one run of a sweep: a small file of features, and the picture's values.
+// The stored result of one run of a sweep: a small file of features, and the picture's values.
 #pragma once
 
 #include "core/plane.h"
@@ -15,29 +15,29 @@
 namespace cascade {
 
 struct SweepResult {
-    std::optional<measure::Features> features;  ///< Empty where the run failed.
-    Canvas tile;             ///< What the picture shows, made small; no fields where it failed.
+    std::optional<measure::Features> features;  ///< Empty if the run failed.
+    Canvas tile;             ///< The picture's values, averaged down; no fields if the run failed.
     std::int64_t steps = 0;  ///< Of all stages.
-    std::string remark;      ///< Why it failed, or what it warned of; one line, mostly empty.
+    std::string remark;      ///< The error or warnings of the run; one line, usually empty.
 
     bool failed() const { return !features; }
 };
 
-/// A key of all that a run's result depends on: the words of the script and of all it uses (not
-/// its blanks and comments), the changes from outside, the contents of the files that it reads,
-/// what is shown, the size of the tiles, Cascade's version. 16 hexadecimal digits. The script must
-/// be right.
+/// A hash of everything that a run's result depends on: the words of the script and of all files it
+/// uses (without blanks and comments), overrides, the contents of the files that it reads, the
+/// picture, the size of the tiles, and Cascade's version. 16 hexadecimal digits. The script must be
+/// free of errors.
 std::string key_of_run(const Script& script, const PictureRequest& picture, int tile_side);
 
-/// Writes KEY.npy (planes of the tile below each other) and KEY.json into `folder`; the latter
-/// last, so that half a result is none.
+/// Writes KEY.npy (planes of the tile, stacked vertically) and then KEY.json into `folder`, so that
+/// an incomplete result is not read.
 Result<void> write_result(const std::filesystem::path& folder, const std::string& key,
                           const SweepResult& result);
 
-/// Nothing where there is no result of that key, or it is damaged.
+/// Nothing if there is no result of that key, or it is damaged.
 std::optional<SweepResult> read_result(const std::filesystem::path& folder, const std::string& key);
 
-/// Every plane of a canvas, its cells averaged by squares so that no side is above `side`.
+/// Every plane of a canvas, averaged over squares of cells so that no side is longer than `side`.
 Canvas shrink(const Canvas& canvas, int side);
 
 }  // namespace cascade

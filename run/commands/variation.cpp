@@ -39,25 +39,25 @@ std::optional<double> read_number(std::string_view text) {
 }
 
 Failure wrong(std::string_view text, const std::string& why) {
-    return {fmt::format("'{}' says not what to vary: {}", text, why),
+    return {fmt::format("'{}' does not say what to vary: {}", text, why),
             "write NAME=LOW..HIGH:COUNT or NAME=VALUE,VALUE, as in feed=0.02..0.06:9"};
 }
 
-/// `count` numbers from low to high, each short enough to be read.
+/// `count` equidistant numbers from low to high, as short texts.
 std::vector<std::string> spread(double low, double high, std::int64_t count) {
     std::vector<std::string> values;
     for (std::int64_t k = 0; k < count; ++k) {
         const double share =
             count == 1 ? 0 : static_cast<double>(k) / static_cast<double>(count - 1);
         const double value = low + (high - low) * share;
-        // What is 0 but for rounding is 0.
+        // Rounding must not turn 0 into a tiny number.
         const double least = 1e-12 * std::max(std::abs(low), std::abs(high));
         values.push_back(fmt::format("{:.10g}", std::abs(value) < least ? 0.0 : value));
     }
     return values;
 }
 
-/// Splits at commas that stand in no brackets.
+/// Splits at commas outside of brackets.
 std::vector<std::string> split_list(std::string_view text) {
     std::vector<std::string> values(1);
     int depth = 0;
@@ -73,7 +73,7 @@ std::vector<std::string> split_list(std::string_view text) {
     return values;
 }
 
-/// A value that stands twice in a list; empty where none does.
+/// A value that occurs twice in a list; empty if there is none.
 std::string listed_twice(std::vector<std::string> values) {
     std::sort(values.begin(), values.end());
     const auto twice = std::adjacent_find(values.begin(), values.end());
@@ -100,7 +100,7 @@ Result<Variation> parse_variation(std::string_view text) {
     }
     const std::size_t colon = values.rfind(':');
     if (colon == std::string_view::npos || colon < dots) {
-        return tl::unexpected(wrong(text, "after a range stands ':' and how many values"));
+        return tl::unexpected(wrong(text, "a range is followed by ':' and the number of values"));
     }
     const auto low = read_number(trimmed(values.substr(0, dots)));
     const auto high = read_number(trimmed(values.substr(dots + 2, colon - dots - 2)));
@@ -148,6 +148,15 @@ std::vector<std::string> values_of_run(std::span<const Variation> varied, std::s
         number /= variation.values.size();
     }
     return values;
+}
+
+std::string folder_name(std::span<const Variation> varied, std::span<const std::string> values) {
+    std::string name;
+    for (std::size_t k = 0; k < varied.size(); ++k) {
+        name += fmt::format("{}{}={}", k > 0 ? "," : "", varied[k].name, values[k]);
+    }
+    std::replace(name.begin(), name.end(), '/', '_');
+    return name;
 }
 
 Result<Overrides> overrides_of_run(const Overrides& base, std::span<const Variation> varied,

@@ -1,4 +1,4 @@
-// What a sweep varies: names with lists of values, and the runs that they make.
+// The variations of a sweep: names with lists of values, and the runs that they define.
 #pragma once
 
 #include "core/result.h"
@@ -12,34 +12,36 @@
 
 namespace cascade {
 
-/// One name and its values, as texts that `--set` takes.
+/// A name and its values, as texts that `--set` takes.
 struct Variation {
-    std::string name;                 ///< As --set has it, or `seed`.
+    std::string name;                 ///< A name as for --set, or `seed`.
     std::vector<std::string> values;  ///< At least one.
 
     friend bool operator==(const Variation&, const Variation&) = default;
 };
 
-/// More runs than this are refused: nobody looks at so many.
+/// The most runs of a sweep.
 inline constexpr std::size_t most_runs = 10000;
 
-/// "gray_scott.feed=0.02..0.06:9" is nine values at equal distances, both ends among them;
-/// "ka=1/400,1/200" are those. The ends of a range are numbers or fractions of two numbers. Fails,
-/// with how it is written, on anything else.
+/// "gray_scott.feed=0.02..0.06:9" is nine equidistant values including both ends; "ka=1/400,1/200"
+/// is a list. The ends of a range are numbers or fractions of two numbers. Fails on anything else.
 Result<Variation> parse_variation(std::string_view text);
 
-/// As parse_variation() reads it: "ka=1/400,1/200".
+/// The inverse of parse_variation(), with a list: "ka=1/400,1/200".
 std::string text_of(const Variation& variation);
 
-/// How many runs the variations make: all values of each with all of the others. Fails where a name
-/// is varied twice, a value is listed twice, or the runs are more than `most_runs`.
+/// The number of runs: all combinations of values. Fails if a name is varied twice, a value is
+/// listed twice, or there are more than `most_runs`.
 Result<std::size_t> count_runs(std::span<const Variation> varied);
 
-/// The values of run `number`, one for each variation; the first variation runs fastest.
+/// The values of run `number`, one for each variation; the first variation varies fastest.
 std::vector<std::string> values_of_run(std::span<const Variation> varied, std::size_t number);
 
-/// `base` with the values of a run; `seed` goes to the seed, all else after the other sets.
-/// Fails where a seed is no whole number of 32 bits.
+/// The folder of a run's fields, "feed=0.02,kill=0.05"; a slash becomes '_'.
+std::string folder_name(std::span<const Variation> varied, std::span<const std::string> values);
+
+/// `base` with the values of a run; `seed` sets the seed, all others are appended to the sets.
+/// Fails if a seed is not a whole number of 32 bits.
 Result<Overrides> overrides_of_run(const Overrides& base, std::span<const Variation> varied,
                                    std::span<const std::string> values);
 

@@ -1,5 +1,5 @@
-// A space parts the characters of comment marks and trigraphs; backslashes and what cannot be
-// printed become question marks.
+// A blank separates the characters of comment marks and trigraphs; backslashes and unprintable
+// characters become question marks.
 #include "run/emit_c/c_comment.h"
 
 #include "core/utf8.h"

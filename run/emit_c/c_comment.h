@@ -1,4 +1,4 @@
-// Words from anywhere in a comment of C.
+// Arbitrary text in a comment of C.
 #pragma once
 
 #include <string>
@@ -6,9 +6,8 @@
 
 namespace cascade {
 
-/// The text in one line that stays a comment: what could end one, begin another, go on in the next
-/// line or be a trigraph is taken apart by a blank, and what is not printable becomes a question
-/// mark.
+/// The text as one line that is safe in a C comment: blanks break up comment marks, line
+/// continuations and trigraphs, and unprintable characters become question marks.
 std::string c_comment(std::string_view text);
 
 }  // namespace cascade

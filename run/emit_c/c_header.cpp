@@ -1,4 +1,4 @@
-// Fills the patterns of run/emit_c/c_header_text.h, in which $ is the stage's name and $$ the same
+// Fills the patterns of run/emit_c/c_header_text.h, in which $ is the stage's name and $$ the name
 // in capitals, and writes the tables, the struct and the functions between them.
 #include "run/emit_c/c_header.h"
 
@@ -23,7 +23,7 @@ std::string upper(std::string text) {
     return text;
 }
 
-/// A number of C; of what is not finite, what it is computed from.
+/// A float literal of C; NaN and infinities as expressions.
 std::string c_number(float value) {
     if (std::isnan(value)) return "(0.0f / 0.0f)";
     if (std::isinf(value)) return value > 0 ? "(1.0f / 0.0f)" : "(-1.0f / 0.0f)";
@@ -154,7 +154,7 @@ private:
     }
 
     std::string constants() const {
-        const auto cells = static_cast<std::size_t>(layout_.size());  // Padding and halo included.
+        const auto cells = static_cast<std::size_t>(layout_.size());  // Including padding and halo.
         const std::size_t plane_bytes = cells * sizeof(float);
         const std::size_t mask_bytes = cells * compiled_.masks.size();
         const std::size_t row_bytes =
@@ -181,7 +181,7 @@ private:
             text += "/* Steps that the script takes. */\n";
             text += define("ITERATIONS", number(stage_.iterations));
         }
-        text += "/* Contexts in the tables. */\n";
+        text += "/* Indices in the tables. */\n";
         text += enumeration("SPECIES", compiled_.species);
         text += enumeration("NUMBER", compiled_.numbers);
         text += enumeration("PLANE", compiled_.planes);
@@ -189,8 +189,7 @@ private:
         return text;
     }
 
-    /// Members that are arrays of planes, with their lengths, in the order in which they lie in
-    /// memory.
+    /// Members that are arrays of planes, with their lengths, in the order of their memory.
     std::vector<std::pair<std::string, std::size_t>> plane_tables() const {
         const std::size_t species = compiled_.species.size();
         std::vector<std::pair<std::string, std::size_t>> tables;
@@ -223,7 +222,7 @@ private:
         }
         member("int64_t steps");
         for (const auto& [name, count] : plane_tables()) {
-            if (name == "next") text += "    /* What follows belongs to the functions below. */\n";
+            if (name == "next") text += "    /* The members below are for the functions only. */\n";
             member(fmt::format("float *{}[{}]", name, count));
         }
         if (compiled_.reduces) member("double *rows");

@@ -1,4 +1,4 @@
-// The C header beside the object file of a compiled stage.
+// The C header for the object file of a compiled stage.
 #pragma once
 
 #include "lang/program/program.h"
@@ -8,9 +8,9 @@
 
 namespace cascade {
 
-/// A header, complete by itself, of plain C99: a struct that holds the stage's planes and numbers,
-/// and functions that lay it out in memory, compute the starting values and take steps. Its comment
-/// documents all tables. `script` is the name of the file it comes from.
+/// A self-contained header in plain C99: a struct with the stage's planes and numbers, and
+/// functions that lay it out in memory, compute the starting values and take steps. Its comment
+/// documents all tables. `script` is the name of the source file.
 std::string c_header(const Program& program, std::uint32_t stage, const CStage& compiled,
                      const std::string& script);
 

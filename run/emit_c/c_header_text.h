@@ -1,4 +1,4 @@
-// What is the same in every C header of a compiled stage, with NAME and name written as $$ and $.
+// The constant parts of C headers of compiled stages, with NAME and name written as $$ and $.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // Binds the solver's scheme to placeholder planes as a run would, then writes each pass as C
-// statements from the slots that were bound.
+// statements from the bound slots.
 #include "run/emit_c/c_stage.h"
 
 #include "lang/lower/lower.h"
@@ -18,7 +18,7 @@ namespace {
 
 using PlaneRef = StepProblem::PlaneRef;
 
-/// A number of C that reads back the same.
+/// A C literal that reads back as the same number.
 std::string c_number(double value) {
     const std::string text = fmt::format("{:.17g}", value);
     return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
@@ -38,7 +38,7 @@ std::string_view c_kind(ReductionKind kind) {
     return "";
 }
 
-/// Everything a pass of a plan reads and writes, as expressions of C.
+/// All operands of a pass, as C expressions.
 struct PassText {
     std::string kernel;
     std::vector<std::string> fields, masks, uniforms, results;
@@ -62,7 +62,7 @@ public:
         describe_start();
         describe_sides();
         note_settings();
-        if (!fault_.empty()) return failure(fault_);
+        if (!error_.empty()) return failure(error_);
         return std::move(result_);
     }
 
@@ -73,12 +73,13 @@ private:
         return fmt::format("s->scratch[{}]",
                            (plane.in_register - 2) * system_.species_count() + plane.number);
     }
-    /// The rules at the sides of a plane that is read at neighbours and is no species of a step.
+    /// The rules at the sides of a plane that is read at neighbours and is not a species of this
+    /// step.
     std::string rules_of(const SlotSource& source) {
         if (source.kind == SlotSource::Kind::item && source.stage != k_ &&
             program_.system_of(source.stage).is_species(source.item) &&
             !program_.stages[source.stage].sides.empty()) {
-            fault_ = fmt::format(
+            error_ = fmt::format(
                 "stage '{}' reads {} at its neighbours, whose sides are rules of "
                 "that stage, which are not compiled with this one",
                 stage_.name, tables_.item_path(source.stage, source.item));
@@ -98,7 +99,6 @@ private:
                            request_.name, c_kind(kind), plane);
     }
 
-    /// The statements of a pass.
     std::string write(const PassText& pass) const {
         std::string text = "    {\n";
         const auto line = [&](const std::string& statement) {
@@ -120,9 +120,9 @@ private:
         return text + "    }\n";
     }
 
-    // The starting values, and the values of sides: plans that read planes as they are.
+    // The starting values and the values of sides, whose plans read planes without further sweeps.
 
-    /// Statements of a plan; `result(k)` is the plane of result k.
+    /// The statements of a plan; `result(k)` is the plane of result k.
     template <typename ResultPlane>
     std::string plan_text(const StepPlan& plan, const ResultPlane& result) {
         std::string text;
@@ -164,7 +164,7 @@ private:
         return plan.aggregates > 0 ? "    {\n" + text + "    }\n" : text;
     }
 
-    /// Planes that passes read and do not change; the halo of those that are read at neighbours is
+    /// Adds the planes that passes read but do not change; the halo of those read at neighbours is
     /// filled before the pass.
     void add_reads(const Pass& pass, PassText& lines) {
         for (std::size_t slot = 0; slot < pass.bound.fields.size(); ++slot) {
@@ -186,7 +186,7 @@ private:
         if (source.kind == SlotSource::Kind::aggregate) {
             return fmt::format("aggregates[{}]", source.item);
         }
-        return "0";  // The step and the time when a stage starts.
+        return "0";  // Step and time are 0 when a stage starts.
     }
 
     void describe_start() {
@@ -196,7 +196,7 @@ private:
             const std::uint32_t item = plan.results[number];
             const SlotSource source{SlotSource::Kind::item, k_, item};
             if (!stage_.uniform[item]) return tables_.plane(source);
-            // The same in all cells: one of them is asked.
+            // Uniform: the first cell is read.
             const std::string plane = tables_.temporary(plan.temporaries + taken.size());
             taken.push_back(fmt::format("    {} = {}[0];\n", tables_.number(source), plane));
             return plane;
@@ -209,7 +209,7 @@ private:
         }
     }
 
-    /// Once all starting values are there.
+    /// After all starting values.
     void describe_sides() {
         for (std::size_t species = 0; species < stage_.sides.size(); ++species) {
             for (std::size_t side = 0; side < side_count; ++side) {
@@ -233,7 +233,7 @@ private:
         }
     }
 
-    // A step: the sweeps of its scheme, bound as a run binds them.
+    // A step: the sweeps of its scheme, bound as in a run.
 
     void describe_step() {
         std::vector<StepPlan> plans;
@@ -303,7 +303,8 @@ private:
         return write(lines);
     }
 
-    /// In the same step; the next one fills the halo of its old values itself.
+    /// True if a later sweep of the same step reads the plane at neighbours. The next step fills
+    /// the halo of its old values itself.
     bool is_read_at_neighbours_later(const StepProblem& problem, std::size_t number,
                                      const PlaneRef& plane) const {
         for (std::size_t later = number + 1; later < problem.passes.size(); ++later) {
@@ -340,7 +341,7 @@ private:
         return tables_.number(source);
     }
 
-    /// Speed and frozen, which the functions around the statements read.
+    /// Notes speed and frozen, which the functions around the statements read.
     void note_settings() {
         if (stage_.uniform[system_.speed_item()]) {
             result_.speed =
@@ -359,7 +360,7 @@ private:
     const System& system_;
     CStage result_;
     CTables tables_;
-    std::string fault_;
+    std::string error_;
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
-// A compiled stage as a C program sees it: tables of planes and numbers, kernels, and the bodies of
-// the functions that go through its passes. What is done in which order is that of a run: the same
-// plans, bound in the same way.
+// A compiled stage for a C program: tables of planes and numbers, kernels, and the bodies of the
+// functions that run its passes, in the order of a run: the same plans, bound in the same way.
 #pragma once
 
 #include "core/result.h"
@@ -19,11 +18,11 @@
 
 namespace cascade {
 
-/// An entry of a table: `identifier` is its place in C, as in NAME_PLANE_BETA.
+/// An entry of a table: `identifier` is its index in C, as in NAME_PLANE_BETA.
 struct CEntry {
     std::string identifier;
-    std::string meaning;    ///< In words, for the header's comment.
-    bool is_given = false;  ///< Nothing computes it: the program sets it before anything reads it.
+    std::string meaning;    ///< A description, for the header's comment.
+    bool is_given = false;  ///< Not computed: the program must set it before anything reads it.
 };
 
 struct CNumber : CEntry {
@@ -31,45 +30,45 @@ struct CNumber : CEntry {
 };
 
 struct CPlane : CEntry {
-    std::string data;  ///< Constant numbers of the object file that fill it; empty for none.
+    std::string data;  ///< Array of the object file that fills it; empty for none.
 };
 
-/// Constants of the object file, cell after cell.
+/// A constant array in the object file, one number per cell.
 struct CData {
     std::string name;
     std::vector<float> values;
 };
 
-/// A kernel under the name of its C function.
+/// A kernel and the name of its C function.
 struct CKernel {
     std::string name;
     CellKernel kernel;
 };
 
 struct CStage {
-    std::string name;  ///< Of the struct, and before all other names.
+    std::string name;  ///< Of the struct, and the prefix of all other names.
     std::vector<CEntry> species;
-    std::vector<CNumber> numbers;  ///< What is the same in all cells.
-    std::vector<CPlane> planes;    ///< What varies and no step changes.
+    std::vector<CNumber> numbers;  ///< Uniform values.
+    std::vector<CPlane> planes;    ///< Step-invariant values that vary by cell.
     std::vector<CEntry> masks;
     std::vector<CData> data;
     std::vector<CKernel> kernels;
-    /// By species; empty where the boundary of the domain holds for all.
+    /// By species; empty if the boundary of the domain holds for all.
     std::vector<std::array<SideKind, side_count>> sides;
-    std::uint32_t side_planes = 0;  ///< Values of sides that vary along them.
+    std::uint32_t side_planes = 0;  ///< Planes for values that vary along sides.
     std::uint32_t scratch_registers = 0;
     std::uint32_t temporaries = 0;
     std::uint32_t step_aggregates = 0;
-    bool reduces = false;               ///< Something is taken together over the domain.
-    std::optional<std::size_t> speed;   ///< Its number, where it is the same in all cells.
-    std::optional<std::size_t> frozen;  ///< The same, where it is not known to be 0.
+    bool reduces = false;               ///< True if there are aggregates over the domain.
+    std::optional<std::size_t> speed;   ///< Its number, if it is uniform.
+    std::optional<std::size_t> frozen;  ///< Its number, if it is uniform and not known to be 0.
     std::string start;                  ///< Statements that compute the starting values.
-    std::string step;  ///< Statements that take a step, up to exchanging registers.
+    std::string step;                   ///< Statements of a step, up to the exchange of registers.
 };
 
-/// What a stage needs to be written down in C.
+/// The input of describe_c_stage().
 struct CStageRequest {
-    const Program& program;  ///< With the parameters that shall vary marked so.
+    const Program& program;  ///< With per-cell parameters marked as varying.
     std::uint32_t stage = 0;
     const KnownNumbers& numbers;  ///< Of the stages up to this one.
     const InputFiles& files;
@@ -78,8 +77,7 @@ struct CStageRequest {
     std::string name;
 };
 
-/// Fails where the stage reads, at neighbours, what lies beyond sides that another stage's values
-/// decide.
+/// Fails if the stage reads planes at neighbours whose side rules belong to another stage.
 Result<CStage> describe_c_stage(const CStageRequest& request);
 
 }  // namespace cascade

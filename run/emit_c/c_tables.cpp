@@ -1,4 +1,4 @@
-// Tables grow as slots are met; identifiers are upper-case names, with a number where one is taken.
+// Tables grow as slots are encountered; identifiers are upper-case names, with a number if taken.
 #include "run/emit_c/c_tables.h"
 
 #include "lang/lower/lower.h"
@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// A name as a part of a C identifier in capitals: u[2] is U_2.
+/// A name as a part of an upper-case C identifier: u[2] is U_2.
 std::string capitals(std::string_view name) {
     std::string text;
     for (const char c : name) {
@@ -38,7 +38,7 @@ void add_entry(std::vector<Entry>& table, Entry entry, std::string_view name) {
     table.push_back(std::move(entry));
 }
 
-/// Number of a source among the known ones; `add` enters it where it is new.
+/// The index of a source in `known`; calls `add` for a new one.
 template <typename Add>
 std::size_t place_of(std::vector<SlotSource>& known, const SlotSource& source, const Add& add) {
     for (std::size_t k = 0; k < known.size(); ++k) {

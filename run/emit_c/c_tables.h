@@ -1,5 +1,4 @@
-// What passes read and write, as expressions of C. What is met for the first time enters the tables
-// of the stage.
+// The operands of passes as C expressions. New ones are added to the tables of the stage.
 #pragma once
 
 #include "lang/lower/step_plan.h"
@@ -15,20 +14,20 @@ namespace cascade {
 
 class CTables {
 public:
-    /// Enters the species and kinds of sides. Both must live as long as the tables.
+    /// Adds the species and kinds of sides. Both arguments must outlive the tables.
     CTables(const CStageRequest& request, CStage& stage);
 
-    /// Each is the text of an expression, such as `s->numbers[3]`.
+    /// Each returns a C expression, such as `s->numbers[3]`.
     std::string number(const SlotSource& source);
-    std::string plane(const SlotSource& source);  ///< Of no register of a step but the old values.
+    std::string plane(const SlotSource& source);  ///< Of registers only the old values.
     std::string mask(const SlotSource& source);
     std::string temporary(std::size_t number);
-    /// The name of a kernel's function; kernels of the same code share one.
+    /// The name of a kernel's function; equal kernels share one.
     std::string kernel(const CellKernel& kernel);
 
-    /// Contexts in the tables.
+    /// The index of a source in the table of numbers.
     std::size_t number_place(const SlotSource& source);
-    /// Sources of the masks in their table.
+    /// The sources of the table of masks.
     const std::vector<SlotSource>& masks() const { return masks_; }
 
     std::string item_path(std::uint32_t stage, std::uint32_t item) const;
@@ -44,9 +43,9 @@ private:
     const System& system_;
     CStage& stage_;
     std::vector<std::uint32_t> species_;  ///< Items.
-    /// Items that are the same in all cells, but known only when there are cells.
+    /// Uniform items whose values are known only once there are cells.
     std::vector<std::uint32_t> late_;
-    std::vector<SlotSource> numbers_, planes_, masks_;  ///< In order of the tables.
+    std::vector<SlotSource> numbers_, planes_, masks_;  ///< In the order of the tables.
 };
 
 }  // namespace cascade

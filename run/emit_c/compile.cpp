@@ -1,4 +1,4 @@
-// Refuses what C cannot describe, then compiles kernels and data into one object file.
+// Refuses what C cannot express, then compiles kernels and data into one object file.
 #include "run/emit_c/compile.h"
 
 #include "core/near_name.h"
@@ -42,7 +42,7 @@ Result<void> make_per_cell(Program& program, std::uint32_t k,
     return {};
 }
 
-/// A C identifier of a text: other characters become '_', a leading digit gets one before it.
+/// A text as a C identifier: other characters become '_', and a leading digit gets a '_' before it.
 std::string c_identifier(const std::string& text) {
     std::string name;
     for (const char c : text) {
@@ -53,8 +53,8 @@ std::string c_identifier(const std::string& text) {
     return name;
 }
 
-/// The scheme of a step. Steps of one length alone can be compiled. `asked_solver`: the solver is
-/// that of --solver, which lets some choose their steps.
+/// The scheme of a step, which must have a fixed length. `asked_solver`: the solver comes from
+/// --solver, and may choose its steps for that reason only.
 Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
                             std::optional<std::uint32_t> stages, bool asked_solver) {
     const Stage& stage = program.stages[k];
@@ -101,7 +101,7 @@ Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
                        takes_speed_by_cell(stage.time.solver), stages.value_or(3));
 }
 
-/// What the header cannot describe is refused.
+/// Refuses domains and stages that the header cannot express.
 Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
     if (program.domain.model) {
         return failure("a stage on a model is not compiled to an object file",

@@ -15,11 +15,11 @@ namespace cascade {
 inline constexpr std::int64_t most_compiled_stages = 99;
 
 struct CompileRequest {
-    std::optional<std::string> stage = {};   ///< By name or number from 1; empty: the first stage.
-    std::vector<std::string> per_cell = {};  ///< Parameters that shall be planes even if uniform.
-    std::string target = {};                 ///< CPU name; "" is this machine's.
-    std::string function_name = {};          ///< "" makes one of the script's name.
-    std::optional<std::uint32_t> stages = {};  ///< Of a step of rkl1 or rkl2: an odd number from 3.
+    std::optional<std::string> stage = {};   ///< Name or number from 1; empty for the first.
+    std::vector<std::string> per_cell = {};  ///< Uniform parameters that get a plane nevertheless.
+    std::string target = {};                 ///< A processor name; "" for this machine's.
+    std::string function_name = {};          ///< "" derives it from the script's name.
+    std::optional<std::uint32_t> stages = {};  ///< Of a step of rkl1 or rkl2: odd, from 3.
 };
 
 struct CompiledStep {
@@ -27,8 +27,8 @@ struct CompiledStep {
     std::string header;
 };
 
-/// Compiles one stage for the script's grid. Faults of the request are Failures; those of files
-/// that the script reads are added to its diagnostics, and the result fails.
+/// Compiles one stage for the script's grid. Errors of the request are Failures; those in files
+/// that the script reads are added to its diagnostics, and the result is a Failure, too.
 Result<CompiledStep> compile_step(Script& script, const CompileRequest& request);
 
 }  // namespace cascade

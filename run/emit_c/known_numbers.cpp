@@ -13,7 +13,7 @@ namespace cascade {
 
 namespace {
 
-/// Does a formula read a number that is not known?
+/// True if a formula reads a number that is unknown.
 bool reads_unknown(const Formula& formula, std::uint32_t stage, const KnownNumbers& numbers,
                    const Program& program) {
     return std::any_of(formula.nodes.begin(), formula.nodes.end(), [&](const Node& node) {
@@ -45,7 +45,7 @@ KnownNumbers known_numbers(const Program& program, std::uint32_t last) {
             computed[plan.results[r]] = values[r].at(0, 0);
             places.states()[k].numbers[plan.results[r]] = values[r].at(0, 0);
         }
-        // In the order in which each can be evaluated, so what an item reads has been looked at.
+        // In the order of evaluation, so that operands come first.
         for (const std::uint32_t item : stage.order) {
             if (!reads_unknown(stage.items[item], k, numbers, program))
                 known[item] = computed[item];

@@ -1,4 +1,4 @@
-// The values of parameters that are known before anything runs.
+// Values of parameters that are known before a run.
 #pragma once
 
 #include "lang/program/program.h"
@@ -9,11 +9,10 @@
 
 namespace cascade {
 
-/// By stage and item: the values, as far as they are known without any field, of all items that are
-/// the same in all cells.
+/// By stage and item: the values of uniform items that can be computed without any field.
 using KnownNumbers = std::vector<std::vector<std::optional<float>>>;
 
-/// Of stages 0 … `last`.
+/// For stages 0 … `last`.
 KnownNumbers known_numbers(const Program& program, std::uint32_t last);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// States of stages that have not been run: every item has a plane, but of a few cells only. Plans
-// that are bound to them show which registers and temporaries a step goes through, without a run.
+// States of stages that have not run: every item has a plane of a few cells. Plans that are bound
+// to them show the registers and temporaries of a step without a run.
 #pragma once
 
 #include "run/domain/input_files.h"
@@ -12,7 +12,7 @@ namespace cascade {
 
 class Placeholders {
 public:
-    /// Of stages 0 … `last`.
+    /// For stages 0 … `last`.
     Placeholders(const Program& program, std::uint32_t last);
 
     std::vector<StageState>& states() { return states_; }

@@ -1,5 +1,5 @@
-// Cells are blurred to levels, each twice as wide as the last, as in a mipmap; a sample blends the
-// two levels that fit the square of the surface that it covers.
+// Cells are blurred into levels, each twice as wide as the last, as in a mipmap; a sample blends
+// the two levels that match its footprint on the surface.
 #include "run/pictures/cell_picture.h"
 
 #include "core/check.h"
@@ -13,11 +13,11 @@ namespace cascade {
 
 namespace {
 
-/// A sample that meets the surface at a smaller slant than this is taken for one that meets it so.
+/// Cosines between a ray and the normal are clamped to at least this.
 constexpr float least_cosine = 0.1F;
 
-/// The variance of the filter itself along a direction, in cell spacings: s² / 2 times the average
-/// of (d / s)² under its weights, where s is two spacings.
+/// The variance of the filter along a direction, in cell spacings: s² / 2 times the mean of (d /
+/// s)² under its weights, where s is two spacings.
 constexpr double filter_variance = 2 * (1.0 / 28) / 0.15;
 
 bool is_finite(const Colour& colour) {
@@ -38,23 +38,23 @@ Colour mix(const Colour& a, const Colour& b, float part) {
     return result;
 }
 
-/// Of each cell the light that comes back and how far it stands out, in filter radii.
+/// By cell: reflected light, and height in filter radii.
 struct CellState {
     static constexpr std::size_t size = 4;  ///< Red, green, blue, height.
 };
 
-/// Level 0 are the cells as they are; level k ≥ 1 together with the filter has the standard
+/// Level 0 has the cells unfiltered; level k ≥ 1 has, together with the filter, the standard
 /// deviation 2^k / 2 spacings, that of a sample 2^k spacings wide.
 using Levels = std::vector<std::vector<float>>;
 
-/// The level for a square of a side in spacings.
+/// The level for a footprint with this side, in spacings.
 float level_of(float side) {
     return side > 1 ? static_cast<float>(std::log2(static_cast<double>(side))) : 0.0F;
 }
 
-/// Adds all levels up to the highest one to level 0.
+/// Adds levels above level 0, up to `highest`.
 void add_levels(const SurfaceCells& cells, float highest, Levels& levels, Team& team) {
-    // A blur as wide as the surface is enough: √cells spacings.
+    // A blur as wide as the surface, √cells spacings, is enough.
     const double widest = std::log2(static_cast<double>(cells.places.size())) / 2;
     const double count = std::ceil(std::min<double>(highest, widest));
     double variance = 0;
@@ -66,14 +66,13 @@ void add_levels(const SurfaceCells& cells, float highest, Levels& levels, Team& 
     }
 }
 
-/// What one picture needs.
 class Shader {
 public:
     Shader(const PaintedCells& look, const CellFilter& filter, const TriangleMesh& mesh,
            const Levels& levels, float spacing)
         : look_(look), filter_(filter), mesh_(mesh), levels_(levels), spacing_(spacing) {}
 
-    /// What the colour of a cell is: that of the filtered values, as it is seen from near.
+    /// The colour at a place seen from near, that of the filtered values.
     Colour light_of_cell(const SurfacePlace& place) const {
         std::vector<CellShare> shares;
         filter_.shares(place, shares);
@@ -98,7 +97,7 @@ public:
     }
 
 private:
-    /// Of the square on the surface for which a sample stands, in spacings.
+    /// Side of a sample's footprint on the surface, in spacings.
     float side_of(const Sight& sight) const {
         const auto& [a, b, c] = mesh_.triangles[sight.hit.triangle];
         const Vector3 facet = unit(cross(mesh_.positions[b] - mesh_.positions[a],
@@ -158,7 +157,7 @@ private:
     float spacing_;
 };
 
-/// The widest square for which a sample of the picture can stand, in the unit of what is drawn.
+/// The widest footprint of a sample in the picture, in units of the mesh.
 float widest_side(const TriangleMesh& mesh, const DrawOptions& options) {
     const Camera camera(mesh, options.view, options.width, options.height);
     float farthest = 0;

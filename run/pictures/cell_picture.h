@@ -1,5 +1,5 @@
-// Pictures of a surface whose cells have values: smooth from near, even from far, with bumps.
-// G. Turk, "Texturing Surfaces Using Reaction-Diffusion" (thesis, 1992), section 5.4.
+// Pictures of a surface whose cells have values: smooth from near, antialiased from afar, with
+// bumps. G. Turk, "Texturing Surfaces Using Reaction-Diffusion" (thesis, 1992), section 5.4.
 #pragma once
 
 #include "export/painted_cells.h"
@@ -11,16 +11,16 @@
 
 namespace cascade {
 
-/// A surface with its cells, made ready for any number of pictures.
+/// A surface with its cells, prepared for drawing repeatedly.
 class CellScene {
 public:
-    /// Both must outlive it. There is at least one cell. Throws std::bad_alloc.
+    /// Both must outlive it. There must be at least one cell. Throws std::bad_alloc.
     CellScene(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team);
 
-    /// Colours are those of the filtered values. Where a sample stands for more than the square of
-    /// a cell, the colours at the cells' places are taken, blurred by diffusion as widely as it
-    /// asks for. `round_shadows` of the options is set, and bumps are shaded but change no outline.
-    /// The same picture on any number of threads. Throws std::bad_alloc.
+    /// Colours are those of the filtered values. Where the footprint of a sample is larger than a
+    /// cell, the colours of the cells are used, blurred by diffusion to the footprint's width. Sets
+    /// `round_shadows` of the options. Bumps change the shading but not the outline. The picture
+    /// does not depend on the number of threads. Throws std::bad_alloc.
     Image draw(const PaintedCells& look, DrawOptions options, Team& team) const;
 
     const CellFilter& filter() const { return filter_; }
@@ -30,7 +30,7 @@ private:
     DrawnMesh drawn_;
     RayCaster caster_;
     CellFilter filter_;
-    float spacing_ = 0;  ///< Of cells, in the unit of what is drawn.
+    float spacing_ = 0;  ///< Of cells, in units of the mesh.
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Frames are known by the form of their names and by the script in their text chunks.
+// Frames are recognised by the form of their names and by the script in their text chunks.
 #include "run/pictures/frame_folder.h"
 
 #include "run/script/embedded_script.h"
@@ -19,7 +19,7 @@ bool are_digits(std::string_view text, std::size_t least) {
     return text.size() >= least && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// Is a name of the form that frame_name() makes?
+/// True if frame_name() could have made the name.
 bool is_frame_name(std::string_view name) {
     if (!name.ends_with(".png")) return false;
     name.remove_suffix(4);
@@ -59,7 +59,7 @@ Result<std::vector<std::filesystem::path>> earlier_frames(const std::filesystem:
                                                           const Script& script, bool is_resumed) {
     std::vector<std::filesystem::path> frames;
     std::error_code error;
-    // A folder that is not there, or cannot be read, is told by whoever writes into it.
+    // If the folder does not exist or cannot be read, writing into it reports that.
     for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
         if (is_frame_name(entry->path().filename().string())) frames.push_back(entry->path());

@@ -1,4 +1,4 @@
-// Planes go to an unnamed temporary file and are painted when the run is over.
+// Planes are written to an unnamed temporary file and painted after the run.
 #include "run/pictures/frames.h"
 
 #include "run/pictures/frame_folder.h"
@@ -14,7 +14,7 @@ std::size_t plane_size(const PlaneLayout& layout) {
     return static_cast<std::size_t>(layout.size());
 }
 
-/// The whole plane, halo and padding included: one stretch of memory.
+/// The whole plane including halo and padding, which is contiguous.
 const float* storage(const Field& field) { return field.origin() - field.layout().offset(0, 0); }
 float* storage(Field& field) { return field.origin() - field.layout().offset(0, 0); }
 

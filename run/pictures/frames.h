@@ -1,4 +1,4 @@
-// Frames: what is looked at each interval, kept until the range that all of them share is known.
+// Frames: pictures at each interval, stored until their common range is known.
 #pragma once
 
 #include "core/result.h"
@@ -14,25 +14,25 @@
 
 namespace cascade {
 
-/// Keeps the values of frames in an unnamed temporary file (a long run's frames may not fit into
-/// memory), and draws them at the end.
+/// Stores the values of frames in an unnamed temporary file, since those of a long run may not fit
+/// into memory, and draws them at the end.
 class FrameRecorder {
 public:
-    /// `folder` is where pictures will go; empty for a space-time picture alone, whose rows are
-    /// small and stay in memory.
+    /// `folder` is for the pictures; empty for a space-time picture alone, whose rows are kept in
+    /// memory.
     static Result<FrameRecorder> create(const std::filesystem::path& folder, bool space_time);
 
-    /// Keeps one frame. A full disk is remembered and told by failure().
+    /// Adds a frame. A full disk is remembered for failure().
     void record(const Canvas& canvas, const std::string& stage, std::int64_t step);
     std::optional<Failure> failure() const { return failure_; }
-    /// Is there no frame of a stage that has taken a step?
+    /// True if no frame is of a stage that has taken a step.
     bool holds_starts_alone() const;
 
     /// Draws every frame as NUMBER-STAGE-STEP.png with one range for all.
     Result<std::vector<std::filesystem::path>> write(const Painter& painter, PngDepth depth,
                                                      const PngTexts& texts);
 
-    /// The rows of a one-row grid below each other, the first frame on top.
+    /// The rows of a one-row grid, stacked vertically, the first frame at the top.
     Image space_time(const Painter& painter) const;
 
 private:
@@ -40,7 +40,7 @@ private:
         std::string stage;
         std::int64_t step = 0;
         std::size_t planes = 1;
-        bool has_relief = false;  ///< In one more plane.
+        bool has_relief = false;  ///< As an additional plane.
     };
     struct CloseFile {
         void operator()(std::FILE* file) const { std::fclose(file); }
@@ -55,7 +55,7 @@ private:
     std::vector<Frame> frames_;
     std::vector<Canvas> rows_;
     PlaneLayout layout_;
-    Spread values_;  ///< Of all frames together.
+    Spread values_;  ///< Of all frames.
     std::optional<Failure> failure_;
 };
 

@@ -1,4 +1,5 @@
-// Copies the rows without padding; of a picture in colours the stage's usual number is measured.
+// Copies the rows without padding; if the picture shows colours, the stage's default number is
+// measured.
 #include "run/pictures/measured.h"
 
 namespace cascade {

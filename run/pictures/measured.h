@@ -1,4 +1,4 @@
-// From the fields of a run to what measure/ takes.
+// Features of what a picture shows, measured by measure/.
 #pragma once
 
 #include "core/plane.h"
@@ -10,11 +10,11 @@ namespace cascade {
 
 measure::Samples to_samples(const Field& field, const Grid& grid);
 
-/// The number that a picture shows, in all cells (also of a volume). A colour is no number: then
-/// what the stage shows by default (its `show`, or its last species).
+/// The number that a picture shows, in all cells, also of a volume. For a colour it is the number
+/// that the stage shows by default (its `show`, or its last species).
 Field shown_number(Painter& painter, const Simulation& simulation);
 
-/// Its features.
+/// The features of shown_number().
 measure::Features measure_shown(Painter& painter, const Simulation& simulation);
 
 }  // namespace cascade

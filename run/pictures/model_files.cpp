@@ -21,8 +21,8 @@ namespace cascade {
 
 namespace {
 
-// Between points colours are linear: this far apart, in spacings of cells, they follow the filter,
-// which reaches over two.
+// Between points colours are linear: at this distance, in cell spacings, they follow the filter,
+// whose radius is two.
 constexpr double colour_distance = 0.75;
 constexpr std::size_t most_triangles = std::size_t{1} << 23;
 
@@ -103,7 +103,7 @@ Result<void> ModelFileWriter::write_refined(const std::filesystem::path& path) {
                         values_at(refined_->places, filter(), channels_, team_)});
 }
 
-/// Points that are cells have their values and not an average of those around.
+/// Points at cells take the cells' values without filtering.
 Result<void> ModelFileWriter::write_retiled(const std::filesystem::path& path) {
     const std::size_t count = model_.count();
     if (!retiled_) {

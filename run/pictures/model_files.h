@@ -1,4 +1,4 @@
-// What has grown on a model, as the files of `-o`: models, cells and baked maps for other programs.
+// Patterns on models as the files of `-o`: models, cells and baked maps for other programs.
 #pragma once
 
 #include "core/result.h"
@@ -20,36 +20,36 @@ struct ModelLook;
 struct RefinedMesh;
 struct Retiled;
 
-/// What a file of results holds.
+/// The kind of an output file.
 enum class OutputKind { picture, model, cells };
 
-/// By the ending, in upper or lower case: .png; .ply, .obj, .glb, .vtp; .npz, .cells.vtp. Nothing
-/// for other names.
+/// By the ending, regardless of case: .png; .ply, .obj, .glb, .vtp; .npz, .cells.vtp. Nothing for
+/// other names.
 std::optional<OutputKind> output_kind(const std::filesystem::path& path);
 
-/// How models are written.
+/// How to write models.
 struct ModelFileOptions {
-    bool retile = false;    ///< Over the cells as points, instead of the model's own.
-    std::int64_t bake = 0;  ///< Texels of a side of the maps of GLB files; 0: colours of points.
+    bool retile = false;    ///< Triangulate the cells instead of refining the model's triangles.
+    std::int64_t bake = 0;  ///< Side of the maps of GLB files in texels; 0 for none.
     static constexpr std::int64_t most_texels = 8192;
-    /// Does this file get maps?
+    /// True if this file gets maps.
     bool is_baked(const std::filesystem::path& path) const;
 };
 
-/// Writes results of one moment. What it refers to must stay.
+/// Writes the state at one moment. Objects passed to it must outlive it.
 class ModelFileWriter {
 public:
-    /// `channels` are the numbers of each cell that go into files beside colours; `texts` go into
+    /// `channels` are numbers of cells that are written besides colours; `texts` are written into
     /// maps. Throws std::bad_alloc.
     ModelFileWriter(const ModelCells& model, const ModelLook& look, std::vector<Channel> channels,
                     const ModelFileOptions& options, PngTexts texts);
     ~ModelFileWriter();
 
-    /// A file of a model or of cells. Returns what was written: of a baked model its maps too.
+    /// Writes a model or cells. Returns the files written, which include the maps of a baked model.
     /// Fails as the writers of export/ do.
     Result<std::vector<std::filesystem::path>> write(const std::filesystem::path& path);
 
-    /// Of all that was baked, a sentence each.
+    /// Warnings about baked files, a sentence each.
     const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:
@@ -60,15 +60,15 @@ private:
     const CellFilter& filter();
 
     const ModelCells& model_;
-    SurfaceMesh turned_back_;  ///< Empty where the model was not turned.
-    const SurfaceMesh& mesh_;  ///< In the coordinates of the model's file, as all files are.
+    SurfaceMesh turned_back_;  ///< Empty if the model was not turned.
+    const SurfaceMesh& mesh_;  ///< In the coordinates of the model's file, like all outputs.
     const ModelLook& look_;
     std::vector<Channel> channels_;
     ModelFileOptions options_;
     PngTexts texts_;
     Team team_;
     std::vector<std::string> warnings_;
-    // Made when they are first needed.
+    // Made when first needed.
     std::unique_ptr<CellFilter> filter_;
     std::unique_ptr<RefinedMesh> refined_;
     std::unique_ptr<Retiled> retiled_;

@@ -1,4 +1,4 @@
-// Copies values from the order of memory into that of the cells.
+// Copies values from the order in memory to the order of the cells.
 #include "run/pictures/model_picture.h"
 
 #include <algorithm>

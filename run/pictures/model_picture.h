@@ -1,4 +1,4 @@
-// What has grown on a model, as numbers and colours at its cells, and drawn.
+// Patterns on a model: numbers and colours at its cells, and pictures.
 #pragma once
 
 #include "core/palette.h"
@@ -15,27 +15,27 @@
 
 namespace cascade {
 
-/// What a canvas shows on the cells of a model: a number each, or red, green and blue.
+/// The values of a canvas at the cells of a model: a number each, or red, green and blue.
 struct ModelLook {
     std::size_t channels = 1;
-    std::vector<float> values;  ///< `channels` a cell, cell after cell.
+    std::vector<float> values;  ///< `channels` numbers per cell, cell after cell.
     PlaceColour colour;
-    std::vector<float> heights;  ///< One a cell, in lengths of the model; empty: none.
+    std::vector<float> heights;  ///< One per cell, in units of the model; empty for none.
 
-    /// `range` and `palette` are those of numbers.
+    /// `range` and `palette` apply to numbers.
     ModelLook(const ModelCells& model, const Canvas& canvas, ValueRange range,
               const Palette& palette);
 
-    /// Sets the heights: a number stands out by its place in the range times `bump` times the
-    /// model's longest side.
+    /// Sets the heights: a number's position in the range times `bump` times the model's longest
+    /// side.
     void raise(const ModelCells& model, const Field& number, ValueRange range, float bump);
-    /// What is seen of cell k, which lies at `place`.
+    /// The visible colour of cell k, which lies at `place`.
     Colour colour_of(std::size_t k, const SurfacePlace& place) const {
         return colour(std::span(values).subspan(k * channels, channels), place);
     }
 };
 
-/// Draws one model again and again.
+/// Draws one model repeatedly.
 class ModelDrawer {
 public:
     /// Throws std::bad_alloc.
@@ -47,7 +47,7 @@ public:
 
 private:
     std::shared_ptr<const ModelCells> model_;
-    mutable Team team_;  ///< Of one picture at a time.
+    mutable Team team_;  ///< For one picture at a time.
     CellScene scene_;
 };
 

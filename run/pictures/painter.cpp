@@ -15,13 +15,13 @@ namespace cascade {
 
 namespace {
 
-/// A field as it is painted: in binary32, and of a volume the slice that the request shows.
+/// A field for painting: in binary32, and of a volume only the requested slice.
 Field shown(Field field, const PictureRequest& request) {
     if (field.precision() != Precision::single) field = field.converted(Precision::single);
     return field.layout().depth > 1 ? cut(field, request.slice) : std::move(field);
 }
 
-/// The same of a copy that is NaN outside of the mask.
+/// The same for a copy that is NaN outside of the mask.
 Field as_shown(const Field& field, const DomainMask* mask, const PictureRequest& request) {
     return shown(mask ? with_outside(field, *mask, nothing_outside) : field.clone(), request);
 }
@@ -61,7 +61,7 @@ Result<Painter> Painter::create(Script& script, const PictureRequest& request) {
 std::optional<Formula> Painter::formula_for(std::uint32_t stage, std::uint32_t last_stage) {
     const auto expression = show_ ? show_ : picture_expression(script_->tree);
     if (!expression) return std::nullopt;
-    // Faults were reported when the script was loaded; here a name may just not have a value yet.
+    // Errors were reported on loading; here a name may have no value yet.
     Diagnostics unspoken;
     return check_view(script_->tree, *expression, stage, last_stage, *script_->program,
                       script_->sources, unspoken);

@@ -12,39 +12,38 @@
 
 namespace cascade {
 
-/// Values to be painted: one field through the palette, or red, green and blue. Pictures are
-/// painted in binary32.
+/// Values to paint, in binary32: one field for the palette, or red, green and blue.
 struct Canvas {
     std::vector<Field> fields;
-    Field relief = {};  ///< Of a colour that has bumps: the number of their heights.
+    Field relief = {};  ///< For a colour with bumps: the number that gives the heights.
     bool is_colour() const { return fields.size() == 3; }
-    /// What heights and the range are of; nullptr where there are colours alone.
+    /// The number that heights and range refer to; null if there are only colours.
     const Field* number() const;
 };
 
 class ModelDrawer;
 struct ModelLook;
 
-/// Computes what the request shows, for whatever stage the simulation has reached.
+/// Computes and paints the requested picture at any stage of a simulation.
 class Painter {
 public:
-    /// Checks `show` and the palette; faults of `show` go to `script.diagnostics`.
+    /// Checks `show` and the palette; errors in `show` go to `script.diagnostics`.
     static Result<Painter> create(Script& script, const PictureRequest& request);
 
-    /// The values to paint now. Where the picture block names a stage that has not run, the default
-    /// is computed, and `fell_back()` is true from then on. Of a volume they are a slice.
+    /// The values to paint now; of a volume, a slice. If the picture block names a stage that has
+    /// not run, they are those of the default picture, and `fell_back()` is true from then on.
     Canvas canvas(const Simulation& simulation);
-    /// The same of all cells, of a volume too, in the run's precision.
+    /// The same for all cells, also of a volume, in the run's precision.
     Canvas values(const Simulation& simulation);
     bool fell_back() const { return fell_back_; }
 
-    /// The canvas as an image, transparent outside of the mask and enlarged; where the domain lies
-    /// on a surface, drawn on it. `range` overrides the automatic one.
+    /// The canvas as an image, enlarged, and transparent outside of the mask; drawn on the surface
+    /// if the domain has one. `range` overrides the automatic range.
     Image image(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
     const PictureRequest& request() const { return request_; }
-    /// From where pictures are taken from now on.
+    /// Sets the view of later pictures.
     void set_view(const View& view) { request_.view = view; }
-    /// What the last canvas shows on its model.
+    /// The values of the last canvas at the cells of its model.
     ModelLook look(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
 
 private:
@@ -58,12 +57,12 @@ private:
     std::optional<ast::Expression> show_;
     const Palette* palette_ = nullptr;
     bool fell_back_ = false;
-    std::shared_ptr<const ModelCells> model_;            ///< Of the last canvas; none on grids.
-    mutable std::shared_ptr<const ModelDrawer> drawer_;  ///< Made when a picture is first drawn.
-    Field outside_;  ///< Of the last canvas: NaN where there is no domain; empty without a mask.
+    std::shared_ptr<const ModelCells> model_;            ///< Of the last canvas; null on grids.
+    mutable std::shared_ptr<const ModelDrawer> drawer_;  ///< Made with the first picture.
+    Field outside_;  ///< Of the last canvas: NaN outside of the domain; empty without a mask.
 };
 
-/// One labelled picture of all species of all stages that have started.
+/// One labelled picture of all species of all started stages.
 Image draw_sheet(const Simulation& simulation, const PictureRequest& request);
 
 }  // namespace cascade

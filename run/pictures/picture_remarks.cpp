@@ -1,4 +1,4 @@
-// Looks for pictures of one colour, and for waves too short for the grid.
+// Detects pictures of a single colour, and waves too short for the grid.
 #include "run/pictures/picture_remarks.h"
 
 #include "measure/resolution.h"
@@ -13,12 +13,12 @@ namespace cascade {
 
 namespace {
 
-/// A spectrum of more cells would cost as much as many steps.
+/// Larger grids are skipped: their spectrum would cost as much as many steps.
 constexpr std::int64_t most_cells_of_spectrum = std::int64_t{1} << 20;
-/// From this part of a pattern's variance on, the grid has made it. White noise has 0.8 there in a
-/// plane.
+/// The part of a pattern's variance in short waves from which on the grid is blamed. White noise on
+/// a plane has 0.8.
 constexpr double mostly_unresolved = 0.7;
-/// As many levels as a picture of 8 bits has.
+/// Of a picture with 8 bits.
 constexpr double levels = 256;
 
 constexpr const char* is_one_colour = "the picture is of one colour";
@@ -39,7 +39,7 @@ std::string describe_range(const Spread& values, ValueRange range) {
     return {};
 }
 
-/// Red, green and blue are clamped to 0 … 1 when they are drawn.
+/// Red, green and blue are clamped to 0 … 1 when drawn.
 std::string describe_clamped(const Canvas& canvas) {
     const bool is_even =
         std::all_of(canvas.fields.begin(), canvas.fields.end(), [](const Field& field) {
@@ -108,7 +108,7 @@ std::string remark_on_look(Painter& painter, const Simulation& simulation) {
     const bool has_palette = request.palette != PictureRequest().palette;
     if (!(has_palette || request.range) || !simulation.shown_stage()) return {};
     const Canvas canvas = painter.canvas(simulation);
-    // The range is that of heights, too.
+    // A canvas with a number uses the range.
     if (canvas.number() != nullptr) return {};
     const char* const options = !request.range ? "--palette changes"
                                 : has_palette  ? "--palette and --range change"

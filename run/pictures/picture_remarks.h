@@ -1,4 +1,4 @@
-// What is to be said of a picture: where it shows less than one would think.
+// Remarks on pictures that show less than expected.
 #pragma once
 
 #include "run/pictures/painter.h"
@@ -8,15 +8,14 @@
 
 namespace cascade {
 
-/// One sentence about the final picture of a run, or nothing: that it is of one colour, because all
-/// it shows lies beside the range that was asked for, or is even; or, where there is nothing to be
-/// said of the stage that is shown (Simulation::remark_on), that its waves are too short for the
-/// grid, or most of what the stage has made is finer than the grid can hold. Nothing where the
-/// species themselves are even, or the stage's result has been doubted already.
+/// A sentence about the final picture of a run, or "": that it has a single colour because its
+/// values are outside of the requested range or uniform; or, if there is no other remark on the
+/// stage (Simulation::remark_on), that its waves are too short for the grid. Nothing if the species
+/// themselves are uniform.
 std::string remark_on_picture(Painter& painter, const Simulation& simulation);
 
-/// That a palette or a range was asked for and the picture, being made of colours, has no use for
-/// it.
+/// A sentence if a palette or a range was requested for a picture made of colours, which ignores
+/// them; else "".
 std::string remark_on_look(Painter& painter, const Simulation& simulation);
 
 }  // namespace cascade

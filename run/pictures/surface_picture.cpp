@@ -1,5 +1,4 @@
-// A lattice of triangles over the parameters; texels are interpolated bilinearly where rays meet
-// it.
+// A mesh of triangles over the parameters; texels are interpolated bilinearly where rays hit it.
 #include "run/pictures/surface_picture.h"
 
 #include <algorithm>
@@ -14,9 +13,9 @@ namespace {
 /// Quadrilaterals along a side: enough for a smooth outline, whatever the grid.
 constexpr std::uint32_t facets = 384;
 
-/// A lattice of facets × facets quadrilaterals in the square of the parameters. Triangles 2k and
-/// 2k + 1 are quadrilateral k, their first corner its upper left, the second the upper right of
-/// the one and the lower right of the other.
+/// A mesh of facets × facets quadrilaterals over the square of the parameters. Triangles 2k and 2k
+/// + 1 form quadrilateral k; their first corner is its upper left, their second corner is its upper
+/// right and its lower right, respectively.
 TriangleMesh lattice(const SurfaceFunction& surface) {
     TriangleMesh mesh;
     mesh.positions.reserve((facets + 1) * (facets + 1));
@@ -39,7 +38,7 @@ TriangleMesh lattice(const SurfaceFunction& surface) {
     return mesh;
 }
 
-/// The texel in the middle of a quadrilateral.
+/// The texel at the centre of a quadrilateral.
 const Colour& middle_of(std::uint32_t quadrilateral, const Image& texture) {
     const auto texel = [](std::uint32_t facet, std::int64_t side) {
         return static_cast<std::int64_t>((facet + 0.5) / facets * static_cast<double>(side));
@@ -48,8 +47,8 @@ const Colour& middle_of(std::uint32_t quadrilateral, const Image& texture) {
                       texel(quadrilateral / facets, texture.height));
 }
 
-/// Takes away what lies on transparent parts of the texture. Returns the numbers in the lattice of
-/// the triangles that stay.
+/// Removes triangles on transparent parts of the texture. Returns the original indices of those
+/// that remain.
 std::vector<std::uint32_t> cut_holes(TriangleMesh& mesh, const Image& texture) {
     std::vector<std::uint32_t> numbers;
     std::size_t kept = 0;
@@ -63,7 +62,7 @@ std::vector<std::uint32_t> cut_holes(TriangleMesh& mesh, const Image& texture) {
     return numbers;
 }
 
-/// Between four texels, of which only those count that are seen; `otherwise` where none is.
+/// Interpolates between the visible ones of four texels; `otherwise` if none is visible.
 Colour mix_of_seen(const std::array<std::pair<Colour, float>, 4>& texels, const Colour& otherwise) {
     Colour sum{};
     float weights = 0;
@@ -77,7 +76,7 @@ Colour mix_of_seen(const std::array<std::pair<Colour, float>, 4>& texels, const 
     return sum;
 }
 
-/// Where two joined sides meet in space their normals are one.
+/// Where joined sides coincide in space their normals are averaged.
 void join_normals(TriangleMesh& mesh, bool periodic_x, bool periodic_y) {
     const Box box = bounds(mesh);
     const float near = 1e-4F * length(box.high - box.low);
@@ -92,7 +91,7 @@ void join_normals(TriangleMesh& mesh, bool periodic_x, bool periodic_y) {
     }
 }
 
-/// Two neighbours along an axis and how far the place lies from the first to the second.
+/// Two neighbours along an axis, and the relative position of a place between them.
 struct Between {
     std::int64_t first = 0, second = 0;
     float part = 0;

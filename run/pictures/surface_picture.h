@@ -1,4 +1,4 @@
-// A texture laid on the surface that it has grown on, and drawn.
+// Draws a texture on the surface that it has grown on.
 #pragma once
 
 #include "core/parallel.h"
@@ -8,9 +8,9 @@
 
 namespace cascade {
 
-/// Draws `surface` with `texture`, a pixel for each cell, on it. Between the centres of cells
-/// colours are linear; across joined sides they go on, at others the last cell's stays.
-/// Throws std::bad_alloc.
+/// Draws `surface` with `texture`, which has a pixel for each cell. Colours are linear between the
+/// centres of cells; they continue across joined sides and are constant beyond the last cell at
+/// others. Throws std::bad_alloc.
 Image draw_on_surface(const SurfaceFunction& surface, const Image& texture, bool periodic_x,
                       bool periodic_y, const DrawOptions& options, Team& team);
 

@@ -23,13 +23,13 @@ constexpr const char* key_seed = "Cascade seed";
 constexpr const char* key_picture = "Cascade picture";
 constexpr const char* key_sweep = "Cascade sweep";
 
-/// A number of the stored overrides. One that cannot be meant is refused, not bent.
+/// A whole number from 0 to `most`; throws otherwise.
 std::int64_t whole_number(const nlohmann::json& json, std::int64_t most) {
     if (!json.is_number_integer() || json < 0 || json > most) throw std::out_of_range("number");
     return json.get<std::int64_t>();
 }
 
-/// The list of a sheet's chunk; empty where it is not one of texts.
+/// The list in a sheet's chunk; empty if it is not a list of strings.
 std::vector<std::string> texts_of(const std::string& text) {
     if (!is_small_json(text)) return {};
     const auto json = nlohmann::json::parse(text, nullptr, false);
@@ -68,7 +68,7 @@ Result<Overrides> overrides_from_json(const std::string& text) {
     constexpr const char* unreadable = "the stored overrides cannot be read";
     constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
     if (!is_small_json(text)) return failure(unreadable);
-    // The library reports by exception; none leaves this function.
+    // The JSON library throws; no exception leaves this function.
     try {
         const auto json = nlohmann::json::parse(text);
         if (!json.is_object()) return failure(unreadable);
@@ -118,7 +118,7 @@ Overrides merge(Overrides base, const Overrides& changes) {
     if (changes.until_stage) base.until_stage = changes.until_stage;
     if (changes.cells) base.cells = changes.cells;
     if (changes.model) {
-        // A picture knows of its model no more than a name: where it lies now, the user says.
+        // A picture holds only the name of its model; the user says where it is now.
         const bool is_same_model =
             base.model && std::filesystem::path(*base.model).filename() ==
                               std::filesystem::path(*changes.model).filename();

@@ -1,5 +1,5 @@
-// What a picture carries in its text chunks, so that `cascade run picture.png` draws it again; the
-// same facts describe a saved run.
+// The text chunks of a picture, from which `cascade run picture.png` draws it again; the same data
+// describe a saved run.
 #pragma once
 
 #include "core/result.h"
@@ -15,7 +15,7 @@
 
 namespace cascade {
 
-/// A script found inside a picture or a saved run.
+/// A script found in a picture or a saved run.
 struct EmbeddedScript {
     std::string name;
     std::string text;
@@ -24,7 +24,7 @@ struct EmbeddedScript {
     std::vector<std::string> varied;  ///< Of a sweep's sheet: texts for parse_variation().
 };
 
-/// Chunks: Software, Cascade name, Cascade script, Cascade overrides, Cascade seed, Cascade
+/// The chunks Software, Cascade name, Cascade script, Cascade overrides, Cascade seed, Cascade
 /// picture.
 PngTexts embed_script(const Script& script, const PictureRequest& picture);
 
@@ -32,13 +32,13 @@ PngTexts embed_script(const Script& script, const PictureRequest& picture);
 PngTexts embed_sweep(const Script& script, const PictureRequest& picture,
                      const std::vector<std::string>& varied);
 
-/// Reads them back from the bytes of a file. Fails, naming it, if it is no PNG of Cascade's.
+/// Reads them back from the bytes of a file. Fails, naming the file, if it is not a PNG of Cascade.
 Result<EmbeddedScript> parse_embedded_script(std::string_view bytes, const std::string& file);
 
-/// The same of a file itself: links, pipes and devices are refused.
+/// The same for a file; links, pipes and devices are refused.
 Result<EmbeddedScript> read_embedded_script(const std::filesystem::path& path);
 
-/// `base` with the members that `changes` has put over it; sets are appended, so that they win.
+/// `base` with the members that `changes` overrides; sets are appended, so that they win.
 Overrides merge(Overrides base, const Overrides& changes);
 
 std::string overrides_to_json(const Overrides& overrides);

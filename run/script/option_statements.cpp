@@ -1,5 +1,5 @@
-// Statements are written into the tree directly where the option has a form of its own, as --grid
-// 64x32 and --mesh horse.ply, and read as an expression elsewhere.
+// Options with a syntax of their own, such as --grid 64x32 and --mesh horse.ply, are put into the
+// tree directly; the texts of others are parsed as expressions.
 #include "run/script/option_statements.h"
 
 #include "lang/program/models.h"
@@ -28,7 +28,7 @@ public:
         statement.values.push_back(*value);
     }
 
-    /// A setting that is there or not.
+    /// A setting without a value.
     void add(std::string_view name) { begin(name, ""); }
 
     void add_grid(const GridSize& size, bool is_one_number) {
@@ -44,7 +44,7 @@ public:
         }
     }
 
-    /// A surface that has a name, or else a file.
+    /// A named surface, else a file.
     void add_model(const std::string& model) {
         ast::Statement& statement = begin("mesh", model);
         const Span span = statement.span;

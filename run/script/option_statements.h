@@ -1,4 +1,4 @@
-// What the options of the command line say, as statements of the language.
+// Options of the command line as statements of the language.
 #pragma once
 
 #include "run/script/script.h"
@@ -6,9 +6,8 @@
 namespace cascade {
 
 /// Adds a statement to `script.tree.options` for every override of the domain and of all stages:
-/// for
-/// --grid 64x32 that is `grid: 64, 32`. Messages about it show the option and what was typed. What
-/// cannot be read is a diagnostic.
+/// `grid: 64, 32` for --grid 64x32. Messages about it show the option as it was typed. Errors go to
+/// the script's diagnostics.
 void add_option_statements(Script& script);
 
 }  // namespace cascade

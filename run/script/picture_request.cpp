@@ -1,5 +1,5 @@
-// To and from JSON; what only some domains have is left out where it is not used, so that pictures
-// of planes stay the same bytes.
+// Conversion to and from JSON. Options of some domains only are written only if used, so that
+// pictures of planes keep their bytes.
 #include "run/script/picture_request.h"
 
 #include "core/json_size.h"
@@ -18,7 +18,7 @@ bool makes_sense(const PictureRequest& request) {
     if (!(std::abs(request.view.azimuth) <= 360 && std::abs(request.view.elevation) <= 89)) {
         return false;
     }
-    // A range that runs downwards turns the palette over.
+    // A range that runs downwards reverses the palette.
     if (request.range &&
         (!std::isfinite(request.range->low) || !std::isfinite(request.range->high) ||
          request.range->low == request.range->high)) {
@@ -41,8 +41,6 @@ std::string to_json(const PictureRequest& request) {
                            {"scale", request.scale},
                            {"depth", request.depth},
                            {"space_time", request.space_time}};
-    // What only surfaces have is left out where it is not asked for: pictures of planes stay the
-    // same bytes.
     if (request.flat) json["flat"] = true;
     if (request.is_turned()) json["view"] = {request.view.azimuth, request.view.elevation};
     if (request.view.is_turning) json["turning"] = true;
@@ -57,7 +55,7 @@ std::string to_json(const PictureRequest& request) {
 
 Result<PictureRequest> picture_request_from_json(const std::string& text) {
     if (!is_small_json(text)) return failure("the stored picture options cannot be read");
-    // The library reports by exception; none leaves this function.
+    // The JSON library throws; no exception leaves this function.
     try {
         const auto json = nlohmann::json::parse(text);
         PictureRequest request;

@@ -1,4 +1,4 @@
-// What a picture is asked to show.
+// The options of a picture.
 #pragma once
 
 #include "core/result.h"
@@ -11,22 +11,22 @@
 
 namespace cascade {
 
-/// Options of `cascade run` that decide a picture's looks. They travel inside the picture.
+/// The options of `cascade run` that determine a picture's look. They are stored in the picture.
 struct PictureRequest {
-    std::string show;  ///< An expression; "" is the picture block or the default.
+    std::string show;  ///< An expression; empty for the picture block or the default.
     std::string palette = "grey";
     std::optional<ValueRange> range;  ///< Empty: from the values.
     int scale = 1;                    ///< Pixels per cell.
     int depth = 8;                    ///< Bits: 8 or 16.
     bool space_time = false;          ///< 1-D grids: a row of pixels per interval.
-    Slice slice;                      ///< 3-D grids: what a picture shows of them.
-    bool flat = false;                ///< Of a surface: the texture alone.
-    View view;                        ///< Of a surface: from where it is seen.
-    /// Of a model: how far the largest number stands out before the smallest one, in sides of the
-    /// model, −1 … 1.
+    Slice slice;                      ///< 3-D grids: the slice to show.
+    bool flat = false;                ///< Of a surface: only the texture.
+    View view;                        ///< Of a surface: the direction it is seen from.
+    /// Of a model: height of the largest number above the smallest one, in sides of the model, −1 …
+    /// 1.
     float bump = 0;
 
-    /// Is the surface seen from another place than usual?
+    /// True if the view is not the default one.
     bool is_turned() const;
     PngDepth png_depth() const { return depth == 16 ? PngDepth::sixteen : PngDepth::eight; }
 };

@@ -1,4 +1,4 @@
-// Parses the script, what it uses, and the options that change it; then checks it all.
+// Parses the script, the files that it uses, and the options that change it; then checks it all.
 #include "run/script/script.h"
 
 #include "core/file.h"
@@ -101,13 +101,13 @@ void check_until_stage(Script& script) {
     find_stage_of_option(script, name, option_span(script.sources, "--until-stage", name));
 }
 
-/// The picture block, and whether every stage is of any use.
+/// Checks the picture block, and warns of stages that nothing reads.
 void check_views(Script& script) {
     if (script.program->stages.empty()) return;
     const std::uint32_t stage = script.final_stage();
     const std::uint32_t last = script.stage_count() - 1;
-    // A run cut short by --until-stage may lack stages that the picture names; that is no fault of
-    // the script, so only a whole run is checked here.
+    // With --until-stage, the picture may name stages that do not run, which is not an error in the
+    // script, so only a whole run is checked here.
     if (last + 1 != script.program->stages.size()) return;
     const auto expression = picture_expression(script.tree);
     if (!expression) {
@@ -156,8 +156,8 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
 Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides) {
     constexpr std::uint64_t largest_picture = std::uint64_t{1} << 30;
     constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
-    // Pictures may be larger than any script. Of a pipe or a device no more is read than a script
-    // has.
+    // Pictures may be larger than any script. Of a pipe or a device only the size of a script is
+    // read.
     const bool is_picture = first_bytes(path, signature.size()) == signature;
     auto bytes = read_file(path, is_picture ? largest_picture : largest_script);
     if (!bytes) {

@@ -1,5 +1,5 @@
-// A script as it was asked for: its text, what the command line changes about it, and the checked
-// program that comes of both.
+// A script as requested: its text, the changes of the command line, and the resulting checked
+// program.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -19,31 +19,31 @@
 
 namespace cascade {
 
-/// Changes that come from outside the script. They travel inside pictures and saved runs.
+/// Changes from outside the script. They are stored in pictures and saved runs.
 struct Overrides {
     std::vector<std::string> sets;  ///< "large.ka=1/400", in order.
     std::optional<GridSize> grid;
-    bool grid_is_one_number = false;  ///< As in --grid 100, which is a line. Travels nowhere.
+    bool grid_is_one_number = false;  ///< As in --grid 100, which is a line of cells. Not stored.
     std::optional<std::uint32_t> seed;
-    std::optional<std::int64_t> steps;       ///< A cap for every stage.
+    std::optional<std::int64_t> steps;       ///< The most steps of every stage.
     std::optional<std::string> until_stage;  ///< The last stage that runs.
-    /// The files that the script uses, as (path, text), as far as they have been read. A picture
-    /// can so be drawn again without them.
+    /// The files that the script uses, as (path, text), as far as they have been read, so that a
+    /// picture can be drawn again without them.
     std::vector<std::pair<std::string, std::string>> used;
-    ReadAccess reads;                   ///< Travels nowhere.
-    std::optional<std::string> solver;  ///< Of every stage.
+    ReadAccess reads;                   ///< Not stored.
+    std::optional<std::string> solver;  ///< For every stage.
     std::optional<Precision> precision;
     bool fast = false;  ///< Steps are computed with fewer roundings.
-    /// The domain becomes this model: the file of one, or the name of a shape.
+    /// The domain becomes this model: a file, or the name of a shape.
     std::optional<std::string> model;
-    bool model_is_asked_for = false;   ///< By the user: the file may lie anywhere. Travels nowhere.
+    bool model_is_asked_for = false;   ///< By the user, so the file may be anywhere. Not stored.
     std::optional<std::string> cells;  ///< Of the model: a number, faces or vertices.
     std::optional<Axis> up;            ///< Of the model: its axis that points upwards.
 
     friend bool operator==(const Overrides&, const Overrides&) = default;
 };
 
-/// A loaded script. `program` is null when `diagnostics` has errors.
+/// A loaded script. `program` is empty if `diagnostics` has errors.
 struct Script {
     Script() = default;
     Script(Script&&) = default;
@@ -51,10 +51,10 @@ struct Script {
     Script(const Script&) = delete;  // The tree holds views into this script's own sources.
     Script& operator=(const Script&) = delete;
 
-    /// In messages: as the user typed it, "examples/leopard.cascade", or as a picture or a saved
-    /// run says.
+    /// The name in messages: as the user typed it, "examples/leopard.cascade", or as stored in a
+    /// picture or a saved run.
     std::string name;
-    /// What the user named: the script, the picture or the saved run that it was found in.
+    /// The file that the user named: the script, or the picture or saved run that it was found in.
     std::filesystem::path file;
     std::string text;
     std::filesystem::path folder;  ///< Paths in the script are relative to it.
@@ -65,21 +65,21 @@ struct Script {
     ast::Script tree;
     std::shared_ptr<const Program> program;
 
-    /// All diagnostics, drawn.
+    /// All diagnostics, formatted.
     std::string messages(bool colour) const;
-    /// The last stage that will take a step, or the last stage where none will.
+    /// The last stage that takes a step, or the last stage if none does.
     std::uint32_t final_stage() const;
-    /// How many stages will run: all, or those up to `until_stage`.
+    /// The number of stages that run: all, or those up to `until_stage`.
     std::uint32_t stage_count() const;
 };
 
-/// Parses and checks `text` with its overrides and the files it uses, picture block included. Never
-/// fails otherwise than by diagnostics.
+/// Parses and checks `text` with its overrides and the files it uses, and the picture block. Errors
+/// are reported in the diagnostics only.
 Script load_script(std::string name, std::string text, std::filesystem::path folder,
                    Overrides overrides = {});
 
-/// Reads the file first. A PNG that Cascade wrote carries its script: that is loaded, with the
-/// overrides it was made with (`overrides`' own members win). Fails on unreadable files.
+/// Reads the file first. A PNG that Cascade wrote contains its script: that is loaded, with the
+/// stored overrides (those of `overrides` win). Fails if the file cannot be read.
 struct LoadedFile {
     Script script;
     std::string picture_options;  ///< JSON of the PictureRequest in a PNG; empty for a script.
@@ -87,21 +87,21 @@ struct LoadedFile {
 };
 Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides = {});
 
-/// What a script without stages lacks, of its own last system if it has one: "add 'stage spots:
-/// mine { }'".
+/// A hint for scripts without stages, with their last own system if there is one: "add 'stage
+/// spots: mine { }'".
 std::string example_of_stage(const Program& program);
 
-/// What outputs are called where nothing is said: "leopard" of "examples/leopard.cascade". It comes
-/// from what the user named, never from a name inside of that; "cascade" where there is none.
+/// The default stem of outputs: "leopard" for "examples/leopard.cascade". It comes from the file
+/// that the user named, never from a name inside it; "cascade" if there is none.
 std::string output_stem(const Script& script);
 
-/// A place for messages about an option: the option's own text is the source `<--option>`.
+/// A span for messages about an option: its text becomes the source `<--option>`.
 Span option_span(Sources& sources, const std::string& option, const std::string& value);
 
-/// The stage of a name, or else of a number from 1. Fails with the names that there are.
+/// The stage of a name, else of a number from 1. Fails with a list of the names.
 Result<std::uint32_t> find_stage(const Program& program, const std::string& asked);
 
-/// The stage that an option names, or nothing with a message at `span`. Needs a program.
+/// The stage that an option names; reports an error at `span` if there is none. Needs a program.
 std::optional<std::uint32_t> find_stage_of_option(Script& script, const std::string& name,
                                                   Span span);
 

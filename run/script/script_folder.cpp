@@ -1,4 +1,4 @@
-// A script is known again by its text, among the files of its name in two folders.
+// A script is recognised by its text, among the files of its name in two folders.
 #include "run/script/script_folder.h"
 
 #include "core/granted_files.h"
@@ -20,13 +20,12 @@ std::string portable_path(const std::string& path) {
 
 namespace {
 
-/// A file that has the name of a saved run's script.
 struct Namesake {
     fs::path folder;
     std::string name, text;
 };
 
-/// In the current folder, and in the one that the saved run lies in.
+/// In the current folder, and in the one that contains the saved run.
 std::vector<Namesake> namesakes(const fs::path& saved, const std::string& name) {
     const fs::path here = fs::path(portable_path(name));
     const fs::path above = (saved / "..").lexically_normal();

@@ -22,7 +22,7 @@ public:
     }
 
     void run() {
-        // The files add what they use themselves to the end of the list.
+        // Each file appends the files that it uses to the list.
         for (std::size_t k = 0; k < script_.tree.uses.size(); ++k) {
             const ast::Use use = script_.tree.uses[k];
             const auto folder = folders_.find(use.span.source);
@@ -49,7 +49,6 @@ private:
     std::unordered_map<SourceId, std::filesystem::path> folders_;
 };
 
-/// The text of a file, or nothing with a message.
 std::optional<std::string> UsedFiles::text_of(const std::string& path, const ast::Use& use) {
     auto& known = script_.overrides.used;
     const auto found = std::find_if(known.begin(), known.end(),
@@ -73,7 +72,7 @@ void UsedFiles::add(const std::filesystem::path& path, const std::string& text) 
     set_folder_of_files(first, path.parent_path());
 }
 
-/// What a used file calls "a.npy" lies in that file's folder.
+/// Paths of data files in a used file are relative to that file's folder.
 void UsedFiles::set_folder_of_files(ast::ExprId first, const std::filesystem::path& folder) {
     if (folder.empty()) return;
     auto& expressions = script_.tree.expressions;

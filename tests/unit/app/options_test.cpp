@@ -62,7 +62,7 @@ TEST(Options, sweep_takes_everything) {
     EXPECT_EQ(options.limit_seconds, 5400);
     EXPECT_THAT(options.overrides.sets, ElementsAre("ka=1"));
     EXPECT_THAT(left({"sweep", "a.cascade", "--vary", "a=0..1"}).text,
-                HasSubstr("how many values"));
+                HasSubstr("the number of values"));
     EXPECT_THAT(left({"sweep", "a.cascade", "--vary", "a=1", "--scale", "2"}).text,
                 HasSubstr("there is no option --scale"));
 }

@@ -144,8 +144,8 @@ TEST_F(CheckpointTest, WhatCannotBeKeptDoesNotEndTheRun) {
     };
     ASSERT_TRUE(run(script, wanted, control));
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_THAT(warnings[0], HasSubstr("the run could not be kept at stage 'large', step "));
-    EXPECT_THAT(warnings[0], HasSubstr("and goes on: '"));
+    EXPECT_THAT(warnings[0], HasSubstr("the run could not be saved at stage 'large', step "));
+    EXPECT_THAT(warnings[0], HasSubstr("and continues: '"));
     EXPECT_TRUE(fs::exists(path("saved/small.b.npy")));
 }
 

@@ -55,7 +55,7 @@ protected:
 TEST_F(DamagedTest, ManifestsAreCheckedBeforeTheyAreBelieved) {
     EXPECT_THAT(resume_with([](auto& run) { run.erase("stages"); }), HasSubstr("is damaged"));
     EXPECT_THAT(resume_with([](auto& run) { run["stages"] = nullptr; }),
-                HasSubstr("its stages are no list"));
+                HasSubstr("its stages are not a list"));
     EXPECT_THAT(resume_with([](auto& run) { run["stages"][0]["steps"] = 1.5; }),
                 HasSubstr("stage 1 is not right"));
     EXPECT_THAT(resume_with([](auto& run) { run["stages"][0]["steps"] = -1; }),

@@ -56,7 +56,7 @@ TEST(ModelInput, AMaskIsLeftAsideWhereAModelIsAskedFor) {
     overrides.model = "sphere";
     overrides.cells = "100";
     EXPECT_NE(messages_of("grid: 20, 20; mask: x > 5", "lap(u)", "", overrides)
-                  .find("warning: a model has no mask: this is left aside"),
+                  .find("warning: a model has no mask: this is ignored"),
               std::string::npos);
     overrides.grid = GridSize{20, 20};
     EXPECT_NE(messages_of("grid: 20, 20", "lap(u)", "", overrides)
@@ -110,8 +110,7 @@ TEST(ModelInput, AGridTakesThePlaceOfAModelAndThatIsSaid) {
     ASSERT_TRUE(script.program) << script.messages(false);
     EXPECT_FALSE(script.program->domain.model);
     EXPECT_EQ(script.program->domain.grid, (Grid{20, 30}));
-    EXPECT_NE(script.messages(false).find(
-                  "warning: the grid asked for takes the place of this model"),
+    EXPECT_NE(script.messages(false).find("warning: the requested grid replaces this model"),
               std::string::npos)
         << script.messages(false);
     const Script plane = load_script("test", "stage one: turing_spots { }\n", ".", overrides);

@@ -135,18 +135,19 @@ TEST_F(SavedFolderTest, OnlyFilesOfTheRunBeforeAreRemoved) {
 TEST_F(SavedFolderTest, WhatIsNotASavedRunIsNotReplaced) {
     fs::create_directory(path("saved"));
     ASSERT_TRUE(write_file(path("saved/run.json"), "{\"name\": \"of another program\"}"));
-    EXPECT_THAT(why_not_saved(two_stages), HasSubstr("is not of a saved run, and is not replaced"));
+    EXPECT_THAT(why_not_saved(two_stages),
+                HasSubstr("does not belong to a saved run, and is not replaced"));
     EXPECT_EQ(names().size(), 1u);
     fs::remove(path("saved/run.json"));
     ASSERT_TRUE(write_file(path("saved/small.b.npy"), "my own"));
-    EXPECT_THAT(why_not_saved(two_stages), HasSubstr("small.b.npy' is not of the run"));
+    EXPECT_THAT(why_not_saved(two_stages), HasSubstr("small.b.npy' does not belong to the run"));
     EXPECT_EQ(bytes("saved/small.b.npy"), "my own");
     fs::remove(path("saved/small.b.npy"));
     fs::create_directory(path("saved/large.a.npy"));
     EXPECT_THAT(why_not_saved(two_stages), HasSubstr("large.a.npy"));
     fs::remove(path("saved/large.a.npy"));
     ASSERT_EQ(::mkfifo(path("saved/run.json").c_str(), 0600), 0);
-    EXPECT_THAT(why_not_saved(two_stages), HasSubstr("is not of a saved run"));
+    EXPECT_THAT(why_not_saved(two_stages), HasSubstr("does not belong to a saved run"));
     EXPECT_THAT(why_not_resumed(), HasSubstr("is a pipe or a device and no file"));
     EXPECT_FALSE(fs::exists(path("picture.png"))) << "found before the first step";
 }

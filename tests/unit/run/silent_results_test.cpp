@@ -144,7 +144,7 @@ TEST_F(SilentResults, AResumedRunGoesOnOrSaysWhyNot) {
     warnings_.clear();
     EXPECT_EQ(run_well(*saved, on).steps, 0);
     EXPECT_THAT(warnings_,
-                ElementsAre("the saved run had come to its end, and no step was left to take: "
+                ElementsAre("the saved run was complete already, so no steps were taken: "
                             "stage 's', step 3000 of 3000"));
 }
 

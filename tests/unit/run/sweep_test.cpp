@@ -156,16 +156,16 @@ TEST_F(SweepTest, NothingRunsWhereAScriptIsWrong) {
     SweepControl control;
     auto wrong = sweep(script, request({"kaa=1,2"}), control);
     ASSERT_FALSE(wrong);
-    ASSERT_TRUE(wrong.error().faults);
-    EXPECT_THAT(wrong.error().faults->messages(false), HasSubstr("no stage has a parameter 'kaa'"));
+    ASSERT_TRUE(wrong.error().script);
+    EXPECT_THAT(wrong.error().script->messages(false), HasSubstr("no stage has a parameter 'kaa'"));
     wrong = sweep(script, request({"ka=1,1/0"}), control);  // The second run's fault.
     ASSERT_FALSE(wrong);
-    EXPECT_THAT(wrong.error().faults->messages(false), HasSubstr("division by zero"));
+    EXPECT_THAT(wrong.error().script->messages(false), HasSubstr("division by zero"));
     SweepRequest shown = request({"ka=1,2"});
     shown.picture.show = "q";
     wrong = sweep(script, shown, control);
     ASSERT_FALSE(wrong);
-    EXPECT_THAT(wrong.error().faults->messages(false), HasSubstr("'q'"));
+    EXPECT_THAT(wrong.error().script->messages(false), HasSubstr("'q'"));
     shown.picture.show.clear();
     shown.picture.palette = "gray";
     EXPECT_THAT(sweep(script, shown, control).error().failure.message, HasSubstr("palette"));
@@ -184,8 +184,8 @@ TEST_F(SweepTest, AMissingFileEndsTheSweep) {
     SweepControl control;
     const auto ended = sweep(script, request({"ka=1,2,3,4,5"}), control);
     ASSERT_FALSE(ended);
-    ASSERT_TRUE(ended.error().faults);
-    EXPECT_THAT(ended.error().faults->messages(false), HasSubstr("test.cascade:2:49: error: "));
+    ASSERT_TRUE(ended.error().script);
+    EXPECT_THAT(ended.error().script->messages(false), HasSubstr("test.cascade:2:49: error: "));
     EXPECT_THAT(table().back(), HasSubstr("not run"));
 }
 

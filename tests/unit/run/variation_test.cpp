@@ -48,7 +48,7 @@ TEST(Variation, SaysWhatIsWrong) {
     EXPECT_THAT(fault_of("=1,2"), HasSubstr("there is no name"));
     EXPECT_THAT(fault_of("a="), HasSubstr("a value is missing"));
     EXPECT_THAT(fault_of("a=1,,2"), HasSubstr("a value is missing"));
-    EXPECT_THAT(fault_of("a=0..1"), HasSubstr("how many"));
+    EXPECT_THAT(fault_of("a=0..1"), HasSubstr("the number of values"));
     EXPECT_THAT(fault_of("a=x..1:3"), HasSubstr("are numbers"));
     EXPECT_THAT(fault_of("a=0..1/0:3"), HasSubstr("are numbers"));
     EXPECT_THAT(fault_of("a=nan..1:3"), HasSubstr("are numbers"));

@@ -1,0 +1,190 @@
+// Writes each output of a run, even if another one fails.
+#include "run/commands/run_results.h"
+
+#include "core/counted.h"
+#include "picture/vti.h"
+#include "run/commands/run_checks.h"
+#include "run/pictures/frame_folder.h"
+#include "run/pictures/model_files.h"
+#include "run/pictures/model_picture.h"
+#include "run/script/embedded_script.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+namespace cascade {
+
+Result<void> RunResults::write_picture(const std::filesystem::path& path, const Image& image) {
+    auto done = write_png(path, image, request.picture.png_depth(),
+                          embed_script(script, painter.request()));
+    if (done) report.written.push_back(path);
+    return done;
+}
+
+bool RunResults::has(OutputKind kind) const {
+    return std::any_of(outputs.begin(), outputs.end(), [&](const auto& output) {
+        return output_kind(output).value_or(OutputKind::picture) == kind;
+    });
+}
+
+void RunResults::say(std::string what) const {
+    if (!control.report) return;
+    Progress progress;
+    progress.doing = std::move(what);
+    control.report(progress);
+}
+
+Result<void> RunResults::write_final_picture(const std::filesystem::path& path,
+                                             const Canvas& canvas) {
+    if (request.turntable > 0) return write_turntable(path, canvas);
+    return write_picture(path, request.picture.space_time ? frames->space_time(painter)
+                                                          : painter.image(canvas));
+}
+
+Result<void> RunResults::write_turntable(const std::filesystem::path& path, const Canvas& canvas) {
+    View view = request.picture.view;
+    view.is_turning = true;
+    const float first = view.azimuth;
+    Result<void> done;
+    const auto paths = turntable_paths(path, request.turntable);
+    for (std::size_t k = 0; k < paths.size() && done; ++k) {
+        say(fmt::format("drawing {} of {}", k + 1, paths.size()));
+        const double turn = 360.0 * static_cast<double>(k) / static_cast<double>(paths.size());
+        view.azimuth = static_cast<float>(std::remainder(static_cast<double>(first) + turn, 360.0));
+        painter.set_view(view);
+        done = write_picture(paths[k], painter.image(canvas));
+    }
+    painter.set_view(request.picture.view);
+    return done;
+}
+
+/// The channels of model files: the species of the stage that is shown, and the number of --show.
+std::vector<Channel> RunResults::channels(const Canvas& canvas) const {
+    const ModelCells& model = *simulation.model();
+    std::vector<Channel> channels;
+    const auto add = [&](std::string name, const Field& field) {
+        const std::vector<double> values = cell_values(field, model);
+        channels.push_back({std::move(name), std::vector<float>(values.begin(), values.end())});
+    };
+    const std::uint32_t stage = simulation.shown_stage().value_or(0);
+    const System& system = script.program->system_of(stage);
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        if (!system.is_species(item)) continue;
+        add(std::string(system.item_name(item)), simulation.state(stage).field(item));
+    }
+    if (!request.picture.show.empty() && !canvas.is_colour()) add("shown", canvas.fields[0]);
+    return channels;
+}
+
+Result<void> RunResults::write_model_files(const Canvas& canvas) {
+    const ModelLook look = painter.look(canvas);
+    ModelFileWriter writer(*simulation.model(), look, channels(canvas), request.model_files,
+                           embed_script(script, request.picture));
+    std::optional<Failure> first;
+    for (const auto& output : outputs) {
+        if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
+        say(fmt::format("writing {}", output.filename().string()));
+        auto written = writer.write(output);
+        if (written) report.written.insert(report.written.end(), written->begin(), written->end());
+        else if (!first) first = written.error();
+    }
+    for (const std::string& warning : writer.warnings()) {
+        if (control.warn) control.warn(warning);
+    }
+    if (first) return tl::unexpected(*first);
+    return {};
+}
+
+Result<void> RunResults::write_outputs() {
+    const Canvas canvas = painter.canvas(simulation);
+    Result<void> result;
+    for (const auto& output : outputs) {
+        if (output_kind(output).value_or(OutputKind::picture) != OutputKind::picture) continue;
+        auto done = write_final_picture(output, canvas);
+        if (result) result = done;
+    }
+    if (!has(OutputKind::model) && !has(OutputKind::cells)) return result;
+    auto done = write_model_files(canvas);
+    return result ? done : result;
+}
+
+Result<void> RunResults::write_frames() {
+    if (auto failed = frames->failure()) return tl::unexpected(*failed);
+    auto written =
+        frames->write(painter, request.picture.png_depth(), embed_script(script, request.picture));
+    if (!written) return tl::unexpected(written.error());
+    report.written.insert(report.written.end(), written->begin(), written->end());
+    if (const std::size_t stale = remove_stale_frames(earlier_frames, *written);
+        stale > 0 && control.note) {
+        control.note(fmt::format("removed {} of an earlier run from {}",
+                                 counted(static_cast<std::int64_t>(stale), "frame"),
+                                 request.frames.string()));
+    }
+    return {};
+}
+
+Result<void> RunResults::write_log() {
+    const auto path = log_path(request, outputs[0]);
+    auto written = log->write(path);
+    if (written) report.written.push_back(path);
+    return written;
+}
+
+Result<void> RunResults::write_saved_run() {
+    auto written = save_run(request.save, script, simulation);
+    if (!written) return tl::unexpected(written.error());
+    report.written.push_back(request.save);
+    return {};
+}
+
+/// Writes the species of the stage that is shown.
+Result<void> RunResults::write_volume() {
+    const std::uint32_t stage = simulation.shown_stage().value_or(0);
+    const System& system = script.program->system_of(stage);
+    const DomainMask* mask = simulation.mask();
+    std::deque<Field> copies;
+    std::vector<VolumeArray> arrays;
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        if (!system.is_species(item)) continue;
+        const Field& field = simulation.state(stage).field(item);
+        if (mask) copies.push_back(with_outside(field, *mask, nothing_outside));
+        arrays.push_back({std::string(system.item_name(item)), mask ? &copies.back() : &field});
+    }
+    auto done = write_vti(request.volume, arrays, simulation.grid().spacing,
+                          mask ? &mask->inside : nullptr);
+    if (done) report.written.push_back(request.volume);
+    return done;
+}
+
+Result<void> RunResults::write() {
+    const TimeAccount::Scope spent(request.simulation.account, Spent::drawing);
+    // The run may have taken hours, so every output is written even if another one fails.
+    std::optional<Failure> first;
+    const auto attempt = [&](const Result<void>& done) {
+        if (!done && !first) first = done.error();
+    };
+    attempt(write_outputs());
+    if (log) attempt(write_log());
+    if (!request.frames.empty()) attempt(write_frames());
+    if (!request.sheet.empty()) {
+        attempt(write_picture(request.sheet, draw_sheet(simulation, request.picture)));
+    }
+    if (!request.volume.empty()) attempt(write_volume());
+    if (!request.save.empty()) attempt(write_saved_run());
+    if (painter.fell_back() && control.warn) {
+        control.warn(
+            "where the picture names a stage that has not run, the default picture is "
+            "drawn instead");
+    }
+    if (!first) return {};
+    if (!report.written.empty()) {
+        first->hint += fmt::format("{}written all the same: {}", first->hint.empty() ? "" : "; ",
+                                   report.written.back().string());
+    }
+    return tl::unexpected(*first);
+}
+
+}  // namespace cascade

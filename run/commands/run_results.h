@@ -1,0 +1,43 @@
+// The outputs of a run: pictures, models, frames, the log, a volume and the saved run.
+#pragma once
+
+#include "run/commands/run.h"
+#include "run/pictures/frames.h"
+#include "run/pictures/model_files.h"
+
+namespace cascade {
+
+/// A run whose stages have ended or were cancelled, with everything that it recorded.
+struct RunResults {
+    const Script& script;
+    const RunRequest& request;
+    RunControl& control;
+    const std::vector<std::filesystem::path>& outputs;  ///< Of -o.
+    const Simulation& simulation;
+    Painter& painter;
+    FrameRecorder* frames;                                     ///< Null without frames.
+    const std::vector<std::filesystem::path>& earlier_frames;  ///< In the folder of frames.
+    RunLog* log;                                               ///< Null without --log.
+    RunReport& report;                                         ///< Gets the paths of files.
+
+    /// Writes everything that was requested. An output that fails does not prevent the others;
+    /// returns the first failure.
+    Result<void> write();
+    /// Writes only the log. There must be one.
+    Result<void> write_log();
+
+private:
+    Result<void> write_outputs();
+    Result<void> write_final_picture(const std::filesystem::path& path, const Canvas& canvas);
+    Result<void> write_turntable(const std::filesystem::path& path, const Canvas& canvas);
+    Result<void> write_model_files(const Canvas& canvas);
+    std::vector<Channel> channels(const Canvas& canvas) const;
+    bool has(OutputKind kind) const;
+    void say(std::string what) const;
+    Result<void> write_frames();
+    Result<void> write_saved_run();
+    Result<void> write_volume();
+    Result<void> write_picture(const std::filesystem::path& path, const Image& image);
+};
+
+}  // namespace cascade
