@@ -57,7 +57,7 @@ private:
 Result<Field> attribute_plane(const std::string& name, const ModelCells& model,
                               Precision precision);
 
-/// uvimage(…) in the cells: linear between the middles of four pixels. Contexts beyond 0 … 1 repeat
+/// uvimage(…) in the cells: linear between the middles of four pixels. Places beyond 0 … 1 repeat
 /// the picture. Fails where the model has no texture coordinates.
 Result<Field> painted_plane(const GreyPicture& picture, const ModelCells& model,
                             Precision precision);

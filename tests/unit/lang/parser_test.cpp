@@ -115,7 +115,7 @@ TEST(Expressions, PartsComeBeforeTheWhole) {
             EXPECT_LT(binary->right, id);
         }
     }
-    // Contexts cover the brackets of operands, but a name's own place is the name alone.
+    // Places cover the brackets of operands, but a name's own place is the name alone.
     const auto text = [&](ast::ExprId id) { return sources.text(script.expressions[id].span); };
     EXPECT_EQ(text(6), "f(1, (b - 2) * 3)");
     EXPECT_EQ(text(5), "(b - 2) * 3");
