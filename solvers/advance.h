@@ -9,95 +9,17 @@
 #include "core/plane.h"
 #include "core/result.h"
 #include "core/run_control.h"
+#include "solvers/schedule.h"
 #include "solvers/stage_clock.h"
 #include "solvers/step_problem.h"
 #include "solvers/stepping.h"
-#include "solvers/tiling_memory.h"
 
 #include <cstdint>
-#include <functional>
-#include <limits>
+#include <memory>
 #include <optional>
-#include <span>
-#include <string>
 #include <vector>
 
 namespace cascade {
-
-/// Called on the caller's thread with the number of complete steps, not for `first_step`; the
-/// species (the same vector that was given to advance()) are as that step left them, and have been
-/// found finite. Returns false to end the stage there.
-using Observer = std::function<bool(std::int64_t step, double t, std::span<const Field> species)>;
-/// The same, but returns true where the stage is to end.
-using EndTest = Observer;
-/// Is shown the same, and has no say in anything.
-using Onlooker = std::function<void(std::int64_t step, double t, std::span<const Field> species)>;
-
-/// Called on the caller's thread at a complete step, after which a run can go on from what it is
-/// given with the same bits. The species are as for an Observer.
-using Keeper = std::function<void(std::int64_t step, double t, const TimeState& time)>;
-
-/// How the next steps are taken.
-struct StepChoice {
-    double step = 0;                       ///< Their length.
-    const StepProblem* problem = nullptr;  ///< Their sweeps,
-    const StepProblem* judged =
-        nullptr;  ///< and those of a step whose error is estimated, if any is.
-};
-/// Chooses from the present values, which the caller holds meanwhile, and from the `time` so far.
-/// It may change whatever of `time` is not the clock's or the controller's. `rejected`: the last
-/// choice was too long a step.
-using StepChooser = std::function<StepChoice(std::int64_t step, TimeState& time, bool rejected)>;
-
-/// Which steps to take and how closely to watch them.
-struct Schedule {
-    std::int64_t first_step = 0;  ///< Complete steps so far (more than 0 after a resume).
-    std::int64_t last_step = 0;   ///< Stop when so many are complete.
-    TimeState time = {};          ///< At `first_step`.
-    /// Stop when t is so large; the last step is shortened to end there.
-    double end_time = std::numeric_limits<double>::infinity();
-    /// `observe` is called at multiples of this. Where it is 0 and there is an end time, at the
-    /// first step that reaches a tenth of it, two tenths, …
-    std::int64_t interval = 0;
-    bool tenths = false;     ///< Then also where `interval` is not 0.
-    std::int64_t check = 0;  ///< `ends` is asked at multiples of this; 0 for never.
-    EndTest ends = {};
-    /// `choose` is asked at multiples of this, 0 included; with a tolerance after every step whose
-    /// error is estimated.
-    std::int64_t choose_every = 0;
-    StepChooser choose = {};
-    /// Above 0: the error of steps is estimated, of all of them or, where `choose` says so, of
-    /// some; and they are taken again, shorter, where it is larger than this part of the values.
-    double tolerance = 0;
-    double largest_step = std::numeric_limits<double>::infinity();  ///< Of such steps,
-    std::function<double(double t)> longest_step = {};  ///< and of one that begins at t.
-    int error_order = 1;  ///< That error is proportional to step^this.
-    /// With a tolerance: the sweeps of a step whose error is estimated, where it is not that of all
-    /// steps.
-    const StepProblem* judged = nullptr;
-    bool judges_all = false;        ///< It is.
-    std::int64_t check_every = 64;  ///< Steps between two looks for values that are not finite.
-    Onlooker onlooker = {};         ///< Sees the species at each of those looks.
-    /// A copy of all species of at most so many bytes is kept from look to look, to find out in
-    /// which step a value was spoiled. Larger ones would cost memory that their user needs for his
-    /// cells.
-    std::int64_t most_kept_bytes = std::int64_t{256} << 20;
-    /// Asked before each batch of steps (some 20 ms): is the state after it to be kept? Then it is
-    /// looked at for values that are not finite, too, and `keep` is called. No result depends on
-    /// it.
-    std::function<bool()> keep_is_due = {};
-    Keeper keep = {};
-    int threads = 1;
-    /// How steps go through memory; none: as fits, or as turns out to be faster. No result depends
-    /// on it.
-    std::optional<Tiling> tiling = {};
-    /// Knows what earlier runs found to be faster, and is told what this one finds; nullptr: nobody
-    /// does.
-    TilingMemory* tilings = nullptr;
-};
-
-/// How many tenths of the way to the end time are behind; 0 where there is none.
-double tenths_reached(double t, double end_time);
 
 /// The first value that was not finite.
 struct NotFinite {
@@ -124,7 +46,6 @@ struct StageOutcome {
     std::int64_t steps = 0;  ///< Complete steps when the loop ended.
     double t = 0;            ///< The time then.
     TimeState time;          ///< To go on from there.
-    Stepping stepping;       ///< How the last steps went through memory.
     bool cancelled = false;
     bool ended = false;  ///< By its end time or by `ends`.
     int threads = 1;     ///< In use when the loop ended.
@@ -136,21 +57,42 @@ struct StageOutcome {
     std::vector<Field> last_checked;
 };
 
-/// Is a copy kept of so many species, as Schedule::most_kept_bytes has it?
-bool keeps_copy(const Schedule& schedule, std::size_t species, const Grid& grid,
-                Precision precision);
-
-/// Advances `species` (start values in, last complete step out). When a look finds a value that is
-/// not finite, the steps since the last look, at most `check_every`, are replayed from a kept copy
-/// to name step and cell; then `species` hold the last step at which all were finite. Where no copy
-/// is kept the look itself names a cell, and `species` stay spoiled. `progress` carries the stage's
-/// name and numbers; the loop fills in the rest and reports through `control`: at once, about ten
-/// times a second, and with `stage_done` when the loop ends for whatever reason. If
-/// `control.cancel` is set it ends at the next complete step (batches of steps between two looks at
-/// it take about 20 ms).
+/// Takes the steps of a stage and stays ready to go on: its threads, its copies of the species and
+/// what it has found out about speed live as long as it does.
 ///
-/// Needs memory for three copies of all species, for two where none is kept. Addresses of the
-/// fields' values change.
+/// Needs memory for three copies of all species, for two where none is kept.
+class TimeLoop {
+public:
+    /// `problem` has the passes of the first steps. It and `species`, start values in, last
+    /// complete step out, must outlive the loop, and nobody else may change them. Addresses of
+    /// the values of `species` change. `progress` carries the stage's name and numbers.
+    TimeLoop(const StepProblem& problem, Schedule schedule, std::vector<Field>& species,
+             Progress progress);
+    ~TimeLoop();
+    TimeLoop(const TimeLoop&) = delete;
+    TimeLoop& operator=(const TimeLoop&) = delete;
+
+    /// Goes on until `last_step` is complete, observed at multiples of `interval`: the two
+    /// numbers replace the schedule's. When a look finds a value that is not finite, the steps
+    /// since the last look, at most `check_every`, are replayed from a kept copy to name step and
+    /// cell; then the species hold the last step at which all were finite. Where no copy is kept
+    /// the look itself names a cell, and they stay spoiled. Reports through `control`: at once,
+    /// about ten times a second, and with `stage_done` at the end for whatever reason. If
+    /// `control.cancel` is set it ends at the next complete step (batches of steps between two
+    /// looks at it take about 20 ms). May be called again unless a value was spoiled or steps
+    /// became too short.
+    StageOutcome advance(std::int64_t last_step, std::int64_t interval, RunControl& control,
+                         const Observer& observe);
+
+    /// How the last steps went through memory.
+    Stepping stepping() const;
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> self_;
+};
+
+/// Takes the steps of a schedule, with a TimeLoop of their own.
 StageOutcome advance(const StepProblem& problem, const Schedule& schedule,
                      std::vector<Field>& species, RunControl& control, Progress progress,
                      const Observer& observe);

@@ -13,7 +13,9 @@ constexpr std::size_t most_samples = 21;  // Two seconds of reports.
 
 }  // namespace
 
-Pace::Pace(Time now, std::int64_t step) { samples_.push_back({now, step}); }
+Pace::Pace(Time now, std::int64_t step) { go_on(now, step); }
+
+void Pace::go_on(Time now, std::int64_t step) { samples_.assign(1, {now, step}); }
 
 void Pace::took(std::int64_t count, std::chrono::duration<double> duration) {
     const double per_step = std::max(duration.count(), 1e-9) / static_cast<double>(count);

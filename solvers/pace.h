@@ -24,6 +24,9 @@ public:
     /// A batch of `count` steps took so long.
     void took(std::int64_t count, std::chrono::duration<double> duration);
 
+    /// Goes on after a pause: reports tell nothing of the time before, batches are as long.
+    void go_on(Time now, std::int64_t step);
+
     /// Is it time for a report? About ten times a second.
     bool report_due(Time now) const;
     /// Notes the time of a report, at so many complete steps.

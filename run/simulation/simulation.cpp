@@ -196,14 +196,15 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
         state.time = time;
         self.keep();
     };
+    TimeLoop loop(timer.problem(), schedule, state.species, progress);
     const StageOutcome outcome =
-        advance(timer.problem(), schedule, state.species, control, progress,
-                [&](std::int64_t step, double t, std::span<const Field>) {
-                    state.steps = step;
-                    state.t = t;
-                    if (observe) observe();
-                    return true;
-                });
+        loop.advance(last_step, schedule.interval, control,
+                     [&](std::int64_t step, double t, std::span<const Field>) {
+                         state.steps = step;
+                         state.t = t;
+                         if (observe) observe();
+                         return true;
+                     });
     self.listener = nullptr;
     self.unsettled.insert_or_assign(k, std::move(kernels));
     self.warn_of_refused(control);
@@ -216,7 +217,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
         self.warn_of_undefined_end(k, control);
     }
     state.step_invariants.clear();
-    self.account_for(k, state.steps - steps_before, outcome);
+    self.account_for(k, state.steps - steps_before, outcome, loop);
     if (outcome.not_finite) return tl::unexpected(self.explain(outcome, k));
     if (outcome.too_short) return tl::unexpected(self.explain(*outcome.too_short, k));
     if (outcome.cancelled) return StageEnd::cancelled;
@@ -299,14 +300,15 @@ std::optional<std::uint32_t> Simulation::shown_stage() const {
 }
 
 void Simulation::Implementation::account_for(std::uint32_t k, std::int64_t steps,
-                                             const StageOutcome& outcome) const {
+                                             const StageOutcome& outcome,
+                                             const TimeLoop& loop) const {
     if (account == nullptr) return;
     account->kernels = stepper->counts();
     TimeAccount::Stage& entry = account->stage(k);
     entry.steps += steps;
     entry.cells = grid.cell_count();
     entry.threads = outcome.threads;
-    entry.stepping = outcome.stepping;
+    entry.stepping = loop.stepping();
 }
 
 StageTools Simulation::Implementation::tools(std::uint32_t k, Compile steps) const {

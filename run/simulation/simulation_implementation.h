@@ -171,7 +171,8 @@ struct Simulation::Implementation {
     void look_at(std::uint32_t k);
 
     /// Enters steps that were taken into the account of times.
-    void account_for(std::uint32_t k, std::int64_t steps, const StageOutcome& outcome) const;
+    void account_for(std::uint32_t k, std::int64_t steps, const StageOutcome& outcome,
+                     const TimeLoop& loop) const;
 
     /// What the time of a stage needs to know of it.
     /// `steps` makes the kernels of its steps runnable.

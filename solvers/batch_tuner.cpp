@@ -1,0 +1,95 @@
+// Measures batches and lets the tuners of threads and of tiles choose by it.
+#include "solvers/batch_tuner.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace cascade {
+
+BatchTuner::BatchTuner(const Schedule& schedule, LoopClock& clock, Stepper& stepper)
+    : schedule_(schedule),
+      clock_(clock),
+      stepper_(stepper),
+      pace_(Clock::now(), clock.step),
+      thread_tuner_(stepper.team().most_threads()),
+      tile_tuner_(tuner_of(tilings_to_try())) {}
+
+void BatchTuner::go_on() { pace_.go_on(Clock::now(), clock_.step); }
+
+std::int64_t BatchTuner::begin_batch(std::int64_t most) {
+    stepper_.team().use_threads(thread_tuner_.threads());
+    stepper_.team().use_tiling(tile_tuner_.tiling());
+    std::int64_t steps = std::min(pace_.batch(steps_at_once()), most);
+    if (tile_tuner_.is_trying()) {
+        const std::int64_t sweeps = sweeps_of_step();
+        steps = std::min(steps, (tile_tuner_.sweeps_of_trial() + sweeps - 1) / sweeps);
+    }
+    // What is best for interpreted steps, or for some of either kind, does not matter.
+    is_good_measure_ = !stepper_.problem().is_provisional() && !tile_tuner_.is_trying();
+    began_ = Clock::now();
+    return steps;
+}
+
+void BatchTuner::end_batch(std::int64_t count, Clock::time_point now) {
+    const Seconds duration = now - began_;
+    spent_ += duration;
+    pace_.took(count, duration);
+    if (is_good_measure_) thread_tuner_.took(count, duration);
+}
+
+bool BatchTuner::take_steps(const StepProblem& problem, std::int64_t count, bool look) {
+    if (&problem != &stepper_.problem()) {
+        stepper_.use(problem);
+        // What was found about tilings stays where the new passes have the same ones to choose
+        // from.
+        auto tilings = tilings_to_try();
+        if (tilings != tile_tuner_.candidates()) tile_tuner_ = tuner_of(std::move(tilings));
+    }
+    const bool is_native = !problem.is_provisional();
+    // What is tried is how steps are taken, not how they are looked at, and on one number of
+    // threads.
+    const bool is_trial = tile_tuner_.is_trying();
+    stepper_.set_clock(clock_.time.clock);
+    const Clock::time_point before = Clock::now();
+    const bool finite = stepper_.advance(clock_.step, count, look && !is_trial);
+    const Seconds duration = Clock::now() - before;
+    clock_.step += count;
+    if (is_native && !thread_tuner_.is_trying()) {
+        const Seconds of_step = duration / static_cast<double>(count);
+        tile_tuner_.took(count * sweeps_of_step(), duration, time_left(of_step));
+    }
+    return look && is_trial ? stepper_.is_finite() : finite;
+}
+
+Stepping BatchTuner::stepping() const {
+    Stepping stepping = stepper_.team().stepping();
+    if (const std::string how = tile_tuner_.how_found(); !how.empty()) stepping.why = how;
+    return stepping;
+}
+
+std::vector<Tiling> BatchTuner::tilings_to_try() const {
+    return schedule_.tiling ? std::vector{*schedule_.tiling} : stepper_.team().tilings_to_try();
+}
+
+TileTuner BatchTuner::tuner_of(std::vector<Tiling> tilings) const {
+    return TileTuner(std::move(tilings), schedule_.tilings, stepper_.team().most_threads());
+}
+
+std::int64_t BatchTuner::sweeps_of_step() const {
+    return static_cast<std::int64_t>(stepper_.problem().passes.size());
+}
+
+/// Steps that one pass through memory takes, at least 1.
+std::int64_t BatchTuner::steps_at_once() const {
+    const std::int64_t sweeps = sweeps_of_step();
+    return (stepper_.team().levels() + sweeps - 1) / sweeps;
+}
+
+/// How long the steps ahead will take; where nobody knows their number, as long as those before.
+BatchTuner::Seconds BatchTuner::time_left(Seconds of_step) const {
+    if (schedule_.check > 0) return spent_ + (Clock::now() - began_);
+    const auto by_number = static_cast<double>(schedule_.last_step - clock_.step);
+    return of_step * std::min(by_number, clock_.steps_left());
+}
+
+}  // namespace cascade

@@ -1,0 +1,60 @@
+// How many steps a time loop takes at once, on how many threads and in which tiles: whatever makes
+// steps fast and changes no result.
+#pragma once
+
+#include "solvers/loop_clock.h"
+#include "solvers/pace.h"
+#include "solvers/stepper.h"
+#include "solvers/thread_tuner.h"
+#include "solvers/tile_tuner.h"
+
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+namespace cascade {
+
+class BatchTuner {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    /// Takes the steps of `stepper`, which it sets up as it finds best. All must outlive it.
+    BatchTuner(const Schedule& schedule, LoopClock& clock, Stepper& stepper);
+
+    /// The loop goes on after a pause.
+    void go_on();
+    /// The size of the next batch, if so many steps at most may be taken. Sets up threads and
+    /// tiles for it.
+    std::int64_t begin_batch(std::int64_t most);
+    /// The batch is over.
+    void end_batch(std::int64_t count, Clock::time_point now);
+    /// Takes `count` steps of one length of the passes `problem`. With `look`, are all values
+    /// finite?
+    bool take_steps(const StepProblem& problem, std::int64_t count, bool look);
+
+    int threads() const { return thread_tuner_.threads(); }
+    Pace& pace() { return pace_; }
+    /// How the last steps went through memory.
+    Stepping stepping() const;
+
+private:
+    using Seconds = std::chrono::duration<double>;
+
+    std::vector<Tiling> tilings_to_try() const;
+    TileTuner tuner_of(std::vector<Tiling> tilings) const;
+    std::int64_t sweeps_of_step() const;
+    std::int64_t steps_at_once() const;
+    Seconds time_left(Seconds of_step) const;
+
+    const Schedule& schedule_;
+    LoopClock& clock_;
+    Stepper& stepper_;
+    Pace pace_;
+    ThreadTuner thread_tuner_;
+    TileTuner tile_tuner_;
+    Clock::time_point began_;       ///< The present batch,
+    bool is_good_measure_ = false;  ///< which tells how fast threads are.
+    Seconds spent_{};               ///< In batches so far.
+};
+
+}  // namespace cascade

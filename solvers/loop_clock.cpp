@@ -1,0 +1,87 @@
+// Finds stops from the schedule's intervals, its end time and the length of steps.
+#include "solvers/loop_clock.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace cascade {
+namespace {
+
+/// Parts of a step by which sums of time may be wrong.
+constexpr double rounding_of_time = 1e-6;
+
+std::int64_t next_multiple(std::int64_t step, std::int64_t of) { return (step / of + 1) * of; }
+
+}  // namespace
+
+double tenths_reached(double t, double end_time) {
+    return std::isfinite(end_time) ? std::floor(10 * t / end_time + 1e-9) : 0;
+}
+
+LoopClock::LoopClock(const Schedule& schedule)
+    : step(schedule.first_step),
+      last_look(schedule.first_step),
+      time(schedule.time),
+      schedule_(schedule) {}
+
+void LoopClock::go_on() {
+    last_look = step;
+    tenths_seen_ = tenths_reached(now(), schedule_.end_time);
+}
+
+bool LoopClock::is_over() const {
+    return schedule_.end_time - now() <= rounding_of_time * time.clock.step;
+}
+
+double LoopClock::steps_left() const {
+    return has_end_time() ? (schedule_.end_time - now()) / time.clock.step
+                          : static_cast<double>(schedule_.last_step - step);
+}
+
+bool LoopClock::judges_next() const {
+    // What is left of the stage may be shorter than a step, and its last step is judged.
+    return is_judging() && (step + 1 >= time.next_judged || whole_steps_left() <= 1);
+}
+
+std::int64_t LoopClock::next_stop() {
+    if (judges_next()) return step + 1;
+    std::int64_t stop = last_look + schedule_.check_every;
+    for (const std::int64_t of : {schedule_.interval, schedule_.check, schedule_.choose_every}) {
+        if (of > 0) stop = std::min(stop, next_multiple(step, of));
+    }
+    stop = std::min(stop, schedule_.last_step);
+    if (is_judging()) stop = std::min(stop, time.next_judged - 1);
+    if (!has_end_time()) return stop;
+    if (looks_at_tenths()) {
+        stop = std::min(stop, step + steps_until((tenths_seen_ + 1) * schedule_.end_time / 10));
+    }
+    if (const std::int64_t whole = whole_steps_left(); whole > 0) {
+        return std::min(stop, step + (is_judging() ? whole - 1 : whole));
+    }
+    set_step(schedule_.end_time - now());
+    return step + 1;
+}
+
+/// Whole steps that fit into the time that is left, of which rounding may have taken some.
+std::int64_t LoopClock::whole_steps_left() const {
+    if (!has_end_time()) return std::numeric_limits<std::int64_t>::max();
+    const double steps = (schedule_.end_time - now()) / time.clock.step;
+    return static_cast<std::int64_t>(std::min(std::floor(steps + rounding_of_time), 1e18));
+}
+
+/// The steps after which t has come so far; at least one.
+std::int64_t LoopClock::steps_until(double t) const {
+    const double steps = std::ceil((t - now()) / time.clock.step - rounding_of_time);
+    return static_cast<std::int64_t>(std::clamp(steps, 1.0, 1e9));
+}
+
+bool LoopClock::observation_due() {
+    const bool is_multiple = schedule_.interval > 0 && step % schedule_.interval == 0;
+    if (!looks_at_tenths()) return is_multiple;
+    const double seen = tenths_reached(now(), schedule_.end_time);
+    const bool due = is_multiple || seen > tenths_seen_;
+    tenths_seen_ = seen;
+    return due;
+}
+
+}  // namespace cascade

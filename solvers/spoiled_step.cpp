@@ -1,0 +1,38 @@
+// Replays steps to find the one that spoiled a value.
+#include "solvers/spoiled_step.h"
+
+#include "core/check.h"
+#include "solvers/finite.h"
+
+namespace cascade {
+
+std::optional<NotFinite> find_not_finite(const std::vector<Field>& species, std::int64_t step,
+                                         std::int64_t last_finite) {
+    for (std::size_t k = 0; k < species.size(); ++k) {
+        if (const auto place = first_not_finite(species[k])) {
+            return NotFinite{k, place->column, place->row, step, last_finite};
+        }
+    }
+    return std::nullopt;
+}
+
+std::int64_t replay(Stepper& stepper, std::int64_t last_finite, std::int64_t spoiled,
+                    StageOutcome& outcome) {
+    StepPlanes& planes = stepper.planes();
+    if (!planes.keeps()) {
+        outcome.not_finite = find_not_finite(planes.current(), spoiled, last_finite);
+        return spoiled;
+    }
+    stepper.back();
+    for (const Field& field : planes.current()) outcome.last_checked.push_back(field.clone());
+    for (std::int64_t step = last_finite; step < spoiled; ++step) {
+        const CopyRoles before = planes.roles();
+        if (stepper.advance(step, 1, true)) continue;
+        outcome.not_finite = find_not_finite(planes.current(), step + 1, step);
+        planes.set_roles(before);
+        return step;
+    }
+    CHECK(false, "a replay takes the same steps");
+}
+
+}  // namespace cascade

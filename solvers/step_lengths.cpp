@@ -1,0 +1,126 @@
+// Tries steps and judges them by their errors.
+#include "solvers/step_lengths.h"
+
+#include "solvers/spoiled_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cascade {
+
+StepLengths::StepLengths(const Schedule& schedule, const StepProblem& problem, LoopClock& clock,
+                         Stepper& stepper, std::vector<Field>& species)
+    : schedule_(schedule),
+      clock_(clock),
+      stepper_(stepper),
+      species_(species),
+      control_(schedule.time.control, schedule.error_order),
+      plain_(&problem),
+      judged_(schedule.judged != nullptr ? schedule.judged : &problem) {}
+
+TimeState StepLengths::time() const {
+    TimeState time = clock_.time;
+    time.control = control_.state();
+    return time;
+}
+
+void StepLengths::choose(bool rejected) {
+    if (!schedule_.choose) return;
+    const SpeciesLoan loan(stepper_.planes(), species_);
+    const StepChoice choice = schedule_.choose(clock_.step, clock_.time, rejected);
+    plain_ = choice.problem;
+    judged_ = choice.judged;
+    clock_.set_step(choice.step);
+}
+
+bool StepLengths::take_judged_step(StageOutcome& outcome) {
+    if (!schedule_.choose) clock_.set_step(wanted_step());
+    while (true) {
+        // A last step that would leave a crumb is made a little longer.
+        const double left = schedule_.end_time - clock_.now(), whole = clock_.time.clock.step;
+        const double length = left < 1.01 * whole ? left : whole;
+        clock_.set_step(length);
+        stepper_.use(*judged_);
+        stepper_.set_clock(clock_.time.clock);
+        const CopyRoles before = stepper_.planes().roles();
+        const double error = stepper_.attempt(clock_.step, schedule_.tolerance);
+        if (control_.judge(length, error)) break;
+        if (length <= clock_.time.least_step) {
+            if (std::isfinite(error)) break;
+            return fail_after(before, outcome);
+        }
+        if (control_.step() < least_step()) {
+            outcome.too_short = where_error_is_largest();
+            stepper_.planes().set_roles(before);
+            return false;
+        }
+        stepper_.planes().set_roles(before);
+        if (schedule_.choose) {
+            clock_.time.control = control_.state();
+            choose(true);
+        } else {
+            clock_.set_step(wanted_step());
+        }
+    }
+    ++clock_.step;
+    clock_.time.clock.begin_at(clock_.step);
+    stepper_.accept();
+    stepper_.planes().keep();
+    clock_.last_look = clock_.step;
+    clock_.time.control = control_.state();
+    if (!clock_.is_over()) choose();
+    return true;
+}
+
+double StepLengths::wanted_step() const {
+    const double wanted = std::min(control_.step(), schedule_.largest_step);
+    return schedule_.longest_step ? std::min(wanted, schedule_.longest_step(clock_.now())) : wanted;
+}
+
+/// Shorter steps would not end in anybody's lifetime.
+double StepLengths::least_step() const {
+    return 1e-10 * (clock_.has_end_time() ? schedule_.end_time : std::max(clock_.now(), 1.0));
+}
+
+/// Goes back to before the step just tried, which spoiled a value. `last_checked` gets the state
+/// then.
+bool StepLengths::fail_after(CopyRoles before, StageOutcome& outcome) {
+    StepPlanes& planes = stepper_.planes();
+    outcome.not_finite = find_not_finite(planes.current(), clock_.step + 1, clock_.step);
+    planes.set_roles(before);
+    // Where the values are finite, their rates are not.
+    if (!outcome.not_finite) {
+        outcome.too_short = where_error_is_largest();
+        return false;
+    }
+    for (const Field& field : planes.current()) outcome.last_checked.push_back(field.clone());
+    return false;
+}
+
+StepTooShort StepLengths::where_error_is_largest() const {
+    StepTooShort place;
+    place.t = clock_.now();
+    place.step = control_.step();
+    double most = -1;
+    const std::vector<Field>& errors = stepper_.error_planes();
+    const auto look = [&](std::size_t k, const auto& plane) {
+        const PlaneLayout& layout = plane.layout();
+        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+            for (std::int64_t i = 0; i < layout.width; ++i) {
+                // What is not a number is larger than any.
+                const double size = std::abs(double{plane.row(row)[i]});
+                if (std::isnan(most) || size <= most) continue;
+                most = size;
+                place.species = k;
+                place.column = i;
+                place.row = row;
+            }
+        }
+    };
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+        errors[k].visit([&](const auto& plane) { look(k, plane); });
+    }
+    return place;
+}
+
+}  // namespace cascade

@@ -1,0 +1,99 @@
+// The planes that steps read and write: two or three copies of every species, and scratch.
+//
+// Two copies change places from step to step. The third, where there is memory for it, is the kept
+// one: keep() declares the current copy the kept one without moving a byte, and steps go on between
+// the other two, so that back() can return there. Keeping is therefore free.
+#pragma once
+
+#include "core/plane.h"
+#include "solvers/pass_runner.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cascade {
+
+/// Which of the copies is what.
+struct CopyRoles {
+    static constexpr int none = -1;
+    int kept = 0;  ///< `none` of two copies.
+    int current = 0;
+
+    /// The copy that the next step writes: neither kept nor current.
+    int target() const {
+        if (kept == none) return 1 - current;
+        return current == kept ? (current + 1) % 3 : 3 - kept - current;
+    }
+};
+
+class StepPlanes {
+public:
+    /// Takes `species` as the current copy, and as the kept one unless it `keeps` none.
+    StepPlanes(const PlaneLayout& layout, Precision precision, std::vector<Field> species,
+               bool keeps);
+
+    const PlaneLayout& layout() const { return layout_; }
+    CopyRoles roles() const { return roles_; }
+    /// After a step, and to undo it: the copies change places.
+    void set_roles(CopyRoles roles) { roles_ = roles; }
+
+    /// Is there a kept copy? Without one keep() does nothing, and back() is a mistake.
+    bool keeps() const { return roles_.kept != CopyRoles::none; }
+    void keep() {
+        if (keeps()) roles_.kept = roles_.current;
+    }
+    void back();
+
+    const std::vector<Field>& current() const { return copy(roles_.current); }
+    /// Lends the current copy to the caller's vector; the same fields must come back before the
+    /// next step.
+    void lend(std::vector<Field>& to);
+    void take_back(std::vector<Field>& from);
+    const std::vector<Field>& copy(int number) const {
+        return copies_[static_cast<std::size_t>(number)];
+    }
+
+    /// Makes planes for so many registers, the old and the new step included.
+    void make_registers(std::uint32_t count);
+    /// The planes of a register other than those of the old and the new step.
+    const std::vector<Field>& scratch(std::uint32_t number) const {
+        return scratch_[number - first_scratch];
+    }
+    /// Two such registers change places.
+    void exchange(std::uint32_t one, std::uint32_t other);
+
+    /// Lists the cells of all registers of a step: the old step, the new one, then scratch.
+    void list(CopyRoles roles, std::vector<std::span<void* const>>& registers) const;
+
+private:
+    static constexpr std::uint32_t first_scratch = 2;
+
+    PlaneLayout layout_;
+    Precision precision_;
+    std::size_t species_;
+    std::array<std::vector<Field>, 3> copies_;  ///< The last is empty where nothing is kept.
+    std::array<std::vector<void*>, 3> cells_;   ///< Of the species of a copy.
+    std::vector<std::vector<Field>> scratch_;
+    std::vector<std::vector<void*>> scratch_cells_;
+    CopyRoles roles_;
+};
+
+/// The caller's vector holds the current species while he looks at them.
+class SpeciesLoan {
+public:
+    SpeciesLoan(StepPlanes& planes, std::vector<Field>& to) : planes_(planes), to_(to) {
+        planes_.lend(to_);
+    }
+    ~SpeciesLoan() { planes_.take_back(to_); }
+    SpeciesLoan(const SpeciesLoan&) = delete;
+    SpeciesLoan& operator=(const SpeciesLoan&) = delete;
+
+private:
+    StepPlanes& planes_;
+    std::vector<Field>& to_;
+};
+
+}  // namespace cascade
