@@ -30,7 +30,7 @@ void go_on(StepPass& next, std::size_t passes) {
     if (++next.pass < passes) return;
     next.pass = 0;
     ++next.complete;
-    next.roles.current = next.roles.target();
+    next.roles.go_on();
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ StepPlanes::StepPlanes(const PlaneLayout& layout, Precision precision, std::vect
 
 void StepPlanes::back() {
     CHECK(keeps(), "there is a copy to go back to");
-    roles_.current = roles_.kept;
+    if (roles_.current != roles_.kept) roles_.last = std::exchange(roles_.current, roles_.kept);
 }
 
 void StepPlanes::lend(std::vector<Field>& to) {

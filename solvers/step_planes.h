@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cascade {
@@ -21,12 +22,12 @@ struct CopyRoles {
     static constexpr int none = -1;
     int kept = 0;  ///< `none` of two copies.
     int current = 0;
+    int last = 1;  ///< What was current before: it is likely to be in the cache.
 
     /// The copy that the next step writes: neither kept nor current.
-    int target() const {
-        if (kept == none) return 1 - current;
-        return current == kept ? (current + 1) % 3 : 3 - kept - current;
-    }
+    int target() const { return kept == none || kept == current ? last : 3 - kept - current; }
+    /// A step is complete.
+    void go_on() { last = std::exchange(current, target()); }
 };
 
 class StepPlanes {

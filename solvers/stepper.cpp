@@ -44,7 +44,7 @@ void Stepper::use(const StepProblem& problem) {
 bool Stepper::advance(std::int64_t complete, std::int64_t count, bool look) {
     knows_first_rates_ = false;
     CopyRoles roles = planes_.roles();
-    for (std::int64_t taken = 0; taken < count; ++taken) roles.current = roles.target();
+    for (std::int64_t taken = 0; taken < count; ++taken) roles.go_on();
     team_.run(planes_, clock_, {0, complete, planes_.roles()},
               static_cast<std::size_t>(count) * problem().passes.size(),
               look ? look_at(roles.current) : nullptr);
@@ -82,7 +82,7 @@ double Stepper::attempt(std::int64_t complete, double tolerance) {
     CopyRoles roles = planes_.roles();
     team_.run(planes_, clock_, {first, complete, roles}, problem().passes.size() - first,
               [this](int, RowRange rows) { add_squares(rows); });
-    roles.current = roles.target();
+    roles.go_on();
     planes_.set_roles(roles);
     knows_first_rates_ = first_rate_passes > 0;
     const std::int64_t cells = problem().counted_cells();

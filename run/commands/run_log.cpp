@@ -90,12 +90,12 @@ void RunLog::record(const Simulation& simulation, std::uint32_t stage) {
     const std::int64_t step = simulation.state(stage).steps;
     if (!rows_.empty() && rows_.back().stage == stage && rows_.back().step == step) return;
     rows_.push_back({stage, step});
-    values_.push_back(simulation.time(stage));
+    values_.push_back(time_of(simulation, stage));
     std::vector<const Formula*> here;
     for (const auto& formulas : formulas_) {
         if (formulas[stage]) here.push_back(&*formulas[stage]);
     }
-    const std::vector<double> numbers = simulation.evaluate_numbers(here, stage);
+    const std::vector<double> numbers = evaluate_numbers(simulation, here, stage);
     auto number = numbers.begin();
     for (const auto& formulas : formulas_) {
         values_.push_back(formulas[stage] ? *number++ : none);

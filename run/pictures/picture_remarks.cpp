@@ -78,7 +78,7 @@ std::string describe_waves(Painter& painter, const Simulation& simulation, std::
             "the waves of the pattern are {:.2g} cells long: with fewer than {:.0f} {}", cells,
             measure::fewest_cells_a_wave, why);
     }
-    if (!simulation.made_its_pattern(stage)) return {};
+    if (!made_its_pattern(simulation, stage)) return {};
     const double part = measure::unresolved_part(samples);
     if (part < mostly_unresolved) return {};
     return fmt::format("{:.0f} % of the pattern is waves of fewer than {:.0f} cells: {}",

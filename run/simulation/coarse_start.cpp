@@ -1,10 +1,18 @@
 // Restricts and refines whole stage states by core/resample; sides that vary are restricted too.
+// What coarser grids do is neither kept nor observed.
 #include "run/simulation/coarse_start.h"
 
 #include "core/resample.h"
+#include "run/simulation/stage_run.h"
+#include "run/simulation/stage_start.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace cascade {
 
@@ -17,8 +25,9 @@ Field restricted_field(const Field& fine, const Grid& fine_grid, const Grid& coa
         [&](const auto& plane) { return Field(restricted(plane, fine_grid, coarse_grid)); });
 }
 
-}  // namespace
-
+/// The same program on a grid whose cells are `times` as wide. The stage takes times² as many
+/// steps, or as long, as on the fine one: patterns need a time that grows with the square of their
+/// lengths.
 Program on_coarser_grid(const Program& program, std::uint32_t stage, std::int64_t times) {
     Program result = program;
     result.domain.grid = coarser(program.domain.grid, times);
@@ -30,6 +39,7 @@ Program on_coarser_grid(const Program& program, std::uint32_t stage, std::int64_
     return result;
 }
 
+/// An earlier stage's values on a coarser grid, to be read by starting values.
 StageState restricted(const StageState& fine, const Grid& fine_grid, const Grid& coarse_grid) {
     StageState coarse;
     coarse.started = fine.started;
@@ -65,11 +75,14 @@ StageState restricted(const StageState& fine, const Grid& fine_grid, const Grid&
     return coarse;
 }
 
+/// Files on a coarser grid.
 InputFiles restricted(const InputFiles& fine, const Grid& fine_grid, const Grid& coarse_grid) {
     return fine.mapped(
         [&](const Field& plane) { return restricted_field(plane, fine_grid, coarse_grid); });
 }
 
+/// Takes the species of a stage from the same stage on a grid twice as coarse; cells that are
+/// frozen keep their starting values.
 void take_refined(StageState& fine, const Grid& fine_grid, StageState& coarse,
                   const Grid& coarse_grid) {
     for (std::size_t s = 0; s < fine.species.size(); ++s) {
@@ -89,6 +102,62 @@ void take_refined(StageState& fine, const Grid& fine_grid, StageState& coarse,
         }
         fine.species[s] = std::move(values);
     }
+}
+
+/// A stage on one of its coarser grids.
+struct CoarseStage {
+    std::unique_ptr<Environment> environment;
+    std::vector<StageState> states;
+};
+
+CoarseStage on_coarser_grid(const Environment& fine, std::span<const StageState> states,
+                            std::uint32_t stage, std::int64_t times) {
+    CoarseStage coarse{std::make_unique<Environment>(), std::vector<StageState>(states.size())};
+    Environment& here = *coarse.environment;
+    here.script = fine.script;
+    here.own_program = on_coarser_grid(*fine.program, stage, times);
+    here.program = &*here.own_program;
+    here.progress_note = fmt::format(", cells {} times as wide", times);
+    here.grid = here.program->domain.grid;
+    here.threads = fine.threads;
+    here.plans = std::make_unique<StagePlans>(*here.program, fine.plans->options());
+    here.kernels = std::make_unique<KernelMaker>(here.grid, fine.kernels->stepper(),
+                                                 fine.kernels->starts_interpreted(), nullptr);
+    here.team = std::make_unique<Team>(1);
+    here.files = restricted(fine.files, fine.grid, here.grid);
+    for (std::uint32_t earlier = 0; earlier < stage; ++earlier) {
+        coarse.states[earlier] = restricted(states[earlier], fine.grid, here.grid);
+    }
+    return coarse;
+}
+
+}  // namespace
+
+Result<StageEnd> run_on_coarser_grids(const Environment& environment, std::span<StageState> states,
+                                      std::uint32_t stage, RunControl& control) {
+    const Keeping never;
+    std::optional<CoarseStage> before;
+    for (std::int64_t times = environment.stage(stage).time.coarse; times > 1; times /= 2) {
+        CoarseStage coarse = on_coarser_grid(environment, states, stage, times);
+        const Environment& here = *coarse.environment;
+        const auto note = [&](Failure failure) {
+            failure.message += fmt::format(" (on the grid with cells {} times as wide)", times);
+            return tl::unexpected(std::move(failure));
+        };
+        if (auto started = start_stage(here, coarse.states, stage); !started)
+            return note(started.error());
+        if (before) {
+            take_refined(coarse.states[stage], here.grid, before->states[stage],
+                         before->environment->grid);
+        }
+        auto end = StageRun(here, coarse.states, stage, never)
+                       .advance(here.stage(stage).iterations, control, {}, 0);
+        if (!end) return note(end.error());
+        if (*end == StageEnd::cancelled) return end;
+        before = std::move(coarse);
+    }
+    take_refined(states[stage], environment.grid, before->states[stage], before->environment->grid);
+    return StageEnd::finished;
 }
 
 }  // namespace cascade

@@ -1,18 +1,24 @@
-// Creates the run, starts and advances stages, and provides the tools with which a stage chooses
-// its steps. Other parts of Simulation::Implementation have files of their own beside it.
+// Starts stages, and has the one that runs go on.
 #include "run/simulation/simulation.h"
 
 #include "ir/interpreter.h"
-#include "run/domain/field_values.h"
-#include "run/simulation/simulation_implementation.h"
-#include "run/stage/bound_diffusion.h"
-#include "run/stage/memory.h"
+#include "lang/program/nodes_of_rates.h"
+#include "run/simulation/environment.h"
+#include "run/simulation/stage_doubts.h"
+#include "run/simulation/stage_run.h"
+#include "run/simulation/stage_start.h"
+#include "run/simulation/stage_tools.h"
 #include "run/stage/stage_remarks.h"
 #if CASCADE_HAS_JIT
 #include "jit/jit.h"
 #endif
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
 
 namespace cascade {
 
@@ -42,92 +48,65 @@ Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& opt
 #endif
 }
 
+struct Simulation::Implementation {
+    std::unique_ptr<Environment> environment;
+    std::vector<StageState> states;
+    Keeping keeping;
+    bool has_expected = false;      ///< Does the stepper know what later stages need?
+    std::unique_ptr<StageRun> run;  ///< Of the stage that advanced last, if that can go on.
+    /// By stage, of those that were over before it was known whether there can be code for all.
+    std::map<std::uint32_t, StepKernels> unsettled;
+
+    StageView view(std::uint32_t stage) const { return {*environment, states, stage}; }
+
+    /// To be called before states are changed.
+    void end_run() {
+        if (run) unsettled.insert_or_assign(run->stage(), std::move(run->kernels()));
+        run.reset();
+    }
+
+    /// Says which kernels of stages that are over have been refused.
+    void warn_of_refused(RunControl& control) {
+        for (auto& [k, kernels] : unsettled) kernels.warn_of_refused(control);
+        std::erase_if(unsettled,
+                      [](const auto& of_stage) { return !of_stage.second.is_provisional(); });
+    }
+
+    /// Has the stepper compile what stages after `k` will need, where they take long.
+    void expect_stages_after(std::uint32_t k) {
+        const KernelMaker& kernels = *environment->kernels;
+        if (!kernels.starts_interpreted() || std::exchange(has_expected, true)) return;
+        const TimeAccount::Scope spent(environment->account, Spent::compiling);
+        for (std::uint32_t later = k + 1; later < environment->script->stage_count(); ++later) {
+            if (!environment->takes_long(later)) continue;
+            const Stage& stage = environment->stage(later);
+            const auto species = environment->program->system_of(later).species_count();
+            const Scheme scheme = make_scheme(stage.time.solver, species, steps_by_item(stage));
+            for (const SweepForm& form : scheme.forms) {
+                for (const Pass& pass : environment->plans->sweep(later, form).passes) {
+                    kernels.expect(pass.bound.kernel);
+                }
+            }
+        }
+    }
+};
+
 Simulation::Simulation() : self_(std::make_unique<Implementation>()) {}
 Simulation::~Simulation() = default;
 
 Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
                                                        const SimulationOptions& options) {
-    CHECK(script.program, "only a checked script is simulated");
+    auto environment = make_environment(script, options);
+    if (!environment) return tl::unexpected(environment.error());
     std::unique_ptr<Simulation> simulation(new Simulation);
-    Implementation& self = *simulation->self_;
-    self.script = &script;
-    self.program = &*script.program;
-    self.grid = self.program->domain.grid;
-    self.tiling = options.tiling;
-    self.threads = options.threads > 0 ? options.threads : hardware_threads();
-    self.account = options.account;
-    for (std::uint32_t k = 0; self.account != nullptr && k < script.stage_count(); ++k) {
-        self.account->stage(k).name = self.stage(k).name;
-    }
-    self.plans = std::make_unique<StagePlans>(*self.program, options.planning);
-    // How many faces or points a model has is known only when it has been read.
-    const auto& model = self.program->domain.model;
-    if (!model || model->cells == ModelCellKind::spread) {
-        if (auto fits = self.check_memory(options.memory_limit); !fits)
-            return tl::unexpected(fits.error());
-    }
-    if (model) {
-        if (auto made = self.make_cells(options); !made) return tl::unexpected(made.error());
-        if (auto fits = self.check_memory(options.memory_limit); !fits)
-            return tl::unexpected(fits.error());
-    }
-    auto files = [&] {
-        const TimeAccount::Scope spent(self.account, Spent::reading);
-        return read_input_files(script, self.model.get());
-    }();
-    if (!files) return tl::unexpected(files.error());
-    self.files = std::move(*files);
-    auto metric = metric_planes(*self.program);
-    if (!metric) return tl::unexpected(metric.error());
-    self.metric = std::move(*metric);
-
-    self.interpreter = make_interpreter();
-    self.stepper = options.stepper;
-    if (!self.stepper) {
-        const TimeAccount::Scope spent(self.account, Spent::compiling);
-        auto stepper = make_stepper(options);
-        if (!stepper) return tl::unexpected(stepper.error());
-        self.stepper = std::move(*stepper);
-    }
-    self.tilings.emplace(options.kernel_cache, self.stepper->code_identity());
-    self.starts_interpreted = options.starts_interpreted;
-    self.team = std::make_unique<Team>(self.is_small() ? 1 : self.threads);
-    self.states.resize(self.program->stages.size());
-    if (auto made = self.make_surface_values(options); !made) return tl::unexpected(made.error());
-    if (options.control != nullptr) self.warn_of_even_pictures(*options.control);
-    if (auto found = self.find_mask(options.control); !found) return tl::unexpected(found.error());
+    simulation->self_->environment = std::move(*environment);
+    simulation->self_->states.resize(script.program->stages.size());
     return simulation;
 }
 
 Result<void> Simulation::start_stage(std::uint32_t k) {
-    Implementation& self = *self_;
-    const TimeAccount::Scope spent(self.account, Spent::starting, k);
-    const System& system = self.program->system_of(k);
-    StageState& state = self.states[k];
-    state = empty_state(system);
-    self.start_uniform_items(k);
-    self.start_varying_items(k);
-    if (auto sides = self.find_sides(k); !sides) return sides;
-    state.started = true;
-    return self.check_speed(k);
-}
-
-namespace {
-
-/// Steps between two looks: a stage of few steps is looked at as often as a long one.
-std::int64_t look_every(const Stage& stage, std::int64_t usual) {
-    constexpr std::int64_t looks = 10;
-    return std::clamp<std::int64_t>(stage.iterations / looks, 1, usual);
-}
-
-}  // namespace
-
-void Simulation::Implementation::look_at(std::uint32_t k) {
-    StageState& state = states[k];
-    // Steps of different length in different cells are counted, not timed.
-    const bool is_timed = stage(k).uniform[program->system_of(k).speed_item()];
-    const double age = is_timed ? state.t : static_cast<double>(state.steps);
-    state.course.look(state.steps, age, state.species, counted());
+    self_->end_run();
+    return cascade::start_stage(*self_->environment, self_->states, k);
 }
 
 Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_step,
@@ -135,160 +114,97 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
                                            const std::function<void()>& observe,
                                            std::int64_t every) {
     Implementation& self = *self_;
-    StageState& state = self.states[k];
-    const Stage& stage = self.stage(k);
-    CHECK(state.started, "a stage is started before it advances");
-    const TimeAccount::Scope spent(self.account, Spent::stepping, k);
-    const std::int64_t steps_before = state.steps;
-    if (state.course.empty()) self.look_at(k);
-
-    StepKernels kernels(stage.name);
-    StageTimer timer(*self.program, k, state, self.tools(k, self.compiled(k, kernels, control)));
-    if (timer.substeps() > 1 && state.steps == 0 && control.warn) {
-        control.warn(
-            fmt::format("stage '{}': each step is split into {}, so that it is stable in the "
-                        "smallest cells of the model",
-                        stage.name, timer.substeps()));
+    TimeAccount* account = self.environment->account;
+    const TimeAccount::Scope spent(account, Spent::stepping, k);
+    if (self.run && self.run->stage() != k) self.end_run();
+    if (!self.run) {
+        self.expect_stages_after(k);
+        self.run = std::make_unique<StageRun>(*self.environment, self.states, k, self.keeping);
     }
-    // Nothing moves where everything is frozen: its steps are complete as they begin.
-    if (self.frozen_everywhere(k)) {
-        state.steps = stage.time.has_duration() ? 0 : last_step;
-        state.done = stage.time.has_duration() || state.steps >= stage.iterations;
-        return state.done ? StageEnd::finished : StageEnd::stopped;
-    }
-    self.expect_later_stages(k);
-    if (state.steps == 0 && last_step > 0 && stage.time.coarse > 1) {
-        auto grown = self.run_on_coarser_grids(k, control);
-        if (!grown || *grown == StageEnd::cancelled) return grown;
-    }
-    self.undefined_is_told = false;
-    if (state.steps == 0) self.warn_of_undefined_start(k, control);
-    self.listener = &control;
-    self.until_is_told = false;
-    self.until_watch.reset();
-    self.find_step_invariants(k);
-    Progress progress;
-    progress.stage = stage.name;
-    progress.note = self.progress_note;
-    progress.stage_number = static_cast<int>(k) + 1;
-    progress.stage_count = static_cast<int>(self.script->stage_count());
-    progress.steps = stage.iterations;
-    progress.when_met = stage.time.steady ? "settled" : "'until' came true";
-    Schedule schedule = timer.schedule(last_step, every > 0 ? every : stage.interval);
-    schedule.tenths = stage.interval == 0;
-    schedule.check_every = look_every(stage, schedule.check_every);
-    schedule.onlooker = [&](std::int64_t step, double t, std::span<const Field>) {
-        if (!state.course.is_due(step)) return;
-        state.steps = step;
-        state.t = t;
-        self.look_at(k);
-    };
-    schedule.threads = self.threads;
-    schedule.tiling = self.tiling;
-    std::optional<StageTilings> tilings;
-    if (self.tilings) {
-        schedule.tilings = &tilings.emplace(*self.tilings, timer.problem(), kernels.identity());
-    }
-    schedule.keep_is_due = self.keep_is_due;
-    schedule.keep = [&](std::int64_t step, double t, const TimeState& time) {
-        state.steps = step;
-        state.t = t;
-        state.time = time;
-        self.keep();
-    };
-    TimeLoop loop(timer.problem(), schedule, state.species, progress);
-    const StageOutcome outcome =
-        loop.advance(last_step, schedule.interval, control,
-                     [&](std::int64_t step, double t, std::span<const Field>) {
-                         state.steps = step;
-                         state.t = t;
-                         if (observe) observe();
-                         return true;
-                     });
-    self.listener = nullptr;
-    self.unsettled.insert_or_assign(k, std::move(kernels));
+    auto end = self.run->advance(last_step, control, observe, every);
+    if (!self.run->can_go_on()) self.end_run();
     self.warn_of_refused(control);
-    if (outcome.cancelled) self.stepper->abandon();
-    state.steps = outcome.steps;
-    state.t = outcome.t;
-    state.time = outcome.time;
-    if (!outcome.not_finite && !outcome.too_short && !outcome.cancelled) {
-        self.warn_of_doubts(k, timer, control);
-        self.warn_of_undefined_end(k, control);
-    }
-    state.step_invariants.clear();
-    self.account_for(k, state.steps - steps_before, outcome, loop);
-    if (outcome.not_finite) return tl::unexpected(self.explain(outcome, k));
-    if (outcome.too_short) return tl::unexpected(self.explain(*outcome.too_short, k));
-    if (outcome.cancelled) return StageEnd::cancelled;
-    state.done = outcome.ended || state.steps >= stage.iterations;
-    // What is in doubt has no course, and no more is said of it.
-    if (state.done && !state.course.empty()) self.look_at(k);
-    return state.done ? StageEnd::finished : StageEnd::stopped;
+    if (account != nullptr) account->kernels = self.environment->kernels->stepper()->counts();
+    return end;
 }
 
 std::string Simulation::remark_on(std::uint32_t k) const {
-    const std::string remark =
-        describe_end(self_->stage(k), self_->program->system_of(k), self_->states[k],
-                     k == self_->script->final_stage(), self_->counted());
-    if (!remark.empty() || !self_->has_stood_still(k)) return remark;
+    const StageView view = self_->view(k);
+    const Environment& here = *self_->environment;
+    const std::string remark = describe_end(view.stage(), view.system(), view.state(),
+                                            k == here.script->final_stage(), here.counted());
+    if (!remark.empty() || !has_stood_still(view)) return remark;
     return fmt::format(
-        "stage '{}' ended as it began: its rates are 0 in all cells{}", self_->stage(k).name,
-        self_->grid.height == 1 && !self_->model ? "; on a line derivatives along y are 0" : "");
+        "stage '{}' ended as it began: its rates are 0 in all cells{}", view.stage().name,
+        here.grid.height == 1 && !here.model ? "; on a line derivatives along y are 0" : "");
 }
 
 void Simulation::keep_with(std::function<bool()> is_due, std::function<void()> keep) {
-    self_->keep_is_due = std::move(is_due);
-    self_->keep = std::move(keep);
+    self_->end_run();
+    self_->keeping = {std::move(is_due), std::move(keep)};
+}
+
+void Simulation::settle(RunControl& control) {
+    self_->end_run();
+    if (self_->unsettled.empty()) return;
+    const TimeAccount::Scope spent(self_->environment->account, Spent::compiling);
+    self_->environment->kernels->stepper()->settle();
+    self_->warn_of_refused(control);
 }
 
 void Simulation::set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps,
                              bool done, bool condition_met) {
+    self_->end_run();
     StageState& state = self_->states[stage];
     CHECK(species.size() == state.species.size(), "every species of the stage is given");
     state.species = std::move(species);
     state.course = {};
-    state.steps = steps;
+    state.go_to(steps, state.t);
     state.done = done;
     state.condition_met = condition_met;
 }
 
 void Simulation::set_time(std::uint32_t stage, double t, const TimeState& time, SteadyWatch watch) {
+    self_->end_run();
     StageState& state = self_->states[stage];
-    state.t = t;
+    state.go_to(state.steps, t);
     state.time = time;
     state.watch = std::move(watch);
 }
 
 std::vector<Field> Simulation::evaluate(const Formula& formula, std::uint32_t stage) const {
-    return self_->evaluate(plan_view(*self_->program, formula, stage), stage);
+    return self_->view(stage).evaluate(formula);
 }
 
 std::vector<Field> Simulation::evaluate(std::span<const Formula* const> formulas,
                                         std::uint32_t stage) const {
-    return self_->evaluate(plan_view(*self_->program, formulas, stage), stage);
+    return self_->view(stage).evaluate(formulas);
 }
 
-std::vector<double> Simulation::evaluate_numbers(std::span<const Formula* const> formulas,
-                                                 std::uint32_t stage) const {
-    std::vector<double> numbers;
-    for (const Field& field : evaluate(formulas, stage)) numbers.push_back(field.number_at(0, 0));
-    return numbers;
+StepWork Simulation::step_work(std::uint32_t k) {
+    self_->end_run();
+    StageState& state = self_->states[k];
+    CHECK(state.started, "a stage is started before its steps are counted");
+    const StepInvariants invariants = find_step_invariants(self_->view(k));
+    const StageView view(*self_->environment, self_->states, k, &invariants);
+    KnownKernels kernels;
+    // Nothing is run, so nothing need be compiled.
+    const Compile note = [&kernels, interpret = self_->environment->kernels->interpreted()](
+                             const CellKernel& kernel) {
+        KernelPointer made = interpret(kernel);
+        kernels.emplace(made.get(), kernel);
+        return made;
+    };
+    StageTimer timer(view.program(), k, state, stage_tools(view, note));
+    return work_of(timer.problem(), kernels);
 }
 
-const Program& Simulation::program() const { return *self_->program; }
-const Grid& Simulation::grid() const { return self_->grid; }
-std::shared_ptr<const ModelCells> Simulation::model() const { return self_->model; }
-const DomainMask* Simulation::mask() const { return self_->inside(); }
-double Simulation::memory() const { return self_->memory; }
+const Program& Simulation::program() const { return *self_->environment->program; }
+const Grid& Simulation::grid() const { return self_->environment->grid; }
+std::shared_ptr<const ModelCells> Simulation::model() const { return self_->environment->model; }
+const DomainMask* Simulation::mask() const { return self_->environment->inside(); }
+double Simulation::memory() const { return self_->environment->memory; }
 const StageState& Simulation::state(std::uint32_t stage) const { return self_->states[stage]; }
-
-double Simulation::time(std::uint32_t stage) const {
-    const StageState& state = self_->states[stage];
-    const bool is_timed =
-        self_->program->stages[stage].uniform[self_->program->system_of(stage).speed_item()];
-    return is_timed ? state.t : NAN;
-}
 
 std::optional<std::uint32_t> Simulation::shown_stage() const {
     std::optional<std::uint32_t> shown;
@@ -299,82 +215,41 @@ std::optional<std::uint32_t> Simulation::shown_stage() const {
     return shown;
 }
 
-void Simulation::Implementation::account_for(std::uint32_t k, std::int64_t steps,
-                                             const StageOutcome& outcome,
-                                             const TimeLoop& loop) const {
-    if (account == nullptr) return;
-    account->kernels = stepper->counts();
-    TimeAccount::Stage& entry = account->stage(k);
-    entry.steps += steps;
-    entry.cells = grid.cell_count();
-    entry.threads = outcome.threads;
-    entry.stepping = loop.stepping();
+std::vector<double> evaluate_numbers(const Simulation& simulation,
+                                     std::span<const Formula* const> formulas,
+                                     std::uint32_t stage) {
+    std::vector<double> numbers;
+    for (const Field& field : simulation.evaluate(formulas, stage)) {
+        numbers.push_back(field.number_at(0, 0));
+    }
+    return numbers;
 }
 
-StageTools Simulation::Implementation::tools(std::uint32_t k, Compile steps) const {
-    StageTools tools;
-    tools.numbers = [this, k](std::span<const Formula* const> formulas) {
-        const auto runner = std::make_shared<PlanRunner>(plan_view(*program, formulas, k), often());
-        return [this, k, runner] {
-            std::vector<double> numbers;
-            for (const Field& field : runner->run(context(k), *team)) {
-                numbers.push_back(field.number_at(0, 0));
-            }
-            return numbers;
-        };
+double time_of(const Simulation& simulation, std::uint32_t stage) {
+    const Program& program = simulation.program();
+    const bool is_timed = program.stages[stage].uniform[program.system_of(stage).speed_item()];
+    return is_timed ? simulation.state(stage).t : NAN;
+}
+
+bool made_its_pattern(const Simulation& simulation, std::uint32_t k) {
+    // A species that deviates so many times as much as at the start owes its pattern to the stage.
+    constexpr double times_at_start = 3;
+    const Stage& stage = simulation.program().stages[k];
+    const System& system = simulation.program().system_of(k);
+    const auto is_of_neighbours = [](const Node& node) {
+        return node.kind == NodeKind::call && differentiates(node.function);
     };
-    const auto largest = [this, k](std::span<const Formula* const> formulas) {
-        std::vector<double> values;
-        for (const Field& field : evaluate(plan_view(*program, formulas, k), k)) {
-            values.push_back(largest_value(field, inside()));
-        }
-        return values;
+    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        if (!system.is_species(item) && !stage.uniform[item]) return false;
+    }
+    if (holds_in_rates(system, is_draw) || !holds_in_rates(system, is_of_neighbours)) return false;
+    const StageCourse& course = simulation.state(k).course;
+    if (course.empty()) return false;
+    const auto is_made = [](const Spread& first, const Spread& last) {
+        return last.is_even() || last.deviation() >= times_at_start * first.deviation();
     };
-    tools.bind = [this, k, largest, compile = std::move(steps)](const Scheme& scheme) {
-        const TimeAccount::Scope spent(account, Spent::compiling);
-        std::vector<StepPlan> sweeps;
-        for (const SweepForm& form : scheme.forms) sweeps.push_back(plans->sweep(k, form));
-        const auto bind = [&](const StepPlan& before) {
-            return bind_scheme(scheme, sweeps, before, compile, context(k), program->system_of(k),
-                               k);
-        };
-        if (!is_semi_implicit(stage(k).time.solver)) return bind({});
-        const BoundDiffusion diffusion(*program, k, largest);
-        StepProblem problem = bind(diffusion.before());
-        diffusion.add_to(problem);
-        return problem;
-    };
-    tools.over_time = [this, k](const Formula& formula, double duration) {
-        const Grid one{1, 1, Boundary::periodic};
-        // Compiled once and not for every moment.
-        std::map<const CellKernel*, KernelPointer> made;
-        const Compile compile = [&made, interpret = interpreted(one)](const CellKernel& kernel) {
-            KernelPointer& known = made[&kernel];
-            if (!known) known = interpret(kernel);
-            return known;
-        };
-        PlanRunner runner(plan_view(*program, formula, k), compile);
-        Team alone(1);
-        BindingContext context = this->context(k);
-        context.grid = one;
-        std::vector<double> values;
-        for (std::size_t n = 0; n <= Forcing::intervals; ++n) {
-            context.t = duration * static_cast<double>(n) / static_cast<double>(Forcing::intervals);
-            values.push_back(runner.run(context, alone)[0].number_at(0, 0));
-        }
-        return values;
-    };
-    tools.inside = counted();
-    tools.model = model.get();
-    tools.is_true = [this, k](const Formula& formula) {
-        look_at_until(k);
-        return evaluate(plan_view(*program, formula, k), k)[0].number_at(0, 0) != 0;
-    };
-    tools.estimate = [this, k, compile = often()] {
-        const auto limit = stability(k, states[k].species, compile).largest_speed;
-        return limit ? 2 / *limit : 0;
-    };
-    return tools;
+    const auto& first = course.first().species;
+    return std::equal(first.begin(), first.end(), course.last().species.begin(), is_made);
 }
 
 }  // namespace cascade

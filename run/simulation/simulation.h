@@ -77,22 +77,18 @@ public:
     /// above 0 or a starting value is not finite.
     Result<void> start_stage(std::uint32_t stage);
 
-    /// Takes steps until `last_step` are complete. A stage that starts on coarser grids is run on
-    /// those before its first step, without being observed. `observe` is called at multiples of
-    /// `every`, or, where that is 0, of the stage's interval; and at tenths of the duration of a
-    /// stage without one. Fails, with stage, species, cell, step and the largest stable speed, on
-    /// values that are not finite.
+    /// Takes steps until `last_step` are complete. What they take is made by the first call and
+    /// kept for the next ones, until the stage ends or states are changed. A stage that starts on
+    /// coarser grids is run on those before its first step, without being observed. `observe` is
+    /// called at multiples of `every`, or, where that is 0, of the stage's interval; and at tenths
+    /// of the duration of a stage without one. Fails, with stage, species, cell, step and the
+    /// largest stable speed, on values that are not finite.
     Result<StageEnd> advance_stage(std::uint32_t stage, std::int64_t last_step, RunControl& control,
                                    const std::function<void()>& observe, std::int64_t every = 0);
 
     /// What is to be said of a stage that has ended, in one sentence; empty where all is as one
     /// would think, and of a stage that has not ended.
     std::string remark_on(std::uint32_t stage) const;
-
-    /// Is the pattern there is the stage's own work? Its neighbours act on each other, no chance
-    /// and no parameter that varies acts on them, and every species that is not even differs far
-    /// more between cells than when the stage began.
-    bool made_its_pattern(std::uint32_t stage) const;
 
     /// From now on, while steps are taken: where `is_due` says so, which is asked some fifty times
     /// a second, `keep` is called at a complete step, and the simulation's states are what a run
@@ -118,10 +114,6 @@ public:
     /// Several formulas at once: what they share is computed once.
     std::vector<Field> evaluate(std::span<const Formula* const> formulas,
                                 std::uint32_t stage) const;
-    /// Formulas that are the same in all cells, such as aggregates over the domain (of others the
-    /// first cell's value).
-    std::vector<double> evaluate_numbers(std::span<const Formula* const> formulas,
-                                         std::uint32_t stage) const;
 
     /// What one step of a started stage costs, as it would be taken now.
     StepWork step_work(std::uint32_t stage);
@@ -135,8 +127,6 @@ public:
     /// Bytes of all planes that it keeps at one time.
     double memory() const;
     const StageState& state(std::uint32_t stage) const;
-    /// The time since a stage began, at its present step; NaN where `speed` differs between cells.
-    double time(std::uint32_t stage) const;
     /// The last stage that took a step; the last started one where none has; empty before.
     std::optional<std::uint32_t> shown_stage() const;
 
@@ -145,5 +135,18 @@ private:
     struct Implementation;
     std::unique_ptr<Implementation> self_;
 };
+
+/// The values of formulas that are the same in all cells, such as aggregates over the domain (of
+/// others the first cell's).
+std::vector<double> evaluate_numbers(const Simulation& simulation,
+                                     std::span<const Formula* const> formulas, std::uint32_t stage);
+
+/// The time since a stage began, at its present step; NaN where `speed` differs between cells.
+double time_of(const Simulation& simulation, std::uint32_t stage);
+
+/// Is the pattern there is the stage's own work? Its neighbours act on each other, no chance and no
+/// parameter that varies acts on them, and every species that is not even differs far more between
+/// cells than when the stage began.
+bool made_its_pattern(const Simulation& simulation, std::uint32_t stage);
 
 }  // namespace cascade

@@ -21,7 +21,7 @@ const Field& plane_of(const SlotSource& source, const BindingContext& context) {
     }
     if (source.kind == SlotSource::Kind::neighbourhood) return context.mask->neighbourhood;
     if (source.kind == SlotSource::Kind::step_invariant) {
-        return context.states[source.stage].step_invariants[source.item];
+        return context.step_invariants->planes[source.item];
     }
     return context.states[source.stage].field(source.item);
 }
@@ -128,7 +128,7 @@ private:
     /// Of a plane that is read at neighbours and does not change.
     SideRules sides_of(const SlotSource& source) const {
         if (source.kind == SlotSource::Kind::step_invariant) {
-            return context_.states[source.stage].step_invariant_boundaries[source.item];
+            return context_.step_invariants->boundaries[source.item];
         }
         if (source.kind == SlotSource::Kind::item) {
             const StageState& state = context_.states[source.stage];
@@ -184,7 +184,7 @@ private:
                 value = context_.states[source.stage].numbers[source.item];
                 break;
             case SlotSource::Kind::step_invariant:
-                value = context_.states[source.stage].step_invariant_numbers[source.item];
+                value = context_.step_invariants->numbers[source.item];
                 break;
             case SlotSource::Kind::step:
                 bound.changing.push_back({Kind::step, slot, 0, 0, false});

@@ -19,6 +19,13 @@
 
 namespace cascade {
 
+/// What no step of a stage changes (plan_step_invariants), computed once.
+struct StepInvariants {
+    std::vector<Field> planes;           ///< Where it varies; empty where it does not,
+    std::vector<double> numbers;         ///< and is one number.
+    std::vector<Boundaries> boundaries;  ///< How the halo of each plane is filled.
+};
+
 /// Where slots find their values.
 struct BindingContext {
     std::span<const StageState> states;
@@ -31,6 +38,7 @@ struct BindingContext {
     const ModelCells* model = nullptr;        ///< None on grids.
     const DomainMask* mask = nullptr;         ///< None where all cells belong to the domain.
     SurfaceValues* surface_values = nullptr;  ///< Of a model.
+    const StepInvariants* step_invariants = nullptr;  ///< Of the steps that are bound.
 };
 
 /// The plane of a slot that lies in one and is no temporary.

@@ -1,6 +1,8 @@
 // Gives each species its place in the list of those that solvers step.
 #include "run/stage/stage_state.h"
 
+#include "core/floating_point.h"
+
 #include <fmt/format.h>
 
 namespace cascade {
@@ -16,6 +18,17 @@ StageState empty_state(const System& system) {
         state.species.emplace_back();
     }
     return state;
+}
+
+void StageState::go_to(std::int64_t complete, double time_then) {
+    steps = complete;
+    t = time_then;
+    if (changing_sides.empty()) return;
+    const FlushDenormals environment;
+    const PlaneLayout& layout = species.front().layout();
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+        set_side_values(changing_sides, s, {steps, t}, layout, {0, layout.row_count()}, sides[s]);
+    }
 }
 
 std::string describe_place(const Stage& stage, const StageState& state) {

@@ -31,13 +31,12 @@ struct StageState {
     std::vector<Field> species;        ///< In order of the species' items.
     std::vector<int> species_of_item;  ///< Per item; −1 for parameters.
     Mask frozen;                       ///< Only where `frozen` varies.
-    /// What no step changes, while steps are taken (plan_step_invariants): planes where it varies …
-    std::vector<Field> step_invariants;
-    std::vector<double> step_invariant_numbers;         ///< … and numbers where it does not.
-    std::vector<Boundaries> step_invariant_boundaries;  ///< How the halo of each plane is filled.
-    std::vector<SideRules> sides;    ///< By species; empty where the boundary holds for all.
-    std::vector<Field> side_values;  ///< What the rules of sides point to.
+    std::vector<SideRules> sides;      ///< By species; empty where the boundary holds for all.
+    std::vector<Field> side_values;    ///< What the rules of sides point to.
     std::vector<ChangingSide> changing_sides;  ///< Those with values that change with time.
+
+    /// Sets how far the stage has come, and the values of sides to those of that moment.
+    void go_to(std::int64_t complete, double time_then);
 
     /// The plane of an item that varies (a species or a varying parameter).
     const Field& field(std::uint32_t item) const {

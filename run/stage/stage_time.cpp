@@ -78,7 +78,7 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     state_.time.clock.step = uniform_speed_ ? speed_ : 0;
     state_.time.control.step = speed_;
     state_.time.stages = is_stabilised(stage_.time.solver) ? 3 : 0;
-    state_.t = state_.time.clock.at(state_.steps);
+    state_.go_to(state_.steps, state_.time.clock.at(state_.steps));
     if (chooses_by_error()) set_first_step();
     if (program.domain.model) state_.time.stages = substeps(program, stage);
     if (state_.steps == 0 && stage_.time.steady) state_.watch.begin(state_.species);
@@ -158,8 +158,7 @@ RateBounds StageTimer::bounds() const {
 
 /// Stages for steps of a given length.
 StepChoice StageTimer::choose_stages_at(std::int64_t step, TimeState& time) {
-    state_.steps = step;
-    state_.t = time.clock.at(step);
+    state_.go_to(step, time.clock.at(step));
     time.stages = choose_stages(stage_.time.solver, bounds(), speed_);
     return {speed_, &problem_of(time.stages, false), nullptr};
 }
@@ -182,8 +181,7 @@ void StageTimer::look_at_bounds(std::int64_t step, TimeState& time) {
 }
 
 StepChoice StageTimer::choose_by_error(std::int64_t step, TimeState& time, bool rejected) {
-    state_.steps = step;
-    state_.t = time.clock.at(step);
+    state_.go_to(step, time.clock.at(step));
     const Solver solver = stage_.time.solver;
     const bool is_long = takes_long_steps(solver);
     const bool by_rule = bounds_by_rule_ != nullptr;
@@ -226,8 +224,8 @@ std::int64_t StageTimer::stretch_after(const RateBounds& before, const TimeState
     return std::max<std::int64_t>(1, std::min(wanted, most));
 }
 
-bool StageTimer::has_ended(double t) {
-    state_.t = t;
+bool StageTimer::has_ended(std::int64_t step, double t) {
+    state_.go_to(step, t);
     if (stage_.time.until) return tools_.is_true(*stage_.time.until);
     // Steps of different length in different cells are counted, not timed.
     const double age = uniform_speed_ ? t : static_cast<double>(state_.steps);
@@ -244,8 +242,7 @@ Schedule StageTimer::schedule(std::int64_t last_step, std::int64_t interval) {
     if (stage_.time.until || stage_.time.steady) {
         schedule.check = stage_.time.steps_between_looks();
         schedule.ends = [this](std::int64_t step, double t, std::span<const Field>) {
-            state_.steps = step;
-            state_.condition_met = has_ended(t);
+            state_.condition_met = has_ended(step, t);
             return state_.condition_met;
         };
     }

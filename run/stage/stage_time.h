@@ -67,7 +67,7 @@ private:
     std::int64_t stretch_after(const RateBounds& before, const TimeState& time, bool rejected,
                                double length, double longest) const;
     const StepProblem& problem_of(std::uint32_t stages, bool is_judged);
-    bool has_ended(double t);
+    bool has_ended(std::int64_t step, double t);
 
     const Stage& stage_;
     StageState& state_;

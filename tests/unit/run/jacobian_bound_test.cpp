@@ -42,7 +42,7 @@ public:
 
     std::pair<double, double> bounds(const JacobianBound& bound) const {
         const Formula* const formulas[] = {&bound.whole, &bound.reaction};
-        const std::vector<double> numbers = simulation_->evaluate_numbers(formulas, 0);
+        const std::vector<double> numbers = evaluate_numbers(*simulation_, formulas, 0);
         return {numbers[0], numbers[1]};
     }
 

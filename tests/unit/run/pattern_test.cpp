@@ -5,6 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace cascade {
 namespace {
@@ -39,6 +43,93 @@ TEST(Pattern, StepsDoNotDependOnHowTheyAreCounted) {
     while (one_by_one.step(1) == 1) {
     }
     EXPECT_EQ(at_once.values("b"), one_by_one.values("b"));
+}
+
+/// Of all cells; those outside of a mask are NaN, which equals nothing.
+std::vector<std::uint32_t> bits_of(Pattern& pattern, const std::string& expression) {
+    std::vector<std::uint32_t> bits;
+    for (const float value : pattern.values(expression)) {
+        bits.push_back(std::bit_cast<std::uint32_t>(value));
+    }
+    return bits;
+}
+
+/// What a running stage keeps from call to call is not seen in any result: whatever chooses steps,
+/// ends the stage or changes with time, and also where somebody looks between the steps.
+TEST(Pattern, NoResultDependsOnHowManyStepsAreTakenAtOnce) {
+    const std::string system =
+        "system s { u: 1 + 0.3 * sin(7 * x + 3 * y); v: 0.5 + 0.2 * cos(9 * y); k: 0.1 + 0.1 * x\n"
+        "  u' = 0.2 * lap(u) + k * (v - u) + 0.01 * exp(k) * sin(t)\n"
+        "  v' = 0.1 * lap(v) - 0.1 * (v - mean(u over domain)) }\n";
+    const std::string grid = "domain { grid: 24, 18 }\n";
+    const std::string sides =
+        "domain { grid: 24, 18; boundary: noflux }\n"
+        "system s { u: 1; u' = 0.2 * lap(u); u.left: fixed(sin(t) * y); u.right: flux(0.1 * t) }\n";
+    std::vector<std::string> scripts;
+    for (const char* how :
+         {"iterations: 90", "iterations: 90; solver: symplectic", "iterations: 60; solver: rk4",
+          "iterations: 40; speed: 2; solver: rkl1", "iterations: 40; speed: 2; solver: rkl2",
+          "iterations: 40; solver: imex2", "iterations: 40; solver: gauss",
+          "duration: 45.5; speed: 0.7", "duration: 40; solver: rk45", "duration: 40; solver: rk23",
+          "duration: 40; speed: auto", "duration: 60; speed: auto; solver: rkl2",
+          "duration: 60; speed: auto; solver: imex", "iterations: 400; until: steady(0.05)",
+          "iterations: 400; until: mean(u over domain) < 0.9",
+          "iterations: 60; speed: 0.5 + 0.2 * x", "iterations: 60; frozen: x > 0.6",
+          "iterations: 20; frozen: 1 > 0"}) {
+        scripts.push_back(grid + system + "stage one: s { " + how + " }\n");
+    }
+    for (const char* how : {"iterations: 70", "duration: 30; speed: auto; solver: rkl1"}) {
+        scripts.push_back(sides + "stage one: s { " + how + " }\n");
+    }
+    scripts.push_back(
+        "domain { grid: 24, 18; mask: x + y > 0.5 }\n" + system +
+        "stage one: s { iterations: 50 }\nstage two: s { iterations: 30; u: one.u }\n");
+    scripts.push_back(
+        "domain { grid: 16, 16 }\nstage one: turing_spots { start: coarse(2)\n"
+        "  iterations: 40; ka: 1/80 }\n");
+    scripts.push_back(
+        "domain { grid: 16, 16 }\nsystem s { u: random(0, 1)\n"
+        "  u' = 0.1 * lap(u) + random(-0.1, 0.1) }\nstage one: s { iterations: 50 }\n");
+    for (const std::string& script : scripts) {
+        Pattern at_once(script), one_by_one(script), looked_at(script);
+        ASSERT_TRUE(at_once.ok()) << script << at_once.messages() << at_once.error();
+        const std::int64_t steps = at_once.step(100000);
+        EXPECT_TRUE(at_once.finished()) << script << at_once.error();
+        std::int64_t single = 0, few = 0;
+        while (one_by_one.step(1) == 1) ++single;
+        for (std::int64_t count = 1; !looked_at.finished() && looked_at.ok();
+             count = count % 7 + 1) {
+            few += looked_at.step(count);
+            EXPECT_FALSE(looked_at.values("lap(u)").empty() && looked_at.values("lap(b)").empty());
+        }
+        EXPECT_EQ(single, steps) << script;
+        EXPECT_EQ(few, steps) << script;
+        const std::string name = at_once.species(at_once.current_stage()).front();
+        EXPECT_EQ(bits_of(at_once, name), bits_of(one_by_one, name)) << script;
+        EXPECT_EQ(bits_of(at_once, name), bits_of(looked_at, name)) << script;
+    }
+}
+
+TEST(Pattern, AFailureDoesNotDependOnHowManyStepsAreTakenAtOnce) {
+    const char* const script =
+        "domain { grid: 12, 12 }\nsystem bomb { u: 1 + x; u' = u * u * u + lap(u) }\n"
+        "stage one: bomb { iterations: 1000; speed: 0.01 }\n";
+    Pattern at_once(script), one_by_one(script);
+    const std::int64_t steps = at_once.step(1000);
+    std::int64_t single = 0;
+    while (one_by_one.step(1) == 1) ++single;
+    EXPECT_EQ(single, steps);
+    EXPECT_EQ(one_by_one.error().substr(0, 90), at_once.error().substr(0, 90));
+}
+
+TEST(Pattern, GoesOnAfterACancellation) {
+    Pattern whole(spots), cancelled(spots);
+    whole.step(50);
+    EXPECT_EQ(cancelled.step(7), 7);
+    cancelled.cancel();
+    EXPECT_EQ(cancelled.step(3), 3) << "step() begins anew";
+    while (!cancelled.finished()) cancelled.step(11);
+    EXPECT_EQ(whole.values("b"), cancelled.values("b"));
 }
 
 TEST(Pattern, ReadsExpressions) {

@@ -1,8 +1,11 @@
-// Values that are not numbers where no species would ever show it: in parameters, comparisons,
-// bounds, conditions and the mask.
-#include "lang/calculus/lost_numbers.h"
-#include "run/simulation/simulation_implementation.h"
+// Evaluates, for each part of a formula that may be lost, the formula of whether it is.
+#include "run/simulation/undefined_values.h"
+
+#include "run/domain/field_values.h"
 #include "solvers/field_norms.h"
+#include "solvers/finite.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,11 +46,8 @@ std::string not_finite_words(double value) {
 
 constexpr const char* for_comparisons = "what compares it takes it for false";
 
-}  // namespace
-
 /// What steps read.
-std::vector<UndefinedWatch> Simulation::Implementation::watched_in_steps(std::uint32_t k) const {
-    const System& system = program->system_of(k);
+std::vector<UndefinedWatch> watched_in_steps(const System& system) {
     LostNumbers lost(system);
     std::vector<UndefinedWatch> watched;
     const auto watch = [&](std::vector<LostNumber> found, const std::string& where,
@@ -67,12 +67,11 @@ std::vector<UndefinedWatch> Simulation::Implementation::watched_in_steps(std::ui
 }
 
 /// What is read once, when the stage starts.
-std::vector<UndefinedWatch> Simulation::Implementation::watched_at_start(std::uint32_t k) const {
-    const System& system = program->system_of(k);
+std::vector<UndefinedWatch> watched_at_start(const Stage& stage, const System& system) {
     LostNumbers lost(system);
     std::vector<UndefinedWatch> watched;
     for (std::uint32_t item = 0; item < system.item_count(); ++item) {
-        for (LostNumber& each : lost.in_comparisons(stage(k).items[item])) {
+        for (LostNumber& each : lost.in_comparisons(stage.items[item])) {
             watched.push_back({fmt::format("in the value of {}", system.item_name(item)),
                                for_comparisons, std::move(each)});
         }
@@ -80,116 +79,127 @@ std::vector<UndefinedWatch> Simulation::Implementation::watched_at_start(std::ui
     return watched;
 }
 
-std::vector<UndefinedWatch> Simulation::Implementation::watched_in_until(std::uint32_t k) const {
+std::vector<UndefinedWatch> watched_in_until(const Stage& stage, const System& system) {
     std::vector<UndefinedWatch> watched;
-    if (!stage(k).time.until) return watched;
-    LostNumbers lost(program->system_of(k));
-    for (LostNumber& each : lost.in_comparisons(*stage(k).time.until)) {
+    if (!stage.time.until) return watched;
+    LostNumbers lost(system);
+    for (LostNumber& each : lost.in_comparisons(*stage.time.until)) {
         watched.push_back({"in 'until'", "the stage does not end by it", std::move(each)});
     }
-    for (LostNumber& each : lost.as_whole(*stage(k).time.until)) {
+    for (LostNumber& each : lost.as_whole(*stage.time.until)) {
         watched.push_back({"'until' itself", "that counts as true", std::move(each)});
     }
     return watched;
 }
 
-bool Simulation::Implementation::warn_of_lost(std::uint32_t k,
-                                              std::span<const UndefinedWatch> watched,
-                                              const RunControl& control) const {
+/// Tells the first of them that is not a number now; false where there is none.
+bool warn_of_lost(const StageView& view, std::span<const UndefinedWatch> watched,
+                  const RunControl& control) {
     if (watched.empty()) return false;
     std::vector<const Formula*> formulas;
     for (const UndefinedWatch& each : watched) formulas.push_back(&each.number.is_lost);
-    const std::vector<Field> found = evaluate(plan_view(*program, formulas, k), k);
+    const std::vector<Field> found = view.evaluate(formulas);
+    const Environment& here = view.environment();
     for (std::size_t n = 0; n < watched.size(); ++n) {
-        const auto place = first_cell(found[n], counted(), [](double value) { return value > 0; });
+        const auto place =
+            first_cell(found[n], here.counted(), [](double value) { return value > 0; });
         if (!place) continue;
         // An aggregate is the same in all cells.
-        const std::string where =
-            is_same_everywhere(found[n]) ? "" : " at " + place_in_words(place->column, place->row);
-        control.warn(fmt::format(
-            "stage '{}': {} {} is not a number{}, {}: {}", stage(k).name,
-            script->sources.text(watched[n].number.span), watched[n].where, where,
-            states[k].steps == 0 ? "at the start" : fmt::format("after step {}", states[k].steps),
-            watched[n].effect));
+        const std::string where = is_same_everywhere(found[n])
+                                      ? ""
+                                      : " at " + here.place_in_words(place->column, place->row);
+        control.warn(
+            fmt::format("stage '{}': {} {} is not a number{}, {}: {}", view.stage().name,
+                        here.script->sources.text(watched[n].number.span), watched[n].where, where,
+                        view.state().steps == 0 ? "at the start"
+                                                : fmt::format("after step {}", view.state().steps),
+                        watched[n].effect));
         return true;
     }
     return false;
 }
 
-bool Simulation::Implementation::warn_of_undefined_parameters(std::uint32_t k,
-                                                              const RunControl& control) const {
-    const System& system = program->system_of(k);
-    const StageState& state = states[k];
+bool warn_of_undefined_parameters(const StageView& view, const RunControl& control) {
+    const System& system = view.system();
+    const StageState& state = view.state();
+    const Environment& here = view.environment();
     const auto is_undefined = [](double value) { return !std::isfinite(value); };
     for (std::uint32_t item = 0; item < system.speed_item(); ++item) {
         if (system.is_species(item)) continue;
         std::string place;
         double value = state.numbers[item];
         if (!state.fields[item].empty()) {
-            const auto cell = first_cell(state.fields[item], counted(), is_undefined);
+            const auto cell = first_cell(state.fields[item], here.counted(), is_undefined);
             if (!cell) continue;
             value = state.fields[item].number_at(cell->column, cell->row, cell->slice);
-            place = " at " + place_in_words(cell->column, cell->row);
-        } else if (!stage(k).uniform[item] || !is_undefined(value) ||
-                   is_constant(stage(k).items[item])) {
+            place = " at " + here.place_in_words(cell->column, cell->row);
+        } else if (!view.stage().uniform[item] || !is_undefined(value) ||
+                   is_constant(view.stage().items[item])) {
             continue;
         }
-        control.warn(fmt::format("stage '{}': {} is {}{}{}", stage(k).name, system.item_name(item),
-                                 not_finite_words(value), place,
+        control.warn(fmt::format("stage '{}': {} is {}{}{}", view.stage().name,
+                                 system.item_name(item), not_finite_words(value), place,
                                  item == system.frozen_item() ? ", which counts as true" : ""));
         return true;
     }
     return false;
 }
 
-void Simulation::Implementation::warn_of_undefined_start(std::uint32_t k,
-                                                         const RunControl& control) {
-    // A coarser grid would repeat the warnings of the full one.
-    if (!control.warn || own_program) return;
-    undefined_is_told = warn_of_undefined_parameters(k, control) ||
-                        warn_of_lost(k, watched_at_start(k), control) ||
-                        warn_of_lost(k, watched_in_steps(k), control);
+bool is_silent(const StageView& view, const RunControl& control) {
+    return !control.warn || view.environment().own_program.has_value();
 }
 
-void Simulation::Implementation::warn_of_undefined_end(std::uint32_t k, const RunControl& control) {
-    if (!control.warn || own_program || undefined_is_told) return;
-    warn_of_lost(k, watched_in_steps(k), control);
+}  // namespace
+
+void UndefinedValues::look_at_start(const StageView& view, const RunControl& control) {
+    if (is_silent(view, control)) return;
+    is_told_ = warn_of_undefined_parameters(view, control) ||
+               warn_of_lost(view, watched_at_start(view.stage(), view.system()), control) ||
+               warn_of_lost(view, watched_in_steps(view.system()), control);
 }
 
-void Simulation::Implementation::look_at_until(std::uint32_t k) const {
-    if (listener == nullptr || !listener->warn || until_is_told) return;
-    if (!until_watch) until_watch = watched_in_until(k);
-    until_is_told = warn_of_lost(k, *until_watch, *listener);
+void UndefinedValues::look_at_end(const StageView& view, const RunControl& control) {
+    if (is_silent(view, control) || is_told_) return;
+    is_told_ = warn_of_lost(view, watched_in_steps(view.system()), control);
 }
 
-void Simulation::Implementation::warn_of_even_pictures(const RunControl& control) const {
+void UndefinedValues::look_at_until(const StageView& view, const RunControl& control) {
+    if (!control.warn || until_is_told_) return;
+    if (!in_until_) in_until_ = watched_in_until(view.stage(), view.system());
+    until_is_told_ = warn_of_lost(view, *in_until_, control);
+}
+
+void warn_of_even_pictures(const Environment& environment, const RunControl& control) {
     if (!control.warn) return;
-    files.each_of(SlotSource::Kind::image, [&](std::uint32_t text, const Field& plane) {
+    environment.files.each_of(SlotSource::Kind::image, [&](std::uint32_t text, const Field& plane) {
         const FieldMoments levels = moments(plane);
         if (levels.deviation > one_level) return;
         control.warn(fmt::format("image(\"{}\") is {:.4g} in all cells{}",
-                                 program->literals->texts()[text], levels.mean,
+                                 environment.program->literals->texts()[text], levels.mean,
                                  levels.mean > 1 - one_level
                                      ? ": is it all transparent? What is transparent lies on white"
                                      : ""));
     });
 }
 
-void Simulation::Implementation::warn_of_undefined_mask(const RunControl& control) {
-    LostNumbers lost(program->system_of(0));
-    const Formula& mask_formula = program->domain.mask->formula;
+void warn_of_undefined_mask(const Environment& environment,
+                            const std::function<Field(const StepPlan&)>& evaluate,
+                            const RunControl& control) {
+    const Program& program = *environment.program;
+    LostNumbers lost(program.system_of(0));
+    const Formula& mask_formula = program.domain.mask->formula;
     std::vector<LostNumber> found = lost.in_comparisons(mask_formula);
     for (LostNumber& each : lost.as_whole(mask_formula)) found.push_back(std::move(each));
     for (const LostNumber& each : found) {
-        Program asked = *program;
+        Program asked = program;
         asked.domain.mask->formula = each.is_lost;
-        const Field values =
-            std::move(run_plan(plan_mask(asked), interpreted(grid), context(0), grid, *team)[0]);
-        const auto place = first_cell(values, nullptr, [](double value) { return value > 0; });
+        const auto place =
+            first_cell(evaluate(plan_mask(asked)), nullptr, [](double value) { return value > 0; });
         if (!place) continue;
-        return control.warn(fmt::format(
-            "the mask of the domain: {} is not a number at {}, which is outside by it",
-            script->sources.text(each.span), place_in_words(place->column, place->row)));
+        return control.warn(
+            fmt::format("the mask of the domain: {} is not a number at {}, which is outside by it",
+                        environment.script->sources.text(each.span),
+                        environment.place_in_words(place->column, place->row)));
     }
 }
 

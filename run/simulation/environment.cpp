@@ -1,0 +1,195 @@
+// Makes what stages share, once, before any of them starts.
+#include "run/simulation/environment.h"
+
+#include "run/domain/field_values.h"
+#include "run/domain/metric_planes.h"
+#include "run/simulation/stage_view.h"
+#include "run/simulation/undefined_values.h"
+#include "run/stage/memory.h"
+#include "run/stage/plan_runner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace cascade {
+namespace {
+
+/// disc(…), ring(…) and box(…) whose numbers are written down, each once, as formulas of their own.
+std::vector<Formula> written_areas(const Program& program) {
+    std::vector<Formula> areas;
+    for (const Formula* formula : formulas_of(program)) {
+        for (const Node& node : formula->nodes) {
+            if (node.kind != NodeKind::call) continue;
+            if (node.function != Function::disc && node.function != Function::ring &&
+                node.function != Function::box) {
+                continue;
+            }
+            Formula area;
+            Node call = node;
+            for (NodeId& operand : call.reads()) {
+                const Node& number = formula->nodes[operand];
+                operand = area.nodes.next();
+                area.nodes.push_back(number);
+            }
+            const bool is_known =
+                std::all_of(area.nodes.begin(), area.nodes.end(),
+                            [](const Node& number) { return number.kind == NodeKind::number; });
+            const bool is_new = std::none_of(areas.begin(), areas.end(), [&](const Formula& other) {
+                return other.nodes.back().span == call.span;
+            });
+            area.nodes.push_back(call);
+            if (is_known && is_new) areas.push_back(std::move(area));
+        }
+    }
+    return areas;
+}
+
+/// Finds how much memory the run takes, and whether it may: no more than `limit` bytes, where that
+/// is above 0, and than are free.
+Result<void> check_memory_of(Environment& here, std::uint64_t limit) {
+    const TimeAccount::Scope spent(here.account, Spent::compiling);
+    here.memory = memory_of(*here.program, *here.plans, here.model.get());
+    return check_memory(here.grid, here.memory, limit);
+}
+
+/// Of a model.
+Result<void> make_cells(Environment& here, Script& script, const SimulationOptions& options,
+                        RunControl& control) {
+    const TimeAccount::Scope spent(here.account, Spent::cells);
+    Team makers(here.threads);
+    const ModelAccess access{script.folder, script.overrides.reads,
+                             script.overrides.model_is_asked_for, options.cell_cache};
+    auto made = make_model_cells(*here.program, access, makers, control);
+    if (control.cancel) return failure("stopped while the cells of the model were made");
+    if (!made) {
+        script.diagnostics.error(here.program->domain.model->span, made.error().message,
+                                 made.error().hint);
+        return failure("the model cannot be used");
+    }
+    here.model = std::move(*made);
+    if (control.warn) {
+        for (const std::string& repair : here.model->repairs)
+            control.warn("the model was repaired: " + repair);
+    }
+    here.grid = here.model->grid;
+    return {};
+}
+
+/// What formulas of the program read of places on a model.
+Result<void> make_surface_values(Environment& here, const RunControl& control) {
+    if (!here.model) return {};
+    const TimeAccount::Scope spent(here.account, Spent::cells);
+    here.surface_values = std::make_unique<SurfaceValues>(*here.program, *here.model, *here.team);
+    here.surface_values->make(formulas_of(*here.program), control.cancel);
+    if (control.cancel) return failure("stopped while distances on the model were found");
+    if (here.program->stages.empty() || !control.warn) return {};
+    const std::vector<StageState> states(1);
+    // What is written for one model easily lies beside another one, and does nothing there.
+    for (const Formula& area : written_areas(*here.program)) {
+        const StageView view(here, states, 0);
+        if (largest_value(view.evaluate(area)[0], nullptr) > 0) continue;
+        control.warn(fmt::format("no cell of the model lies in {}",
+                                 here.script->sources.text(area.nodes.back().span)));
+    }
+    return {};
+}
+
+/// Which cells belong to the domain: evaluated once, before any stage.
+Result<void> find_mask(Environment& here, Script& script, const RunControl& control) {
+    const auto& mask = here.program->domain.mask;
+    if (!mask || here.program->stages.empty()) return {};
+    const TimeAccount::Scope spent(here.account, Spent::starting);
+    const std::vector<StageState> states(1);
+    const StageView view(here, states, 0);
+    const auto evaluate = [&](const StepPlan& plan) {
+        return std::move(
+            run_plan(plan, here.kernels->interpreted(), view.context(), here.grid, *here.team)[0]);
+    };
+    const Field values = evaluate(plan_mask(*here.program));
+    if (control.warn) warn_of_undefined_mask(here, evaluate, control);
+    here.mask = make_domain_mask(values, here.grid);
+    if (here.mask->cells == here.grid.cell_count() && control.warn) {
+        control.warn("the mask of the domain leaves no cell out: it is nowhere 0");
+    }
+    if (here.mask->cells > 0) return {};
+    script.diagnostics.error(mask->span, "no cell is inside the mask",
+                             "cells where it is not 0 belong to the domain");
+    return failure("the domain has no cells");
+}
+
+}  // namespace
+
+bool Environment::takes_long(std::uint32_t k) const {
+    const StageTime& time = stage(k).time;
+    const bool is_counted = !time.open_end && !time.has_duration() && !time.steady && !time.until;
+    return is_counted && stage(k).iterations >
+                             cells_worth_compiling / std::max<std::int64_t>(1, grid.cell_count());
+}
+
+std::string Environment::place_in_words(std::int64_t column, std::int64_t row) const {
+    if (!model) return fmt::format("column {}, row {}", column, row);
+    // The places after the last one are like it.
+    const auto last = static_cast<std::int64_t>(model->count()) - 1;
+    return fmt::format("cell {}", model->cell_at(std::min(row * grid.width + column, last)));
+}
+
+Result<std::unique_ptr<Environment>> make_environment(Script& script,
+                                                      const SimulationOptions& options) {
+    CHECK(script.program, "only a checked script is simulated");
+    RunControl nobody;
+    RunControl& control = options.control != nullptr ? *options.control : nobody;
+    auto made = std::make_unique<Environment>();
+    Environment& here = *made;
+    here.script = &script;
+    here.program = &*script.program;
+    here.grid = here.program->domain.grid;
+    here.tiling = options.tiling;
+    here.threads = options.threads > 0 ? options.threads : hardware_threads();
+    here.account = options.account;
+    for (std::uint32_t k = 0; here.account != nullptr && k < script.stage_count(); ++k) {
+        here.account->stage(k).name = here.stage(k).name;
+    }
+    here.plans = std::make_unique<StagePlans>(*here.program, options.planning);
+    // How many faces or points a model has is known only when it has been read.
+    const auto& model = here.program->domain.model;
+    if (!model || model->cells == ModelCellKind::spread) {
+        if (auto fits = check_memory_of(here, options.memory_limit); !fits)
+            return tl::unexpected(fits.error());
+    }
+    if (model) {
+        if (auto cells = make_cells(here, script, options, control); !cells)
+            return tl::unexpected(cells.error());
+        if (auto fits = check_memory_of(here, options.memory_limit); !fits)
+            return tl::unexpected(fits.error());
+    }
+    auto files = [&] {
+        const TimeAccount::Scope spent(here.account, Spent::reading);
+        return read_input_files(script, here.model.get());
+    }();
+    if (!files) return tl::unexpected(files.error());
+    here.files = std::move(*files);
+    auto metric = metric_planes(*here.program);
+    if (!metric) return tl::unexpected(metric.error());
+    here.metric = std::move(*metric);
+
+    std::shared_ptr<TieredBackend> stepper = options.stepper;
+    if (!stepper) {
+        const TimeAccount::Scope spent(here.account, Spent::compiling);
+        auto own = make_stepper(options);
+        if (!own) return tl::unexpected(own.error());
+        stepper = std::move(*own);
+    }
+    here.tilings = std::make_unique<KeptTilings>(options.kernel_cache, stepper->code_identity());
+    here.kernels = std::make_unique<KernelMaker>(here.grid, std::move(stepper),
+                                                 options.starts_interpreted, here.account);
+    here.team = std::make_unique<Team>(here.kernels->is_small() ? 1 : here.threads);
+    if (auto values = make_surface_values(here, control); !values)
+        return tl::unexpected(values.error());
+    warn_of_even_pictures(here, control);
+    if (auto found = find_mask(here, script, control); !found) return tl::unexpected(found.error());
+    return made;
+}
+
+}  // namespace cascade

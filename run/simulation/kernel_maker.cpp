@@ -1,0 +1,60 @@
+// Chooses between the interpreter and the stepper's native code.
+#include "run/simulation/kernel_maker.h"
+
+#include "core/check.h"
+#include "ir/interpreter.h"
+
+#include <utility>
+
+namespace cascade {
+
+KernelMaker::KernelMaker(const Grid& grid, std::shared_ptr<TieredBackend> stepper,
+                         bool starts_interpreted, TimeAccount* account)
+    : grid_(grid),
+      interpreter_(make_interpreter()),
+      stepper_(std::move(stepper)),
+      starts_interpreted_(starts_interpreted),
+      account_(account) {}
+
+Compile KernelMaker::interpreted_on(const Grid& grid) const {
+    return [this, stencil = grid.stencil()](const CellKernel& kernel) {
+        auto compiled = interpreter_->compile(kernel, stencil);
+        CHECK(compiled, "the interpreter compiles every kernel");
+        return *compiled;
+    };
+}
+
+Compile KernelMaker::often() const {
+    if (is_small()) return interpreted();
+    return [this, interpret = interpreted()](const CellKernel& kernel) {
+        const TimeAccount::Scope spent(account_, Spent::compiling);
+        if (runs_meanwhile()) {
+            return stepper_->begin(kernel, grid_.stencil(), TieredBackend::When::when_used);
+        }
+        auto made = stepper_->compile(kernel, grid_.stencil());
+        return made ? *made : interpret(kernel);
+    };
+}
+
+Compile KernelMaker::once() const {
+    return grid_.cell_count() < cells_worth_compiling ? interpreted() : often();
+}
+
+Compile KernelMaker::steps(TieredBackend::When when, StepKernels& kernels,
+                           std::function<void(const Failure&)> refused) const {
+    return [this, when, &kernels, refused = std::move(refused),
+            interpret = interpreted()](const CellKernel& kernel) {
+        kernels.identify(kernel);
+        if (runs_meanwhile()) {
+            KernelPointer begun = stepper_->begin(kernel, grid_.stencil(), when);
+            kernels.add(begun);
+            return begun;
+        }
+        auto made = stepper_->compile(kernel, grid_.stencil());
+        if (made) return *made;
+        refused(made.error());
+        return interpret(kernel);
+    };
+}
+
+}  // namespace cascade

@@ -1,0 +1,290 @@
+// Looks at the species, at a few more steps and at the rates.
+#include "run/simulation/stage_doubts.h"
+
+#include "core/spread.h"
+#include "lang/program/nodes_of_rates.h"
+#include "run/simulation/stage_tools.h"
+#include "run/stage/not_finite.h"
+#include "run/stage/result_doubts.h"
+#include "solvers/chequerboard.h"
+#include "solvers/field_norms.h"
+#include "solvers/flicker.h"
+#include "solvers/step_paths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// The number of shorter steps that replace one for a look. Two would not do: what repeats with the
+/// step often repeats with half of it, too.
+constexpr std::int64_t shorter_steps = 3;
+
+/// Do the steps of a stage depend on their number or length, or on chance? Then shorter ones are
+/// another stage's.
+bool knows_its_steps(const Program& program, std::uint32_t stage) {
+    const System& system = program.system_of(stage);
+    const auto knows = [&](const Node& node) {
+        return is_draw(node) ||
+               (node.kind == NodeKind::builtin &&
+                node.index == static_cast<std::uint32_t>(Builtin::step)) ||
+               (node.kind == NodeKind::own && node.index == system.speed_item());
+    };
+    return holds_in_rates(system, knows) || holds_in_sides(program.stages[stage], knows) ||
+           std::any_of(system.invariants.begin(), system.invariants.end(),
+                       [&](const Invariant& each) { return holds_in(each.bound, knows); });
+}
+
+/// What steps cannot add to a species.
+struct LostChange {
+    double part = 0;  ///< Of the cells whose rate is not 0, those that a step leaves as they are.
+    double rate = 0;  ///< Mean magnitude in such cells, over all cells.
+};
+
+LostChange lost_change(const Field& species, const Field& rates, double step, const Mask* counted,
+                       const Mask* frozen) {
+    const auto &value = species.plane(), &rate = rates.plane();
+    const PlaneLayout& layout = value.layout();
+    const auto length = static_cast<float>(step);
+    double cells = 0, moving = 0, lost = 0, sum = 0;
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+        for (std::int64_t i = 0; i < layout.width; ++i) {
+            if (counted != nullptr && counted->row(row)[i] == 0) continue;
+            ++cells;
+            const float change = length * rate.row(row)[i];
+            if (change == 0 || (frozen != nullptr && frozen->row(row)[i] != 0)) continue;
+            ++moving;
+            if (value.row(row)[i] + change != value.row(row)[i]) continue;
+            ++lost;
+            sum += std::abs(double{rate.row(row)[i]});
+        }
+    }
+    if (moving == 0) return {};
+    return {lost / moving, sum / cells};
+}
+
+/// a + factor · b.
+Field sum(const Field& a, const Field& b, double factor) {
+    Field result = a.clone();
+    auto& values = result.plane();
+    for (std::int64_t row = 0; row < values.layout().row_count(); ++row) {
+        for (std::int64_t i = 0; i < values.layout().width; ++i) {
+            values.row(row)[i] += static_cast<float>(factor * b.row(row)[i]);
+        }
+    }
+    return result;
+}
+
+/// Values that jump back and forth in a few more steps.
+std::optional<FlickerReport> find_flicker(const EndedStage& ended) {
+    const StageView& view = ended.view;
+    const StageState& state = ended.state;
+    FlickerWatch watch(view.environment().counted());
+    const bool is_finite =
+        take_trial_steps(ended, ended.timer, std::min(most_trial_steps, state.steps / 4),
+                         [&](std::int64_t, double, std::span<const Field> species) {
+                             watch.see(species);
+                             return true;
+                         });
+    if (!is_finite) return std::nullopt;
+
+    const System& system = view.system();
+    const bool is_random = holds_in_rates(system, is_draw);
+    for (std::size_t s = 0; s < state.species.size(); ++s) {
+        const FlickerWatch::Finding found = watch.finding(s);
+        if (found.flickering < flicker_threshold && (is_random || found.undone < undone_threshold))
+            continue;
+        FlickerReport report;
+        report.stage = view.stage().name;
+        report.species = species_name(system, s);
+        report.use = view.step_in_use();
+        report.part = found.flickering;
+        report.largest = found.largest;
+        return report;
+    }
+    return std::nullopt;
+}
+
+/// Values that shorter steps would lead another way.
+std::optional<AstrayReport> find_astray(const EndedStage& ended) {
+    const StageView& view = ended.view;
+    const System& system = view.system();
+    const Mask* counted = view.environment().counted();
+    if (!view.stage().uniform[system.speed_item()] || is_stabilised(view.stage().time.solver) ||
+        knows_its_steps(view.program(), view.number())) {
+        return std::nullopt;
+    }
+    const auto follow = [&](StageTimer& own, std::int64_t steps, StepPath& path) {
+        return take_trial_steps(ended, own, steps,
+                                [&](std::int64_t, double, std::span<const Field> species) {
+                                    path.see(species);
+                                    return true;
+                                });
+    };
+    StepPath coarse(counted), fine(counted);
+    if (!follow(ended.timer, least_trial_steps, coarse)) return std::nullopt;
+    double& speed = ended.state.numbers[system.speed_item()];
+    const double own_speed = std::exchange(speed, speed / shorter_steps);
+    StageTimer shorter(view.program(), view.number(), ended.state,
+                       stage_tools(view, view.environment().kernels->often()));
+    const bool is_finite = follow(shorter, least_trial_steps * shorter_steps, fine);
+    speed = own_speed;
+    if (!is_finite) return std::nullopt;
+    for (std::size_t s = 0; s < ended.state.species.size(); ++s) {
+        const PathDifference found = difference(coarse, fine, s, counted);
+        if (!found.is_apart) continue;
+        AstrayReport report;
+        report.stage = view.stage().name;
+        report.species = species_name(system, s);
+        report.use = view.step_in_use();
+        report.steps = least_trial_steps;
+        report.shorter_steps = least_trial_steps * shorter_steps;
+        report.change = found.coarse;
+        report.change_of_shorter = found.fine;
+        report.apart = found.apart;
+        return report;
+    }
+    return std::nullopt;
+}
+
+/// Does a species alternate from cell to cell, because of its steps or of its rate?
+std::optional<std::string> find_chequerboard(const StageView& view, bool flickers) {
+    const std::vector<Field>& species = view.state().species;
+    const Environment& here = view.environment();
+    const Links* links = here.model ? &here.model->links : nullptr;
+    const StageTime& time = view.stage().time;
+    const auto alternates = [&](const Field& field) {
+        // What has died away is rounding, or errors that the solver was allowed, of which the
+        // fastest waves may well be left.
+        const FieldMoments values = moments(field, here.counted());
+        const double errors =
+            time.chooses_steps() ? time.step_tolerance() * values.root_mean_square : 0;
+        return values.deviation > std::max(least_deviation, errors) &&
+               alternating_part(field, here.counted(), links) >= chequerboard_threshold;
+    };
+    const auto found = std::find_if(species.begin(), species.end(), alternates);
+    if (found == species.end()) return std::nullopt;
+    ChequerboardReport report;
+    report.stage = view.stage().name;
+    report.species = species_name(view.system(), static_cast<std::size_t>(found - species.begin()));
+    report.use = view.step_in_use();
+    report.flickers = flickers;
+    report.estimate = view.stability(species);
+    report.use.diffusion_limits = view.diffusion_limits();
+    return describe(report);
+}
+
+/// How fast the rates decay as the state moves along them, in 1 / time; negative where they grow.
+double decay_along(const EndedStage& ended, const std::vector<Field>& rates) {
+    const std::vector<Field>& species = ended.state.species;
+    const Mask* counted = ended.view.environment().counted();
+    // So far along the rates that differences are well above rounding.
+    double step = std::numeric_limits<double>::infinity();
+    for (std::size_t s = 0; s < species.size(); ++s) {
+        const double largest = largest_magnitude(std::span(&rates[s], 1));
+        if (largest > 0)
+            step = std::min(step, 0.005 * moments(species[s], counted).root_mean_square / largest);
+    }
+    if (!std::isfinite(step) || !(step > 0)) return 0;
+    std::vector<Field> moved;
+    for (std::size_t s = 0; s < species.size(); ++s)
+        moved.push_back(sum(species[s], rates[s], step));
+    const std::vector<Field> there = [&] {
+        const OtherSpecies other(ended.state, std::move(moved));
+        return ended.view.rates();
+    }();
+    double products = 0, squares = 0;
+    for (std::size_t s = 0; s < rates.size(); ++s) {
+        const auto &here = rates[s].plane(), &then = there[s].plane();
+        for (std::int64_t row = 0; row < here.layout().row_count(); ++row) {
+            for (std::int64_t i = 0; i < here.layout().width; ++i) {
+                const double rate = here.row(row)[i];
+                products += rate * (then.row(row)[i] - rate);
+                squares += rate * rate;
+            }
+        }
+    }
+    return squares > 0 ? -products / squares / step : 0;
+}
+
+/// Changes that single precision cannot add to the values, and that would have become noticeable.
+std::optional<LostChangeReport> find_lost_change(const EndedStage& ended) {
+    const StageView& view = ended.view;
+    const StageState& state = ended.state;
+    const Mask* counted = view.environment().counted();
+    const double step = state.time.clock.step;
+    const auto steps = static_cast<double>(state.steps);
+    // A step loses half of the last digit at most.
+    const bool is_possible = view.environment().precision() == Precision::single &&
+                             !is_adaptive(view.stage().time.solver) && step > 0 &&
+                             steps * 0x1p-24 >= lost_change_threshold;
+    if (!is_possible || holds_in_rates(view.system(), is_draw)) return std::nullopt;
+    const std::vector<Field> rates = view.rates();
+    const double decay = decay_along(ended, rates);
+    const double time = decay * steps * step > 1 ? 1 / decay : steps * step;
+    const Mask* frozen = state.frozen.empty() ? nullptr : &state.frozen;
+    for (std::size_t s = 0; s < rates.size(); ++s) {
+        const LostChange found = lost_change(state.species[s], rates[s], step, counted, frozen);
+        const double value = moments(state.species[s], counted).root_mean_square;
+        if (found.part < 0.95 || !(found.rate * time >= lost_change_threshold * value)) continue;
+        LostChangeReport report;
+        report.stage = view.stage().name;
+        report.species = species_name(view.system(), s);
+        report.change = found.rate * step;
+        report.value = value;
+        report.lost = found.rate * time;
+        return report;
+    }
+    return std::nullopt;
+}
+
+/// Finds the limit of the step. Without a to and fro, changes that undo each other may be waves of
+/// a few steps: then only a step beyond the limit makes sure.
+bool is_sure(const StageView& view, FlickerReport& report) {
+    report.limit = longest_step(view.stability(view.state().species), report.use);
+    if (!report.limit || !is_too_long(report.use, *report.limit)) {
+        report.limit = longest_step(view.stability(view.starting_species()), report.use);
+    }
+    return report.part >= flicker_threshold ||
+           (report.limit && is_too_long(report.use, *report.limit));
+}
+
+}  // namespace
+
+std::optional<std::string> find_doubt(const EndedStage& ended) {
+    const StageView& view = ended.view;
+    const bool allows_trial = allows_trial_steps(ended);
+    std::optional<FlickerReport> flicker;
+    if (allows_trial) flicker = find_flicker(ended);
+    if (auto chequerboard = find_chequerboard(view, flicker.has_value())) return chequerboard;
+    if (flicker && is_sure(view, *flicker)) return describe(*flicker);
+    if (auto astray = allows_trial ? find_astray(ended) : std::nullopt) {
+        astray->limit = longest_step(view.stability(view.state().species), astray->use);
+        return describe(*astray);
+    }
+    if (const auto lost = find_lost_change(ended)) return describe(*lost);
+    return std::nullopt;
+}
+
+bool has_stood_still(const StageView& view) {
+    const StageState& state = view.state();
+    const StageCourse& course = state.course;
+    if (!state.done || course.empty() || course.last().step != state.steps) return false;
+    const auto is_same = [](const Spread& a, const Spread& b) {
+        return a.mean == b.mean && a.squares == b.squares && a.smallest == b.smallest &&
+               a.largest == b.largest;
+    };
+    const auto& first = course.first().species;
+    if (!std::equal(first.begin(), first.end(), course.last().species.begin(), is_same))
+        return false;
+    const std::vector<Field> rates = view.rates();
+    return std::all_of(rates.begin(), rates.end(), [&](const Field& rate) {
+        return moments(rate, view.environment().counted()).root_mean_square == 0;
+    });
+}
+
+}  // namespace cascade

@@ -1,0 +1,191 @@
+// Begins a stage once, and goes on with it as often as it is asked to.
+#include "run/simulation/stage_run.h"
+
+#include "run/simulation/coarse_start.h"
+#include "run/simulation/stage_doubts.h"
+#include "run/simulation/stage_failures.h"
+#include "run/simulation/stage_tools.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace cascade {
+namespace {
+
+/// Steps between two looks: a stage of few steps is looked at as often as a long one.
+std::int64_t look_every(const Stage& stage, std::int64_t usual) {
+    constexpr std::int64_t looks = 10;
+    return std::clamp<std::int64_t>(stage.iterations / looks, 1, usual);
+}
+
+}  // namespace
+
+StageRun::StageRun(const Environment& environment, std::span<StageState> states,
+                   std::uint32_t stage, const Keeping& keeping)
+    : view_(environment, states, stage, &invariants_),
+      states_(states),
+      state_(states[stage]),
+      keeping_(keeping),
+      kernels_(environment.stage(stage).name),
+      timer_(*environment.program, stage, state_, [&] {
+          const auto when = environment.takes_long(stage) ? TieredBackend::When::now
+                                                          : TieredBackend::When::when_used;
+          const auto refused = [this](const Failure& refusal) {
+              if (control_ != nullptr) kernels_.warn(refusal, *control_);
+          };
+          StageTools tools =
+              stage_tools(view_, environment.kernels->steps(when, kernels_, refused));
+          tools.is_true = [this, is_true = std::move(tools.is_true)](const Formula& formula) {
+              if (control_ != nullptr) undefined_.look_at_until(view_, *control_);
+              return is_true(formula);
+          };
+          return tools;
+      }()) {
+    CHECK(state_.started, "a stage is started before it advances");
+}
+
+Result<StageEnd> StageRun::advance(std::int64_t last_step, RunControl& control,
+                                   const std::function<void()>& observe, std::int64_t every) {
+    control_ = &control;
+    can_go_on_ = false;
+    std::optional<Result<StageEnd>> over;
+    if (!loop_) over = begin(last_step);
+    if (!over) over = take_steps(last_step, observe, every > 0 ? every : view_.stage().interval);
+    control_ = nullptr;
+    return std::move(*over);
+}
+
+/// Prepares the steps of the stage; a result where it is over before it takes any.
+std::optional<Result<StageEnd>> StageRun::begin(std::int64_t last_step) {
+    const Environment& here = view_.environment();
+    const Stage& stage = view_.stage();
+    if (state_.course.empty()) look();
+    if (timer_.substeps() > 1 && state_.steps == 0 && control_->warn) {
+        control_->warn(
+            fmt::format("stage '{}': each step is split into {}, so that it is stable in the "
+                        "smallest cells of the model",
+                        stage.name, timer_.substeps()));
+    }
+    if (is_frozen()) return end_frozen(last_step);
+    if (state_.steps == 0 && last_step > 0 && stage.time.coarse > 1) {
+        auto grown = run_on_coarser_grids(here, states_, view_.number(), *control_);
+        if (!grown || *grown == StageEnd::cancelled) return grown;
+    }
+    if (state_.steps == 0) undefined_.look_at_start(view_, *control_);
+    invariants_ = find_step_invariants(view_);
+    const StepProblem& problem = timer_.problem();
+    if (here.tilings) tilings_.emplace(*here.tilings, problem, kernels_.identity());
+    loop_.emplace(problem, schedule(), state_.species, progress());
+    return std::nullopt;
+}
+
+bool StageRun::is_frozen() const {
+    const std::uint32_t item = view_.system().frozen_item();
+    return view_.stage().uniform[item] && state_.numbers[item] != 0;
+}
+
+/// Nothing moves where everything is frozen: its steps are complete as they begin.
+StageEnd StageRun::end_frozen(std::int64_t last_step) {
+    const bool has_duration = view_.stage().time.has_duration();
+    state_.go_to(has_duration ? 0 : last_step, state_.t);
+    state_.done = has_duration || state_.steps >= view_.stage().iterations;
+    return state_.done ? StageEnd::finished : StageEnd::stopped;
+}
+
+Schedule StageRun::schedule() {
+    const Environment& here = view_.environment();
+    Schedule schedule = timer_.schedule(view_.stage().iterations, view_.stage().interval);
+    schedule.tenths = view_.stage().interval == 0;
+    schedule.check_every = look_every(view_.stage(), schedule.check_every);
+    schedule.onlooker = [this](std::int64_t step, double t, std::span<const Field>) {
+        if (!state_.course.is_due(step)) return;
+        state_.go_to(step, t);
+        look();
+    };
+    schedule.threads = here.threads;
+    schedule.tiling = here.tiling;
+    if (tilings_) schedule.tilings = &*tilings_;
+    schedule.keep_is_due = keeping_.is_due;
+    schedule.keep = [this](std::int64_t step, double t, const TimeState& time) {
+        state_.time = time;
+        state_.go_to(step, t);
+        keeping_.keep();
+    };
+    return schedule;
+}
+
+Progress StageRun::progress() const {
+    const Environment& here = view_.environment();
+    Progress progress;
+    progress.stage = view_.stage().name;
+    progress.note = here.progress_note;
+    progress.stage_number = static_cast<int>(view_.number()) + 1;
+    progress.stage_count = static_cast<int>(here.script->stage_count());
+    progress.steps = view_.stage().iterations;
+    progress.when_met = view_.stage().time.steady ? "settled" : "'until' came true";
+    return progress;
+}
+
+/// Adds the present state of the stage to its course.
+void StageRun::look() {
+    // Steps of different length in different cells are counted, not timed.
+    const bool is_timed = view_.stage().uniform[view_.system().speed_item()];
+    const double age = is_timed ? state_.t : static_cast<double>(state_.steps);
+    state_.course.look(state_.steps, age, state_.species, view_.environment().counted());
+}
+
+Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const std::function<void()>& observe,
+                                      std::int64_t interval) {
+    const std::int64_t steps_before = state_.steps;
+    const StageOutcome outcome =
+        loop_->advance(last_step, interval, *control_,
+                       [&](std::int64_t step, double t, std::span<const Field>) {
+                           state_.go_to(step, t);
+                           if (observe) observe();
+                           return true;
+                       });
+    state_.time = outcome.time;
+    state_.go_to(outcome.steps, outcome.t);
+    account_for(state_.steps - steps_before, outcome);
+    kernels_.warn_of_refused(*control_);
+    const bool is_good = !outcome.not_finite && !outcome.too_short && !outcome.cancelled;
+    const bool is_done = is_good && (outcome.ended || state_.steps >= view_.stage().iterations);
+    can_go_on_ = is_good && !is_done && state_.steps > 0 && !control_->warn;
+    // What is looked at from here on takes memory of its own.
+    if (!can_go_on_) loop_.reset();
+    if (outcome.not_finite || outcome.too_short)
+        return tl::unexpected(explain(outcome, view_, state_));
+    if (outcome.cancelled) {
+        view_.environment().kernels->stepper()->abandon();
+        return StageEnd::cancelled;
+    }
+    if (control_->warn) look_for_doubts();
+    state_.done = is_done;
+    if (state_.done && !state_.course.empty()) look();
+    return state_.done ? StageEnd::finished : StageEnd::stopped;
+}
+
+void StageRun::look_for_doubts() {
+    const auto doubt = state_.steps > 0 ? find_doubt({view_, state_, timer_}) : std::nullopt;
+    if (doubt) {
+        control_->warn(*doubt);
+        // What is in doubt has no course, and no more is said of it.
+        state_.course = {};
+    }
+    undefined_.look_at_end(view_, *control_);
+}
+
+/// Enters steps that were taken into the account of times.
+void StageRun::account_for(std::int64_t steps, const StageOutcome& outcome) const {
+    const Environment& here = view_.environment();
+    if (here.account == nullptr) return;
+    TimeAccount::Stage& entry = here.account->stage(view_.number());
+    entry.steps += steps;
+    entry.cells = here.grid.cell_count();
+    entry.threads = outcome.threads;
+    entry.stepping = loop_->stepping();
+}
+
+}  // namespace cascade

@@ -1,0 +1,147 @@
+// Starting values come in the order that plans have them, sides after them.
+#include "run/simulation/stage_start.h"
+
+#include "core/floating_point.h"
+#include "run/domain/field_values.h"
+#include "run/domain/metric_planes.h"
+#include "run/simulation/stage_view.h"
+#include "run/stage/bind_side.h"
+#include "run/stage/plan_runner.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace cascade {
+namespace {
+
+/// Items that are the same in all cells, on a grid of one cell.
+void start_uniform_items(const StageView& view, StageState& state) {
+    const StepPlan plan = plan_uniform_start(view.program(), view.number());
+    const Grid one{1, 1, Boundary::periodic};
+    const Environment& here = view.environment();
+    const std::vector<Field> values =
+        run_plan(plan, here.kernels->interpreted_on(one), view.context(), one, *here.team);
+    for (std::size_t r = 0; r < values.size(); ++r) {
+        state.numbers[plan.results[r]] = values[r].number_at(0, 0);
+    }
+}
+
+void start_varying_items(const StageView& view, StageState& state) {
+    const StepPlan& plan = view.environment().plans->start(view.number());
+    std::vector<Field> values = view.evaluate(plan);
+    for (std::size_t r = 0; r < values.size(); ++r) {
+        const std::uint32_t item = plan.results[r];
+        const int species = state.species_of_item[item];
+        if (view.stage().uniform[item]) {
+            state.numbers[item] = values[r].number_at(0, 0);
+        } else if (species >= 0) {
+            state.species[static_cast<std::size_t>(species)] = std::move(values[r]);
+        } else {
+            if (item == view.system().frozen_item()) state.frozen = to_mask(values[r]);
+            state.fields[item] = std::move(values[r]);
+        }
+    }
+}
+
+/// Do rows and columns meet at other angles than right ones beside a side with a flux?
+bool is_sheared_at(const Environment& here, Side side, SideKind kind) {
+    if (here.metric.empty() || kind != SideKind::flux) return false;
+    const auto at = [&](MetricPlane plane, std::int64_t offset) {
+        return here.metric[static_cast<std::size_t>(plane)].visit(
+            [&](const auto& cells) { return double{cells.origin()[offset]}; });
+    };
+    const PlaneLayout layout(here.grid);
+    const SideCells cells = SideCells::of_rows(layout, side, {0, layout.row_count()});
+    for (std::int64_t k = 0; k < cells.count; ++k) {
+        const std::int64_t offset = SideCells::offset(layout, side, k);
+        const double across = std::abs(at(MetricPlane::inverse_12, offset));
+        if (across > 1e-3 * std::abs(at(MetricPlane::inverse_22, offset))) return true;
+    }
+    return false;
+}
+
+/// Values of sides are found by formulas that may read whatever the stage starts with. One that is
+/// the same everywhere is kept as a number. As long as they are looked for, the boundary of the
+/// domain holds.
+Result<void> find_sides(const StageView& view, StageState& state) {
+    const Environment& here = view.environment();
+    const std::uint32_t k = view.number();
+    std::vector<SideRules> found;
+    std::vector<ChangingSide> changing_sides;
+    for (const auto& settings : view.stage().sides) {
+        const auto species = static_cast<std::uint32_t>(found.size());
+        SideRules rules;
+        rules.spacing = here.grid.spacing;
+        for (std::size_t side = 0; side < side_count; ++side)
+            rules.at[side].kind = settings[side].kind;
+        for (std::size_t side = 0; side < side_count; ++side) {
+            SideRule& rule = rules.at[side];
+            if (!rule.has_value()) continue;
+            const SidePlans value =
+                plan_side(*here.program, settings[side], static_cast<Side>(side), k);
+            if (is_sheared_at(here, static_cast<Side>(side), rule.kind)) {
+                return failure(
+                    fmt::format(
+                        "stage '{}': {} has a flux at the side {}, where the surface is sheared",
+                        view.stage().name, species_name(view.system(), species), side_names[side]),
+                    "a flux needs rows and columns that meet at right angles; fixed(…) does not");
+            }
+            if (value.changes) {
+                ChangingSide changing =
+                    bind_side(value, species, static_cast<Side>(side), here.kernels->interpreted(),
+                              view.context(), *here.team);
+                if (!value.each.is_uniform) {
+                    changing.values =
+                        state.side_values.emplace_back(PlaneLayout(here.grid), here.precision())
+                            .address();
+                    rule.values = changing.values;
+                }
+                changing_sides.push_back(std::move(changing));
+                continue;
+            }
+            Field values = std::move(view.evaluate(value.each)[0]);
+            rule.value = values.number_at(0, 0);
+            if (is_same_everywhere(values)) continue;
+            fill_halo(values, boundary_of(rules));
+            rule.values = state.side_values.emplace_back(std::move(values)).address();
+        }
+        found.push_back(rules);
+    }
+    state.sides = std::move(found);
+    state.changing_sides = std::move(changing_sides);
+    state.go_to(state.steps, state.t);
+    return {};
+}
+
+Result<void> check_speed(const StageView& view) {
+    const Environment& here = view.environment();
+    const std::uint32_t item = view.system().speed_item();
+    double slowest = view.state().numbers[item];
+    if (!view.stage().uniform[item]) slowest = smallest(view.state().fields[item], here.inside());
+    if (slowest > 0 && std::isfinite(slowest)) return {};
+    const std::string text = with_number(here.precision(), [&](auto zero) {
+        return fmt::format("{}", static_cast<decltype(zero)>(slowest));
+    });
+    return failure(fmt::format("stage '{}': its speed is {}, but a time step must be above 0",
+                               view.stage().name, text));
+}
+
+}  // namespace
+
+Result<void> start_stage(const Environment& environment, std::span<StageState> states,
+                         std::uint32_t stage) {
+    const TimeAccount::Scope spent(environment.account, Spent::starting, stage);
+    const StageView view(environment, states, stage);
+    StageState& state = states[stage];
+    state = empty_state(view.system());
+    start_uniform_items(view, state);
+    start_varying_items(view, state);
+    if (auto sides = find_sides(view, state); !sides) return sides;
+    state.started = true;
+    return check_speed(view);
+}
+
+}  // namespace cascade

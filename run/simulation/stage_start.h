@@ -1,0 +1,18 @@
+// What a stage starts with: its parameters and species, and its sides.
+#pragma once
+
+#include "core/result.h"
+#include "run/simulation/environment.h"
+#include "run/stage/stage_state.h"
+
+#include <cstdint>
+#include <span>
+
+namespace cascade {
+
+/// Computes the starting values of a stage from those before it. Fails if `speed` is not above 0 or
+/// a flux stands where the surface is sheared.
+Result<void> start_stage(const Environment& environment, std::span<StageState> states,
+                         std::uint32_t stage);
+
+}  // namespace cascade

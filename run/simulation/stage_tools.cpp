@@ -1,0 +1,119 @@
+// Binds the passes of steps and computes the numbers by which their length is chosen.
+#include "run/simulation/stage_tools.h"
+
+#include "run/domain/field_values.h"
+#include "run/stage/bound_diffusion.h"
+#include "run/stage/plan_runner.h"
+
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace cascade {
+namespace {
+
+NumberSource numbers_of(const StageView& view, std::span<const Formula* const> formulas) {
+    const auto runner =
+        std::make_shared<PlanRunner>(plan_view(view.program(), formulas, view.number()),
+                                     view.environment().kernels->often());
+    return [view, runner] {
+        std::vector<double> numbers;
+        for (const Field& field : runner->run(view.context(), *view.environment().team)) {
+            numbers.push_back(field.number_at(0, 0));
+        }
+        return numbers;
+    };
+}
+
+StepProblem bind_steps(const StageView& view, const Scheme& scheme, const Compile& compile) {
+    const Environment& here = view.environment();
+    const std::uint32_t k = view.number();
+    const TimeAccount::Scope spent(here.account, Spent::compiling);
+    std::vector<StepPlan> sweeps;
+    for (const SweepForm& form : scheme.forms) sweeps.push_back(here.plans->sweep(k, form));
+    const auto bind = [&](const StepPlan& before) {
+        return bind_scheme(scheme, sweeps, before, compile, view.context(), view.system(), k);
+    };
+    if (!is_semi_implicit(view.stage().time.solver)) return bind({});
+    const auto largest = [&](std::span<const Formula* const> formulas) {
+        std::vector<double> values;
+        for (const Field& field : view.evaluate(formulas)) {
+            values.push_back(largest_value(field, here.inside()));
+        }
+        return values;
+    };
+    const BoundDiffusion diffusion(view.program(), k, largest);
+    StepProblem problem = bind(diffusion.before());
+    diffusion.add_to(problem);
+    return problem;
+}
+
+std::vector<double> values_over_time(const StageView& view, const Formula& formula,
+                                     double duration) {
+    const Grid one{1, 1, Boundary::periodic};
+    // Compiled once and not for every moment.
+    std::map<const CellKernel*, KernelPointer> made;
+    const Compile compile = [&made, interpret = view.environment().kernels->interpreted_on(one)](
+                                const CellKernel& kernel) {
+        KernelPointer& known = made[&kernel];
+        if (!known) known = interpret(kernel);
+        return known;
+    };
+    PlanRunner runner(plan_view(view.program(), formula, view.number()), compile);
+    Team alone(1);
+    BindingContext context = view.context();
+    context.grid = one;
+    std::vector<double> values;
+    for (std::size_t n = 0; n <= Forcing::intervals; ++n) {
+        context.t = duration * static_cast<double>(n) / static_cast<double>(Forcing::intervals);
+        values.push_back(runner.run(context, alone)[0].number_at(0, 0));
+    }
+    return values;
+}
+
+}  // namespace
+
+StageTools stage_tools(const StageView& view, Compile steps) {
+    const Environment& here = view.environment();
+    StageTools tools;
+    tools.bind = [view, compile = std::move(steps)](const Scheme& scheme) {
+        return bind_steps(view, scheme, compile);
+    };
+    tools.numbers = [view](std::span<const Formula* const> formulas) {
+        return numbers_of(view, formulas);
+    };
+    tools.over_time = [view](const Formula& formula, double duration) {
+        return values_over_time(view, formula, duration);
+    };
+    tools.is_true = [view](const Formula& formula) {
+        return view.evaluate(formula)[0].number_at(0, 0) != 0;
+    };
+    tools.estimate = [view, compile = here.kernels->often()] {
+        const auto limit = view.stability(view.state().species, compile).largest_speed;
+        return limit ? 2 / *limit : 0;
+    };
+    tools.inside = here.counted();
+    tools.model = here.model.get();
+    return tools;
+}
+
+StepInvariants find_step_invariants(const StageView& view) {
+    const Environment& here = view.environment();
+    const TimeAccount::Scope spent(here.account, Spent::starting);
+    const StepPlan& once = here.plans->step_invariants(view.number());
+    StepInvariants found;
+    found.numbers.assign(once.result_count, 0);
+    found.boundaries.resize(once.result_count);
+    if (once.result_count == 0) return found;
+    found.planes = view.evaluate(once);
+    for (const PassTarget& target : once.passes.back().targets) {
+        if (target.kind != PassTarget::Kind::result) continue;
+        found.boundaries[target.index] = target.boundary;
+        if (!target.is_uniform) continue;
+        found.numbers[target.index] = found.planes[target.index].number_at(0, 0);
+        found.planes[target.index] = {};
+    }
+    return found;
+}
+
+}  // namespace cascade

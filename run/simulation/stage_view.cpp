@@ -1,0 +1,86 @@
+// Evaluates formulas and rates over the present values of a stage.
+#include "run/simulation/stage_view.h"
+
+#include "lang/calculus/derivative.h"
+#include "run/stage/plan_runner.h"
+
+#include <cmath>
+#include <utility>
+
+namespace cascade {
+
+BindingContext StageView::context() const {
+    const Environment& here = *environment_;
+    return {states_,    here.files,  state().steps,    here.grid,     here.precision(),
+            state().t,  here.metric, here.model.get(), here.inside(), here.surface_values.get(),
+            invariants_};
+}
+
+std::vector<Field> StageView::evaluate(const StepPlan& plan) const {
+    return run_plan(plan, environment_->kernels->once(), context(), environment_->grid,
+                    *environment_->team);
+}
+
+std::vector<Field> StageView::evaluate(std::span<const Formula* const> formulas) const {
+    return evaluate(plan_view(program(), formulas, number_));
+}
+
+std::vector<Field> StageView::evaluate(const Formula& formula) const {
+    return evaluate(plan_view(program(), formula, number_));
+}
+
+std::vector<Field> StageView::rates() const { return evaluate(plan_rates(program(), number_)); }
+
+std::vector<Field> StageView::starting_species() const {
+    const StepPlan& plan = environment_->plans->start(number_);
+    std::vector<Field> values = evaluate(plan);
+    std::vector<Field> species(state().species.size());
+    for (std::size_t r = 0; r < values.size(); ++r) {
+        const int place = state().species_of_item[plan.results[r]];
+        if (place >= 0) species[static_cast<std::size_t>(place)] = std::move(values[r]);
+    }
+    return species;
+}
+
+StabilityEstimate StageView::stability(std::span<const Field> species,
+                                       const Compile& compile) const {
+    // Rates know nothing of frozen cells, but those cannot blow up.
+    const Mask* frozen = state().frozen.empty() ? nullptr : &state().frozen;
+    const DomainMask* inside = environment_->inside();
+    const Mask still = inside != nullptr ? still_cells(*inside, frozen) : Mask();
+    if (inside != nullptr) frozen = &still;
+    const StepProblem rates =
+        bind_plan(plan_rates(program(), number_), compile, context(), system(), number_);
+    return estimate_stability(rates, species, frozen);
+}
+
+StepInUse StageView::step_in_use() const {
+    const StageTime& time = stage().time;
+    const std::uint32_t speed = system().speed_item();
+    StepInUse use;
+    use.speed = state().time.clock.step;
+    if (!(use.speed > 0)) use.speed = stage().uniform[speed] ? state().numbers[speed] : NAN;
+    use.solver = time.solver;
+    use.is_chosen = time.chooses_steps();
+    if (!time.has_duration() && !time.open_end) use.iterations = stage().iterations;
+    return use;
+}
+
+bool StageView::diffusion_limits() const {
+    constexpr double worth_changing = 4;
+    const Solver solver = stage().time.solver;
+    if (solver == Solver::symplectic || takes_long_steps(solver)) return false;
+    const auto bound = jacobian_bound(program(), number_, environment_->model.get());
+    if (!bound || bound->jumps) return false;
+    const Formula* const formulas[] = {&bound->whole, &bound->reaction};
+    const std::vector<Field> bounds = evaluate(formulas);
+    const double whole = bounds[0].number_at(0, 0), reaction = bounds[1].number_at(0, 0);
+    return std::isfinite(whole) && whole > worth_changing * reaction;
+}
+
+OtherSpecies::OtherSpecies(StageState& state, std::vector<Field> species)
+    : state_(state), own_(std::exchange(state.species, std::move(species))) {}
+
+OtherSpecies::~OtherSpecies() { state_.species = std::move(own_); }
+
+}  // namespace cascade

@@ -1,0 +1,73 @@
+// A stage as it stands: its values and those of the stages before it, and what they say of it.
+#pragma once
+
+#include "core/plane.h"
+#include "lang/program/program.h"
+#include "run/simulation/environment.h"
+#include "run/stage/bound_kernel.h"
+#include "run/stage/stage_state.h"
+#include "run/stage/step_advice.h"
+#include "solvers/stability.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cascade {
+
+class StageView {
+public:
+    /// All must outlive the view. `invariants` are those of its steps; null where none are taken.
+    StageView(const Environment& environment, std::span<const StageState> states,
+              std::uint32_t stage, const StepInvariants* invariants = nullptr)
+        : environment_(&environment), states_(states), number_(stage), invariants_(invariants) {}
+
+    const Environment& environment() const { return *environment_; }
+    std::uint32_t number() const { return number_; }
+    const Program& program() const { return *environment_->program; }
+    const Stage& stage() const { return environment_->stage(number_); }
+    const System& system() const { return program().system_of(number_); }
+    const StageState& state() const { return states_[number_]; }
+
+    /// Where slots of kernels find the present values.
+    BindingContext context() const;
+    /// The results of a plan, and values of formulas that are no part of a step.
+    std::vector<Field> evaluate(const StepPlan& plan) const;
+    std::vector<Field> evaluate(std::span<const Formula* const> formulas) const;
+    std::vector<Field> evaluate(const Formula& formula) const;
+    /// The rates of all species.
+    std::vector<Field> rates() const;
+    /// The starting values of all species.
+    std::vector<Field> starting_species() const;
+
+    /// How fast the rates are at a state of the species.
+    StabilityEstimate stability(std::span<const Field> species) const {
+        return stability(species, environment_->kernels->interpreted());
+    }
+    StabilityEstimate stability(std::span<const Field> species, const Compile& compile) const;
+    StepInUse step_in_use() const;
+    /// Is the limit of the step at the present state one of diffusion, far below that of the
+    /// reaction?
+    bool diffusion_limits() const;
+
+private:
+    const Environment* environment_;
+    std::span<const StageState> states_;
+    std::uint32_t number_;
+    const StepInvariants* invariants_;
+};
+
+/// A stage has other species for as long as it lives.
+class OtherSpecies {
+public:
+    OtherSpecies(StageState& state, std::vector<Field> species);
+    ~OtherSpecies();
+    OtherSpecies(const OtherSpecies&) = delete;
+    OtherSpecies& operator=(const OtherSpecies&) = delete;
+
+private:
+    StageState& state_;
+    std::vector<Field> own_;
+};
+
+}  // namespace cascade

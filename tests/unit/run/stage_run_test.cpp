@@ -1,0 +1,104 @@
+// A stage that runs keeps what its steps take from call to call, and notices when states change.
+#include "run/simulation/simulation.h"
+
+#include "run/script/script.h"
+#include "support/kernel_comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cascade::testing {
+namespace {
+
+constexpr const char* two_stages =
+    "domain { grid: 20, 16; boundary: noflux }\n"
+    "system s { u: 1 + x; k: 1 + y; u' = 0.1 * lap(u) - 0.1 * exp(k) * u + sin(t) * k }\n"
+    "stage one: s { iterations: 60; speed: 0.2; solver: rk2 }\n"
+    "stage two: s { iterations: 60; speed: 0.2; u: one.u; k: 2 - one.u }\n";
+
+class RunningStage : public ::testing::Test {
+protected:
+    RunningStage() : script_(load_script("test", two_stages, ".")) {}
+
+    std::unique_ptr<Simulation> made() {
+        return Simulation::create(script_, {BackendKind::interpreter, 0, 1}).value();
+    }
+    static std::vector<Field> copies(const Simulation& simulation, std::uint32_t stage) {
+        std::vector<Field> fields;
+        for (const Field& field : simulation.state(stage).species) fields.push_back(field.clone());
+        return fields;
+    }
+    void advance(Simulation& simulation, std::uint32_t stage, std::int64_t last) {
+        ASSERT_TRUE(simulation.advance_stage(stage, last, control_, {}));
+    }
+
+    Script script_;
+    RunControl control_;
+};
+
+TEST_F(RunningStage, StatesThatAreReplacedAreGoneOnFrom) {
+    auto first = made(), second = made();
+    ASSERT_TRUE(first->start_stage(0));
+    ASSERT_TRUE(second->start_stage(0));
+    advance(*first, 0, 20);
+    std::vector<Field> kept = copies(*first, 0);
+    const TimeState time = first->state(0).time;
+    const double t = first->state(0).t;
+    advance(*first, 0, 45);
+    // Back to step 20, in the middle of a stage that runs.
+    first->set_species(0, std::move(kept), 20, false);
+    first->set_time(0, t, time, {});
+    advance(*first, 0, 60);
+    advance(*second, 0, 60);
+    EXPECT_EQ(same_bits(first->state(0).species, second->state(0).species), "");
+}
+
+TEST_F(RunningStage, StagesMayTakeTurns) {
+    auto first = made(), second = made();
+    for (Simulation* simulation : {first.get(), second.get()}) {
+        ASSERT_TRUE(simulation->start_stage(0));
+        advance(*simulation, 0, 30);
+        ASSERT_TRUE(simulation->start_stage(1));
+    }
+    for (const std::int64_t last : {10, 25, 60}) {
+        advance(*first, 1, last);
+        advance(*first, 0, 30 + last / 2);
+    }
+    advance(*second, 0, 60);
+    advance(*second, 1, 60);
+    for (const std::uint32_t stage : {0u, 1u}) {
+        EXPECT_EQ(same_bits(first->state(stage).species, second->state(stage).species), "");
+    }
+}
+
+TEST_F(RunningStage, AStageMayStartAgainInTheMiddle) {
+    auto first = made(), second = made();
+    ASSERT_TRUE(first->start_stage(0));
+    advance(*first, 0, 33);
+    ASSERT_TRUE(first->start_stage(0));
+    ASSERT_TRUE(second->start_stage(0));
+    advance(*first, 0, 41);
+    advance(*second, 0, 41);
+    EXPECT_EQ(same_bits(first->state(0).species, second->state(0).species), "");
+}
+
+TEST_F(RunningStage, RemarksChangeNoBits) {
+    RunControl listening;
+    listening.warn = [](const std::string&) {};
+    auto first = made(), second = made();
+    ASSERT_TRUE(first->start_stage(0));
+    ASSERT_TRUE(second->start_stage(0));
+    for (std::int64_t last = 1; last <= 60; ++last) {
+        ASSERT_TRUE(first->advance_stage(0, last, last % 2 == 0 ? listening : control_, {}));
+    }
+    advance(*second, 0, 60);
+    EXPECT_EQ(same_bits(first->state(0).species, second->state(0).species), "");
+    EXPECT_EQ(first->remark_on(0), second->remark_on(0));
+}
+
+}  // namespace
+}  // namespace cascade::testing
