@@ -16,7 +16,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Reach unreached = {infinity, SurfaceDistance::no_source};
 
 /// A point is visited again only if the relative gain of the new path exceeds this.
-constexpr double least_gain = 1e-12;
+constexpr double least_shortening = 1e-12;
 
 /// Limit of visits per point, which only slivers could exceed, and with little gain.
 constexpr std::size_t most_visits = 60;
@@ -112,7 +112,7 @@ void SurfaceDistance::spread(const std::atomic<bool>& cancel) {
     std::vector<Visit> visits;
     const auto reach = [&](std::uint32_t point, const Reach& found) {
         Reach& known = reached_[point];
-        if (!(found.distance < known.distance * (1 - least_gain))) return;
+        if (!(found.distance < known.distance * (1 - least_shortening))) return;
         known = found;
         visits.push_back({found.distance, point});
         std::push_heap(visits.begin(), visits.end());
