@@ -20,8 +20,8 @@ struct LinkedCells {
 LinkedCells cells_of_torus(std::size_t side);
 
 /// The same cells as steps are fastest ("steps"), along a curve ("curve"), by levels ("levels") or
-/// as they are ("own"), then grouped by their number of links in windows of so many cells, if that
-/// is not 0.
+/// as they are ("own"), then grouped by their number of links in windows of that number of cells,
+/// if it is not 0.
 LinkedCells in_order(const LinkedCells& cells, const std::string& order, std::size_t window);
 
 }  // namespace cascade::bench

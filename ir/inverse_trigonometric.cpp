@@ -71,12 +71,12 @@ Expression upper_angle(Expression y, Expression x) {
     const Angles& angles = x.pick(eighths);
     const auto taken_off = [&](double Angle::*part) {
         const double at_quarter = angles.quarter.*part;
-        const Expression forward =
+        const Expression if_forwards =
             folded.choose(angles.eighth.*part, steep.choose(at_quarter, x.number(0)));
-        const Expression behind =
+        const Expression if_backwards =
             folded.choose(angles.three_eighths.*part,
                           steep.choose(at_quarter, x.number(angles.half.*part)));
-        return backwards.choose(behind, forward);
+        return backwards.choose(if_backwards, if_forwards);
     };
     const Expression turned = steep.choose(x.word(x.format().sign()), x.word(0));
     const Expression sign = turned.binary(Op::bits_xor, x.sign_word());

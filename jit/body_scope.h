@@ -41,7 +41,7 @@ struct Body {
 /// Refers to `kernel` and `shape`.
 Body body_of(const CellKernel& kernel, const KernelShape& shape, Builder& builder);
 
-/// One value in up to three forms; those that nobody asked for are not made.
+/// One value in up to three forms; forms that are not requested are not made.
 struct Forms {
     llvm::Value* number = nullptr;  ///< <N x float>
     llvm::Value* bits = nullptr;    ///< <N x i32>

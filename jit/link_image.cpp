@@ -32,7 +32,7 @@ public:
     jitlink::JITLinkMemoryManager& getMemoryManager() override { return *this; }
 
     /// A target's own passes make tables: of absolute addresses, which no image may have, and for
-    /// unwinding the stack, which nobody does, since kernels throw nothing.
+    /// unwinding the stack, which does not happen, since kernels throw nothing.
     bool shouldAddDefaultTargetPasses(const llvm::Triple&) const override { return false; }
 
     llvm::Error modifyPassConfig(jitlink::LinkGraph&, jitlink::PassConfiguration& passes) override {

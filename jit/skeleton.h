@@ -90,8 +90,7 @@ public:
     }
 
     llvm::Value* uniform(std::size_t slot);
-    /// A constant that is loaded from a variable of the module: LLVM does not know that nobody
-    /// writes to it.
+    /// A constant that is loaded from a variable of the module, so that LLVM cannot fold it.
     llvm::Value* hidden(std::uint64_t word);
 
     /// Asks for a cache line that will be read. Any address will do: a prefetch never faults.

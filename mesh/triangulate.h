@@ -15,8 +15,8 @@ namespace cascade {
 /// quadrilateral along the diagonal inside, the shorter one if both are; other polygons by cutting
 /// off ears in the coordinate plane nearest to the polygon (G. H. Meisters, "Polygons have ears",
 /// American Mathematical Monthly 82, 1975). The result for a polygon that intersects itself is
-/// arbitrary. Appends to `triangles`. Returns false for a polygon with so many reflex corners that
-/// this would take more than seconds.
+/// arbitrary. Appends to `triangles`. Returns false if this would take more than seconds, because
+/// the polygon has too many reflex corners.
 bool triangulate(std::span<const Vector3d> corners,
                  std::vector<std::array<std::uint32_t, 3>>& triangles);
 

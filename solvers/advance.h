@@ -64,7 +64,7 @@ struct StageOutcome {
 class TimeLoop {
 public:
     /// `problem` has the passes of the first steps. It and `species`, start values in, last
-    /// complete step out, must outlive the loop, and nobody else may change them. Addresses of
+    /// complete step out, must outlive the loop, and only the loop may change them. Addresses of
     /// the values of `species` change. `progress` carries the stage's name and numbers.
     TimeLoop(const StepProblem& problem, Schedule schedule, std::vector<Field>& species,
              Progress progress);

@@ -85,7 +85,7 @@ std::int64_t BatchTuner::steps_at_once() const {
     return (stepper_.team().levels() + sweeps - 1) / sweeps;
 }
 
-/// How long the steps ahead will take; where nobody knows their number, as long as those before.
+/// How long the remaining steps will take. If their number is unknown, as long as those before.
 BatchTuner::Seconds BatchTuner::time_left(Seconds of_step) const {
     if (schedule_.check > 0) return spent_ + (Clock::now() - began_);
     const auto by_number = static_cast<double>(schedule_.last_step - clock_.step);

@@ -21,12 +21,11 @@ public:
     /// Takes the steps of `stepper`, which it sets up as it finds best. All must outlive it.
     BatchTuner(const Schedule& schedule, LoopClock& clock, Stepper& stepper);
 
-    /// The loop goes on after a pause.
+    /// To be called when the loop resumes after a pause.
     void go_on();
-    /// The size of the next batch, if so many steps at most may be taken. Sets up threads and
-    /// tiles for it.
+    /// The number of steps in the next batch, at most `most`. Sets up threads and tiles for it.
     std::int64_t begin_batch(std::int64_t most);
-    /// The batch is over.
+    /// Ends the batch.
     void end_batch(std::int64_t count, Clock::time_point now);
     /// Takes `count` steps of one length of the passes `problem`. With `look`, are all values
     /// finite?

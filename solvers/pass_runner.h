@@ -68,7 +68,7 @@ public:
 
     /// One thread's part of a step. All threads of the team in use call it with the same registers
     /// and moment. When it returns, this thread's rows of the results are written and their halo
-    /// filled; another meeting of the team makes them everybody's.
+    /// filled; another barrier of the team makes them visible to every thread.
     void run(Worker& worker, Team& team, Registers registers, const StepMoment& moment);
 
     /// All passes once, rows shared by the team.

@@ -104,9 +104,9 @@ void PassTeam::run_passes(Worker& worker, const Given& given, StepPass next, std
         const std::size_t together = passes_together(next, left);
         run_together(worker, given, next, together);
         left -= together;
-        // One meeting is enough: after it nobody reads the copy that the next pass overwrites, and
-        // every thread has filled the halo that comes from its own rows. Tiles end in any thread's
-        // rows.
+        // One barrier is enough: after it no thread reads the copy that the next pass overwrites,
+        // and every thread has filled the halo that comes from its own rows. Tiles end in any
+        // thread's rows.
         if (left > 0 || (meets && tiles_->levels() > 1)) team_.barrier();
     }
 }

@@ -42,7 +42,7 @@ using StepChooser = std::function<StepChoice(std::int64_t step, TimeState& time,
 /// Which steps to take and how closely to watch them.
 struct Schedule {
     std::int64_t first_step = 0;  ///< Complete steps so far (more than 0 after a resume).
-    std::int64_t last_step = 0;   ///< Stop when so many are complete.
+    std::int64_t last_step = 0;   ///< Stop when this number is complete.
     TimeState time = {};          ///< At `first_step`.
     /// Stop when t is so large; the last step is shortened to end there.
     double end_time = std::numeric_limits<double>::infinity();
@@ -81,12 +81,12 @@ struct Schedule {
     /// How steps go through memory; none: as fits, or as turns out to be faster. No result depends
     /// on it.
     std::optional<Tiling> tiling = {};
-    /// Knows what earlier runs found to be faster, and is told what this one finds; nullptr: nobody
-    /// does.
+    /// Remembers which tiling was fastest in earlier runs, and receives the result of this one; may
+    /// be null.
     TilingMemory* tilings = nullptr;
 };
 
-/// How many tenths of the way to the end time are behind; 0 where there is none.
+/// The number of tenths of the time to the end that have passed; 0 if there is no end time.
 double tenths_reached(double t, double end_time);
 
 /// Is a copy kept of so many species, as Schedule::most_kept_bytes has it?

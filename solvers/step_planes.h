@@ -57,7 +57,7 @@ public:
         return copies_[static_cast<std::size_t>(number)];
     }
 
-    /// Makes planes for so many registers, the old and the new step included.
+    /// Makes planes for this number of registers, the old and the new step included.
     void make_registers(std::uint32_t count);
     /// The planes of a register other than those of the old and the new step.
     const std::vector<Field>& scratch(std::uint32_t number) const {

@@ -34,7 +34,7 @@ public:
 
     /// Runs levels 0 … `levels` − 1 of all workers, which all of them have bound alike. All threads
     /// of the team in use call it. When it returns, another meeting of the team makes what was
-    /// written everybody's.
+    /// written visible to every thread.
     void run(PassRunner::Worker& worker, Team& team, int levels) const;
 
 private:

@@ -23,7 +23,7 @@ enum class HalideSystem { turing, gray_scott, stripes };
 /// In which order.
 struct HalideSchedule {
     enum class Kind {
-        rows,     ///< One step a pass, so many rows at once.
+        rows,     ///< One step a pass, a number of rows at once.
         tiles,    ///< Tiles; around each the steps before the last are computed so far as they are
                   ///< needed.
         windows,  ///< Row by row through all steps: of each but the last only those rows that the

@@ -16,7 +16,8 @@ namespace {
 /// What ends further on in a formula is not shown.
 constexpr NodeId longest_shown{60};
 
-/// What nobody has written: entries of a tensor, and what operators are made of on a surface.
+/// What the script does not contain: entries of a tensor, and what operators are made of on a
+/// surface.
 std::string describe_made(const PlanGraph& graph, const Node& node) {
     const bool is_sine = node.calls(Function::sin);
     if ((is_sine || node.calls(Function::cos)) && graph.origin(node.operands[0]) != nullptr) {
@@ -89,7 +90,8 @@ std::string describe(const PlanGraph& graph, const PassPlanner& planner, const S
         text += ": ";
         for (std::size_t k = 0; k < results.size(); ++k) text += (k > 0 ? ", " : "") + results[k];
     }
-    std::vector<std::pair<std::string, std::size_t>> step_invariants;  // And how many of one name.
+    std::vector<std::pair<std::string, std::size_t>>
+        step_invariants;  // With the number of each name.
     for (const NodeId id : graph.ids()) {
         if (!planner.is_needed(id) || !planner.is_step_invariant(id)) continue;
         std::string words = describe_step_invariant(graph, id);

@@ -1,5 +1,5 @@
-// Operators as differences of what the cells around have. c is the own cell, N, S, E, W, U and D
-// the ones around; h is the side of a cell. Spec/numerics.md has the same formulas.
+// Operators as differences of the values of neighbouring cells. c is the cell itself, N, S, E, W, U
+// and D the ones around; h is the side of a cell. Spec/numerics.md has the same formulas.
 #include "lang/lower/lower_pass.h"
 
 #include "core/check.h"
@@ -151,11 +151,12 @@ ValueId Stencils::advection(const Node& node) {
         if (static_cast<std::uint32_t>(axis) >= velocities) continue;
         const ValueId velocity = own(node.operands[static_cast<std::size_t>(axis)]);
         const ValueId centre = own(operand);
-        const ValueId behind = builder_.subtract(centre, beside(operand, Offset::along(axis, -1)));
-        const ValueId ahead = builder_.subtract(beside(operand, Offset::along(axis, 1)), centre);
+        const ValueId backward =
+            builder_.subtract(centre, beside(operand, Offset::along(axis, -1)));
+        const ValueId forward = builder_.subtract(beside(operand, Offset::along(axis, 1)), centre);
         const ValueId flows_forwards = builder_.apply(Op::less, builder_.number(0), velocity);
         const ValueId term =
-            builder_.multiply(velocity, builder_.select(flows_forwards, behind, ahead));
+            builder_.multiply(velocity, builder_.select(flows_forwards, backward, forward));
         sum = sum ? builder_.add(*sum, term) : term;
     }
     return scaled(sum.value_or(builder_.number(0)), 1 / grid_.spacing);

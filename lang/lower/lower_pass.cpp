@@ -65,7 +65,7 @@ void PassLowering::compute(NodeId id) {
         for_each_offset(values_.needs(id), [&](Offset offset) {
             const Value value = compute_at(id, offset);
             values_.slot(id, offset.number()) = value;
-            // It may lie in a plane, or be computed again by whoever reads it.
+            // It may lie in a plane, or be computed again where it is read.
             builder_.keep(value[0]);
         });
     }

@@ -138,8 +138,8 @@ std::string Environment::place_in_words(std::int64_t column, std::int64_t row) c
 Result<std::unique_ptr<Environment>> make_environment(Script& script,
                                                       const SimulationOptions& options) {
     CHECK(script.program, "only a checked script is simulated");
-    RunControl nobody;
-    RunControl& control = options.control != nullptr ? *options.control : nobody;
+    RunControl unwatched;
+    RunControl& control = options.control != nullptr ? *options.control : unwatched;
     auto made = std::make_unique<Environment>();
     Environment& here = *made;
     here.script = &script;

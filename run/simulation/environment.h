@@ -43,7 +43,7 @@ struct Environment {
     std::optional<DomainMask> mask;
     std::shared_ptr<const ModelCells> model;        ///< None on grids.
     std::unique_ptr<SurfaceValues> surface_values;  ///< None on grids.
-    TimeAccount* account = nullptr;                 ///< None where nobody asks.
+    TimeAccount* account = nullptr;                 ///< Null if times are not recorded.
 
     const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
     Precision precision() const { return program->domain.precision; }

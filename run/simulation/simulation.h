@@ -41,15 +41,14 @@ struct SimulationOptions {
     std::shared_ptr<TieredBackend> stepper = nullptr;
     /// Hears how the cells of a model come about, and may stop it; none: nobody does.
     RunControl* control = nullptr;
-    TimeAccount* account = nullptr;  ///< Is told where the time goes; none: nobody is.
+    TimeAccount* account = nullptr;  ///< Receives the times spent; may be null.
     std::filesystem::path cell_cache =
         {};  ///< A folder in which cells of models are kept; empty: none.
     /// A folder in which compiled kernels, and what is found about tilings, are kept for later
     /// processes; empty: none.
     std::filesystem::path kernel_cache = {};
-    /// Take steps while code for them is made? Their first ones are interpreted then, unless there
-    /// are so many cells that waiting is quicker. No result depends on it, but how long a step
-    /// takes does.
+    /// Interpret the first steps while their code is compiled, unless the grid is so large that
+    /// waiting for the code is quicker. Affects the time of a step, but no result.
     bool starts_interpreted = false;
     std::uint64_t memory_limit = 0;  ///< Bytes that all fields may take; 0: what is free.
     /// How steps are put together. No result depends on it.

@@ -25,8 +25,8 @@ struct Keeping {
     std::function<void()> keep;
 };
 
-/// Of one stage that has been started. As long as it lives nobody else may change the states of the
-/// simulation.
+/// The run of one stage that has been started. While it exists, only it may change the states of
+/// the simulation.
 class StageRun {
 public:
     /// All must outlive the run.

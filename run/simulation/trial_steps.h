@@ -11,7 +11,7 @@ namespace cascade {
 /// A stage that has ended, its passes and all that may be tried with it.
 struct EndedStage {
     const StageView& view;
-    StageState& state;  ///< That of the view; whoever changes it puts it back.
+    StageState& state;  ///< The state of the view; trial steps restore it.
     StageTimer& timer;
 };
 

@@ -19,8 +19,8 @@ std::string describe_sides(const Grid& grid);
 double memory_of(const Program& program, StagePlans& plans, const ModelFacts* model = nullptr);
 double memory_of(const Program& program);
 
-/// Fails if a run on this grid that needs so many bytes would not fit into `limit` bytes (0: no
-/// limit but the machine) or into the free memory of the machine and of the container.
+/// Fails if a run on this grid that needs this number of bytes would not fit into `limit` bytes (0:
+/// no limit but the machine) or into the free memory of the machine and of the container.
 Result<void> check_memory(const Grid& grid, double needed, std::uint64_t limit = 0);
 
 }  // namespace cascade

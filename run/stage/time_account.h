@@ -25,7 +25,7 @@ enum class Spent : std::uint8_t {
     compiling,  ///< From checked formulas to code.
     stepping,
     drawing,  ///< Pictures, frames, logs, files.
-    rest,     ///< What nobody has claimed.
+    rest,     ///< The time that no other row accounts for.
 };
 inline constexpr std::size_t spent_count = 7;
 

@@ -60,7 +60,7 @@ void Run::start(const Configuration& configuration) {
     options.control = &control;
     auto made = Simulation::create(script, options);
     if (!made) {
-        // Faults of files that the script names are among the messages.
+        // Errors of files that the script names are among the messages.
         if (!script.diagnostics.has_errors()) failure = made.error().message;
         return;
     }
@@ -113,45 +113,45 @@ std::vector<Message> messages_of(const Script& script) {
     return messages;
 }
 
-using Faults = std::vector<std::string>;
+using Errors = std::vector<std::string>;
 
 /// Each of `found` has one of `expected` and the other way round, in any order.
 template <typename Found, typename Expected, typename Matches, typename Describe>
 void compare(std::vector<Found> found, const std::vector<Expected>& expected, Matches&& is_it,
-             Describe&& describe, Faults& faults) {
+             Describe&& describe, Errors& errors) {
     for (const Expected& pattern : expected) {
         const auto match = std::find_if(found.begin(), found.end(),
                                         [&](const Found& each) { return is_it(each, pattern); });
         if (match == found.end()) {
-            faults.push_back("is missing: " + describe(pattern));
+            errors.push_back("is missing: " + describe(pattern));
         } else {
             found.erase(match);
         }
     }
     for (const Found& each : found) {
         const std::string words = describe(each);
-        if (!words.starts_with("expect note")) faults.push_back("is not expected: " + words);
+        if (!words.starts_with("expect note")) errors.push_back("is not expected: " + words);
     }
 }
 
-void compare_messages(const Run& run, const ScriptCase& script, Faults& faults) {
+void compare_messages(const Run& run, const ScriptCase& script, Errors& errors) {
     const auto is_it = [](const Message& found, const Message& pattern) {
         return found.kind == pattern.kind && found.source == pattern.source &&
                found.line == pattern.line && found.column == pattern.column &&
                matches(found.text, pattern.text);
     };
-    compare(messages_of(run.script), script.messages, is_it, print, faults);
+    compare(messages_of(run.script), script.messages, is_it, print, errors);
 }
 
 void compare_words(const std::vector<std::string>& found, const std::vector<std::string>& patterns,
-                   const std::string& kind, Faults& faults) {
+                   const std::string& kind, Errors& errors) {
     compare(
         found, patterns, matches,
-        [&](const std::string& text) { return fmt::format("expect {}: {}", kind, text); }, faults);
+        [&](const std::string& text) { return fmt::format("expect {}: {}", kind, text); }, errors);
 }
 
 /// The values of an expression over what the last stage left.
-std::optional<Field> value_of(Run& run, const std::string& text, Faults& faults) {
+std::optional<Field> value_of(Run& run, const std::string& text, Errors& errors) {
     Diagnostics wrong;
     Script& script = run.script;
     const SourceId source = script.sources.add("<expect>", text);
@@ -161,12 +161,12 @@ std::optional<Field> value_of(Run& run, const std::string& text, Faults& faults)
                                           run.last_stage(), *script.program, script.sources, wrong)
                              : std::nullopt;
     if (!formula || wrong.has_errors()) {
-        faults.push_back(render(wrong, script.sources, {}));
+        errors.push_back(render(wrong, script.sources, {}));
         return std::nullopt;
     }
     auto fields = run.simulation->evaluate(*formula, run.last_stage());
     if (fields.size() == 1) return std::move(fields[0]);
-    faults.push_back("a colour cannot be expected: " + text);
+    errors.push_back("a colour cannot be expected: " + text);
     return std::nullopt;
 }
 
@@ -179,9 +179,9 @@ bool holds(double left, double right, const ExpectedValue& expected) {
     return left == right || std::abs(left - right) <= expected.tolerance.value_or(0);
 }
 
-void compare_value(Run& run, const ExpectedValue& expected, Faults& faults) {
-    const auto left = value_of(run, expected.left, faults);
-    const auto right = value_of(run, expected.right, faults);
+void compare_value(Run& run, const ExpectedValue& expected, Errors& errors) {
+    const auto left = value_of(run, expected.left, errors);
+    const auto right = value_of(run, expected.right, errors);
     if (!left || !right) return;
     const PlaneLayout& layout = left->layout();
     const DomainMask* mask = run.simulation->mask();
@@ -200,7 +200,7 @@ void compare_value(Run& run, const ExpectedValue& expected, Faults& faults) {
     if (const auto& cell = expected.cell) {
         const auto [i, j, k] = *cell;
         if (i >= layout.width || j >= layout.height || k >= layout.depth) {
-            faults.push_back("there is no such cell: expect " + expected.written);
+            errors.push_back("there is no such cell: expect " + expected.written);
             return;
         }
         look(i, j, k);
@@ -214,7 +214,7 @@ void compare_value(Run& run, const ExpectedValue& expected, Faults& faults) {
         }
     }
     if (wrong > 0) {
-        faults.push_back(fmt::format("expect {} fails in {} {}, most in {}", expected.written,
+        errors.push_back(fmt::format("expect {} fails in {} {}, most in {}", expected.written,
                                      wrong, wrong == 1 ? "cell" : "cells", worst));
     }
 }
@@ -227,15 +227,15 @@ std::vector<Field> species_of(const Run& run) {
     return copies;
 }
 
-void compare_bits(const Run& run, const Run& other, const std::string& name, Faults& faults) {
+void compare_bits(const Run& run, const Run& other, const std::string& name, Errors& errors) {
     const std::string difference =
         other.simulation ? same_bits(species_of(run), species_of(other)) : other.failure;
-    if (!difference.empty()) faults.push_back("is not the same as " + name + ": " + difference);
+    if (!difference.empty()) errors.push_back("is not the same as " + name + ": " + difference);
 }
 
 /// A case leaves the same bits in all configurations of a precision: those of the first are kept.
 void compare_with_first(const Run& run, const ScriptCase& script,
-                        const Configuration& configuration, Faults& faults) {
+                        const Configuration& configuration, Errors& errors) {
     struct First {
         std::string name;
         std::vector<Field> species;
@@ -248,7 +248,7 @@ void compare_with_first(const Run& run, const ScriptCase& script,
     }
     const std::string difference = same_bits(place->second.species, species_of(run));
     if (!difference.empty()) {
-        faults.push_back("is not the same as " + place->second.name + ": " + difference);
+        errors.push_back("is not the same as " + place->second.name + ": " + difference);
     }
 }
 
@@ -279,37 +279,37 @@ std::vector<Configuration> configurations_of(const ScriptCase& script) {
 std::vector<std::string> check_script(const ScriptFile& file, const ScriptCase& script,
                                       const std::filesystem::path& folder,
                                       const Configuration& configuration) {
-    Faults faults;
+    Errors errors;
     Run run = load(script, folder, configuration);
     const bool runs = run.script.program && !run.script.program->stages.empty();
     if (runs && !script.is_sound) run.start(configuration);
-    compare_messages(run, script, faults);
+    compare_messages(run, script, errors);
     if (!runs && !script.is_only_checked() && script.expectations > script.messages.size()) {
-        faults.push_back("nothing runs");
+        errors.push_back("nothing runs");
     }
-    if (!run.simulation && run.failure.empty()) return faults;
-    compare_words(run.warnings, script.warnings, "warning", faults);
+    if (!run.simulation && run.failure.empty()) return errors;
+    compare_words(run.warnings, script.warnings, "warning", errors);
     if (run.failure.empty() && script.failure) {
-        faults.push_back("is missing: expect failure: " + *script.failure);
+        errors.push_back("is missing: expect failure: " + *script.failure);
     }
     if (!run.failure.empty()) {
         if (!script.failure || !matches(run.failure, *script.failure)) {
-            faults.push_back("is not expected: expect failure: " + run.failure);
+            errors.push_back("is not expected: expect failure: " + run.failure);
         }
-        return faults;
+        return errors;
     }
     if (script.remarks) {
         run.remark();
-        compare_words(run.remarks, *script.remarks, "remark", faults);
+        compare_words(run.remarks, *script.remarks, "remark", errors);
     }
-    for (const ExpectedValue& each : script.values) compare_value(run, each, faults);
-    compare_with_first(run, script, configuration, faults);
+    for (const ExpectedValue& each : script.values) compare_value(run, each, errors);
+    compare_with_first(run, script, configuration, errors);
     for (const std::string& name : script.same_as) {
         Run other = load(*file.find(name), folder, configuration);
         if (other.script.program) other.start(configuration);
-        compare_bits(run, other, name, faults);
+        compare_bits(run, other, name, errors);
     }
-    return faults;
+    return errors;
 }
 
 }  // namespace cascade::testing

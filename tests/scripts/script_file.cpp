@@ -47,8 +47,8 @@ private:
     void expect(const std::string& words);
     bool expect_message(const std::string& words);
     bool expect_value(const std::string& words);
-    void fault(const std::string& what) {
-        file.faults.push_back(fmt::format("{}: {}", line_, what));
+    void error(const std::string& what) {
+        file.errors.push_back(fmt::format("{}: {}", line_, what));
     }
     ScriptCase& current() { return file.cases.empty() ? shared_ : file.cases.back(); }
 
@@ -75,17 +75,17 @@ Reader::Reader(const std::string& text) {
     }
     for (const ScriptCase& each : file.cases) {
         if (each.expectations == 0) {
-            file.faults.push_back(
+            file.errors.push_back(
                 fmt::format("{}: nothing is expected", each.name.empty() ? "1" : each.name));
         }
         for (const std::string& other : each.same_as) {
-            if (!file.find(other)) file.faults.push_back("there is no case '" + other + "'");
+            if (!file.find(other)) file.errors.push_back("there is no case '" + other + "'");
         }
         if (each.is_only_checked() &&
             (each.is_sound != each.messages.empty() || !each.values.empty() ||
              !each.same_as.empty() || !each.warnings.empty() || each.remarks || each.failure ||
              each.is_quiet)) {
-            file.faults.push_back(
+            file.errors.push_back(
                 fmt::format("{}: with errors, or 'expect sound', nothing runs, and nothing else "
                             "can be expected",
                             each.name));
@@ -96,7 +96,7 @@ Reader::Reader(const std::string& text) {
 void Reader::instruct(const std::string& words) {
     if (words.starts_with("case ")) {
         const std::string name = trimmed(words.substr(5));
-        if (file.find(name)) fault("there are two cases '" + name + "'");
+        if (file.find(name)) error("there are two cases '" + name + "'");
         ScriptCase next = shared_;
         next.name = name;
         file.cases.push_back(std::move(next));
@@ -114,7 +114,7 @@ void Reader::instruct(const std::string& words) {
         ++current().expectations;
         expect(trimmed(words.substr(7)));
     } else {
-        fault("'#: " + words + "' is no instruction");
+        error("'#: " + words + "' is no instruction");
     }
 }
 
@@ -139,7 +139,7 @@ void Reader::expect(const std::string& words) {
     } else if (words.starts_with("same as ")) {
         owner.same_as.push_back(rest("same as "));
     } else if (!expect_message(words) && !expect_value(words)) {
-        fault("'expect " + words + "' is no expectation");
+        error("'expect " + words + "' is no expectation");
     }
 }
 

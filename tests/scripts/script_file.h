@@ -51,7 +51,7 @@ struct ScriptCase {
 
 struct ScriptFile {
     std::vector<ScriptCase> cases;
-    std::vector<std::string> faults;  ///< Of the notation: "3: there is no …".
+    std::vector<std::string> errors;  ///< Of the notation: "3: there is no …".
     const ScriptCase* find(const std::string& name) const;
 };
 

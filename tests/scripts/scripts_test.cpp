@@ -47,13 +47,13 @@ public:
         : scripts_(std::move(scripts)), script_(script), configuration_(configuration) {}
 
     void TestBody() override {
-        for (const std::string& fault : scripts_->file.faults) {
-            ADD_FAILURE() << scripts_->path.string() << ":" << fault;
+        for (const std::string& error : scripts_->file.errors) {
+            ADD_FAILURE() << scripts_->path.string() << ":" << error;
         }
         if (!script_) return;
-        for (const std::string& fault :
+        for (const std::string& error :
              check_script(scripts_->file, *script_, scripts_->path.parent_path(), configuration_)) {
-            ADD_FAILURE() << scripts_->path.string() << " " << script_->name << "\n" << fault;
+            ADD_FAILURE() << scripts_->path.string() << " " << script_->name << "\n" << error;
         }
     }
 
@@ -74,7 +74,7 @@ bool register_all() {
     for (const fs::path& path : scripts_below(scripts_folder)) {
         if (path.parent_path().filename() == "wrong") continue;
         const auto scripts = load(path);
-        if (!scripts->file.faults.empty()) {
+        if (!scripts->file.errors.empty()) {
             register_test(scripts, "notation", nullptr, {});
             continue;
         }
@@ -106,14 +106,14 @@ TEST(Scripts, ThatAreWrongFail) {
         ASSERT_TRUE(text.starts_with("# ")) << path;
         const std::string pattern = text.substr(2, text.find('\n') - 2);
         const auto scripts = load(path);
-        std::vector<std::string> faults = scripts->file.faults;
+        std::vector<std::string> errors = scripts->file.errors;
         for (const ScriptCase& each : scripts->file.cases) {
-            if (!faults.empty()) break;
-            faults = check_script(scripts->file, each, path.parent_path(), {});
+            if (!errors.empty()) break;
+            errors = check_script(scripts->file, each, path.parent_path(), {});
         }
-        EXPECT_EQ(faults.size(), 1u) << path << ::testing::PrintToString(faults);
-        for (const std::string& fault : faults) {
-            EXPECT_TRUE(matches(fault, pattern)) << path << ": " << fault;
+        EXPECT_EQ(errors.size(), 1u) << path << ::testing::PrintToString(errors);
+        for (const std::string& error : errors) {
+            EXPECT_TRUE(matches(error, pattern)) << path << ": " << error;
         }
     }
 }

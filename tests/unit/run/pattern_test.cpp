@@ -55,7 +55,7 @@ std::vector<std::uint32_t> bits_of(Pattern& pattern, const std::string& expressi
 }
 
 /// What a running stage keeps from call to call is not seen in any result: whatever chooses steps,
-/// ends the stage or changes with time, and also where somebody looks between the steps.
+/// ends the stage or changes with time, and also where values are read between the steps.
 TEST(Pattern, NoResultDependsOnHowManyStepsAreTakenAtOnce) {
     const std::string system =
         "system s { u: 1 + 0.3 * sin(7 * x + 3 * y); v: 0.5 + 0.2 * cos(9 * y); k: 0.1 + 0.1 * x\n"

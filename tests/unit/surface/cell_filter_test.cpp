@@ -256,14 +256,14 @@ TEST(CellFilter, SlopesAreThoseOfTheShares) {
             }
             EXPECT_LT(length(sum), 1e-5F);
             const std::array<double, 3> steps = {1e-3, -0.4e-3, -0.6e-3};
-            SurfacePlace before = place, behind = place;
+            SurfacePlace before = place, after = place;
             for (std::size_t k = 0; k < 3; ++k) {
                 before.weights[k] -= steps[k];
-                behind.weights[k] += steps[k];
+                after.weights[k] += steps[k];
             }
-            const Vector3d way = position_of(mesh, behind) - position_of(mesh, before);
+            const Vector3d way = position_of(mesh, after) - position_of(mesh, before);
             const double change =
-                filtered(filter, values, behind) - filtered(filter, values, before);
+                filtered(filter, values, after) - filtered(filter, values, before);
             const double expected =
                 (slope.x * way.x + slope.y * way.y + slope.z * way.z) / filter.radius();
             EXPECT_NEAR(change, expected, 1e-5 + 0.08 * length(way) / filter.radius());
