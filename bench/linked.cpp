@@ -86,9 +86,7 @@ public:
         StepProblem::Pass& pass = problem_.passes.emplace_back();
         using Kind = StepProblem::PlaneRef::Kind;
         pass.kernel = *kernel;
-        pass.fields = {{Kind::species, 0, 0},
-                       {Kind::species, 1, 0},
-                       {Kind::fixed, 0, 0, beta_.origin()}};
+        pass.fields = {{Kind::species, 0, 0}, {Kind::species, 1, 0}, {Kind::fixed, 0, 0, &beta_}};
         pass.results = {{{Kind::species, 0, 1}}, {{Kind::species, 1, 1}}};
         pass.uniforms = {double{parameters.step}, double{parameters.s},
                          double{parameters.diffusion_u}, double{parameters.diffusion_v}};
@@ -154,7 +152,7 @@ private:
     Grid grid_;
     PlaneLayout layout_;
     Links links_;
-    Plane<float> beta_;
+    Field beta_;
     std::vector<Plane<float>> theirs_, theirs_next_;
     std::vector<Field> ours_;
     StepProblem problem_;

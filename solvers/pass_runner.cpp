@@ -30,7 +30,6 @@ PassRunner::PassRunner(const StepProblem& problem) : problem_(problem), layout_(
           "links are those of a linked grid, in the precision of its problem");
     for (std::uint32_t k = 0; k < problem.temporaries; ++k) {
         temporaries_.emplace_back(layout_, problem.precision);
-        temporary_cells_.push_back(temporaries_.back().address());
     }
     for (const StepProblem::Pass& pass : problem.passes) {
         std::vector<SideRules>& of_pass = sides_.emplace_back();
@@ -65,16 +64,23 @@ void PassRunner::prepare(Worker& worker, int number, int count) const {
 }
 
 template <typename Number>
-Number* PassRunner::plane(const StepProblem::PlaneRef& ref, Registers registers) const {
+const Number* PassRunner::read(const StepProblem::PlaneRef& ref, Registers registers) const {
     switch (ref.kind) {
         case StepProblem::PlaneRef::Kind::species:
-            return static_cast<Number*>(registers[ref.in_register][ref.number]);
+            return registers[ref.in_register][ref.number].template origin<Number>();
         case StepProblem::PlaneRef::Kind::temporary:
-            return static_cast<Number*>(temporary_cells_[ref.number]);
+            return temporaries_[ref.number].template origin<Number>();
         case StepProblem::PlaneRef::Kind::fixed: break;
     }
-    // Read only: no pass writes a fixed plane.
-    return const_cast<Number*>(static_cast<const Number*>(ref.cells));
+    return ref.field->template origin<Number>();
+}
+
+template <typename Number>
+Number* PassRunner::written(const StepProblem::PlaneRef& ref, Registers registers) {
+    CHECK(ref.kind != StepProblem::PlaneRef::Kind::fixed, "no pass writes a fixed plane");
+    const bool is_species = ref.kind == StepProblem::PlaneRef::Kind::species;
+    Field& field = is_species ? registers[ref.in_register][ref.number] : temporaries_[ref.number];
+    return field.template origin<Number>();
 }
 
 void PassRunner::run(Worker& worker, Team& team, Registers registers, const StepMoment& moment) {
@@ -104,7 +110,7 @@ void PassRunner::reduce(Worker& worker, Arguments<Number>& arguments, std::size_
                         Team& team, Registers registers) {
     const StepProblem::Pass& pass = problem_.passes[pass_number];
     for (const StepProblem::Reduction& reduction : pass.reductions) {
-        const Number* cells = plane<Number>(reduction.operand, registers);
+        const Number* cells = read<Number>(reduction.operand, registers);
         std::vector<double>& rows = row_values_[reduction.aggregate];
         for (std::int64_t row = worker.rows.begin; row < worker.rows.end; ++row) {
             rows[static_cast<std::size_t>(row)] =
@@ -141,7 +147,9 @@ void PassRunner::filter(Worker& worker, Arguments<Number>& arguments, const Swee
         }
     }
     std::vector<Number*> planes;
-    for (void* cells : registers[filter.in_register]) planes.push_back(static_cast<Number*>(cells));
+    for (Field& field : registers[filter.in_register]) {
+        planes.push_back(field.template origin<Number>());
+    }
     std::get<std::optional<WaveFilter<Number>>>(wave_filters_)
         ->apply(team, worker.number, worker.count, planes, worker.symbols, filter.response,
                 filter.part * moment.length);
@@ -172,7 +180,7 @@ void PassRunner::set_uniforms(std::vector<Number>& uniforms, const StepProblem::
 }
 
 void PassRunner::bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
-                      const StepMoment& moment, bool is_near) const {
+                      const StepMoment& moment, bool is_near) {
     std::visit(
         [&](auto& arguments) { bind_as(arguments, level, pass, registers, moment, is_near); },
         worker.arguments);
@@ -180,7 +188,7 @@ void PassRunner::bind(Worker& worker, std::size_t level, std::size_t pass, Regis
 
 template <typename Number>
 void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::size_t pass_number,
-                         Registers registers, const StepMoment& moment, bool is_near) const {
+                         Registers registers, const StepMoment& moment, bool is_near) {
     if (arguments.levels.size() <= number) arguments.levels.resize(number + 1);
     const StepProblem::Pass& pass = problem_.passes[pass_number];
     Level<Number>& level = arguments.levels[number];
@@ -190,11 +198,11 @@ void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::
     set_uniforms(level.uniforms, pass, moment);
     level.fields.clear();
     for (const StepProblem::PlaneRef& ref : pass.fields) {
-        level.fields.push_back(plane<Number>(ref, registers));
+        level.fields.push_back(read<Number>(ref, registers));
     }
     level.results.clear();
     for (const StepProblem::Result& result : pass.results) {
-        level.results.push_back(plane<Number>(result.plane, registers));
+        level.results.push_back(written<Number>(result.plane, registers));
     }
     const LinkTable<Number> links =
         problem_.links ? problem_.links->template table<Number>() : LinkTable<Number>{};

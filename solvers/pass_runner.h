@@ -28,9 +28,8 @@ struct StepMoment {
     double next_t = 0;          ///< The stage's time when the next step begins.
 };
 
-/// The planes of every register, of each species the address of cell (0, 0, 0): numbers of the
-/// problem's precision.
-using Registers = std::span<const std::span<void* const>>;
+/// The planes of every register, one for each species, in the problem's precision.
+using Registers = std::span<const std::span<Field>>;
 
 class PassRunner {
 public:
@@ -80,7 +79,7 @@ public:
     /// Makes a pass level `level` of the worker. Registers are looked at now, not later. `is_near`:
     /// what it reads will be in a near cache.
     void bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
-              const StepMoment& moment, bool is_near = false) const;
+              const StepMoment& moment, bool is_near = false);
     /// Runs a level that was bound on some rows and fills the halo that comes from them.
     void run_rows(Worker& worker, std::size_t level, RowRange rows) const;
 
@@ -89,7 +88,9 @@ public:
 
 private:
     template <typename Number>
-    Number* plane(const StepProblem::PlaneRef& ref, Registers registers) const;
+    const Number* read(const StepProblem::PlaneRef& ref, Registers registers) const;
+    template <typename Number>
+    Number* written(const StepProblem::PlaneRef& ref, Registers registers);
     template <typename Number>
     void reduce(Worker& worker, Arguments<Number>& arguments, std::size_t pass_number, Team& team,
                 Registers registers);
@@ -101,7 +102,7 @@ private:
                       const StepMoment& moment) const;
     template <typename Number>
     void bind_as(Arguments<Number>& arguments, std::size_t level, std::size_t pass,
-                 Registers registers, const StepMoment& moment, bool is_near) const;
+                 Registers registers, const StepMoment& moment, bool is_near);
     template <typename Number>
     void run_level(const Level<Number>& level, RowRange rows) const;
     template <typename Number>
@@ -114,7 +115,6 @@ private:
     std::vector<std::vector<SideRules>>
         sides_;  ///< By pass and result, before any of them changes.
     std::vector<Field> temporaries_;
-    std::vector<void*> temporary_cells_;
     std::vector<std::vector<double>> row_values_;  ///< By aggregate and row.
 };
 

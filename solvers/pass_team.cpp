@@ -79,8 +79,8 @@ void PassTeam::set_tiling(const Tiling& tiling) {
     tiles_.emplace(*runner_, reaching, static_cast<int>(workers_.size()));
 }
 
-void PassTeam::run(const StepPlanes& planes, const StageClock& clock, StepPass first,
-                   std::size_t count, const OwnRows& after) {
+void PassTeam::run(StepPlanes& planes, const StageClock& clock, StepPass first, std::size_t count,
+                   const OwnRows& after) {
     const Given given{planes, clock};
     team_.run(
         [&](int thread) {

@@ -62,7 +62,7 @@ public:
 
     /// Runs `count` passes from `first` on; then every thread calls `after` with the rows that are
     /// its own, which are complete.
-    void run(const StepPlanes& planes, const StageClock& clock, StepPass first, std::size_t count,
+    void run(StepPlanes& planes, const StageClock& clock, StepPass first, std::size_t count,
              const OwnRows& after);
     /// Every thread calls `work` with its own rows.
     void run(const OwnRows& work);
@@ -70,11 +70,11 @@ public:
 private:
     struct Worker {
         PassRunner::Worker passes;
-        std::vector<std::span<void* const>> registers;
+        std::vector<std::span<Field>> registers;
     };
     /// What all threads are given.
     struct Given {
-        const StepPlanes& planes;
+        StepPlanes& planes;
         const StageClock& clock;
     };
 

@@ -67,8 +67,8 @@ public:
         });
         for (const Field& field : species) {
             CHECK(field.layout() == layout_, "species lie as the grid says");
-            moved_cells_.push_back(moved_.emplace_back(layout_, rates.precision).address());
-            rate_cells_.push_back(rates_of_.emplace_back(layout_, rates.precision).address());
+            moved_.emplace_back(layout_, rates.precision);
+            rates_of_.emplace_back(layout_, rates.precision);
             scales_.push_back(
                 field.visit([&](const auto& plane) { return root_mean_square(plane); }));
         }
@@ -164,7 +164,7 @@ private:
         for (std::size_t k = 0; k < moved_.size(); ++k) {
             if (rates_.has_halo()) fill_halo(moved_[k], rates_.sides_of(k));
         }
-        const std::array<std::span<void* const>, 2> registers{moved_cells_, rate_cells_};
+        const std::array<std::span<Field>, 2> registers{moved_, rates_of_};
         // Noise needs some length of a step; it cancels from differences.
         team_.run([&](int) { runner_.run(worker_, team_, registers, {0, 0, 1, 1}); });
     }
@@ -174,7 +174,6 @@ private:
     std::span<const Field> state_;
     Mask moves_;  ///< 1 where a cell moves, 0 where it is frozen.
     std::vector<Field> moved_, rates_of_;
-    std::vector<void*> moved_cells_, rate_cells_;
     std::vector<double> scales_;
     Team team_;
     PassRunner runner_;

@@ -12,15 +12,11 @@ StepPlanes::StepPlanes(const PlaneLayout& layout, Precision precision, std::vect
     : layout_(layout), precision_(precision), species_(species.size()) {
     copies_[0] = std::move(species);
     for (const Field& field : copies_[0]) {
-        CHECK(field.layout() == layout_ && field.precision() == precision_,
-              "species lie as the grid says, in the precision of their problem");
+        check(field);
         copies_[1].emplace_back(layout_, precision_);
         if (keeps) copies_[2].emplace_back(layout_, precision_);
     }
     if (!keeps) roles_.kept = CopyRoles::none;
-    for (std::size_t copy = 0; copy < copies_.size(); ++copy) {
-        for (Field& field : copies_[copy]) cells_[copy].push_back(field.address());
-    }
 }
 
 void StepPlanes::back() {
@@ -33,34 +29,32 @@ void StepPlanes::lend(std::vector<Field>& to) {
 }
 
 void StepPlanes::take_back(std::vector<Field>& from) {
-    const auto current = static_cast<std::size_t>(roles_.current);
-    copies_[current] = std::move(from);
-    CHECK(copies_[current].size() == species_, "all species come back");
-    for (std::size_t s = 0; s < species_; ++s) {
-        CHECK(copies_[current][s].address() == cells_[current][s], "the same planes come back");
-    }
+    CHECK(from.size() == species_, "all species come back");
+    for (const Field& field : from) check(field);
+    copies_[static_cast<std::size_t>(roles_.current)] = std::move(from);
 }
 
 void StepPlanes::make_registers(std::uint32_t count) {
     while (scratch_.size() + first_scratch < count) {
         std::vector<Field>& planes = scratch_.emplace_back();
-        std::vector<void*>& cells = scratch_cells_.emplace_back();
-        for (std::size_t s = 0; s < species_; ++s) {
-            cells.push_back(planes.emplace_back(layout_, precision_).address());
-        }
+        for (std::size_t s = 0; s < species_; ++s) planes.emplace_back(layout_, precision_);
     }
 }
 
 void StepPlanes::exchange(std::uint32_t one, std::uint32_t other) {
     std::swap(scratch_[one - first_scratch], scratch_[other - first_scratch]);
-    std::swap(scratch_cells_[one - first_scratch], scratch_cells_[other - first_scratch]);
 }
 
-void StepPlanes::list(CopyRoles roles, std::vector<std::span<void* const>>& registers) const {
+void StepPlanes::list(CopyRoles roles, std::vector<std::span<Field>>& registers) {
     registers.clear();
-    registers.emplace_back(cells_[static_cast<std::size_t>(roles.current)]);
-    registers.emplace_back(cells_[static_cast<std::size_t>(roles.target())]);
-    for (const std::vector<void*>& cells : scratch_cells_) registers.emplace_back(cells);
+    registers.emplace_back(copies_[static_cast<std::size_t>(roles.current)]);
+    registers.emplace_back(copies_[static_cast<std::size_t>(roles.target())]);
+    for (std::vector<Field>& planes : scratch_) registers.emplace_back(planes);
+}
+
+void StepPlanes::check(const Field& field) const {
+    CHECK(field.layout() == layout_ && field.precision() == precision_,
+          "species lie as the grid says, in the precision of their problem");
 }
 
 }  // namespace cascade

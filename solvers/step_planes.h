@@ -49,8 +49,8 @@ public:
     void back();
 
     const std::vector<Field>& current() const { return copy(roles_.current); }
-    /// Lends the current copy to the caller's vector; the same fields must come back before the
-    /// next step.
+    /// Lends the current copy to the caller's vector; fields of the same kind must come back before
+    /// the next step.
     void lend(std::vector<Field>& to);
     void take_back(std::vector<Field>& from);
     const std::vector<Field>& copy(int number) const {
@@ -66,19 +66,19 @@ public:
     /// Two such registers change places.
     void exchange(std::uint32_t one, std::uint32_t other);
 
-    /// Lists the cells of all registers of a step: the old step, the new one, then scratch.
-    void list(CopyRoles roles, std::vector<std::span<void* const>>& registers) const;
+    /// Lists the planes of all registers of a step: the old step, the new one, then scratch.
+    void list(CopyRoles roles, std::vector<std::span<Field>>& registers);
 
 private:
     static constexpr std::uint32_t first_scratch = 2;
+
+    void check(const Field& field) const;
 
     PlaneLayout layout_;
     Precision precision_;
     std::size_t species_;
     std::array<std::vector<Field>, 3> copies_;  ///< The last is empty where nothing is kept.
-    std::array<std::vector<void*>, 3> cells_;   ///< Of the species of a copy.
     std::vector<std::vector<Field>> scratch_;
-    std::vector<std::vector<void*>> scratch_cells_;
     CopyRoles roles_;
 };
 

@@ -24,13 +24,12 @@ struct StepProblem {
         enum class Kind : std::uint8_t {
             species,    ///< Species `number` in register `in_register`.
             temporary,  ///< Temporary `number`.
-            fixed,      ///< A plane that does not change: `cells` is its cell (0, 0, 0), a
-                        ///< number of the problem's precision.
+            fixed,      ///< `field`, which does not change; of the problem's precision.
         };
         Kind kind = Kind::fixed;
         std::uint32_t number = 0;
         std::uint32_t in_register = 0;
-        const void* cells = nullptr;
+        const Field* field = nullptr;
     };
 
     /// A uniform that is not the same in all steps.

@@ -106,13 +106,13 @@ bool needs_all_rows(const StepProblem::Pass& pass) {
 
 std::int64_t bytes_of_step(const StepProblem& problem) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> species, temporaries;
-    std::set<const void*> fixed;
+    std::set<const Field*> fixed;
     std::set<const std::uint8_t*> masks;
     const auto add = [&](const PlaneRef& ref) {
         switch (ref.kind) {
             case PlaneRef::Kind::species: species.emplace(ref.in_register, ref.number); break;
             case PlaneRef::Kind::temporary: temporaries.emplace(0, ref.number); break;
-            case PlaneRef::Kind::fixed: fixed.insert(ref.cells); break;
+            case PlaneRef::Kind::fixed: fixed.insert(ref.field); break;
         }
     };
     for (const StepProblem::Pass& pass : problem.passes) {

@@ -114,7 +114,7 @@ private:
             plane.in_register =
                 source.stage == 0 ? register_of(plane.number) : sweep_->inputs[source.stage];
         } else {
-            plane.cells = plane_of(source, context_).address();
+            plane.field = &plane_of(source, context_);
         }
         return plane;
     }

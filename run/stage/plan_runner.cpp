@@ -19,9 +19,7 @@ std::vector<Field>& PlanRunner::run(const BindingContext& context, Team& team) {
             results_.emplace_back(PlaneLayout(context.grid), context.precision);
         }
     }
-    std::vector<void*> cells;
-    for (Field& result : results_) cells.push_back(result.address());
-    const std::array<std::span<void* const>, 2> registers{std::span<void* const>(), cells};
+    const std::array<std::span<Field>, 2> registers{std::span<Field>(), results_};
     runner_->run_once(team, registers, {context.steps, context.t, 0, context.t});
     return results_;
 }

@@ -11,14 +11,14 @@ namespace cascade {
 
 namespace {
 
-/// Which plane it is: its kind, its number, its register, or where it lies.
-using PlaneKey = std::tuple<int, std::uint32_t, std::uint32_t, const void*>;
+/// Which plane it is: its kind, its number, its register, or its field.
+using PlaneKey = std::tuple<int, std::uint32_t, std::uint32_t, const Field*>;
 
 PlaneKey key_of(const StepProblem::PlaneRef& plane) {
     using Kind = StepProblem::PlaneRef::Kind;
     const bool is_species = plane.kind == Kind::species, is_fixed = plane.kind == Kind::fixed;
     return {static_cast<int>(plane.kind), is_fixed ? 0 : plane.number,
-            is_species ? plane.in_register : 0, is_fixed ? plane.cells : nullptr};
+            is_species ? plane.in_register : 0, is_fixed ? plane.field : nullptr};
 }
 
 /// Links of a cell, on average.

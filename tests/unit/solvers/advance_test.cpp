@@ -39,7 +39,7 @@ struct Mixture {
         });
         problem.species_needs_halo[2] = false;
         problem.passes[0].results[2].needs_halo = false;
-        problem.passes[0].fields.push_back(fixed_plane(parameter.origin()));
+        problem.passes[0].fields.push_back(fixed_plane(parameter));
         problem.passes[0].masks = {frozen.origin()};
         problem.passes[0].uniforms = {7, -1};
         problem.passes[0].changing = {{.slot = 1}};

@@ -65,8 +65,8 @@ private:
 };
 
 /// The slot of a plane that does not change.
-inline StepProblem::PlaneRef fixed_plane(const float* cells) {
-    return {StepProblem::PlaneRef::Kind::fixed, 0, 0, cells};
+inline StepProblem::PlaneRef fixed_plane(const Field& field) {
+    return {StepProblem::PlaneRef::Kind::fixed, 0, 0, &field};
 }
 
 /// A step of one pass whose slot k is species k, all read at neighbours.

@@ -189,7 +189,7 @@ private:
     /// A plane that the step has written, one of the old step, or the fixed one.
     PlaneRef some_plane() {
         const std::int64_t choice = dice_.below(6);
-        if (choice == 0) return {Kind::fixed, 0, 0, fixed_.address()};
+        if (choice == 0) return {Kind::fixed, 0, 0, &fixed_};
         if (choice < 3 || written_.empty()) {
             return {Kind::species, static_cast<std::uint32_t>(dice_.below(species_)), 0, nullptr};
         }

@@ -29,8 +29,8 @@ TEST(Tiling, CountsEveryPlaneOnce) {
     EXPECT_EQ(bytes_of_step(problem), 2 * 4 * cells);
     problem.passes[0].fields.push_back(problem.passes[0].fields[0]);
     EXPECT_EQ(bytes_of_step(problem), 2 * 4 * cells);
-    float parameter = 0;
-    problem.passes[0].fields.push_back(fixed_plane(&parameter));
+    const Field parameter;
+    problem.passes[0].fields.push_back(fixed_plane(parameter));
     EXPECT_EQ(bytes_of_step(problem), 3 * 4 * cells);
 }
 
